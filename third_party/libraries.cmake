@@ -1,0 +1,38 @@
+# Where the libraries of the core and of the command line come from: the system's packages.
+# Required: threads, nlohmann_json, CLI11, stb. Optional: Highway (SIMD kernels), OpenEXR, doctest (tests).
+find_package(Threads REQUIRED)
+find_package(PkgConfig)
+find_package(nlohmann_json 3.9 CONFIG REQUIRED)
+find_package(CLI11 2 CONFIG REQUIRED)
+find_package(doctest 2.4 CONFIG QUIET)
+
+# stb: two headers, included as <stb_image.h>.
+find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
+add_library(tyndall_stb INTERFACE)
+target_include_directories(tyndall_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
+
+# Highway: used through its headers; its small library is linked for its assertions in Debug builds.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND PkgConfig_FOUND)
+  pkg_check_modules(HIGHWAY QUIET IMPORTED_TARGET GLOBAL libhwy>=1.0)
+endif()
+if(TARGET PkgConfig::HIGHWAY)
+  add_library(tyndall_simd INTERFACE)
+  target_link_libraries(tyndall_simd INTERFACE PkgConfig::HIGHWAY)
+else()
+  message(STATUS "Highway >= 1.0 (libhwy-dev) not found or not x86-64: only the scalar kernel is built")
+endif()
+
+# OpenEXR.
+set(TYNDALL_OPENEXR_STATE off)
+if(TYNDALL_OPENEXR AND PkgConfig_FOUND) # AUTO or ON
+  pkg_check_modules(OPENEXR QUIET IMPORTED_TARGET GLOBAL OpenEXR>=2.5)
+endif()
+if(TYNDALL_OPENEXR AND TARGET PkgConfig::OPENEXR)
+  add_library(tyndall_openexr INTERFACE)
+  target_link_libraries(tyndall_openexr INTERFACE PkgConfig::OPENEXR)
+  set(TYNDALL_OPENEXR_STATE on)
+elseif(TYNDALL_OPENEXR STREQUAL "AUTO")
+  message(STATUS "OpenEXR (libopenexr-dev) not found: no EXR images")
+elseif(TYNDALL_OPENEXR)
+  message(FATAL_ERROR "TYNDALL_OPENEXR=${TYNDALL_OPENEXR} but OpenEXR (libopenexr-dev) was not found")
+endif()
