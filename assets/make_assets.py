@@ -4,7 +4,7 @@
     python3 assets/make_assets.py            everything
     python3 assets/make_assets.py cover      only what is named: cover, bouncing-spheres, next-week, planet
 
-Needs Python 3.8 and nothing else. The same run gives the same bytes on every machine: random numbers come from
+Needs Python 3.8 and nothing else. Every run gives the same files: random numbers come from
 random.Random(seed).random(), whose sequence Python guarantees, and are rounded before they are written. All other
 scenes in assets/scenes are written by hand and are not touched.
 """
@@ -12,15 +12,16 @@ scenes in assets/scenes are written by hand and are not touched.
 import json
 import math
 import random
-import struct
 import sys
-import zlib
 from pathlib import Path
+
+from make_planet import planet_png
 
 ASSETS = Path(__file__).resolve().parent
 SCENES = ASSETS / "scenes"
 TEXTURES = ASSETS / "textures"
 WIDTH = 118  # a value that fits into this many columns stays on one line
+ENTRY_WIDTH = 150  # the same for a whole material, texture or object
 
 
 # --- Scene files --------------------------------------------------------------------------------------------------
@@ -37,7 +38,8 @@ def one_line(value):
 def pretty(value, indent=0, used=0, broken=False):
     """JSON text. `used`: columns taken before the value on its line; `broken`: one entry per line even if it fits."""
     flat = one_line(value)
-    if not isinstance(value, (dict, list)) or not value or (not broken and used + len(flat) <= WIDTH):
+    width = ENTRY_WIDTH if isinstance(value, dict) and "type" in value else WIDTH
+    if not isinstance(value, (dict, list)) or not value or (not broken and used + len(flat) <= width):
         return flat
     pad = " " * (indent + 2)
     if isinstance(value, dict):
@@ -68,8 +70,8 @@ def write_scene(name, comment, scene):
 # --- Scenes with random numbers -----------------------------------------------------------------------------------
 
 def draw(rng, low=0.0, high=1.0):
-    """Uniform in [low, high), rounded to six decimals."""
-    return round(low + (high - low) * rng.random(), 6)
+    """Uniform in [low, high), rounded to four decimals."""
+    return round(low + (high - low) * rng.random(), 4)
 
 
 def small_spheres(rng, bounce):
@@ -81,16 +83,16 @@ def small_spheres(rng, bounce):
     for a in range(-11, 11):
         for b in range(-11, 11):
             choice = rng.random()
-            center = [round(a + 0.9 * rng.random(), 6), 0.2, round(b + 0.9 * rng.random(), 6)]
+            center = [round(a + 0.9 * rng.random(), 4), 0.2, round(b + 0.9 * rng.random(), 4)]
             if math.dist(center, (4, 0.2, 0)) <= 0.9:
                 continue
             sphere = {"type": "sphere", "center": center}
             if choice < 0.8:
                 name = f"diffuse-{len(objects)}"
-                albedo = [round(rng.random() * rng.random(), 6) for _ in range(3)]
+                albedo = [round(rng.random() * rng.random(), 4) for _ in range(3)]
                 materials[name] = {"type": "lambertian", "albedo": albedo}
                 if bounce:
-                    sphere["center_end"] = [center[0], round(center[1] + draw(rng, 0, 0.5), 6), center[2]]
+                    sphere["center_end"] = [center[0], round(center[1] + draw(rng, 0, 0.5), 4), center[2]]
             elif choice < 0.95:
                 name = f"metal-{len(objects)}"
                 albedo = [draw(rng, 0.5, 1) for _ in range(3)]
@@ -220,7 +222,14 @@ def make_next_week():
 
 # --- Main ---------------------------------------------------------------------------------------------------------
 
-MAKERS = {"cover": make_cover, "bouncing-spheres": make_bouncing_spheres, "next-week": make_next_week}
+def make_planet():
+    path = TEXTURES / "planet.png"
+    path.write_bytes(planet_png(1024, 512))
+    print(path.relative_to(ASSETS.parent))
+
+
+MAKERS = {"cover": make_cover, "bouncing-spheres": make_bouncing_spheres, "next-week": make_next_week,
+          "planet": make_planet}
 
 
 def main(names):
