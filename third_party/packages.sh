@@ -1,0 +1,66 @@
+# shellcheck shell=bash
+# Sourced by run and test: the system packages that Tyndall needs, and how they get installed.
+# Debian 12 and later, Ubuntu 22.04 and later: installed as root or through sudo. Other systems: the list is printed.
+# TYNDALL_SKIP_PACKAGES=1 skips all of it.
+
+# Used by the scripts that source this file.
+# shellcheck disable=SC2034
+build_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libgl-dev libimgui-dev libstb-dev python3-glad
+  nlohmann-json3-dev libcli11-dev doctest-dev libopenexr-dev libhwy-dev)
+# shellcheck disable=SC2034
+run_packages=(libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono)
+# shellcheck disable=SC2034
+test_packages=(xvfb xauth xdotool libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono python3)
+
+packages_changed=0 # 1 after something was installed
+
+# ensure_packages NAME...: returns 1, after saying what to do, when a package is missing and cannot be installed.
+ensure_packages() {
+  [ "${TYNDALL_SKIP_PACKAGES:-0}" = 1 ] && return 0
+  if ! command -v dpkg-query >/dev/null 2>&1; then
+    other_systems
+    return 1
+  fi
+  local package missing=()
+  for package in "$@"; do
+    dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  local as_root=()
+  if [ "$(id -u)" != 0 ]; then
+    if command -v sudo >/dev/null 2>&1 && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
+      as_root=(sudo)
+    else
+      printf 'missing packages; as root run:\n  apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
+      return 1
+    fi
+  fi
+  printf 'installing: %s\n' "${missing[*]}" >&2
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0
+    -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300)
+  local install=("${apt[@]}" install --no-install-recommends "${missing[@]}")
+  # A fresh machine has no package lists: the first try fails.
+  "${install[@]}" </dev/null >&2 || { "${apt[@]}" update </dev/null >&2 && "${install[@]}" </dev/null >&2; } || {
+    printf 'installing failed; as root run:\n  apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
+    return 1
+  }
+  packages_changed=1
+}
+
+other_systems() {
+  cat >&2 <<'MSG'
+This is not a Debian or Ubuntu system. Install these, then run again with TYNDALL_SKIP_PACKAGES=1:
+  Fedora:  sudo dnf install gcc-c++ cmake ninja-build pkgconf glfw-devel mesa-libGL-devel stb_image-devel stb_image_write-devel json-devel cli11-devel doctest-devel openexr-devel highway-devel
+  Arch:    sudo pacman -S --needed base-devel cmake ninja glfw mesa stb nlohmann-json cli11 doctest openexr highway
+  macOS:   brew install cmake ninja pkg-config glfw nlohmann-json cli11 doctest openexr highway
+The window also needs Dear ImGui (its sources: cmake -DIMGUI_DIR=<path>) and glad 2 (pip install glad2).
+Without them the headless commands are built.
+MSG
+}
+
+# configure_build PRESET: configures build/PRESET once, and again after packages came in. Prints only what went wrong.
+# Works in the current folder, the root of the sources.
+configure_build() {
+  [ -f "build/$1/build.ninja" ] && [ "$packages_changed" = 0 ] && return 0
+  cmake --preset "$1" >/dev/null
+}
