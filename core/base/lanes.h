@@ -1,0 +1,172 @@
+#pragma once
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+
+/// Kernels are flattened into one function per instruction set: a call would cost more than what it does, and an
+/// ordinary inline function compiled with wide instructions could be the copy the linker keeps for every caller.
+#define TYNDALL_INLINE [[gnu::always_inline]] inline
+
+/// What kernel code asks of a number type F, here for the plain numbers: float (one path, the readable reference) and
+/// double (reference for accuracy). base/lanes_simd.h answers the same questions for groups of lanes.
+namespace tyndall {
+
+template <class F>
+struct LaneTypes;
+
+template <>
+struct LaneTypes<float> {
+  using Int = std::int32_t;    ///< indices, counts, states
+  using Uint = std::uint32_t;  ///< hashes: wraps at 2^32
+  using Mask = bool;           ///< one truth value a lane
+  static constexpr int lanes = 1;
+};
+
+template <>
+struct LaneTypes<double> : LaneTypes<float> {};
+
+/// A plain number: one lane.
+template <class F>
+concept Plain = std::floating_point<F>;
+
+template <class F>
+using IntOf = typename LaneTypes<F>::Int;
+template <class F>
+using UintOf = typename LaneTypes<F>::Uint;
+template <class F>
+using MaskOf = typename LaneTypes<F>::Mask;
+template <class F>
+inline constexpr int lanes_of = LaneTypes<F>::lanes;
+
+// The same value in every lane of F.
+template <class F>
+TYNDALL_INLINE F splat(float value) {
+  return F(value);
+}
+template <class F>
+TYNDALL_INLINE IntOf<F> splat_int(std::int32_t value) {
+  return IntOf<F>(value);
+}
+template <class F>
+TYNDALL_INLINE UintOf<F> splat_uint(std::uint32_t value) {
+  return UintOf<F>(value);
+}
+
+TYNDALL_INLINE bool any(bool m) { return m; }
+TYNDALL_INLINE bool all(bool m) { return m; }
+/// One bit a lane, lane 0 lowest.
+TYNDALL_INLINE std::uint32_t bits(bool m) { return m ? 1u : 0u; }
+template <Plain F>
+TYNDALL_INLINE bool mask_from_bits(std::uint32_t b) {
+  return (b & 1u) != 0;
+}
+
+TYNDALL_INLINE bool mask_and(bool a, bool b) { return a && b; }
+TYNDALL_INLINE bool mask_or(bool a, bool b) { return a || b; }
+TYNDALL_INLINE bool mask_not(bool a) { return !a; }
+/// a and not b.
+TYNDALL_INLINE bool mask_and_not(bool a, bool b) { return a && !b; }
+
+TYNDALL_INLINE float select(bool m, float a, float b) { return m ? a : b; }
+TYNDALL_INLINE double select(bool m, double a, double b) { return m ? a : b; }
+TYNDALL_INLINE std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
+TYNDALL_INLINE std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
+
+// Comparisons have names, because a group of lanes answers with a mask.
+template <class T>
+TYNDALL_INLINE auto less(T a, T b) {
+  return a < b;
+}
+template <class T>
+TYNDALL_INLINE auto less_equal(T a, T b) {
+  return a <= b;
+}
+template <class T>
+TYNDALL_INLINE auto equal(T a, T b) {
+  return a == b;
+}
+
+/// The smaller; b where either is not a number (as the machine's own instruction does).
+template <class F>
+TYNDALL_INLINE F min(F a, F b) {
+  return select(less(a, b), a, b);
+}
+/// The larger; b where either is not a number.
+template <class F>
+TYNDALL_INLINE F max(F a, F b) {
+  return select(less(b, a), a, b);
+}
+
+TYNDALL_INLINE float abs(float v) { return __builtin_fabsf(v); }
+TYNDALL_INLINE double abs(double v) { return __builtin_fabs(v); }
+TYNDALL_INLINE float sqrt(float v) { return __builtin_sqrtf(v); }
+TYNDALL_INLINE double sqrt(double v) { return __builtin_sqrt(v); }
+TYNDALL_INLINE float copy_sign(float magnitude, float sign) { return __builtin_copysignf(magnitude, sign); }
+TYNDALL_INLINE double copy_sign(double magnitude, double sign) { return __builtin_copysign(magnitude, sign); }
+
+/// a·b + c, fused where the target has the instruction and a product and a sum elsewhere; never a library call.
+TYNDALL_INLINE float mul_add(float a, float b, float c) { return a * b + c; }
+TYNDALL_INLINE double mul_add(double a, double b, double c) { return a * b + c; }
+/// c - a·b, likewise.
+TYNDALL_INLINE float neg_mul_add(float a, float b, float c) { return c - a * b; }
+TYNDALL_INLINE double neg_mul_add(double a, double b, double c) { return c - a * b; }
+
+/// The largest whole number not above v; |v| below 2^31.
+TYNDALL_INLINE float floor(float v) {
+  const float t = static_cast<float>(static_cast<std::int32_t>(v));
+  return t > v ? t - 1.0f : t;
+}
+TYNDALL_INLINE double floor(double v) { return std::floor(v); }
+
+/// Truncation towards zero; |v| below 2^31.
+TYNDALL_INLINE std::int32_t to_int(float v) { return static_cast<std::int32_t>(v); }
+TYNDALL_INLINE std::int32_t to_int(double v) { return static_cast<std::int32_t>(v); }
+template <Plain F>
+TYNDALL_INLINE F from_int(IntOf<F> v) {
+  return static_cast<F>(v);
+}
+TYNDALL_INLINE std::uint32_t as_uint(std::int32_t v) { return static_cast<std::uint32_t>(v); }
+TYNDALL_INLINE std::int32_t as_int(std::uint32_t v) { return static_cast<std::int32_t>(v); }
+/// The bits of a float and back.
+TYNDALL_INLINE std::uint32_t float_bits(float v) { return __builtin_bit_cast(std::uint32_t, v); }
+TYNDALL_INLINE float float_from_bits(std::uint32_t v) { return __builtin_bit_cast(float, v); }
+
+template <int n>
+TYNDALL_INLINE std::uint32_t shift_left(std::uint32_t v) {
+  return v << n;
+}
+template <int n>
+TYNDALL_INLINE std::uint32_t shift_right(std::uint32_t v) {
+  return v >> n;
+}
+
+/// table[index] of every lane; indices must be valid in all lanes, also in those that are not used.
+template <Plain F>
+TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
+  return static_cast<F>(table[index]);
+}
+template <Plain F>
+TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
+  return table[index];
+}
+
+/// lanes_of<F> consecutive values.
+template <Plain F>
+TYNDALL_INLINE F load(const float* from) {
+  return static_cast<F>(*from);
+}
+template <Plain F>
+TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
+  return *from;
+}
+template <Plain F>
+TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
+  return *from;
+}
+TYNDALL_INLINE void store(float* to, float v) { *to = v; }
+TYNDALL_INLINE void store(float* to, double v) { *to = static_cast<float>(v); }
+TYNDALL_INLINE void store(std::int32_t* to, std::int32_t v) { *to = v; }
+TYNDALL_INLINE void store(std::uint32_t* to, std::uint32_t v) { *to = v; }
+
+}  // namespace tyndall

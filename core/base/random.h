@@ -1,0 +1,92 @@
+#pragma once
+#include "core/base/vec.h"
+
+/// Random numbers as a pure function of (seed, pixel, sample, dimension): whichever thread, tile, pass or machine asks
+/// gets the same number, and no state has to be kept or ordered.
+namespace tyndall {
+
+/// The fixed table of dimensions. A sample uses the camera's first, then `per_event` for each scattering event, used or
+/// not: so leaving a model out never shifts the numbers of another.
+namespace dimension {
+// camera
+inline constexpr std::uint32_t pixel = 0;  // and 1
+inline constexpr std::uint32_t lens = 2;   // and 3
+inline constexpr std::uint32_t time = 4;
+inline constexpr std::uint32_t camera_count = 8;
+// within an event
+inline constexpr std::uint32_t free_flight = 0;
+inline constexpr std::uint32_t lobe = 1;
+inline constexpr std::uint32_t direction = 2;  // and 3
+inline constexpr std::uint32_t radius = 4;
+inline constexpr std::uint32_t light_choice = 5;
+inline constexpr std::uint32_t light_point = 6;  // and 7
+inline constexpr std::uint32_t roulette = 8;
+inline constexpr std::uint32_t per_event = 16;
+}  // namespace dimension
+
+inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions
+
+/// A bijection of 32 bits in which every input bit moves every output bit about half of the time.
+/// Form and constants: C. Wellons, hash-prospector (multiply and xor-shift with two rounds).
+template <class U>
+TYNDALL_INLINE U hash(U x) {
+  x = x ^ shift_right<16>(x);
+  x = x * U(0x21f0aaadu);
+  x = x ^ shift_right<15>(x);
+  x = x * U(0xd35a2d97u);
+  return x ^ shift_right<15>(x);
+}
+
+/// Bits to a number in [0, 1), a multiple of 2^-24: never 1, exact in float.
+template <class F>
+TYNDALL_INLINE F unit_interval(UintOf<F> h) {
+  return from_int<F>(as_int(shift_right<8>(h))) * F(0x1p-24f);
+}
+/// Bits to a number in (0, 1] that keeps its precision towards 0 (2^-32): for logarithms.
+template <class F>
+TYNDALL_INLINE F unit_interval_open(UintOf<F> h) {
+  return (from_int<F>(as_int(shift_right<1>(h))) + F(0.5f)) * F(0x1p-31f);
+}
+
+template <class F>
+struct Pair {
+  F x, y;
+};
+
+/// The numbers of one sample. `random`: independent, counter-based.
+template <class F>
+struct Dice {
+  using U = UintOf<F>;
+  U low, high;  ///< 64 bits that name (seed, x, y, sample)
+  U event;      ///< golden_ratio · the first dimension of the current event
+
+  /// Key of one sample; x, y: pixel in full-image coordinates.
+  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample) {
+    const U where = hash(x ^ hash(y ^ U(seed)));
+    const U a = hash(where ^ (sample * U(0x85ebca6bu)));
+    const U b = hash((where + U(0x68bc21ebu)) ^ hash(sample + U(0x02e5be93u)));
+    return {a, b, U(0u)};
+  }
+  /// 32 bits for dimension `offset` of the current event.
+  TYNDALL_INLINE U word(std::uint32_t offset) const {
+    U x = low + event + U(offset * golden_ratio);
+    x = x ^ shift_right<16>(x);
+    x = x * U(0x21f0aaadu);
+    x = (x ^ shift_right<15>(x)) + high;
+    x = x * U(0xd35a2d97u);
+    return x ^ shift_right<15>(x);
+  }
+  TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
+  TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const { return {one(offset), one(offset + 1)}; }
+  /// In (0, 1], for -log(u). `stream` separates media that share one event.
+  TYNDALL_INLINE F open(std::uint32_t offset, std::uint32_t stream) const {
+    return unit_interval_open<F>(word(offset + stream * 0x10000u));
+  }
+  TYNDALL_INLINE void first_event() { event = U(dimension::camera_count * golden_ratio); }
+  template <class M>
+  TYNDALL_INLINE void next_event(M where) {
+    event = select(where, event + U(dimension::per_event * golden_ratio), event);
+  }
+};
+
+}  // namespace tyndall

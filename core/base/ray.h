@@ -1,0 +1,68 @@
+#pragma once
+#include "core/base/random.h"
+
+/// What the rooms of shapes, materials and media are given.
+namespace tyndall {
+
+/// How a ray starts on or in a shape. Leaving a shape by its identity and side instead of by a least distance is right
+/// at every scale, and keeps inside and outside apart where surfaces coincide.
+enum class Side : std::int32_t {
+  outward = 0,  ///< on it, leaving along its geometric outward normal: cannot meet the shape again (all are convex)
+  inward = 1,   ///< on it, going in: meets the far side
+  within = 2,   ///< somewhere inside: meets the far side
+};
+
+inline constexpr std::int32_t from_nowhere = -4;  ///< a free start: the camera, or a scattering outside all that is tracked
+
+/// A group of rays. direction: unit length. from: 4·element + side, or from_nowhere.
+template <class F>
+struct Ray {
+  Vec3<F> origin, direction;
+  F time;
+  IntOf<F> from;
+};
+
+/// Where a line is inside a convex shape: near <= t <= far. Only meaningful where `hit`.
+template <class F>
+struct Interval {
+  F near, far;
+  MaskOf<F> hit;
+};
+
+/// The ray's start with regard to one shape.
+template <class F>
+struct Start {
+  MaskOf<F> here;  ///< it starts on or in this very shape
+  MaskOf<F> out;   ///< ... and leaves outward
+};
+
+/// Start for a shape that owns the elements first ... first + count - 1.
+template <class F>
+TYNDALL_INLINE Start<F> start_on(IntOf<F> from, std::int32_t first, std::int32_t count) {
+  using I = IntOf<F>;
+  const auto here = mask_and(less(I(4 * first - 1), from), less(from, I(4 * (first + count))));
+  return {here, mask_and(here, equal(from & I(3), I(0)))};
+}
+
+/// What meets a surface, for one scattering event.
+template <class F>
+struct Incident {
+  Vec3<F> direction;   ///< unit, towards the surface
+  Vec3<F> normal;      ///< unit, the surface's own (reversed for a negative radius)
+  Vec3<F> facing;      ///< the normal, turned against the direction
+  F cosine;            ///< between facing and the reversed direction, in [0, 1]
+  MaskOf<F> along;     ///< the direction goes along the normal: leaving what the surface encloses
+  Vec3<F> unit;        ///< uniform on the unit sphere, from the event's direction dimensions
+  bool schlick;        ///< the books' approximation of Fresnel's equations
+  const Dice<F>* dice;
+};
+
+/// What leaves it.
+template <class F>
+struct Scattered {
+  Vec3<F> direction;      ///< unit
+  MaskOf<F> absorbed;     ///< nothing leaves
+  MaskOf<F> transmitted;  ///< the direction is on the other side of the surface
+};
+
+}  // namespace tyndall

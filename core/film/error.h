@@ -1,0 +1,23 @@
+#pragma once
+#include "core/film/film.h"
+
+#include <vector>
+
+/// How far a picture is from another, and how far it is likely to be from the truth.
+namespace tyndall {
+
+/// Estimated relative error of a film from its two halves: sqrt(mean over pixels and channels of
+/// ((A-B)/2)² / (mean² + 0.01)). Its square estimates relMSE. Infinite while a half is empty.
+double estimated_relative_error(const Film& film);
+
+/// Errors of an image against a reference. Means over pixels and channels.
+struct ImageError {
+  double mse = 0, rmse = 0;
+  double rel_mse = 0;  ///< (x - ref)² / (ref² + 0.01): depends on the unit of radiance
+  double psnr = 0;     ///< dB, of the sRGB images clipped to [0, 1]; infinite for equal images
+  Vec3d mean_image, mean_reference;
+};
+/// Both 3 floats a pixel, linear, of equal and nonzero size.
+ImageError image_error(const std::vector<float>& image, const std::vector<float>& reference);
+
+}  // namespace tyndall

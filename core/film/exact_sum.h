@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+
+namespace tyndall {
+
+/// A sum of numbers that does not depend on their order, so that threads, tiles, pauses and machines cannot change a
+/// picture: fixed point in two limbs, 32 bits apart. A number x is held in units of 2^-29 of the film's `unit`
+/// (high) and 2^-61 (low); bits below that are cut off, number by number. With |x| < 256·unit, 2^24 numbers fit.
+struct ExactSum {
+  std::int64_t high = 0, low = 0;
+
+  /// x: the number divided by the film's unit, |x| < 256.
+  void add(double x) {
+    const double scaled = x * 0x1p29;
+    const auto whole = static_cast<std::int64_t>(scaled);
+    high += whole;
+    low += static_cast<std::int64_t>((scaled - static_cast<double>(whole)) * 0x1p32);
+  }
+  void add(const ExactSum& other) {
+    high += other.high;
+    low += other.low;
+  }
+  /// The sum divided by the film's unit, rounded to double.
+  double value() const { return static_cast<double>(high) * 0x1p-29 + static_cast<double>(low) * 0x1p-61; }
+  bool operator==(const ExactSum&) const = default;
+};
+
+}  // namespace tyndall

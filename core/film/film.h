@@ -1,0 +1,91 @@
+#pragma once
+#include "core/base/vec.h"
+#include "core/film/exact_sum.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tyndall {
+
+/// Pixels x0 <= x < x1, y0 <= y < y1 of the full image, y down.
+struct Region {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool operator==(const Region&) const = default;
+};
+
+/// What a pixel has gathered: for each of two halves (even and odd sample indices, independent randomisations) the exact
+/// sum of each channel. 112 bytes.
+struct FilmPixel {
+  ExactSum sum[2][3];
+  std::uint32_t taken = 0;           ///< samples taken, both halves, rejected ones included: indices first … first + taken - 1
+  std::uint32_t rejected[2] = {0, 0};  ///< samples that were not finite or out of range: in neither sum nor count
+  std::uint32_t truncated = 0;       ///< paths cut off at max_depth
+  bool operator==(const FilmPixel&) const = default;
+};
+static_assert(sizeof(FilmPixel) == 112);
+
+/// Samples gathered for the pixels of a region. Adding films of disjoint sample ranges gives, bit for bit, the film of
+/// all of them.
+struct Film {
+  int width = 0, height = 0;       ///< of the full image
+  Region region;                   ///< the part that is held
+  std::uint32_t first_sample = 0;  ///< index of every pixel's first sample
+  double unit = 1;                 ///< a power of two not below the brightest emitter: what sums are divided by
+  std::vector<FilmPixel> pixels;   ///< region, row by row
+
+  FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
+  const FilmPixel& at(int x, int y) const { return pixels[index(x, y)]; }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - region.y0) * static_cast<std::size_t>(region.width()) +
+           static_cast<std::size_t>(x - region.x0);
+  }
+  bool operator==(const Film&) const = default;
+};
+
+/// An empty film. unit: see Film.
+Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit);
+
+/// A power of two not below `brightest` (>= 0); 1 for a scene without light.
+double film_unit(double brightest);
+
+/// Samples that count in one half (0 or 1) of a pixel.
+std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half);
+
+/// Mean radiance of a pixel, and of one of its halves; black before the first sample.
+Vec3f mean(const Film& film, const FilmPixel& pixel);
+Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half);
+
+/// Adds one sample of a pixel; half is its index & 1. What is not finite or not within 256 units is counted as rejected
+/// instead. Does not change `taken`.
+inline void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
+  const double x = static_cast<double>(radiance.x) * per_unit, y = static_cast<double>(radiance.y) * per_unit,
+               z = static_cast<double>(radiance.z) * per_unit;
+  const bool good = x > -256 && x < 256 && y > -256 && y < 256 && z > -256 && z < 256;
+  if (!good) {
+    ++pixel.rejected[half];
+    return;
+  }
+  pixel.sum[half][0].add(x);
+  pixel.sum[half][1].add(y);
+  pixel.sum[half][2].add(z);
+}
+
+/// Adds what another buffer has gathered for the same pixel.
+void add_pixel(FilmPixel& to, const FilmPixel& from);
+
+/// Means of the region, 3 floats a pixel, top row first.
+std::vector<float> resolve(const Film& film);
+
+/// 64-bit FNV-1a over width, height (32-bit little endian) and the float32 RGB means, top row first, −0 as +0.
+std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb);
+
+struct FilmTotals {
+  std::uint64_t samples = 0, rejected = 0, truncated = 0;
+  std::uint32_t least_taken = 0, most_taken = 0;  ///< of any pixel
+};
+FilmTotals totals(const Film& film);
+
+}  // namespace tyndall

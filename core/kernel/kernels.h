@@ -1,0 +1,64 @@
+#pragma once
+#include "core/compile/render_scene.h"
+#include "core/film/film.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+/// The door to the kernels: one table of functions per instruction set, all from one source over the number type.
+namespace tyndall {
+
+/// A unit of work: samples [first, last) of the pixels of a tile.
+struct Unit {
+  Region tile;                       ///< full-image coordinates
+  int step = 1;                      ///< only pixels whose x and y are multiples of step; step 1: all
+  int skip_step = 0;                 ///< > 0: pixels whose x and y are both multiples of it are left out (done before)
+  std::uint32_t first = 0, last = 0;  ///< sample indices
+};
+
+struct UnitCounts {
+  std::uint64_t rays = 0;         ///< closest-hit and occlusion queries
+  std::uint64_t shadow_rays = 0;  ///< of them, occlusion queries
+};
+
+/// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts. `taken` is set for what was sampled.
+using RenderUnit = void (*)(const RenderScene& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                            UnitCounts& counts);
+
+/// One ray for `trace`.
+struct TraceRay {
+  Vec3f origin, direction;  ///< unit direction, RenderScene coordinates
+  float time = 0;
+  std::int32_t from = -4;  ///< see Ray::from
+};
+struct TraceHit {
+  float t = 0;               ///< distance; meaningless without a hit
+  std::int32_t element = -1;  ///< -1: nothing hit
+  bool operator==(const TraceHit&) const = default;
+};
+/// Closest surfaces of `count` rays, in groups of lanes in the given order. brute_force: test every primitive.
+using TraceRays = void (*)(const RenderScene& scene, const TraceRay* rays, TraceHit* hits, int count, bool brute_force);
+
+/// What is first seen through the centre of a pixel: for picking and the views.
+struct FirstHit {
+  std::int32_t element = -1;
+  float depth = 0;  ///< distance along the camera's axis
+  Vec3f albedo, normal;
+};
+using FirstHits = void (*)(const RenderScene& scene, const Region& tile, FirstHit* hits);
+
+struct Kernels {
+  const char* isa;  ///< "scalar", "sse4", "avx2", "avx512"
+  int lanes;        ///< paths that run together
+  RenderUnit render_unit;
+  TraceRays trace;
+  FirstHits first_hits;
+};
+
+/// What this build has and this CPU runs, narrowest first ("scalar" always).
+std::vector<Kernels> available_kernels();
+/// The best of them ("" ) or the named one; nullopt-like: lanes 0 if there is none of that name.
+Kernels choose_kernels(std::string_view isa);
+
+}  // namespace tyndall

@@ -1,0 +1,35 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/base/ray.h"
+
+#include <tuple>
+
+namespace tyndall {
+
+/// A matt surface: sends light into all directions of its side with density cos θ / π, whatever comes.
+template <class F = double>
+struct Lambertian {
+  static constexpr const char* type = "lambertian";
+  static constexpr const char* colour_name = "albedo";
+  bool operator==(const Lambertian&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Lambertian<F>*) {
+  return std::tuple{};
+}
+
+/// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where the two cancel (to 1e-6 in
+/// length, one direction in 10^12) the normal itself.
+/// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".
+template <class F>
+TYNDALL_INLINE Scattered<F> scatter(const Lambertian<F>&, const Incident<F>& in) {
+  const Vec3<F> sum = in.facing + in.unit;
+  const F squared = dot(sum, sum);
+  const auto cancelled = less(squared, F(1e-12f));
+  const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
+  const MaskOf<F> none = less(F(1.0f), F(0.0f));
+  return {select(cancelled, in.facing, scale * sum), none, none};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,28 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/base/ray.h"
+
+#include <tuple>
+
+namespace tyndall {
+
+/// A lamp: sends its radiance (W/(m² sr), linear Rec.709) from both sides, the same in all directions; reflects nothing.
+template <class F = double>
+struct Light {
+  static constexpr const char* type = "light";
+  static constexpr const char* colour_name = "radiance";
+  bool operator==(const Light&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Light<F>*) {
+  return std::tuple{};
+}
+
+/// A path ends at a lamp.
+template <class F>
+TYNDALL_INLINE Scattered<F> scatter(const Light<F>&, const Incident<F>& in) {
+  return {in.facing, less(F(0.0f), F(1.0f)), less(F(1.0f), F(0.0f))};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,48 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/base/math.h"
+#include "core/base/ray.h"
+
+#include <tuple>
+
+namespace tyndall {
+
+/// Polished to brushed metal: a mirror whose reflection is blurred by a ball around its end point.
+template <class F = double>
+struct Metal {
+  static constexpr const char* type = "metal";
+  static constexpr const char* colour_name = "albedo";
+  F fuzz = F(0);
+  bool operator==(const Metal&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Metal<F>*) {
+  return std::tuple{Field{"fuzz", &Metal<F>::fuzz, between(0, 1), Slider{0, 1}, "",
+                          "radius of the blur around the mirror direction; 0 is a mirror"}};
+}
+
+/// The unit mirror direction plus fuzz times a point uniform in the unit ball; what ends below the surface is absorbed.
+/// Ray Tracing in One Weekend, section 10.6 "Fuzzy Reflection"; in the ball, not on the sphere, so that the density of
+/// directions stays bounded.
+template <class F>
+TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in) {
+  const Vec3<F> mirror = reflect(in.direction, in.normal);
+  const F radius = metal.fuzz * cube_root(in.dice->one(dimension::radius));
+  const Vec3<F> sum = along(mirror, radius, in.unit);
+  const F squared = dot(sum, sum);
+  const auto cancelled = less(squared, F(1e-12f));
+  const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
+  const Vec3<F> out = select(cancelled, in.facing, scale * sum);
+  return {out, less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f))};
+}
+
+/// Share of the light that leaves, at a cosine of incidence in [0, 1]: what the ball puts below the surface is lost.
+/// The ball's mass above a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
+template <class F>
+TYNDALL_INLINE F metal_survival(F fuzz, F cosine) {
+  const F c = min(cosine / max(fuzz, F(1e-9f)), F(1.0f));
+  return F(0.5f) + F(0.75f) * (c - c * c * c * F(1.0f / 3.0f));
+}
+
+}  // namespace tyndall

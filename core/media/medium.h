@@ -1,0 +1,70 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/base/ray.h"
+#include "core/base/sampling.h"
+
+#include <tuple>
+
+namespace tyndall {
+
+/// Fog, smoke, milk: the same everywhere inside its boundary. Its colour (the scattering albedo) and boundary are the
+/// scene's; here is what it does.
+template <class F = double>
+struct Medium {
+  static constexpr const char* type = "medium";
+  F density = F(1);
+  F g = F(0);
+  bool operator==(const Medium&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Medium<F>*) {
+  return std::tuple{Field{"density", &Medium<F>::density, at_least(0), Slider{0.001, 100, true}, "",
+                          "mean number of scattering or absorption events per unit length", true},
+                    Field{"g", &Medium<F>::g, inside(-1, 1), Slider{-0.95, 0.95}, "",
+                          "mean cosine of the scattering angle (Henyey-Greenstein); 0 scatters evenly"}};
+}
+
+/// Distance to the next event in a medium of the given density (> 0), from u in (0, 1]: the exponential law inverted.
+template <class F>
+TYNDALL_INLINE F free_flight(F density, F u) {
+  return -log(u) / density;
+}
+
+/// Share of light that passes an optical depth (density times length, >= 0): Beer and Lambert's law.
+template <class F>
+TYNDALL_INLINE F transmittance(F optical_depth) {
+  return exp(-optical_depth);
+}
+
+/// Cosine of the scattering angle for u in [0, 1). Henyey & Greenstein, Diffuse Radiation in the Galaxy, Astrophysical
+/// Journal 93 (1941): the distribution inverted. Expanded around g = 0, where the plain form cancels.
+template <class F>
+TYNDALL_INLINE F henyey_greenstein_cosine(F g, F u) {
+  const F s = mul_add(F(2.0f), u, F(-1.0f));
+  const F q = mul_add(g, s, F(1.0f));  // 1 + g s
+  const F g2 = g * g, s2 = s * s;
+  // [2s(1+g²) + g(3+s²) + g³(s²-1)] / (2(1+gs)²): the same function without the division by g.
+  const F even = mul_add(F(2.0f) * s, F(1.0f) + g2, g * mul_add(g2, s2 - F(1.0f), F(3.0f) + s2)) / (F(2.0f) * q * q);
+  const F r = (F(1.0f) - g2) / q;
+  const F plain = (F(1.0f) + g2 - r * r) / (F(2.0f) * select(equal(g, F(0.0f)), F(1.0f), g));
+  const F cosine = select(less(abs(g), F(0.5f)), even, plain);
+  return min(max(cosine, F(-1.0f)), F(1.0f));
+}
+
+/// Probability density per steradian of the phase function at a cosine between the directions before and after.
+template <class F>
+TYNDALL_INLINE F henyey_greenstein_density(F g, F cosine) {
+  const F d = F(1.0f) + g * g - F(2.0f) * g * cosine;
+  return F(static_cast<float>(0.25 / pi)) * (F(1.0f) - g * g) / (d * sqrt(d));
+}
+
+/// New direction after scattering. unit: uniform on the sphere, used as it is where g is 0.
+template <class F>
+TYNDALL_INLINE Vec3<F> scatter_in_medium(F g, Vec3<F> direction, Vec3<F> unit, Pair<F> u) {
+  const auto even = equal(g, F(0.0f));
+  if (all(even)) return unit;
+  return select(even, unit, around(direction, henyey_greenstein_cosine(g, u.x), u.y));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,50 @@
+#pragma once
+#include "core/compile/compile.h"
+#include "core/film/film.h"
+#include "core/kernel/kernels.h"
+#include "core/scene/scene.h"
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+
+/// Blocking renders: for the command line, tests and charts.
+namespace tyndall {
+
+struct RenderOptions {
+  int threads = 0;                   ///< 0: all cores
+  std::string isa;                   ///< "": the best
+  std::optional<Region> region;      ///< absent: the whole image
+  std::uint32_t first_sample = 0;    ///< index of the first sample
+  std::optional<std::uint32_t> spp;  ///< samples a pixel; absent: until another limit
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
+  double target_error = 0;           ///< estimated relative error at which to stop; 0: none
+  int tile = 0;                      ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
+};
+
+struct RenderProgress {
+  std::uint32_t spp = 0;   ///< samples a pixel so far
+  double seconds = 0;      ///< rendering so far
+  double mrays_per_s = 0;
+  double relative_error = 0;  ///< estimated; infinite before two samples
+};
+
+struct RenderResult {
+  Film film;
+  std::uint64_t rays = 0, shadow_rays = 0;
+  double seconds = 0;  ///< from the first sample started to the last film write, thread start included
+  int threads = 0;
+  const char* isa = "scalar";
+  int lanes = 1;
+  bool interrupted = false;  ///< the callback said stop
+};
+
+/// Called between passes (and at least every 50 ms or so within long ones, from the calling thread); returns false to stop.
+using ProgressCallback = std::function<bool(const RenderProgress&)>;
+
+/// Renders until the first of the limits. Continues `film` if it is not empty (it must be of this scene and region).
+RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
+                    Film film = {});
+
+}  // namespace tyndall

@@ -1,0 +1,32 @@
+#pragma once
+#include "core/scene/error.h"
+#include "core/scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// The scene file: JSON with comments. The format is described in assets/scene.schema.json and in the README.
+namespace tyndall {
+
+/// One override of a value in the file's JSON, applied before validation: pointer "/materials/gold/fuzz", value JSON
+/// or, if it is not JSON, a string.
+struct Override {
+  std::string pointer, value;
+};
+
+/// Reads and checks a scene. name: what errors call it (usually the file's name). folder: where relative texture files
+/// are. Throws SceneError for everything that is wrong with it, IoError for nothing.
+Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                 const std::vector<Override>& overrides = {});
+
+/// The scene in normal form: every value that is not its default, keys in the format's order. Reading it gives an equal
+/// scene. texture_folder: image textures are written relative to it where they lie beneath it.
+std::string write_scene(const Scene& scene);
+
+/// Comment lines at the top of a scene file (without "//"), for `inspect`.
+std::vector<std::string> leading_comments(std::string_view text);
+
+}  // namespace tyndall

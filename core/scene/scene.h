@@ -1,0 +1,149 @@
+#pragma once
+#include "core/materials/materials.h"
+#include "core/media/medium.h"
+#include "core/shapes/shapes.h"
+#include "core/textures/textures.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What the user writes, edits, undoes and saves: plain values in double. An edit is a copy, undo a list of copies,
+/// "nothing changed" is ==. References are indices, given in the file as names.
+namespace tyndall {
+
+/// Index into Scene::textures.
+struct TextureIndex {
+  int index = 0;
+  bool operator==(const TextureIndex&) const = default;
+};
+/// Linear RGB, or the texture that gives it.
+using ColourOrTexture = std::variant<Vec3d, TextureIndex>;
+
+struct Material {
+  std::string name;
+  ColourOrTexture colour = Vec3d{0.5, 0.5, 0.5};  ///< albedo in [0, 1], or a light's radiance; unused by dielectrics
+  MaterialKinds<double> kind;
+  bool operator==(const Material&) const = default;
+};
+
+struct Texture {
+  std::string name;
+  TextureKinds<double> kind;
+  bool operator==(const Texture&) const = default;
+};
+
+/// Turns about the y axis in the books' sense: x' = cos·x + sin·z, z' = -sin·x + cos·z. In degrees, as in the file.
+struct RotateY {
+  double degrees = 0;
+  bool operator==(const RotateY&) const = default;
+};
+struct Translate {
+  Vec3d offset;
+  bool operator==(const Translate&) const = default;
+};
+/// Applied in the order of the list.
+using Transform = std::vector<std::variant<RotateY, Translate>>;
+
+/// A shape with a surface.
+struct Solid3d {
+  std::variant<Sphere<>, Quad<>, Box<>> shape;
+  int material = 0;  ///< index into Scene::materials
+  bool operator==(const Solid3d&) const = default;
+};
+
+/// A medium and what bounds it.
+struct Volume {
+  std::variant<Sphere<>, Box<>> boundary;  ///< sphere: radius > 0, at rest
+  Transform boundary_transform;
+  Medium<> medium;
+  ColourOrTexture albedo = Vec3d{1, 1, 1};
+  bool operator==(const Volume&) const = default;
+};
+
+struct Object;
+struct Group {
+  std::vector<Object> objects;
+  bool operator==(const Group&) const;
+};
+
+struct Object {
+  std::string name;  ///< may be empty
+  std::variant<Solid3d, Volume, Group> kind;
+  Transform transform;
+  bool operator==(const Object&) const = default;
+};
+inline bool Group::operator==(const Group& other) const { return objects == other.objects; }
+
+/// Thin-lens camera; right-handed, looks from look_from to look_at.
+struct Camera {
+  Vec3d look_from{0, 0, 0}, look_at{0, 0, -1}, vup{0, 1, 0};
+  double vfov = 90;                        ///< vertical and full, degrees
+  double defocus_angle = 0;                ///< of the cone of rays through a pixel, degrees; 0: all is sharp
+  std::optional<double> focus_distance{};  ///< along the axis; absent: the distance from look_from to look_at
+  double shutter_open = 0, shutter_close = 0;
+  bool operator==(const Camera&) const = default;
+};
+
+inline constexpr auto fields(const Camera*) {
+  return std::tuple{
+      Field{"look_from", &Camera::look_from, any_number(), Slider{-20, 20}, "", "position of the eye, scene units"},
+      Field{"look_at", &Camera::look_at, any_number(), Slider{-20, 20}, "", "the point in the middle of the picture"},
+      Field{"vup", &Camera::vup, any_number(), Slider{-1, 1}, "", "the direction that is up in the picture"},
+      Field{"vfov", &Camera::vfov, inside(0, 180), Slider{1, 120}, "°", "vertical field of view, full angle"},
+      Field{"defocus_angle", &Camera::defocus_angle, Valid{.low = 0, .high = 180, .high_open = true}, Slider{0, 5}, "°",
+            "opening of the cone of rays that meets in a point in focus; 0: all is sharp"},
+      Field{"focus_distance", &Camera::focus_distance, above(0), Slider{0.1, 100, true}, "",
+            "distance of the plane in focus, along the axis, scene units"}};
+}
+
+/// What a ray that escapes sees.
+struct Gradient {
+  Vec3d bottom{1, 1, 1}, top{0.5, 0.7, 1.0};
+  bool operator==(const Gradient&) const = default;
+};
+struct Hemispheres {
+  Vec3d up{1, 1, 1}, down{0, 0, 0};
+  bool operator==(const Hemispheres&) const = default;
+};
+using Background = std::variant<Vec3d, Gradient, Hemispheres>;
+
+enum class Integrator { path, nee, mis };
+enum class SamplerKind { random, sobol };
+enum class FresnelKind { exact, schlick };
+enum class ToneMap { srgb, aces };
+
+struct RenderSettings {
+  int max_depth = 1000;  ///< longest path, in scattering events
+  std::optional<int> spp{};
+  Integrator integrator = Integrator::path;
+  SamplerKind sampler = SamplerKind::random;
+  FresnelKind fresnel = FresnelKind::exact;
+  std::uint32_t seed = 0;
+  bool operator==(const RenderSettings&) const = default;
+};
+
+/// How linear light becomes a picture; never part of rendering.
+struct Display {
+  double exposure = 0;  ///< stops: the picture is multiplied by 2^exposure
+  ToneMap tone_map = ToneMap::srgb;
+  bool operator==(const Display&) const = default;
+};
+
+struct Scene {
+  std::string name;
+  int width = 800, height = 450;  ///< pixels
+  Camera camera;
+  Background background = Vec3d{0, 0, 0};
+  RenderSettings render;
+  Display display;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Object> objects;
+  bool operator==(const Scene&) const = default;
+};
+
+}  // namespace tyndall

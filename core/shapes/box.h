@@ -1,0 +1,70 @@
+#pragma once
+#include "core/shapes/quad.h"
+
+namespace tyndall {
+
+/// A solid block between two corners; a transform may turn it.
+template <class F = double>
+struct Box {
+  static constexpr const char* type = "box";
+  Vec3<F> min, max{F(1), F(1), F(1)};
+  bool operator==(const Box&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Box<F>*) {
+  return std::tuple{Field{"min", &Box<F>::min, any_number(), Slider{-10, 10}, "", "lower corner, scene units", true},
+                    Field{"max", &Box<F>::max, any_number(), Slider{-10, 10}, "", "upper corner, scene units", true}};
+}
+
+/// 1 / d, with a component that is nearly 0 taken as 1e-20 of its sign: a line parallel to a slab then is either
+/// inside or outside of it, and nothing becomes 0·∞.
+template <class F>
+TYNDALL_INLINE F safe_reciprocal(F d) {
+  const F least = F(1e-20f);
+  return F(1.0f) / select(less(abs(d), least), copy_sign(least, d), d);
+}
+
+/// Where a line is inside a box, and which faces it crosses.
+template <class F>
+struct BoxSlabs {
+  Interval<F> inside;
+  Vec3<F> near, far;  ///< per axis
+  Vec3<F> slope;      ///< 1 / (the box's own direction)
+};
+
+template <class F>
+TYNDALL_INLINE BoxSlabs<F> box_slabs(const Affine& box, Vec3<F> origin, Vec3<F> direction) {
+  const Vec3<F> slope{safe_reciprocal(affine_direction(box, 0, direction)),
+                      safe_reciprocal(affine_direction(box, 1, direction)),
+                      safe_reciprocal(affine_direction(box, 2, direction))};
+  const Vec3<F> middle{-affine_point(box, 0, origin) * slope.x, -affine_point(box, 1, origin) * slope.y,
+                       -affine_point(box, 2, origin) * slope.z};
+  const Vec3<F> half{abs(slope.x), abs(slope.y), abs(slope.z)};
+  const Vec3<F> near = middle - half, far = middle + half;
+  const F t0 = max(near.x, max(near.y, near.z)), t1 = min(far.x, min(far.y, far.z));
+  return {{t0, t1, less_equal(t0, t1)}, near, far, slope};
+}
+
+/// The interval of a ray that starts on or in the box.
+template <class F>
+TYNDALL_INLINE Interval<F> leave_box(Interval<F> line, Start<F> start) {
+  return {select(start.here, F(-1.0f), line.near), select(start.here, max(line.far, F(1e-37f)), line.far),
+          mask_and_not(mask_or(line.hit, start.here), start.out)};
+}
+
+/// Face 0 … 5 (x-, x+, y-, y+, z-, z+ of the box's own axes) that the ray crosses: the one it enters by, or leaves by.
+template <class F>
+TYNDALL_INLINE IntOf<F> box_face(const BoxSlabs<F>& s, MaskOf<F> entering) {
+  using I = IntOf<F>;
+  const Vec3<F> t = select(entering, s.near, s.far);
+  const F extreme = select(entering, max(t.x, max(t.y, t.z)), min(t.x, min(t.y, t.z)));
+  const auto is_x = equal(t.x, extreme), is_y = equal(t.y, extreme);
+  const I axis = select(is_x, I(0), select(is_y, I(2), I(4)));
+  const F slope = select(is_x, s.slope.x, select(is_y, s.slope.y, s.slope.z));
+  const auto rising = less(F(0.0f), slope);  // the ray goes towards the + face of that axis
+  const auto plus = mask_or(mask_and(entering, mask_not(rising)), mask_and_not(rising, entering));
+  return select(plus, axis + I(1), axis);
+}
+
+}  // namespace tyndall

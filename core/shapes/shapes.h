@@ -1,0 +1,4 @@
+#pragma once
+#include "core/shapes/box.h"
+#include "core/shapes/quad.h"
+#include "core/shapes/sphere.h"

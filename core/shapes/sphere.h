@@ -1,0 +1,54 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/base/math.h"
+#include "core/base/ray.h"
+
+#include <optional>
+#include <tuple>
+
+namespace tyndall {
+
+/// A sphere; with center_end it moves: its centre is center + t (center_end - center) at time t.
+/// A negative radius turns the normal inward: with glass, a bubble.
+template <class F = double>
+struct Sphere {
+  static constexpr const char* type = "sphere";
+  Vec3<F> center;
+  F radius = F(1);
+  std::optional<Vec3<F>> center_end;
+  bool operator==(const Sphere&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Sphere<F>*) {
+  return std::tuple{
+      Field{"center", &Sphere<F>::center, any_number(), Slider{-10, 10}, "", "centre, scene units", true},
+      Field{"center_end", &Sphere<F>::center_end, any_number(), Slider{-10, 10}, "", "centre at time 1, scene units"},
+      Field{"radius", &Sphere<F>::radius, not_zero(), Slider{0.01, 10, true}, "",
+            "scene units; negative: the normal points inward (hollow glass)", true}};
+}
+
+/// Where a line crosses a sphere. to_center: centre - origin; direction: unit; radius > 0.
+/// The discriminant is taken from the part of to_center across the ray, which keeps its digits when the sphere is far
+/// away or small. Haines, Günther, Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems
+/// (2019), chapter 7.
+template <class F>
+TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> direction) {
+  const F middle = dot(to_center, direction);
+  const Vec3<F> across = along(to_center, -middle, direction);
+  const F discriminant = neg_mul_add(across.x, across.x, neg_mul_add(across.y, across.y, neg_mul_add(across.z, across.z, radius * radius)));
+  const F half = sqrt(max(discriminant, F(0.0f)));
+  return {middle - half, middle + half, less(F(0.0f), discriminant)};
+}
+
+/// The same for a ray that starts on or in the sphere. On it, the roots are 0 and 2 d·(c - o): no rounding of the
+/// origin can make it meet itself or miss the far side.
+template <class F>
+TYNDALL_INLINE Interval<F> leave_sphere(Interval<F> line, Vec3<F> to_center, Vec3<F> direction, IntOf<F> from, Start<F> start) {
+  const F middle = dot(to_center, direction);
+  const F chord = select(equal(from & IntOf<F>(3), IntOf<F>(1)), middle + middle, line.far);
+  return {select(start.here, F(-1.0f), line.near), select(start.here, max(chord, F(1e-37f)), line.far),
+          mask_and_not(mask_or(line.hit, start.here), start.out)};
+}
+
+}  // namespace tyndall

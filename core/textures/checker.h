@@ -1,0 +1,34 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/base/vec.h"
+
+#include <tuple>
+
+namespace tyndall {
+
+/// Cubes of two colours that fill space.
+template <class F = double>
+struct Checker {
+  static constexpr const char* type = "checker";
+  F scale = F(1);
+  Vec3<F> even{F(0), F(0), F(0)}, odd{F(1), F(1), F(1)};
+  bool operator==(const Checker&) const = default;
+};
+
+template <class F>
+constexpr auto fields(const Checker<F>*) {
+  return std::tuple{
+      Field{"scale", &Checker<F>::scale, above(0), Slider{0.01, 10, true}, "", "edge of a cube, scene units", true},
+      Field{"even", &Checker<F>::even, between(0, 1), Slider{0, 1}, "", "colour of the even cubes, linear RGB", true},
+      Field{"odd", &Checker<F>::odd, between(0, 1), Slider{0, 1}, "", "colour of the odd cubes, linear RGB", true}};
+}
+
+/// True in odd cubes. cell: position / scale.
+template <class F>
+TYNDALL_INLINE MaskOf<F> checker_odd(Vec3<F> cell) {
+  const F sum = floor(cell.x) + floor(cell.y) + floor(cell.z);
+  const F half = F(0.5f) * sum;
+  return less(floor(half), half);
+}
+
+}  // namespace tyndall
