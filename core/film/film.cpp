@@ -1,0 +1,114 @@
+#include "core/film/film.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace tyndall {
+
+Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit) {
+  assert(0 <= region.x0 && region.x0 < region.x1 && region.x1 <= width);
+  assert(0 <= region.y0 && region.y0 < region.y1 && region.y1 <= height);
+  assert(unit > 0);
+  Film film{
+      .width = width, .height = height, .region = region, .first_sample = first_sample, .unit = unit, .pixels = {}};
+  film.pixels.resize(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()));
+  return film;
+}
+
+double film_unit(double brightest) {
+  assert(brightest >= 0 && std::isfinite(brightest));
+  if (brightest == 0) return 1;
+  int exponent = 0;
+  const double fraction = std::frexp(brightest, &exponent);  // in [1/2, 1)
+  if (fraction == 0.5) --exponent;
+  return std::ldexp(1.0, std::max(exponent, -126));  // 1 / unit stays a number
+}
+
+std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half) {
+  const bool first_is_odd = film.first_sample % 2 != 0;
+  const bool starts_here = first_is_odd == (half == 1);
+  const std::uint32_t taken = pixel.taken / 2 + (starts_here ? pixel.taken % 2 : 0);
+  return taken - pixel.rejected[half];
+}
+
+namespace {
+
+float mean_of(const ExactSum& sum, double unit, std::uint64_t count) {
+  return static_cast<float>(sum.value() * unit / static_cast<double>(count));
+}
+
+}  // namespace
+
+Vec3f mean(const Film& film, const FilmPixel& pixel) {
+  const std::uint64_t count = std::uint64_t{counted(film, pixel, 0)} + counted(film, pixel, 1);
+  if (count == 0) return {};
+  std::array<ExactSum, 3> both;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    both[channel] = pixel.sum[0][channel];
+    both[channel].add(pixel.sum[1][channel]);
+  }
+  return {mean_of(both[0], film.unit, count), mean_of(both[1], film.unit, count), mean_of(both[2], film.unit, count)};
+}
+
+Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half) {
+  const std::uint32_t count = counted(film, pixel, half);
+  if (count == 0) return {};
+  const ExactSum* sum = pixel.sum[half];
+  return {mean_of(sum[0], film.unit, count), mean_of(sum[1], film.unit, count), mean_of(sum[2], film.unit, count)};
+}
+
+void add_pixel(FilmPixel& to, const FilmPixel& from) {
+  for (int half = 0; half < 2; ++half) {
+    for (int channel = 0; channel < 3; ++channel) to.sum[half][channel].add(from.sum[half][channel]);
+    to.rejected[half] += from.rejected[half];
+  }
+  to.taken += from.taken;
+  to.truncated += from.truncated;
+}
+
+std::vector<float> resolve(const Film& film) {
+  std::vector<float> rgb;
+  rgb.reserve(film.pixels.size() * 3);
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f value = mean(film, pixel);
+    rgb.insert(rgb.end(), {value.x, value.y, value.z});
+  }
+  return rgb;
+}
+
+namespace {
+
+/// FNV-1a of 4 bytes, lowest first. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
+std::uint64_t fnv1a(std::uint64_t hash, std::uint32_t word) {
+  for (int shift = 0; shift < 32; shift += 8) hash = (hash ^ (word >> shift & 0xffu)) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace
+
+std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  hash = fnv1a(hash, static_cast<std::uint32_t>(width));
+  hash = fnv1a(hash, static_cast<std::uint32_t>(height));
+  for (const float value : rgb) hash = fnv1a(hash, value == 0 ? 0u : std::bit_cast<std::uint32_t>(value));
+  return hash;
+}
+
+FilmTotals totals(const Film& film) {
+  FilmTotals sum;
+  if (film.pixels.empty()) return sum;
+  sum.least_taken = film.pixels[0].taken;
+  for (const FilmPixel& pixel : film.pixels) {
+    sum.samples += pixel.taken;
+    sum.rejected += std::uint64_t{pixel.rejected[0]} + pixel.rejected[1];
+    sum.truncated += pixel.truncated;
+    sum.least_taken = std::min(sum.least_taken, pixel.taken);
+    sum.most_taken = std::max(sum.most_taken, pixel.taken);
+  }
+  return sum;
+}
+
+}  // namespace tyndall
