@@ -6,7 +6,7 @@
 
 Needs Python 3.8 and nothing else. Every run gives the same files: random numbers come from
 random.Random(seed).random(), whose sequence Python guarantees, and are rounded before they are written. All other
-scenes in assets/scenes are written by hand and are not touched.
+scenes in assets/scenes are edited by hand and are not touched.
 """
 
 import json
