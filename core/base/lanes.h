@@ -112,8 +112,9 @@ TYNDALL_INLINE double mul_add(double a, double b, double c) { return a * b + c; 
 TYNDALL_INLINE float neg_mul_add(float a, float b, float c) { return c - a * b; }
 TYNDALL_INLINE double neg_mul_add(double a, double b, double c) { return c - a * b; }
 
-/// The largest whole number not above v; |v| below 2^31.
+/// The largest whole number not above v.
 TYNDALL_INLINE float floor(float v) {
+  if (!(abs(v) < 0x1p23f)) return v;  // whole already, or not a number
   const float t = static_cast<float>(static_cast<std::int32_t>(v));
   return t > v ? t - 1.0f : t;
 }
@@ -140,6 +141,10 @@ template <int n>
 TYNDALL_INLINE std::uint32_t shift_right(std::uint32_t v) {
   return v >> n;
 }
+
+/// The smallest of the lanes.
+TYNDALL_INLINE float least_lane(float v) { return v; }
+TYNDALL_INLINE float least_lane(double v) { return static_cast<float>(v); }
 
 /// table[index] of every lane; indices must be valid in all lanes, also in those that are not used.
 template <Plain F>

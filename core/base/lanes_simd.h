@@ -151,7 +151,7 @@ TYNDALL_INLINE Mask<n> operator<(Ints<n> a, Ints<n> b) {
 template <int n>
 TYNDALL_INLINE Mask<n> operator<=(Ints<n> a, Ints<n> b) {
   Mask<n> m;
-  for (int i = 0; i < n; ++i) m.v[i] = hn::RebindMask(TagF(), hn::Le(a.v[i], b.v[i]));
+  for (int i = 0; i < n; ++i) m.v[i] = hn::RebindMask(TagF(), hn::Not(hn::Lt(b.v[i], a.v[i])));
   return m;
 }
 
@@ -263,8 +263,8 @@ TYNDALL_INLINE Floats<n> float_from_int(Ints<n> a) {
 }
 template <int n>
 TYNDALL_INLINE Floats<n> floor(Floats<n> a) {
-  const Floats<n> t = float_from_int(to_int(a));
-  return select(a < t, t - Floats<n>(1.0f), t);
+  for (auto& x : a.v) x = hn::Floor(x);
+  return a;
 }
 template <int n>
 TYNDALL_INLINE Uints<n> as_uint(Ints<n> a) {
@@ -299,6 +299,13 @@ template <int by, int n>
 TYNDALL_INLINE Uints<n> shift_right(Uints<n> a) {
   for (auto& x : a.v) x = hn::ShiftRight<by>(x);
   return a;
+}
+
+template <int n>
+TYNDALL_INLINE float least_lane(Floats<n> a) {
+  auto m = a.v[0];
+  for (int i = 1; i < n; ++i) m = hn::Min(m, a.v[i]);
+  return hn::GetLane(hn::MinOfLanes(TagF(), m));
 }
 
 template <int n>

@@ -82,11 +82,7 @@ struct Dice {
   TYNDALL_INLINE F open(std::uint32_t offset, std::uint32_t stream) const {
     return unit_interval_open<F>(word(offset + stream * 0x10000u));
   }
-  TYNDALL_INLINE void first_event() { event = U(dimension::camera_count * golden_ratio); }
-  template <class M>
-  TYNDALL_INLINE void next_event(M where) {
-    event = select(where, event + U(dimension::per_event * golden_ratio), event);
-  }
+  TYNDALL_INLINE void next_event() { event = event + U(dimension::per_event * golden_ratio); }
 };
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include <cstdint>
+#include "core/base/lanes.h"
 
 namespace tyndall {
 
@@ -10,13 +10,13 @@ struct ExactSum {
   std::int64_t high = 0, low = 0;
 
   /// x: the number divided by the film's unit, |x| < 256.
-  void add(double x) {
+  TYNDALL_INLINE void add(double x) {
     const double scaled = x * 0x1p29;
     const auto whole = static_cast<std::int64_t>(scaled);
     high += whole;
     low += static_cast<std::int64_t>((scaled - static_cast<double>(whole)) * 0x1p32);
   }
-  void add(const ExactSum& other) {
+  TYNDALL_INLINE void add(const ExactSum& other) {
     high += other.high;
     low += other.low;
   }

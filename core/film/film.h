@@ -60,7 +60,7 @@ Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half);
 
 /// Adds one sample of a pixel; half is its index & 1. What is not finite or not within 256 units is counted as rejected
 /// instead. Does not change `taken`.
-inline void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
+TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
   const double x = static_cast<double>(radiance.x) * per_unit, y = static_cast<double>(radiance.y) * per_unit,
                z = static_cast<double>(radiance.z) * per_unit;
   const bool good = x > -256 && x < 256 && y > -256 && y < 256 && z > -256 && z < 256;

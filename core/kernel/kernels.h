@@ -1,8 +1,9 @@
 #pragma once
-#include "core/compile/render_scene.h"
 #include "core/film/film.h"
+#include "core/kernel/scene_view.h"
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct UnitCounts {
 };
 
 /// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts. `taken` is set for what was sampled.
-using RenderUnit = void (*)(const RenderScene& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
                             UnitCounts& counts);
 
 /// One ray for `trace`.
@@ -38,7 +39,7 @@ struct TraceHit {
   bool operator==(const TraceHit&) const = default;
 };
 /// Closest surfaces of `count` rays, in groups of lanes in the given order. brute_force: test every primitive.
-using TraceRays = void (*)(const RenderScene& scene, const TraceRay* rays, TraceHit* hits, int count, bool brute_force);
+using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHit* hits, int count, bool brute_force);
 
 /// What is first seen through the centre of a pixel: for picking and the views.
 struct FirstHit {
@@ -46,7 +47,8 @@ struct FirstHit {
   float depth = 0;  ///< distance along the camera's axis
   Vec3f albedo, normal;
 };
-using FirstHits = void (*)(const RenderScene& scene, const Region& tile, FirstHit* hits);
+/// `hits`: the region, row by row.
+using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
   const char* isa;  ///< "scalar", "sse4", "avx2", "avx512"
@@ -56,9 +58,15 @@ struct Kernels {
   FirstHits first_hits;
 };
 
+// One per file that is compiled with its set's flags.
+Kernels scalar_kernels();
+Kernels sse4_kernels();
+Kernels avx2_kernels();
+Kernels avx512_kernels();
+
 /// What this build has and this CPU runs, narrowest first ("scalar" always).
 std::vector<Kernels> available_kernels();
-/// The best of them ("" ) or the named one; nullopt-like: lanes 0 if there is none of that name.
-Kernels choose_kernels(std::string_view isa);
+/// The best of them (""), or the named one; nothing if there is none of that name.
+std::optional<Kernels> choose_kernels(std::string_view isa);
 
 }  // namespace tyndall

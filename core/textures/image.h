@@ -28,20 +28,19 @@ struct Image {
 template <class F>
 TYNDALL_INLINE Vec3<F> image_colour(const float* texels, int width, int height, F u, F v) {
   using I = IntOf<F>;
-  const F w = splat<F>(static_cast<float>(width)), h = splat<F>(static_cast<float>(height));
-  const F x = mul_add(u - floor(u), w, F(-0.5f));
-  const F y = min(max(mul_add(F(1.0f) - v, h, F(-0.5f)), F(0.0f)), h - F(1.0f));
+  const F zero = F(0.0f), one = F(1.0f);
+  const F last_column = splat<F>(static_cast<float>(width - 1)), last_row = splat<F>(static_cast<float>(height - 1));
+  const F x = mul_add(u - floor(u), last_column + one, F(-0.5f));
+  const F y = min(max(mul_add(one - v, last_row + one, F(-0.5f)), zero), last_row);
   const F x0 = floor(x), y0 = floor(y);
   const F fx = x - x0, fy = y - y0;
-  const I columns = I(width), last_row = I(height - 1);
-  const I left_raw = to_int(x0);
-  const I left = select(less(left_raw, I(0)), left_raw + columns, left_raw);
-  const I right_raw = left + I(1);
-  const I right = select(less(right_raw, columns), right_raw, right_raw - columns);
-  const I top = to_int(y0), bottom_raw = top + I(1);
-  const I bottom = select(less(last_row, bottom_raw), last_row, bottom_raw);
+  // Clamped as well as wrapped: lanes that are not in use may hold anything, and must not read beyond the table.
+  const F left_column = min(max(select(less(x0, zero), last_column, x0), zero), last_column);
+  const F right_column = select(less(left_column, last_column), left_column + one, zero);
+  const I left = to_int(left_column), right = to_int(right_column);
+  const I top = to_int(y0), bottom = to_int(min(y0 + one, last_row));
   const auto texel = [&](I column, I row) {
-    const I at = (row * columns + column) * I(3);
+    const I at = (row * I(width) + column) * I(3);
     return Vec3<F>{gather<F>(texels, at), gather<F>(texels + 1, at), gather<F>(texels + 2, at)};
   };
   const auto mix = [](Vec3<F> a, Vec3<F> b, F t) { return along(a, t, b - a); };

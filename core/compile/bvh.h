@@ -1,0 +1,56 @@
+#pragma once
+#include "core/base/vec.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tyndall {
+
+struct Bounds {
+  Vec3f low, high;
+  bool operator==(const Bounds&) const = default;
+};
+
+/// Kinds of primitives in leaves.
+enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box };
+
+/// A primitive as the builder sees it.
+struct BvhInput {
+  Bounds bounds;        ///< finite; exact or wider
+  PrimitiveKind kind;
+  bool operator==(const BvhInput&) const = default;
+};
+
+inline constexpr int bvh_width = 8;
+inline constexpr int bvh_most_primitives = 1 << 24;
+inline constexpr int bvh_stack = 640;  ///< open nodes that a traversal can have: (48 + 24 + 2) levels of 7, and room
+
+/// Children's boxes by component, so that one ray can be tested against all, or one box against many rays.
+struct alignas(64) BvhNode {
+  float low[3][bvh_width], high[3][bvh_width];
+  std::int32_t child[bvh_width];  ///< >= 0: node; < 0: leaf ~child
+  std::int32_t count;             ///< children; the rest of the columns is 0
+};
+
+/// Slots first … first + count - 1 of one kind.
+struct BvhLeaf {
+  std::int32_t first = 0;
+  std::int16_t count = 0;
+  PrimitiveKind kind = PrimitiveKind::sphere;
+};
+
+/// A tree of axis-parallel boxes over primitives. Boxes of children lie within their parent's, exactly, in float; the
+/// traversal relies on that.
+struct Bvh {
+  std::vector<BvhNode> nodes;  ///< node 0 is the root; never empty
+  std::vector<BvhLeaf> leaves;
+  std::vector<std::int32_t> order;  ///< order[k]: input whose place in its kind's slots is k-th of that kind, in tree order
+  std::vector<BvhInput> input;      ///< what it was built from: equal input, equal tree
+  int depth = 0;                    ///< of the deepest node, root 1: bounds the traversal's stack
+};
+
+/// Builds with the surface area heuristic (binned). A pure function of the input. Identical centroids are split in the
+/// middle of the list.
+Bvh build_bvh(std::vector<BvhInput> input);
+
+}  // namespace tyndall

@@ -1,0 +1,131 @@
+#include "core/compile/columns.h"
+
+#include "core/base/math.h"
+#include "core/base/random.h"
+#include "core/film/tonemap.h"
+
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double radians = pi / 180;
+
+double focus_distance(const Camera& camera) {
+  return camera.focus_distance.value_or(length(camera.look_from - camera.look_at));
+}
+
+/// The texels of an image as linear floats.
+std::shared_ptr<const std::vector<float>> linear_texels(const Image::Pixels& pixels) {
+  float decoded[256];
+  for (int i = 0; i < 256; ++i) decoded[i] = srgb_decode(static_cast<float>(i) / 255.0f);
+  auto texels = std::make_shared<std::vector<float>>();
+  texels->reserve(pixels.rgb.size());
+  for (const std::uint8_t value : pixels.rgb) texels->push_back(decoded[value]);
+  return texels;
+}
+
+Vec3d modulo(Vec3d v, double period) { return {std::fmod(v.x, period), std::fmod(v.y, period), std::fmod(v.z, period)}; }
+
+void fill(TextureColumns& out, const Solid<>& solid, Vec3d) { out.a = to_float(solid.color); }
+
+void fill(TextureColumns& out, const Checker<>& checker, Vec3d origin) {
+  out.a = to_float(checker.even);
+  out.b = to_float(checker.odd);
+  out.scale = static_cast<float>(1 / checker.scale);
+  out.offset = to_float(modulo((1 / checker.scale) * origin, 2));
+}
+
+void fill(TextureColumns& out, const Noise<>& noise, Vec3d origin) {
+  out.style = noise.style;
+  out.scale = static_cast<float>(noise.scale);
+  out.offset = to_float(modulo(noise.scale * origin, 256));
+  out.z_scale = static_cast<float>(noise.scale / (2 * pi));
+  out.z_offset = static_cast<float>(std::fmod(noise.scale * origin.z / (2 * pi), 1.0));
+}
+
+void fill(TextureColumns& out, const Image& image, Vec3d) {
+  out.width = image.pixels->width;
+  out.height = image.pixels->height;
+  out.pixels = image.pixels;
+}
+
+}  // namespace
+
+CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin) {
+  const Vec3d w = normalize(camera.look_from - camera.look_at);
+  const Vec3d u = normalize(cross(camera.vup, w)), v = cross(w, u);
+  const double focus = focus_distance(camera);
+  const double view_height = 2 * std::tan(0.5 * camera.vfov * radians) * focus;
+  const double view_width = view_height * width / height;
+  const double lens = focus * std::tan(0.5 * camera.defocus_angle * radians);
+  CameraColumns out;
+  out.center = to_float(camera.look_from - origin);
+  out.corner = to_float((-focus) * w - (0.5 * view_width) * u + (0.5 * view_height) * v);
+  out.du = to_float((view_width / width) * u);
+  out.dv = to_float((-view_height / height) * v);
+  out.lens_u = to_float(lens * u);
+  out.lens_v = to_float(lens * v);
+  out.axis = to_float(-w);
+  out.shutter_open = static_cast<float>(camera.shutter_open);
+  out.shutter_length = static_cast<float>(camera.shutter_close - camera.shutter_open);
+  return out;
+}
+
+BackgroundColumns background_columns(const Background& background) {
+  if (const auto* colour = std::get_if<Vec3d>(&background)) return {BackgroundKind::constant, to_float(*colour), {}};
+  if (const auto* g = std::get_if<Gradient>(&background))
+    return {BackgroundKind::gradient, to_float(g->bottom), to_float(g->top)};
+  const auto& h = std::get<Hemispheres>(background);
+  return {BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
+}
+
+Materials material_columns(const std::vector<Material>& materials) {
+  Materials out;
+  for (const Material& material : materials) {
+    out.kind.push_back(static_cast<std::int32_t>(material.kind.index()));
+    const auto* texture = std::get_if<TextureIndex>(&material.colour);
+    const bool coloured = std::visit([](const auto& m) { return m.colour_name != nullptr; }, material.kind);
+    const Vec3f colour = coloured && !texture ? to_float(std::get<Vec3d>(material.colour)) : Vec3f{1, 1, 1};
+    out.red.push_back(colour.x);
+    out.green.push_back(colour.y);
+    out.blue.push_back(colour.z);
+    out.texture.push_back(coloured && texture ? texture->index : -1);
+    for (auto& column : out.parameter) column.push_back(0);
+    std::visit(
+        [&](const auto& m) {
+          std::size_t i = 0;
+          std::apply([&](const auto&... f) { ((out.parameter[i++].back() = static_cast<float>(m.*f.value)), ...); },
+                     fields(&m));
+        },
+        material.kind);
+  }
+  return out;
+}
+
+std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin,
+                                            const std::vector<TextureColumns>& before) {
+  std::vector<TextureColumns> out;
+  for (const Texture& texture : textures) {
+    TextureColumns columns;
+    columns.kind = static_cast<std::int32_t>(texture.kind.index());
+    std::visit([&](const auto& t) { fill(columns, t, origin); }, texture.kind);
+    for (const TextureColumns& old : before)
+      if (columns.pixels && old.pixels == columns.pixels) columns.texels = old.texels;
+    if (columns.pixels && !columns.texels) columns.texels = linear_texels(*columns.pixels);
+    out.push_back(std::move(columns));
+  }
+  return out;
+}
+
+std::shared_ptr<const std::vector<float>> gradient_table() {
+  auto table = std::make_shared<std::vector<float>>();
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)), turn = 2 * pi * unit_interval<double>(hash(2 * i + 2));
+    const double r = std::sqrt(1 - z * z);
+    for (const double c : {r * std::cos(turn), r * std::sin(turn), z}) table->push_back(static_cast<float>(c));
+  }
+  return table;
+}
+
+}  // namespace tyndall

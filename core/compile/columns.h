@@ -1,0 +1,26 @@
+#pragma once
+#include "core/compile/flatten.h"
+#include "core/compile/render_scene.h"
+
+/// The second half of compiling: each part of the scene as columns of floats.
+namespace tyndall {
+
+inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
+BackgroundColumns background_columns(const Background& background);
+Materials material_columns(const std::vector<Material>& materials);
+/// `before`: linear texels of the same picture are shared with it.
+std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin,
+                                            const std::vector<TextureColumns>& before);
+/// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
+std::shared_ptr<const std::vector<float>> gradient_table();
+
+/// A quad or box as an affine map (see Affine), and a box's face as u and v of a point.
+Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin);
+Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin);
+
+/// Appends an element per sphere, quad and box face.
+void append_elements(const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& elements);
+
+}  // namespace tyndall

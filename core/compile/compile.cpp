@@ -1,0 +1,252 @@
+#include "core/compile/compile.h"
+
+#include "core/compile/columns.h"
+#include "core/film/film.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr int most_by_brute_force = 16;  // primitives; beyond, the tree is faster
+constexpr double bounds_slack = 0x1p-20;  // relative, per side: covers the rounding of the slab test's products
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Vec3d median_center(const Flattened& flat, const Camera& camera) {
+  std::vector<double> x, y, z;
+  const auto add = [&](Vec3d c) { x.push_back(c.x), y.push_back(c.y), z.push_back(c.z); };
+  for (const PlacedShape& shape : flat.shapes) add(center_of(shape));
+  for (const PlacedVolume& volume : flat.volumes) add(center_of(volume));
+  if (x.empty()) return camera.look_from;
+  return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
+}
+
+Bounds widen(Vec3d low, Vec3d high) {
+  const auto down = [](double v) { return static_cast<float>(v - bounds_slack * std::abs(v)); };
+  const auto up = [](double v) { return static_cast<float>(v + bounds_slack * std::abs(v)); };
+  const Vec3d slack = bounds_slack * (high - low);
+  return {{down(low.x - slack.x), down(low.y - slack.y), down(low.z - slack.z)},
+          {up(high.x + slack.x), up(high.y + slack.y), up(high.z + slack.z)}};
+}
+
+Bounds bounds_of_points(const std::vector<Vec3d>& points) {
+  Vec3d low = points[0], high = points[0];
+  for (const Vec3d& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return widen(low, high);
+}
+
+/// Over the whole shutter: a linear motion stays within the boxes of its ends.
+BvhInput input_of(const Sphere<>& s, const Placement& placement, Vec3d origin, const Camera& camera) {
+  const double r = std::abs(s.radius);
+  const Vec3d reach{r, r, r};
+  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
+  const Vec3d open = place(placement, s.center + camera.shutter_open * way) - origin;
+  const Vec3d close = place(placement, s.center + camera.shutter_close * way) - origin;
+  return {bounds_of_points({open - reach, open + reach, close - reach, close + reach}),
+          s.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere};
+}
+
+BvhInput input_of(const Quad<>& q, const Placement& placement, Vec3d origin, const Camera&) {
+  std::vector<Vec3d> corners;
+  for (const Vec3d p : {q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v})
+    corners.push_back(place(placement, p) - origin);
+  return {bounds_of_points(corners), PrimitiveKind::quad};
+}
+
+BvhInput input_of(const Box<>& b, const Placement& placement, Vec3d origin, const Camera&) {
+  std::vector<Vec3d> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(place(placement, {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z}) -
+                      origin);
+  return {bounds_of_points(corners), PrimitiveKind::box};
+}
+
+struct SlotFiller {
+  RenderScene& out;
+  const Placement& placement;
+  std::int32_t element;
+
+  void operator()(const Sphere<>& s) const {
+    Spheres& to = s.center_end ? out.moving_spheres : out.spheres;
+    const Vec3f center = to_float(place(placement, s.center) - out.origin);
+    to.x.push_back(center.x), to.y.push_back(center.y), to.z.push_back(center.z);
+    to.radius.push_back(static_cast<float>(std::abs(s.radius)));
+    to.element.push_back(element);
+    if (!s.center_end) return;
+    const Vec3f way = to_float(turn(placement, *s.center_end - s.center));
+    to.move_x.push_back(way.x), to.move_y.push_back(way.y), to.move_z.push_back(way.z);
+  }
+  void operator()(const Quad<>& q) const {
+    out.quads.map.push_back(quad_map(q, placement, out.origin));
+    out.quads.element.push_back(element);
+  }
+  void operator()(const Box<>& b) const {
+    out.boxes.map.push_back(box_map(b, placement, out.origin));
+    out.boxes.element.push_back(element);
+  }
+};
+
+/// The tree (kept from before if the geometry is equal) or none, and the order of the slots.
+std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
+                                      RenderScene& out) {
+  std::vector<std::int32_t> order(flat.shapes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+  if (flat.shapes.size() <= most_by_brute_force) return order;
+  std::vector<BvhInput> input;
+  for (const PlacedShape& s : flat.shapes)
+    input.push_back(std::visit([&](const auto& shape) { return input_of(shape, s.placement, out.origin, camera); }, s.shape));
+  const bool kept = before && before->bvh && before->bvh->input == input;
+  out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));
+  return out.bvh->order;
+}
+
+void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
+  std::vector<std::int32_t> first_element;
+  for (const PlacedShape& shape : flat.shapes) {
+    first_element.push_back(out.elements.count());
+    append_elements(shape, out.origin, out.needs.image_textures, out.needs.moving_spheres, out.elements);
+  }
+  for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {
+    const PlacedShape& shape = flat.shapes[static_cast<std::size_t>(i)];
+    std::visit(SlotFiller{out, shape.placement, first_element[static_cast<std::size_t>(i)]}, shape.shape);
+  }
+  for (const PlacedVolume& volume : flat.volumes) {
+    MediumColumns m;
+    if (const auto* box = std::get_if<Box<>>(&volume.boundary)) {
+      m.box = true;
+      m.map = box_map(*box, volume.placement, out.origin);
+      m.count = 6;
+    } else {
+      const auto& sphere = std::get<Sphere<>>(volume.boundary);
+      m.center = to_float(place(volume.placement, sphere.center) - out.origin);
+      m.radius = static_cast<float>(sphere.radius);
+    }
+    // A boundary without a surface gets numbers beyond the elements': rays can start within it all the same.
+    m.first = volume.surface ? first_element[static_cast<std::size_t>(*volume.surface)]
+                             : out.elements.count() + 6 * static_cast<std::int32_t>(out.media.size());
+    m.density = static_cast<float>(volume.medium.density);
+    m.g = static_cast<float>(volume.medium.g);
+    if (const auto* texture = std::get_if<TextureIndex>(&volume.albedo)) m.texture = texture->index;
+    m.albedo = m.texture < 0 ? to_float(std::get<Vec3d>(volume.albedo)) : Vec3f{1, 1, 1};
+    if (m.density > 0) out.media.push_back(m);
+  }
+}
+
+Needs needs_of(const Scene& scene, const Flattened& flat) {
+  Needs n;
+  std::vector<bool> used(scene.materials.size());
+  std::vector<bool> textures(scene.textures.size());
+  const auto use_colour = [&](const ColourOrTexture& c) {
+    if (const auto* t = std::get_if<TextureIndex>(&c)) textures[static_cast<std::size_t>(t->index)] = true;
+  };
+  for (const PlacedShape& s : flat.shapes) {
+    const auto* sphere = std::get_if<Sphere<>>(&s.shape);
+    n.spheres |= sphere && !sphere->center_end;
+    n.moving_spheres |= sphere && sphere->center_end;
+    n.quads |= std::holds_alternative<Quad<>>(s.shape);
+    n.boxes |= std::holds_alternative<Box<>>(s.shape);
+    used[static_cast<std::size_t>(s.material)] = true;
+  }
+  for (const PlacedVolume& v : flat.volumes) {
+    n.media = true;
+    n.phase_functions |= v.medium.g != 0;
+    use_colour(v.albedo);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const Material& m = scene.materials[i];
+    n.lambertian |= std::holds_alternative<Lambertian<>>(m.kind);
+    n.metal |= std::holds_alternative<Metal<>>(m.kind);
+    n.dielectric |= std::holds_alternative<Dielectric<>>(m.kind);
+    n.lights |= std::holds_alternative<Light<>>(m.kind);
+    if (!std::holds_alternative<Dielectric<>>(m.kind)) use_colour(m.colour);
+  }
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    n.textures |= textures[i];
+    n.image_textures |= textures[i] && std::holds_alternative<Image>(scene.textures[i].kind);
+  }
+  n.background = !(scene.background == Background(Vec3d{0, 0, 0}));
+  n.lens = scene.camera.defocus_angle > 0;
+  n.shutter = n.moving_spheres && scene.camera.shutter_close > scene.camera.shutter_open;
+  return n;
+}
+
+double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
+
+double brightest(const Scene& scene) {
+  double most = 0;
+  if (const auto* c = std::get_if<Vec3d>(&scene.background)) most = largest(*c);
+  if (const auto* g = std::get_if<Gradient>(&scene.background)) most = std::max(largest(g->bottom), largest(g->top));
+  if (const auto* h = std::get_if<Hemispheres>(&scene.background)) most = std::max(largest(h->up), largest(h->down));
+  for (const Material& m : scene.materials)
+    if (std::holds_alternative<Light<>>(m.kind)) {
+      const auto* colour = std::get_if<Vec3d>(&m.colour);
+      most = std::max(most, colour ? largest(*colour) : 1.0);
+    }
+  return most;
+}
+
+}  // namespace
+
+RenderScene compile(const Scene& scene, const RenderScene* before) {
+  const Flattened flat = flatten(scene);
+  RenderScene out;
+  out.width = scene.width;
+  out.height = scene.height;
+  out.needs = needs_of(scene, flat);
+  out.origin = median_center(flat, scene.camera);
+  out.camera = camera_columns(scene.camera, scene.width, scene.height, out.origin);
+  out.background = background_columns(scene.background);
+  out.materials = material_columns(scene.materials);
+  out.textures = texture_columns(scene.textures, out.origin, before ? before->textures : std::vector<TextureColumns>{});
+  for (const TextureColumns& t : out.textures)
+    if (t.kind == TextureColumns::noise && !out.gradients) out.gradients = gradient_table();
+  fill_geometry(flat, scene, before, out);
+  out.max_depth = scene.render.max_depth;
+  out.seed = scene.render.seed;
+  out.schlick = scene.render.fresnel == FresnelKind::schlick;
+  out.film_unit = film_unit(brightest(scene));
+  return out;
+}
+
+int RenderScene::primitives() const {
+  return static_cast<int>(spheres.x.size() + moving_spheres.x.size() + quads.map.size() + boxes.map.size());
+}
+
+std::vector<std::string> names_of(const Needs& n) {
+  const std::pair<const char*, bool> all[] = {
+      {"spheres", n.spheres},       {"moving_spheres", n.moving_spheres}, {"quads", n.quads},
+      {"boxes", n.boxes},           {"media", n.media},                   {"phase_functions", n.phase_functions},
+      {"lambertian", n.lambertian}, {"metal", n.metal},                   {"dielectric", n.dielectric},
+      {"lights", n.lights},         {"textures", n.textures},             {"image_textures", n.image_textures},
+      {"background", n.background}, {"lens", n.lens},                     {"shutter", n.shutter}};
+  std::vector<std::string> names;
+  for (const auto& [name, set] : all)
+    if (set) names.emplace_back(name);
+  return names;
+}
+
+std::size_t bytes_of(const RenderScene& s) {
+  const std::size_t sphere = 5 * sizeof(float), element = 6 * sizeof(float) + sizeof(std::vector<int>) + sizeof(int);
+  std::size_t bytes = sizeof s + sphere * s.spheres.x.size() + (sphere + 12) * s.moving_spheres.x.size();
+  bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + s.boxes.map.size());
+  bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();
+  if (s.bvh)
+    bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +
+             (sizeof(BvhInput) + 4) * s.bvh->input.size();
+  for (const TextureColumns& t : s.textures)
+    if (t.texels) bytes += sizeof(float) * t.texels->size();
+  return bytes;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,103 @@
+#include "core/compile/flatten.h"
+
+#include "core/base/math.h"
+
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+template <class... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+
+struct CosSin {
+  double cos, sin;
+};
+
+/// Exact for quarter turns.
+CosSin cos_sin(double degrees) {
+  const double turn = std::fmod(degrees, 360.0);
+  if (std::fmod(turn, 90.0) == 0) {
+    const int quarter = (static_cast<int>(turn / 90.0) + 4) % 4;
+    constexpr double values[5] = {1, 0, -1, 0, 1};
+    return {values[quarter], values[(quarter + 3) % 4]};
+  }
+  return {std::cos(turn * (pi / 180)), std::sin(turn * (pi / 180))};
+}
+
+void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::vector<int>& path, Flattened& out) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Object& object = objects[i];
+    const Placement here = compose(outer, placement_of(object.transform));
+    path.push_back(static_cast<int>(i));
+    std::visit(Overloaded{[&](const Solid3d& s) { out.shapes.push_back({s.shape, here, s.material, path}); },
+                          [&](const Volume& v) {
+                            if (v.medium.density > 0)
+                              out.volumes.push_back(
+                                  {v.boundary, compose(here, placement_of(v.boundary_transform)), v.medium, v.albedo, {}});
+                          },
+                          [&](const Group& g) { flatten_list(g.objects, here, path, out); }},
+               object.kind);
+    path.pop_back();
+  }
+}
+
+bool same_shape(const PlacedShape& shape, const PlacedVolume& volume) {
+  if (!(shape.placement == volume.placement)) return false;
+  return std::visit(
+      [&](const auto& boundary) {
+        const auto* s = std::get_if<std::decay_t<decltype(boundary)>>(&shape.shape);
+        return s && *s == boundary;
+      },
+      volume.boundary);
+}
+
+}  // namespace
+
+Vec3d turn(const Placement& p, Vec3d v) {
+  const CosSin a = cos_sin(p.degrees);
+  return {a.cos * v.x + a.sin * v.z, v.y, a.cos * v.z - a.sin * v.x};
+}
+
+Vec3d place(const Placement& p, Vec3d v) { return turn(p, v) + p.offset; }
+
+Placement compose(const Placement& outer, const Placement& inner) {
+  return {outer.degrees + inner.degrees, turn(outer, inner.offset) + outer.offset};
+}
+
+Placement placement_of(const Transform& list) {
+  Placement result;
+  for (const auto& step : list)
+    result = compose(std::visit(Overloaded{[](const RotateY& r) { return Placement{r.degrees, {}}; },
+                                           [](const Translate& t) { return Placement{0, t.offset}; }},
+                                step),
+                     result);
+  return result;
+}
+
+Flattened flatten(const Scene& scene) {
+  Flattened out;
+  std::vector<int> path;
+  flatten_list(scene.objects, {}, path, out);
+  for (PlacedVolume& volume : out.volumes)
+    for (std::size_t i = 0; i < out.shapes.size() && !volume.surface; ++i)
+      if (same_shape(out.shapes[i], volume)) volume.surface = static_cast<int>(i);
+  return out;
+}
+
+namespace {
+Vec3d own_center(const Sphere<>& s) { return s.center; }
+Vec3d own_center(const Quad<>& q) { return q.corner + 0.5 * (q.u + q.v); }
+Vec3d own_center(const Box<>& b) { return 0.5 * b.min + 0.5 * b.max; }
+}  // namespace
+
+Vec3d center_of(const PlacedShape& shape) {
+  return place(shape.placement, std::visit([](const auto& s) { return own_center(s); }, shape.shape));
+}
+Vec3d center_of(const PlacedVolume& volume) {
+  return place(volume.placement, std::visit([](const auto& s) { return own_center(s); }, volume.boundary));
+}
+
+}  // namespace tyndall

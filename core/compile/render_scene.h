@@ -1,0 +1,122 @@
+#pragma once
+#include "core/base/vec.h"
+#include "core/compile/bvh.h"
+#include "core/materials/materials.h"
+#include "core/scene/scene.h"
+#include "core/shapes/quad.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What kernels read: flat float arrays, made from a Scene by compile(). Positions are relative to `origin`.
+namespace tyndall {
+
+/// Which models a scene contains. A kernel is chosen by them; what is left out changes no bit of the picture.
+struct Needs {
+  bool spheres = false, moving_spheres = false, quads = false, boxes = false;
+  bool media = false, phase_functions = false;  ///< phase_functions: some medium has g != 0
+  bool lambertian = false, metal = false, dielectric = false, lights = false;
+  bool textures = false, image_textures = false;
+  bool background = false, lens = false, shutter = false;
+  bool operator==(const Needs&) const = default;
+};
+/// Names of the needs that are set, in the order above.
+std::vector<std::string> names_of(const Needs& needs);
+
+/// Camera in the form of Ray Tracing in One Weekend, section 13.2: rays start in the lens and pass the plane in focus.
+struct CameraColumns {
+  Vec3f center;             ///< of the lens
+  Vec3f corner, du, dv;     ///< from the centre to the upper left corner of the focus plane; steps of one pixel
+  Vec3f lens_u, lens_v;     ///< half axes of the lens; zero without defocus
+  Vec3f axis;               ///< unit, into the scene
+  float shutter_open = 0, shutter_length = 0;
+};
+
+enum class BackgroundKind { constant, gradient, hemispheres };
+struct BackgroundColumns {
+  BackgroundKind kind = BackgroundKind::constant;
+  Vec3f a, b;  ///< constant: a; gradient: bottom, top; hemispheres: up, down
+};
+
+/// Primitives of one kind, in slots that follow the tree. `element` is a primitive's first element: what a hit names.
+struct Spheres {
+  std::vector<float> x, y, z, radius;  ///< radius > 0
+  std::vector<float> move_x, move_y, move_z;  ///< only for moving spheres: way from time 0 to 1
+  std::vector<std::int32_t> element;
+};
+struct Flats {
+  std::vector<Affine> map;
+  std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
+};
+
+/// Per element: a sphere, a quad, or a face of a box.
+struct Elements {
+  /// Spheres: centre and 1 / signed radius. Flats: unit outward normal and 0.
+  std::vector<float> x, y, z, inverse_radius;
+  std::vector<float> move_x, move_y, move_z;  ///< filled only if some sphere moves
+  std::vector<std::int32_t> material;
+  /// For image textures. Flats: u and v as affine functions of the point (8 floats). Spheres: cosine and sine of the
+  /// rotation into the sphere's own frame in the first two. Filled only if there are image textures.
+  std::vector<float> uv;
+  std::vector<std::vector<int>> object;  ///< path of indices into Scene::objects: which object it belongs to
+  int count() const { return static_cast<int>(material.size()); }
+};
+
+/// Per material; parameter i is the kind's i-th field.
+struct Materials {
+  std::vector<std::int32_t> kind;  ///< index into MaterialKinds
+  std::vector<float> red, green, blue;
+  std::vector<std::int32_t> texture;  ///< index into RenderScene::textures, or -1
+  std::array<std::vector<float>, max_material_fields> parameter;
+};
+
+struct TextureColumns {
+  enum Kind : std::int32_t { solid, checker, noise, image };  ///< in the order of TextureKinds
+  std::int32_t kind = solid;
+  Vec3f a, b;             ///< solid: a; checker: even, odd
+  float scale = 1;        ///< checker: 1 / edge; noise: cells per unit
+  Vec3f offset;           ///< added after scaling: the scene's origin, modulo the pattern's period
+  float z_scale = 0, z_offset = 0;  ///< marble: turns per unit of z, and the origin's
+  Noise<double>::Style style = Noise<double>::Style::marble;
+  int width = 0, height = 0;
+  std::shared_ptr<const Image::Pixels> pixels;       ///< where the texels come from
+  std::shared_ptr<const std::vector<float>> texels;  ///< 3·width·height linear
+};
+
+struct MediumColumns {
+  bool box = false;
+  Vec3f center;      ///< sphere
+  float radius = 0;
+  Affine map;        ///< box
+  std::int32_t first = 0, count = 1;  ///< the boundary's elements: those of the surface it equals, or its own
+  float density = 0;  ///< > 0
+  float g = 0;
+  Vec3f albedo;
+  std::int32_t texture = -1;
+};
+
+struct RenderScene {
+  int width = 0, height = 0;
+  Vec3d origin;  ///< world position of (0, 0, 0): the component-wise median of the shapes' centres
+  CameraColumns camera;
+  BackgroundColumns background;
+  Spheres spheres, moving_spheres;
+  Flats quads, boxes;
+  std::shared_ptr<const Bvh> bvh;  ///< null: few primitives, all are tested
+  Elements elements;
+  Materials materials;
+  std::vector<TextureColumns> textures;
+  std::vector<MediumColumns> media;
+  std::shared_ptr<const std::vector<float>> gradients;  ///< of noise textures, 3·256
+  int max_depth = 1000;
+  std::uint32_t seed = 0;
+  bool schlick = false;
+  double film_unit = 1;
+  Needs needs;
+  int primitives() const;
+};
+
+}  // namespace tyndall

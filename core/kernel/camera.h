@@ -1,0 +1,98 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/base/sampling.h"
+#include "core/kernel/kernels.h"
+#include "core/kernel/scene_view.h"
+
+/// Camera rays: which samples a unit of work holds, and the rays they start with.
+namespace tyndall {
+
+/// Ray through a point of the picture, in pixels from its upper left corner; lens: point in the unit disc.
+/// Ray Tracing in One Weekend, section 13.2 "Generating Sample Rays".
+template <class F>
+TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens, F time) {
+  const Vec3<F> target = along(along(splat<F>(c.corner), x, splat<F>(c.du)), y, splat<F>(c.dv));
+  const Vec3<F> offset = along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v));
+  return {splat<F>(c.center) + offset, normalize(target - offset), time, IntOf<F>(from_nowhere)};
+}
+
+/// The ray of one sample of a pixel.
+template <class F>
+TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& dice) {
+  const Pair<F> in_pixel = dice.pair(dimension::pixel);
+  Pair<F> lens{F(0.0f), F(0.0f)};
+  if (s.needs.lens) lens = in_disc(dice.pair(dimension::lens));
+  F time = splat<F>(s.camera.shutter_open);
+  if (s.needs.shutter) time = mul_add(dice.one(dimension::time), splat<F>(s.camera.shutter_length), time);
+  return camera_ray(s.camera, x + in_pixel.x, y + in_pixel.y, lens, time);
+}
+
+inline constexpr int most_unit_pixels = 4096;
+
+/// The samples of a unit in the order in which lanes take them: all pixels with the first index, then the next index.
+struct UnitSamples {
+  std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
+  int pixels;
+  int pixel;             ///< next
+  std::uint32_t sample;  ///< next
+  std::uint32_t last;
+
+  TYNDALL_INLINE bool empty() const { return sample >= last; }
+  TYNDALL_INLINE void advance() {
+    if (++pixel < pixels) return;
+    pixel = 0;
+    ++sample;
+  }
+};
+
+TYNDALL_INLINE void list_samples(const Unit& unit, UnitSamples& list) {
+  list.pixels = 0;
+  for (int y = unit.tile.y0; y < unit.tile.y1; ++y)
+    for (int x = unit.tile.x0; x < unit.tile.x1; ++x) {
+      if (unit.step > 1 && (x % unit.step || y % unit.step)) continue;
+      if (unit.skip_step > 0 && x % unit.skip_step == 0 && y % unit.skip_step == 0) continue;
+      list.column[list.pixels] = static_cast<std::uint16_t>(x - unit.tile.x0);
+      list.row[list.pixels] = static_cast<std::uint16_t>(y - unit.tile.y0);
+      ++list.pixels;
+    }
+  list.pixel = 0;
+  list.sample = unit.first;
+  list.last = list.pixels ? unit.last : unit.first;
+}
+
+/// A group of fresh camera rays that waits for lanes to become free: so that all lanes of a group are computed at once.
+template <class F>
+struct CameraQueue {
+  static constexpr int lanes = lanes_of<F>;
+  alignas(64) float ox[lanes], oy[lanes], oz[lanes], dx[lanes], dy[lanes], dz[lanes], time[lanes];
+  alignas(64) std::int32_t low[lanes], high[lanes];
+  std::int32_t slot[lanes];    ///< pixel within the tile
+  std::uint32_t half[lanes];
+  int next = 0, end = 0;
+};
+
+template <class F>
+TYNDALL_INLINE void refill(CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s, const Unit& unit) {
+  constexpr int lanes = lanes_of<F>;
+  alignas(64) float x[lanes] = {}, y[lanes] = {};
+  alignas(64) std::uint32_t ix[lanes] = {}, iy[lanes] = {}, index[lanes] = {};
+  queue.next = queue.end = 0;
+  for (; queue.end < lanes && !samples.empty(); ++queue.end, samples.advance()) {
+    const int k = queue.end, column = samples.column[samples.pixel], row = samples.row[samples.pixel];
+    ix[k] = static_cast<std::uint32_t>(unit.tile.x0 + column);
+    iy[k] = static_cast<std::uint32_t>(unit.tile.y0 + row);
+    x[k] = static_cast<float>(ix[k]);
+    y[k] = static_cast<float>(iy[k]);
+    index[k] = samples.sample;
+    queue.slot[k] = row * (unit.tile.x1 - unit.tile.x0) + column;
+    queue.half[k] = samples.sample & 1u;
+  }
+  const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index));
+  const Ray<F> ray = sample_ray(s, load<F>(x), load<F>(y), dice);
+  store(queue.ox, ray.origin.x), store(queue.oy, ray.origin.y), store(queue.oz, ray.origin.z);
+  store(queue.dx, ray.direction.x), store(queue.dy, ray.direction.y), store(queue.dz, ray.direction.z);
+  store(queue.time, ray.time);
+  store(queue.low, as_int(dice.low)), store(queue.high, as_int(dice.high));
+}
+
+}  // namespace tyndall

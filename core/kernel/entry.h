@@ -1,0 +1,68 @@
+#pragma once
+#include "core/kernel/path.h"
+
+/// The kernels' entry points for one number type; each instruction set's file names its own and nothing else.
+namespace tyndall {
+
+template <class F>
+TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHit* hits, int count, bool brute_force) {
+  constexpr int lanes = lanes_of<F>;
+  for (int first = 0; first < count; first += lanes) {
+    alignas(64) float column[7][lanes] = {};
+    alignas(64) std::int32_t from[lanes] = {};
+    std::uint32_t active = 0;
+    for (int k = 0; k < lanes && first + k < count; ++k) {
+      const TraceRay& r = rays[first + k];
+      const float values[7] = {r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.time};
+      for (int c = 0; c < 7; ++c) column[c][k] = values[c];
+      from[k] = r.from;
+      active |= 1u << k;
+    }
+    const Ray<F> ray{{load<F>(column[0]), load<F>(column[1]), load<F>(column[2])},
+                     {load<F>(column[3]), load<F>(column[4]), load<F>(column[5])},
+                     load<F>(column[6]),
+                     load_int<F>(from)};
+    const auto mask = mask_from_bits<F>(active);
+    const Hit<F> hit = brute_force ? closest_of_all(s, ray, mask) : closest(s, ray, mask);
+    store(column[0], hit.t);
+    store(from, hit.element);
+    for (int k = 0; k < lanes && first + k < count; ++k) hits[first + k] = {column[0][k], from[k]};
+  }
+}
+
+template <class F>
+TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHit* hits) {
+  constexpr int lanes = lanes_of<F>;
+  const Pair<F> middle_of_lens{F(0.0f), F(0.0f)};
+  const F time = splat<F>(s.camera.shutter_open + 0.5f * s.camera.shutter_length);
+  for (int y = region.y0; y < region.y1; ++y)
+    for (int x = region.x0; x < region.x1; x += lanes) {
+      alignas(64) float column[7][lanes] = {};
+      alignas(64) std::int32_t element[lanes];
+      for (int k = 0; k < lanes; ++k) column[0][k] = static_cast<float>(x + k) + 0.5f;
+      const Ray<F> ray = camera_ray(s.camera, load<F>(column[0]), splat<F>(static_cast<float>(y) + 0.5f), middle_of_lens, time);
+      const auto everywhere = less(F(0.0f), F(1.0f));
+      const Hit<F> hit = closest(s, ray, everywhere);
+      const auto met = less_equal(IntOf<F>(0), hit.element);
+      store(element, hit.element);
+      if (any(met)) {
+        const SurfacePoint<F> p = surface_at(s, ray, hit.t, hit.element);
+        const Vec3<F> colour = surface_colour(s, p, met);
+        const F depth = dot(p.point - splat<F>(s.camera.center), splat<F>(s.camera.axis));
+        store(column[0], colour.x), store(column[1], colour.y), store(column[2], colour.z);
+        store(column[3], p.normal.x), store(column[4], p.normal.y), store(column[5], p.normal.z);
+        store(column[6], depth);
+      }
+      for (int k = 0; k < lanes && x + k < region.x1; ++k) {
+        FirstHit& h = *hits++;
+        h = {};
+        h.element = element[k];
+        if (h.element < 0) continue;
+        h.depth = column[6][k];
+        h.albedo = {column[0][k], column[1][k], column[2][k]};
+        h.normal = {column[3][k], column[4][k], column[5][k]};
+      }
+    }
+}
+
+}  // namespace tyndall

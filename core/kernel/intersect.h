@@ -1,0 +1,203 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/kernel/scene_view.h"
+#include "core/shapes/box.h"
+#include "core/shapes/quad.h"
+#include "core/shapes/sphere.h"
+
+/// The closest surface along a ray. A lane's hit is a function of its ray and the scene alone, whatever rays run beside
+/// it: ties go to the lower element, and a box may cull a primitive only where the primitive's hit could not win.
+namespace tyndall {
+
+template <class F>
+struct Hit {
+  F t;               ///< infinity: nothing hit
+  IntOf<F> element;  ///< -1: nothing hit
+};
+
+/// Relative room for the rounding of box tests: far more than it needs, far less than costs time.
+inline constexpr float slab_room = 1.0f + 0x1p-17f;
+
+/// How a primitive test is asked for: by a leaf of the tree, whose box a lane must have met at `near`, or for all.
+template <class F>
+struct Asked {
+  MaskOf<F> lanes;
+  F near;
+  bool by_tree;
+};
+
+/// Where candidate hits beat the best so far.
+template <class F>
+TYNDALL_INLINE MaskOf<F> beats(F t, std::int32_t element, MaskOf<F> hit, const Hit<F>& best, const Asked<F>& asked) {
+  using I = IntOf<F>;
+  const auto closer = mask_or(less(t, best.t), mask_and(equal(t, best.t), less(I(element), best.element)));
+  const auto ok = mask_and(mask_and(hit, closer), mask_and(less(F(0.0f), t), asked.lanes));
+  return asked.by_tree ? mask_and(ok, less_equal(asked.near, t * F(slab_room))) : ok;
+}
+
+template <class F>
+TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t element, const Ray<F>& ray,
+                                const Asked<F>& asked, Hit<F>& best) {
+  const Vec3<F> to_center = center - ray.origin;
+  Interval<F> line = sphere_interval(to_center, splat<F>(radius), ray.direction);
+  const Start<F> start = start_on<F>(ray.from, element, 1);
+  if (any(start.here)) line = leave_sphere(line, to_center, ray.direction, ray.from, start);
+  if (!any(line.hit)) return;
+  const F t = select(less(F(0.0f), line.near), line.near, line.far);
+  const auto better = beats(t, element, line.hit, best, asked);
+  best.t = select(better, t, best.t);
+  best.element = select(better, IntOf<F>(element), best.element);
+}
+
+template <class F>
+TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Asked<F>& asked,
+                                 Hit<F>& best) {
+  for (int i = first; i < last; ++i)
+    test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), s.radius[i], s.element[i], ray, asked, best);
+}
+
+template <class F>
+TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray,
+                                        const Asked<F>& asked, Hit<F>& best) {
+  for (int i = first; i < last; ++i) {
+    const Vec3<F> way = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
+    test_sphere(along(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, way), s.radius[i], s.element[i], ray, asked, best);
+  }
+}
+
+template <class F>
+TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Asked<F>& asked,
+                               Hit<F>& best) {
+  for (int i = first; i < last; ++i) {
+    const std::int32_t element = q.element[i];
+    const QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
+    if (!any(h.hit)) continue;
+    const Start<F> start = start_on<F>(ray.from, element, 1);
+    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, asked);
+    best.t = select(better, h.t, best.t);
+    best.element = select(better, IntOf<F>(element), best.element);
+  }
+}
+
+template <class F>
+TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Asked<F>& asked,
+                               Hit<F>& best) {
+  for (int i = first; i < last; ++i) {
+    const std::int32_t element = b.element[i];
+    const BoxSlabs<F> slabs = box_slabs(b.map[i], ray.origin, ray.direction);
+    const Start<F> start = start_on<F>(ray.from, element, 6);
+    Interval<F> line = slabs.inside;
+    if (any(start.here)) line = leave_box(line, start);
+    if (!any(line.hit)) continue;
+    const auto entering = less(F(0.0f), line.near);
+    const F t = select(entering, line.near, line.far);
+    const auto better = beats(t, element, line.hit, best, asked);
+    if (!any(better)) continue;
+    best.t = select(better, t, best.t);
+    best.element = select(better, IntOf<F>(element) + box_face(slabs, entering), best.element);
+  }
+}
+
+/// Every primitive, in turn.
+template <class F>
+TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
+  const Asked<F> asked{active, F(0.0f), false};
+  test_spheres(s.spheres, 0, s.spheres.count, ray, asked, best);
+  test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, asked, best);
+  test_quads(s.quads, 0, s.quads.count, ray, asked, best);
+  test_boxes(s.boxes, 0, s.boxes.count, ray, asked, best);
+  return best;
+}
+
+/// A ray as the slab test wants it: box edge e is reached at e·slope + start.
+template <class F>
+struct Slopes {
+  Vec3<F> slope, start;
+};
+template <class F>
+TYNDALL_INLINE Slopes<F> slopes_of(const Ray<F>& ray) {
+  const Vec3<F> slope{safe_reciprocal(ray.direction.x), safe_reciprocal(ray.direction.y), safe_reciprocal(ray.direction.z)};
+  return {slope, -(ray.origin * slope)};
+}
+
+/// Enters child c of a node at the answered distance; infinity: does not meet its box before `limit`.
+/// Products and minima are monotonic in the box's edges, so a box within another is never entered before it.
+template <class F>
+TYNDALL_INLINE F enter_child(const BvhNode& node, int c, const Slopes<F>& s, F limit) {
+  const auto low = [&](int axis) { return splat<F>(node.low[axis][c]); };
+  const auto high = [&](int axis) { return splat<F>(node.high[axis][c]); };
+  const F x0 = mul_add(low(0), s.slope.x, s.start.x), x1 = mul_add(high(0), s.slope.x, s.start.x);
+  const F y0 = mul_add(low(1), s.slope.y, s.start.y), y1 = mul_add(high(1), s.slope.y, s.start.y);
+  const F z0 = mul_add(low(2), s.slope.z, s.start.z), z1 = mul_add(high(2), s.slope.z, s.start.z);
+  const F near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), F(0.0f)));
+  const F far = min(min(max(x0, x1), max(y0, y1)), min(max(z0, z1), limit));
+  return select(less_equal(near, far * F(slab_room)), near, F(__builtin_inff()));
+}
+
+/// Nodes still to visit, nearest last.
+template <class F>
+struct Stack {
+  struct Entry {
+    std::int32_t node;
+    float key;
+    F near;
+  };
+  Entry entry[bvh_stack];
+  int size = 0;
+
+  /// Keeps the children pushed since `bottom` sorted by key, nearest on top.
+  TYNDALL_INLINE void push(int bottom, std::int32_t node, float key, F near) {
+    int at = size++;
+    for (; at > bottom && entry[at - 1].key < key; --at) entry[at] = entry[at - 1];
+    entry[at] = {node, key, near};
+  }
+};
+
+template <class F>
+TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray<F>& ray, const Asked<F>& asked,
+                              Hit<F>& best) {
+  const int last = leaf.first + leaf.count;
+  switch (leaf.kind) {
+    case PrimitiveKind::sphere: test_spheres(s.spheres, leaf.first, last, ray, asked, best); break;
+    case PrimitiveKind::moving_sphere: test_moving_spheres(s.moving_spheres, leaf.first, last, ray, asked, best); break;
+    case PrimitiveKind::quad: test_quads(s.quads, leaf.first, last, ray, asked, best); break;
+    case PrimitiveKind::box: test_boxes(s.boxes, leaf.first, last, ray, asked, best); break;
+  }
+}
+
+/// Through the tree, all lanes together; a lane takes part where its own ray meets a box.
+template <class F>
+TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  const F infinity = F(__builtin_inff());
+  Hit<F> best{select(active, infinity, F(-1.0f)), IntOf<F>(-1)};
+  const Slopes<F> slopes = slopes_of(ray);
+  Stack<F> stack;
+  std::int32_t current = 0;
+  F near = F(0.0f);
+  for (;;) {
+    if (current >= 0) {
+      const BvhNode& node = s.nodes[current];
+      F enter[bvh_width];
+      for (int c = 0; c < bvh_width; ++c) enter[c] = enter_child(node, c, slopes, best.t);
+      const int bottom = stack.size;
+      for (int c = 0; c < node.count; ++c)
+        if (any(less(enter[c], infinity))) stack.push(bottom, node.child[c], least_lane(enter[c]), enter[c]);
+    } else {
+      test_leaf(s, s.leaves[~current], ray, {less(near, infinity), near, true}, best);
+    }
+    do {
+      if (stack.size == 0) return best;
+      const auto& top = stack.entry[--stack.size];
+      current = top.node;
+      near = select(less_equal(top.near, best.t * F(slab_room)), top.near, infinity);
+    } while (!any(less(near, infinity)));
+  }
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
+}
+
+}  // namespace tyndall

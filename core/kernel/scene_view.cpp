@@ -1,0 +1,49 @@
+#include "core/kernel/scene_view.h"
+
+namespace tyndall {
+namespace {
+
+SphereView view_of(const Spheres& s) {
+  return {static_cast<int>(s.x.size()), s.x.data(),      s.y.data(),      s.z.data(),      s.radius.data(),
+          s.move_x.data(),              s.move_y.data(), s.move_z.data(), s.element.data()};
+}
+
+FlatView view_of(const Flats& f) { return {static_cast<int>(f.map.size()), f.map.data(), f.element.data()}; }
+
+TextureView view_of(const TextureColumns& t) {
+  return {static_cast<TextureColumns::Kind>(t.kind), t.a, t.b, t.offset, t.scale, t.z_scale, t.z_offset, t.style,
+          t.width, t.height, t.texels ? t.texels->data() : nullptr};
+}
+
+}  // namespace
+
+SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
+  for (const TextureColumns& t : s.textures) textures_.push_back(view_of(t));
+  SceneView& v = view_;
+  v.width = s.width, v.height = s.height;
+  v.camera = s.camera;
+  v.background = s.background;
+  v.spheres = view_of(s.spheres), v.moving_spheres = view_of(s.moving_spheres);
+  v.quads = view_of(s.quads), v.boxes = view_of(s.boxes);
+  v.nodes = s.bvh ? s.bvh->nodes.data() : nullptr;
+  v.leaves = s.bvh ? s.bvh->leaves.data() : nullptr;
+  const Elements& e = s.elements;
+  v.x = e.x.data(), v.y = e.y.data(), v.z = e.z.data(), v.inverse_radius = e.inverse_radius.data();
+  v.move_x = e.move_x.data(), v.move_y = e.move_y.data(), v.move_z = e.move_z.data(), v.uv = e.uv.data();
+  v.material = e.material.data();
+  const Materials& m = s.materials;
+  v.kind = m.kind.data(), v.texture_of = m.texture.data();
+  v.red = m.red.data(), v.green = m.green.data(), v.blue = m.blue.data();
+  for (std::size_t i = 0; i < max_material_fields; ++i) v.parameter[i] = m.parameter[i].data();
+  v.texture_count = static_cast<int>(textures_.size());
+  v.textures = textures_.data();
+  v.medium_count = static_cast<int>(s.media.size());
+  v.media = s.media.data();
+  v.gradients = s.gradients ? s.gradients->data() : nullptr;
+  v.max_depth = s.max_depth;
+  v.seed = s.seed;
+  v.schlick = s.schlick;
+  v.needs = s.needs;
+}
+
+}  // namespace tyndall

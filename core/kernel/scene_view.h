@@ -1,0 +1,64 @@
+#pragma once
+#include "core/compile/render_scene.h"
+
+/// A RenderScene as plain pointers. Kernels see only this: a container's member function, compiled in a wide object,
+/// could be the copy the linker keeps for all.
+namespace tyndall {
+
+struct SphereView {
+  int count = 0;
+  const float *x, *y, *z, *radius, *move_x, *move_y, *move_z;
+  const std::int32_t* element;
+};
+struct FlatView {
+  int count = 0;
+  const Affine* map;
+  const std::int32_t* element;
+};
+struct TextureView {
+  TextureColumns::Kind kind;
+  Vec3f a, b, offset;
+  float scale, z_scale, z_offset;
+  Noise<double>::Style style;
+  int width, height;
+  const float* texels;
+};
+
+struct SceneView {
+  int width, height;
+  CameraColumns camera;
+  BackgroundColumns background;
+  SphereView spheres, moving_spheres;
+  FlatView quads, boxes;
+  const BvhNode* nodes;  ///< null: every primitive is tested
+  const BvhLeaf* leaves;
+  // elements
+  const float *x, *y, *z, *inverse_radius, *move_x, *move_y, *move_z, *uv;
+  const std::int32_t* material;
+  // materials
+  const std::int32_t *kind, *texture_of;
+  const float *red, *green, *blue;
+  const float* parameter[max_material_fields];
+  int texture_count;
+  const TextureView* textures;
+  int medium_count;
+  const MediumColumns* media;
+  const float* gradients;
+  int max_depth;
+  std::uint32_t seed;
+  bool schlick;
+  Needs needs;
+};
+
+/// Points into `scene`, which must stay as it is while the view is used.
+class SceneViewOf {
+ public:
+  explicit SceneViewOf(const RenderScene& scene);
+  const SceneView& view() const { return view_; }
+
+ private:
+  std::vector<TextureView> textures_;
+  SceneView view_;
+};
+
+}  // namespace tyndall

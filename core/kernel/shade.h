@@ -1,0 +1,158 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/kernel/intersect.h"
+#include "core/kernel/scene_view.h"
+#include "core/materials/materials.h"
+#include "core/textures/textures.h"
+
+#include <tuple>
+#include <utility>
+
+/// What a ray finds where it ends: background, surface, colour, and the scattering of the material there.
+namespace tyndall {
+
+template <class F>
+TYNDALL_INLINE Vec3<F> background_radiance(const BackgroundColumns& b, Vec3<F> direction) {
+  const Vec3<F> first = splat<F>(b.a);
+  if (b.kind == BackgroundKind::constant) return first;
+  if (b.kind == BackgroundKind::hemispheres) return select(less(F(0.0f), direction.y), first, splat<F>(b.b));
+  return along(first, mul_add(F(0.5f), direction.y, F(0.5f)), splat<F>(b.b) - first);
+}
+
+/// A surface where a ray meets it.
+template <class F>
+struct SurfacePoint {
+  Vec3<F> point;
+  Vec3<F> normal;      ///< unit, the surface's own
+  MaskOf<F> inverted;  ///< own normal against the geometric outward one (negative radius)
+  IntOf<F> element;    ///< valid in all lanes
+  IntOf<F> material;
+};
+
+template <class F>
+TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray, F t, IntOf<F> element) {
+  const F safe_t = select(less(t, F(__builtin_inff())), t, F(0.0f));
+  SurfacePoint<F> p;
+  p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
+  p.point = along(ray.origin, safe_t, ray.direction);
+  p.material = gather_int<F>(s.material, p.element);
+  Vec3<F> column{gather<F>(s.x, p.element), gather<F>(s.y, p.element), gather<F>(s.z, p.element)};
+  p.normal = column;
+  p.inverted = less(F(1.0f), F(0.0f));
+  if (!s.needs.spheres && !s.needs.moving_spheres) return p;
+  const F inverse_radius = gather<F>(s.inverse_radius, p.element);
+  const auto round = mask_not(equal(inverse_radius, F(0.0f)));
+  if (!any(round)) return p;
+  if (s.needs.moving_spheres) {
+    const Vec3<F> way{gather<F>(s.move_x, p.element), gather<F>(s.move_y, p.element), gather<F>(s.move_z, p.element)};
+    column = along(column, ray.time, way);
+  }
+  const Vec3<F> arm = p.point - column;
+  const F scale = copy_sign(F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f))), inverse_radius);
+  p.normal = select(round, scale * arm, p.normal);
+  p.inverted = less(inverse_radius, F(0.0f));
+  return p;
+}
+
+/// uv of a point for image textures; see Elements::uv.
+template <class F>
+TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& u, F& v) {
+  const IntOf<F> at = p.element * IntOf<F>(8);
+  F column[8];
+  for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.uv + i, at);
+  u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
+  v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
+  const auto round = mask_not(equal(gather<F>(s.inverse_radius, p.element), F(0.0f)));
+  if (!any(round)) return;
+  const Vec3<F> outward = select(p.inverted, -p.normal, p.normal);
+  const Vec3<F> own{mul_add(column[0], outward.x, -(column[1] * outward.z)), outward.y,
+                    mul_add(column[1], outward.x, column[0] * outward.z)};
+  F round_u, round_v;
+  sphere_uv(own, round_u, round_v);
+  u = select(round, round_u, u);
+  v = select(round, round_v, v);
+}
+
+/// Colour of texture k of a point; surface: for uv, null in a medium.
+template <class F>
+TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, const SurfacePoint<F>* surface) {
+  const Vec3<F> p = along(splat<F>(t.offset), splat<F>(t.scale), point);
+  switch (t.kind) {
+    case TextureColumns::checker: return select(checker_odd(p), splat<F>(t.b), splat<F>(t.a));
+    case TextureColumns::noise: {
+      const F turn = mul_add(splat<F>(t.z_scale), point.z, splat<F>(t.z_offset));
+      const F grey = noise_grey(t.style, p, turn, s.gradients);
+      return {grey, grey, grey};
+    }
+    case TextureColumns::image: {
+      F u, v;
+      surface_uv(s, *surface, u, v);
+      return image_colour(t.texels, t.width, t.height, u, v);
+    }
+    case TextureColumns::solid: break;
+  }
+  return splat<F>(t.a);
+}
+
+/// `colour`, replaced where `index` names a texture.
+template <class F>
+TYNDALL_INLINE Vec3<F> textured(const SceneView& s, Vec3<F> colour, IntOf<F> index, MaskOf<F> lanes, Vec3<F> point,
+                                const SurfacePoint<F>* surface) {
+  for (int k = 0; k < s.texture_count; ++k) {
+    const auto here = mask_and(lanes, equal(index, IntOf<F>(k)));
+    if (any(here)) colour = select(here, texture_colour(s, s.textures[k], point, surface), colour);
+  }
+  return colour;
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> surface_colour(const SceneView& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
+  const Vec3<F> colour{gather<F>(s.red, p.material), gather<F>(s.green, p.material), gather<F>(s.blue, p.material)};
+  if (!s.needs.textures) return colour;
+  return textured(s, colour, gather_int<F>(s.texture_of, p.material), lanes, p.point, &p);
+}
+
+/// A material of kind M with its fields gathered.
+template <class M, class F>
+TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
+  M m{};
+  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+    [[maybe_unused]] constexpr auto list = fields(static_cast<const M*>(nullptr));
+    (([&]() __attribute__((always_inline)) {
+       constexpr auto member = std::get<i>(list).value;
+       m.*member = gather<F>(s.parameter[i], material);
+     }()), ...);
+  }(std::make_index_sequence<std::tuple_size_v<decltype(fields(static_cast<const M*>(nullptr)))>>{});
+  return m;
+}
+
+/// Index of a kind in the list of materials.
+template <class M, std::size_t i = 0>
+constexpr std::int32_t kind_of() {
+  if constexpr (std::is_same_v<std::variant_alternative_t<i, MaterialKinds<double>>, M>)
+    return static_cast<std::int32_t>(i);
+  else
+    return kind_of<M, i + 1>();
+}
+
+/// Scattering by whatever material each lane is at; lights absorb.
+template <class F>
+TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                        const Incident<F>& in) {
+  const MaskOf<F> none = less(F(1.0f), F(0.0f));
+  Scattered<F> out{in.facing, none, none};
+  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+    (([&]() __attribute__((always_inline)) {
+       using M = std::variant_alternative_t<i, MaterialKinds<F>>;
+       const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(i))));
+       if (!any(here)) return;
+       const Scattered<F> one = scatter(load_material<M, F>(s, material), in);
+       out.direction = select(here, one.direction, out.direction);
+       out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
+       out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
+     }()), ...);
+  }(std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
+  return out;
+}
+
+}  // namespace tyndall
