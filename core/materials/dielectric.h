@@ -18,7 +18,7 @@ struct Dielectric {
 template <class F>
 constexpr auto fields(const Dielectric<F>*) {
   return std::tuple{Field{"refractive_index", &Dielectric<F>::refractive_index, above(0), Slider{0.5, 3}, "",
-                          "inside over outside; below 1 for a bubble"}};
+                          "inside over outside; below 1 for a bubble", true}};
 }
 
 /// Snell's law at one boundary: n·cos of the refracted direction (n = eta), or 0 at total reflection.

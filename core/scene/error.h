@@ -4,10 +4,13 @@
 
 namespace tyndall {
 
-/// A scene that cannot be rendered: the user's fault. what(): "FILE: /json/pointer: found X, expected Y", one line.
+/// A scene that cannot be rendered: the user's fault. what() is one line without control characters; long parts are
+/// cut.
 struct SceneError : std::runtime_error {
-  SceneError(const std::string& file, const std::string& where, const std::string& found, const std::string& expected)
-      : runtime_error(file + ": " + where + ": found " + found + ", expected " + expected) {}
+  /// "FILE: WHERE: found FOUND, expected EXPECTED"; where: a JSON pointer, "line 3, column 5" or a flag.
+  SceneError(const std::string& file, const std::string& where, const std::string& found, const std::string& expected);
+  /// "FILE: found FOUND, expected EXPECTED": about the file as a whole.
+  SceneError(const std::string& file, const std::string& found, const std::string& expected);
 };
 
 /// Something outside of the program failed: a file, a device. One line.

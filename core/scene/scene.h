@@ -45,6 +45,14 @@ struct Translate {
   Vec3d offset;
   bool operator==(const Translate&) const = default;
 };
+inline constexpr auto fields(const RotateY*) {
+  return std::tuple{
+      Field{"rotate_y", &RotateY::degrees, any_number(), Slider{-180, 180}, "°", "turn about the y axis", true}};
+}
+inline constexpr auto fields(const Translate*) {
+  return std::tuple{Field{"translate", &Translate::offset, any_number(), Slider{-10, 10}, "",
+                          "shift along x, y, z, scene units", true}};
+}
 /// Applied in the order of the list.
 using Transform = std::vector<std::variant<RotateY, Translate>>;
 
@@ -102,13 +110,23 @@ inline constexpr auto fields(const Camera*) {
 
 /// What a ray that escapes sees.
 struct Gradient {
+  static constexpr const char* type = "gradient";
   Vec3d bottom{1, 1, 1}, top{0.5, 0.7, 1.0};
   bool operator==(const Gradient&) const = default;
 };
+inline constexpr auto fields(const Gradient*) {
+  return std::tuple{Field{"bottom", &Gradient::bottom, at_least(0), Slider{0, 2}, "", "radiance straight below", true},
+                    Field{"top", &Gradient::top, at_least(0), Slider{0, 2}, "", "radiance straight above", true}};
+}
 struct Hemispheres {
+  static constexpr const char* type = "hemispheres";
   Vec3d up{1, 1, 1}, down{0, 0, 0};
   bool operator==(const Hemispheres&) const = default;
 };
+inline constexpr auto fields(const Hemispheres*) {
+  return std::tuple{Field{"up", &Hemispheres::up, at_least(0), Slider{0, 2}, "", "radiance where y > 0", true},
+                    Field{"down", &Hemispheres::down, at_least(0), Slider{0, 2}, "", "radiance where y <= 0", true}};
+}
 using Background = std::variant<Vec3d, Gradient, Hemispheres>;
 
 enum class Integrator { path, nee, mis };
@@ -126,12 +144,25 @@ struct RenderSettings {
   bool operator==(const RenderSettings&) const = default;
 };
 
+inline constexpr auto fields(const RenderSettings*) {
+  return std::tuple{
+      Field{"max_depth", &RenderSettings::max_depth, at_least(0), Slider{0, 200}, "",
+            "longest path, in scattering events"},
+      Field{"spp", &RenderSettings::spp, at_least(1), Slider{1, 4096, true}, "", "samples per pixel"},
+      Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"}};
+}
+
 /// How linear light becomes a picture; never part of rendering.
 struct Display {
   double exposure = 0;  ///< stops: the picture is multiplied by 2^exposure
   ToneMap tone_map = ToneMap::srgb;
   bool operator==(const Display&) const = default;
 };
+
+inline constexpr auto fields(const Display*) {
+  return std::tuple{Field{"exposure", &Display::exposure, any_number(), Slider{-10, 10}, "",
+                          "stops (EV): radiance is multiplied by 2 to this power"}};
+}
 
 struct Scene {
   std::string name;
@@ -145,5 +176,12 @@ struct Scene {
   std::vector<Object> objects;
   bool operator==(const Scene&) const = default;
 };
+
+/// The picture's size: the keys of "image".
+inline constexpr auto image_fields() {
+  return std::tuple{
+      Field{"width", &Scene::width, between(1, 65536), Slider{16, 4096, true}, "", "pixels in a row", true},
+      Field{"height", &Scene::height, between(1, 65536), Slider{16, 4096, true}, "", "rows of pixels", true}};
+}
 
 }  // namespace tyndall

@@ -1,0 +1,202 @@
+#include "core/scene/check.h"
+
+#include "core/scene/place.h"
+#include "core/scene/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace tyndall {
+namespace {
+
+void check_value(const Place& at, const Meaning& meaning, double value) {
+  const Valid& valid = meaning.valid;
+  const bool good = std::isfinite(value) && valid.contains(value);
+  // Kernels compute in single precision: there, too, the value must be finite and valid.
+  const float single = static_cast<float>(value);
+  if (good && std::isfinite(single) && valid.contains(static_cast<double>(single))) return;
+  fail(at, number_text(value), expected_text(meaning, Form::number) + (good ? ", also in single precision" : ""));
+}
+void check_value(const Place& at, const Meaning& meaning, int value) {
+  if (!meaning.valid.contains(value)) fail(at, std::to_string(value), expected_text(meaning, Form::whole));
+}
+void check_value(const Place&, const Meaning&, std::uint32_t) {}  // all of them are valid seeds
+void check_value(const Place& at, const Meaning& meaning, const Vec3d& value) {
+  const double components[3] = {value.x, value.y, value.z};
+  for (std::size_t i = 0; i < 3; ++i) check_value({at, i}, meaning, components[i]);
+}
+template <class T>
+void check_value(const Place& at, const Meaning& meaning, const std::optional<T>& value) {
+  if (value) check_value(at, meaning, *value);
+}
+
+template <class Fields, class Owner>
+void check_fields(const Place& at, const Fields& list, const Owner& owner) {
+  std::apply(
+      [&](const auto&... field) {
+        (check_value({at, field.name}, meaning(field), owner.*field.value), ...);
+      },
+      list);
+}
+template <class Owner>
+void check_fields(const Place& at, const Owner& owner) {
+  check_fields(at, fields(static_cast<const Owner*>(nullptr)), owner);
+}
+
+/// The vector divided by its largest component, so that squares neither overflow nor vanish.
+Vec3d scaled(Vec3d v) {
+  const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return size > 0 ? Vec3d{v.x / size, v.y / size, v.z / size} : v;
+}
+
+/// True where a and b span no area, or next to none: the sine of their angle is at most 1e-6.
+bool parallel(Vec3d a, Vec3d b) {
+  a = scaled(a);
+  b = scaled(b);
+  const Vec3d across = cross(a, b);
+  return dot(across, across) <= 1e-12 * dot(a, a) * dot(b, b);
+}
+
+void check_camera(const Place& at, const Camera& camera) {
+  check_fields(at, camera);
+  if (camera.look_from == camera.look_at)
+    fail({at, "look_at"}, "the same point as look_from", "another point than look_from");
+  if (parallel(camera.vup, camera.look_at - camera.look_from))
+    fail({at, "vup"}, camera.vup == Vec3d{} ? "no direction" : "the direction of the view",
+         "a direction that is not parallel to the view");
+  const Place shutter{at, "shutter"};
+  check_value({shutter, std::size_t{0}}, {any_number(), "", "time"}, camera.shutter_open);
+  check_value({shutter, std::size_t{1}}, {any_number(), "", "time"}, camera.shutter_close);
+  if (camera.shutter_open > camera.shutter_close)
+    fail(shutter,
+         "a shutter that closes (" + number_text(camera.shutter_close) + ") before it opens (" +
+             number_text(camera.shutter_open) + ")",
+         "two times, the first not after the second");
+}
+
+void check_background(const Place& at, const Background& background) {
+  if (const auto* radiance = std::get_if<Vec3d>(&background)) check_value(at, colour_meaning("radiance"), *radiance);
+  if (const auto* sky = std::get_if<Gradient>(&background)) check_fields(at, *sky);
+  if (const auto* sky = std::get_if<Hemispheres>(&background)) check_fields(at, *sky);
+}
+
+void check_colour(const Place& at, const Meaning& meaning, const ColourOrTexture& colour, const Scene& scene) {
+  const auto* texture = std::get_if<TextureIndex>(&colour);
+  if (!texture) return check_value(at, meaning, std::get<Vec3d>(colour));
+  if (texture->index < 0 || static_cast<std::size_t>(texture->index) >= scene.textures.size())
+    fail(at, "texture number " + std::to_string(texture->index), "a texture of the scene");
+}
+
+void check_texture(const Place& at, const Texture& texture) {
+  std::visit(
+      [&]<class T>(const T& kind) {
+        if constexpr (!std::is_same_v<T, Image>) {
+          check_fields(at, kind);
+        } else if (!kind.pixels || kind.pixels->width < 1 || kind.pixels->height < 1) {
+          fail({at, "file"}, "no picture", "an image of at least one pixel");
+        }
+      },
+      texture.kind);
+}
+
+void check_material(const Place& at, const Material& material, const Scene& scene) {
+  std::visit(
+      [&]<class T>(const T& kind) {
+        if constexpr (T::colour_name != nullptr)
+          check_colour({at, T::colour_name}, colour_meaning(T::colour_name), material.colour, scene);
+        check_fields(at, kind);
+      },
+      material.kind);
+}
+
+template <class T>
+void check_names(const Place& at, const std::vector<T>& things) {
+  std::unordered_set<std::string_view> names;
+  for (const T& thing : things)
+    if (!names.insert(thing.name).second) fail({at, thing.name}, "this name twice", "each name once");
+}
+
+void check_shape(const Place& at, const Sphere<>& sphere) { check_fields(at, sphere); }
+void check_shape(const Place& at, const Quad<>& quad) {
+  check_fields(at, quad);
+  if (parallel(quad.u, quad.v))
+    fail(at, quad.u == Vec3d{} || quad.v == Vec3d{} ? "a quad with an edge of length 0" : "a quad with parallel edges",
+         "edges u and v that span an area");
+}
+void check_shape(const Place& at, const Box<>& box) {
+  check_fields(at, box);
+  const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
+  const Place max{at, "max"};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(low[i] < high[i]))
+      fail({max, i}, number_text(high[i]), "a number > " + number_text(low[i]) + " (min on this axis)");
+}
+
+void check_transform(const Place& at, const Transform& transform) {
+  const Place here{at, "transform"};
+  for (std::size_t i = 0; i < transform.size(); ++i)
+    std::visit([&](const auto& move) { check_fields({here, i}, move); }, transform[i]);
+}
+
+void check_solid(const Place& at, const Solid3d& solid, const Scene& scene) {
+  std::visit([&](const auto& shape) { check_shape(at, shape); }, solid.shape);
+  if (solid.material < 0 || static_cast<std::size_t>(solid.material) >= scene.materials.size())
+    fail({at, "material"}, "material number " + std::to_string(solid.material), "a material of the scene");
+}
+
+void check_volume(const Place& at, const Volume& volume, const Scene& scene) {
+  const Place boundary{at, "boundary"};
+  std::visit([&](const auto& shape) { check_shape(boundary, shape); }, volume.boundary);
+  if (const auto* sphere = std::get_if<Sphere<>>(&volume.boundary)) {
+    if (sphere->radius < 0)
+      fail({boundary, "radius"}, number_text(sphere->radius), "a number > 0 (a boundary has no inward side)");
+    if (sphere->center_end) fail({boundary, "center_end"}, "a boundary that moves", "a boundary at rest");
+  }
+  check_transform(boundary, volume.boundary_transform);
+  check_fields(at, volume.medium);
+  const Place albedo{at, "albedo"};
+  check_colour(albedo, colour_meaning("albedo"), volume.albedo, scene);
+  const auto* texture = std::get_if<TextureIndex>(&volume.albedo);
+  if (texture && std::holds_alternative<Image>(scene.textures[static_cast<std::size_t>(texture->index)].kind))
+    fail(albedo, "an image texture", "a colour or a texture without uv: a medium has no surface to lay an image on");
+}
+
+void check_objects(const Place& at, const std::vector<Object>& objects, const Scene& scene) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Place here{at, i};
+    const Object& object = objects[i];
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) check_solid(here, *solid, scene);
+    if (const auto* volume = std::get_if<Volume>(&object.kind)) check_volume(here, *volume, scene);
+    if (const auto* group = std::get_if<Group>(&object.kind)) check_objects({here, "objects"}, group->objects, scene);
+    check_transform(here, object.transform);
+  }
+}
+
+void check_all(const Scene& scene) {
+  const Place at;
+  check_fields({at, "image"}, image_fields(), scene);
+  check_camera({at, "camera"}, scene.camera);
+  check_background({at, "background"}, scene.background);
+  check_fields({at, "render"}, scene.render);
+  check_fields({at, "display"}, scene.display);
+  const Place textures{at, "textures"}, materials{at, "materials"};
+  check_names(textures, scene.textures);
+  check_names(materials, scene.materials);
+  for (const Texture& texture : scene.textures) check_texture({textures, texture.name}, texture);
+  for (const Material& material : scene.materials) check_material({materials, material.name}, material, scene);
+  check_objects({at, "objects"}, scene.objects, scene);
+}
+
+}  // namespace
+
+std::optional<Broken> check(const Scene& scene) {
+  try {
+    check_all(scene);
+  } catch (Broken& broken) {
+    return std::move(broken);
+  }
+  return std::nullopt;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,154 @@
+#include "core/scene/json_tree.h"
+#include "core/scene/place.h"
+#include "core/scene/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+namespace tyndall {
+namespace {
+
+constexpr std::size_t max_values = std::size_t(1)
+                                   << 25;  // more than 256 MiB of real scene hold; about 1.5 GB as a tree
+
+/// "line 3, column 5" of a byte offset.
+std::string line_and_column(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
+  const auto column = std::count_if(before.begin() + static_cast<std::ptrdiff_t>(begin), before.end(),
+                                    [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+  return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::ptrdiff_t>(column, 1));
+}
+
+/// Receives the parser's events, builds the tree and refuses what the format refuses, before it is built.
+class TreeBuilder {
+ public:
+  using Json = nlohmann::json;
+
+  explicit TreeBuilder(std::string_view text) : text_(text) {}
+
+  JsonValue root;
+  std::optional<Broken> broken;
+
+  bool null() { return put(nullptr); }
+  bool boolean(bool value) { return put(value); }
+  bool number_integer(Json::number_integer_t value) { return put(static_cast<double>(value)); }
+  bool number_unsigned(Json::number_unsigned_t value) { return put(static_cast<double>(value)); }
+  bool number_float(double value, const std::string&) { return put(value); }
+  bool string(std::string& value) { return put(std::move(value)); }
+  bool binary(Json::binary_t&) { return false; }  // not in text
+  bool start_object(std::size_t) { return open(JsonObject()); }
+  bool start_array(std::size_t) { return open(JsonArray()); }
+  bool end_array() { return close(); }
+
+  bool key(std::string& value) {
+    std::get<JsonObject>(open_.back()->value).push_back({std::move(value), {}});
+    return true;
+  }
+
+  bool end_object() {
+    const auto& object = std::get<JsonObject>(open_.back()->value);
+    std::vector<std::string_view> keys;
+    keys.reserve(object.size());
+    for (const JsonMember& member : object) keys.push_back(member.key);
+    std::sort(keys.begin(), keys.end());
+    const auto twice = std::adjacent_find(keys.begin(), keys.end());
+    if (twice == keys.end()) return close();
+    const std::string holder = where(open_.size() - 1);
+    return refuse({holder + "/" + pointer_step(*twice), "this key twice", "each key once"});
+  }
+
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) {
+    if (error.id == 406) return refuse({where(open_.size()), token, "a number within the range of a double"});
+    const std::string what = error.what();
+    // "[json.exception...] parse error at ...: syntax error while ... - unexpected X; expected Y" or "- reason; last
+    // read: X"
+    const std::size_t dash = what.find(" - "), semicolon = what.rfind("; ");
+    std::string found =
+        dash == what.npos ? what : what.substr(dash + 3, semicolon < dash ? what.npos : semicolon - dash - 3);
+    std::string expected = "JSON";
+    if (constexpr std::string_view tag = "; expected ";
+        semicolon != what.npos && what.compare(semicolon, tag.size(), tag) == 0)
+      expected = what.substr(semicolon + tag.size());
+    if (constexpr std::string_view tag = "unexpected "; found.starts_with(tag)) found.erase(0, tag.size());
+    if (expected == "JSON") found += " at " + in_quotes(shortened(token, 40));
+    return refuse({line_and_column(text_, position), found, expected});
+  }
+
+ private:
+  std::string_view text_;
+  std::vector<JsonValue*> open_;  ///< containers around the next value; each is the last of the one before
+  std::size_t values_ = 0;
+
+  bool refuse(Broken why) {
+    broken = std::move(why);
+    return false;
+  }
+
+  /// Where the next value goes.
+  JsonValue& slot() {
+    if (open_.empty()) return root;
+    if (auto* array = std::get_if<JsonArray>(&open_.back()->value)) return array->emplace_back();
+    return std::get<JsonObject>(open_.back()->value).back().value;
+  }
+
+  template <class T>
+  bool put(T value) {
+    if (++values_ > max_values)
+      return refuse({"/", "more than " + std::to_string(max_values) + " values", "a smaller scene"});
+    slot().value = std::move(value);
+    return true;
+  }
+
+  template <class T>
+  bool open(T container) {
+    if (open_.size() >= max_nesting)
+      return refuse({where(3) + "/…", "brackets nested more than " + std::to_string(max_nesting) + " deep",
+                     "at most " + std::to_string(max_nesting) + " levels"});
+    JsonValue& at = slot();
+    at.value = std::move(container);
+    open_.push_back(&at);
+    return ++values_ <= max_values ||
+           refuse({"/", "more than " + std::to_string(max_values) + " values", "a smaller scene"});
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  /// Pointer of the value that is being read in the first `levels` open containers.
+  std::string where(std::size_t levels) const {
+    std::string out;
+    for (std::size_t i = 0; i < std::min(levels, open_.size()); ++i) {
+      const JsonValue& holder = *open_[i];
+      if (const auto* array = std::get_if<JsonArray>(&holder.value)) {
+        const bool innermost = i + 1 == open_.size();  // its next element is not there yet
+        out += "/" + std::to_string(innermost ? array->size() : array->size() - 1);
+      } else {
+        out += "/" + pointer_step(std::get<JsonObject>(holder.value).back().key);
+      }
+    }
+    return out;
+  }
+};
+
+bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }
+
+}  // namespace
+
+JsonValue parse_json(std::string_view text) {
+  if (text.size() > max_scene_bytes) throw Broken{"/", "more than 256 MiB of text", "a scene of at most 256 MiB"};
+  if (is_blank(text)) throw Broken{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
+  TreeBuilder builder(text);
+  if (!TreeBuilder::Json::sax_parse(text.begin(), text.end(), &builder, TreeBuilder::Json::input_format_t::json, true,
+                                    true))
+    throw builder.broken.value_or(Broken{"/", "text that is not JSON", "JSON"});
+  return std::move(builder.root);
+}
+
+}  // namespace tyndall

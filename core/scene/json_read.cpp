@@ -1,0 +1,218 @@
+#include "core/scene/json_read.h"
+
+#include "core/film/image_io.h"
+
+#include <map>
+#include <system_error>
+
+namespace tyndall {
+namespace {
+
+constexpr int format_version = 1;
+
+void read_version(const JsonObject& root, const Place& at) {
+  const JsonValue* json = find(root, "tyndall");
+  if (!json) fail(at, "no \"tyndall\"", "\"tyndall\": 1 (the version of the scene format)");
+  const auto* version = std::get_if<double>(&json->value);
+  if (!version || *version != format_version)
+    fail({at, "tyndall"}, describe(*json), "1 (the version of the scene format that this program reads)");
+}
+
+void read_shutter(const JsonObject& object, const Place& at, Camera& camera) {
+  const JsonValue* json = find(object, "shutter");
+  if (!json) return;
+  const Place here{at, "shutter"};
+  const char* expected = "an array of 2 numbers (times at which the shutter opens and closes)";
+  const JsonArray& array = array_at(*json, here, expected);
+  if (array.size() != 2) fail(here, describe(*json), expected);
+  const Meaning time{any_number(), "", "time; things that move do so from 0 to 1"};
+  read_value(array[0], {here, std::size_t{0}}, time, camera.shutter_open);
+  read_value(array[1], {here, std::size_t{1}}, time, camera.shutter_close);
+}
+
+void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
+  const JsonObject& object = object_at(json, at, "an object with the camera's values");
+  allow_keys(object, at, keys_of(fields_of<Camera>(), {"shutter"}));
+  read_fields(object, at, fields_of<Camera>(), camera);
+  read_shutter(object, at, camera);
+}
+
+void read_background(const JsonValue& json, const Place& at, Background& background) {
+  if (const auto* object = std::get_if<JsonObject>(&json.value)) {
+    std::variant<Gradient, Hemispheres> kind;
+    const auto types = type_names<decltype(kind)>();
+    const std::string_view type = type_at(*object, at, types);
+    const bool known = read_kind(type, kind, [&](auto& sky) {
+      const auto list = fields_of<std::decay_t<decltype(sky)>>();
+      allow_keys(*object, at, keys_of(list, {"type"}));
+      read_fields(*object, at, list, sky);
+    });
+    if (!known) fail_type(at, type, types);
+    std::visit([&](const auto& sky) { background = sky; }, kind);
+  } else if (std::holds_alternative<JsonArray>(json.value)) {
+    read_value(json, at, colour_meaning("radiance"), background.emplace<Vec3d>());
+  } else {
+    fail(at, describe(json),
+         "an array of 3 numbers (radiance, linear RGB) or an object of type \"gradient\" or \"hemispheres\"");
+  }
+}
+
+void read_render(const JsonValue& json, const Place& at, RenderSettings& render) {
+  const JsonObject& object = object_at(json, at, "an object with the render settings");
+  allow_keys(object, at, keys_of(fields_of<RenderSettings>(), {"integrator", "sampler", "fresnel"}));
+  read_fields(object, at, fields_of<RenderSettings>(), render);
+  read_name(object, at, "integrator", integrators, render.integrator);
+  read_name(object, at, "sampler", samplers, render.sampler);
+  read_name(object, at, "fresnel", fresnel_rules, render.fresnel);
+}
+
+void read_display(const JsonValue& json, const Place& at, Display& display) {
+  const JsonObject& object = object_at(json, at, "an object with the display settings");
+  allow_keys(object, at, keys_of(fields_of<Display>(), {"tone_map"}));
+  read_fields(object, at, fields_of<Display>(), display);
+  read_name(object, at, "tone_map", tone_maps, display.tone_map);
+}
+
+void read_size(const JsonValue& json, const Place& at, Scene& scene) {
+  const JsonObject& object = object_at(json, at, "an object with \"width\" and \"height\"");
+  allow_keys(object, at, keys_of(image_fields()));
+  read_fields(object, at, image_fields(), scene);
+}
+
+/// Loads each picture once, however many textures use it.
+class PictureShelf {
+ public:
+  explicit PictureShelf(const std::filesystem::path& folder) : folder_(folder) {}
+
+  std::shared_ptr<const Image::Pixels> get(const std::string& file, const Place& at) {
+    const std::filesystem::path path = folder_ / file;
+    auto& pixels = shelf_[path];
+    if (pixels) return pixels;
+    std::error_code error;
+    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(path, error);
+    if (!exists) fail(at, "no file " + in_quotes(path.string()), "an image, relative to the scene file");
+    if (!std::filesystem::is_regular_file(path, error))
+      fail(at, in_quotes(path.string()) + ", which is no file", "an image");
+    try {
+      Rgb8Image image = read_rgb8(path);
+      pixels = std::make_shared<const Image::Pixels>(Image::Pixels{image.width, image.height, std::move(image.rgb)});
+    } catch (const ImageFileError& why) {
+      fail(at, "a file that cannot be read (" + std::string(why.what()) + ")", "an 8-bit image, such as PNG or JPEG");
+    }
+    return pixels;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, std::shared_ptr<const Image::Pixels>> shelf_;
+};
+
+void read_image(const JsonObject& object, const Place& at, PictureShelf& shelf, Image& image) {
+  allow_keys(object, at, {"type", "file"});
+  const std::string expected = "the path of an image, relative to the scene file";
+  const JsonValue* json = find(object, "file");
+  if (!json) fail(at, "no \"file\"", expected);
+  image.file = string_at(*json, {at, "file"}, expected);
+  if (image.file.empty()) fail({at, "file"}, "\"\"", expected);
+  image.pixels = shelf.get(image.file, {at, "file"});
+}
+
+void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, Texture& texture) {
+  const JsonObject& object = object_at(json, at, "an object that describes a texture");
+  const auto types = type_names<TextureKinds<double>>();
+  const std::string_view type = type_at(object, at, types);
+  const bool known = read_kind(type, texture.kind, [&]<class T>(T& kind) {
+    if constexpr (std::is_same_v<T, Image>) {
+      read_image(object, at, shelf, kind);
+    } else {
+      constexpr bool is_noise = std::is_same_v<T, Noise<>>;
+      auto keys = keys_of(fields_of<T>(), {"type"});
+      if (is_noise) keys.emplace_back("style");
+      allow_keys(object, at, keys);
+      read_fields(object, at, fields_of<T>(), kind);
+      if constexpr (is_noise) read_name(object, at, "style", noise_styles, kind.style);
+    }
+  });
+  if (!known) fail_type(at, type, types);
+}
+
+void read_material(const JsonValue& json, const Place& at, const NameTable& textures, Material& material) {
+  const JsonObject& object = object_at(json, at, "an object that describes a material");
+  const auto types = type_names<MaterialKinds<double>>();
+  const std::string_view type = type_at(object, at, types);
+  const bool known = read_kind(type, material.kind, [&]<class T>(T& kind) {
+    auto keys = keys_of(fields_of<T>(), {"type"});
+    if constexpr (T::colour_name != nullptr) keys.emplace_back(T::colour_name);
+    allow_keys(object, at, keys);
+    if constexpr (T::colour_name != nullptr) material.colour = read_colour(object, at, T::colour_name, textures);
+    read_fields(object, at, fields_of<T>(), kind);
+  });
+  if (!known) fail_type(at, type, types);
+}
+
+/// Reads each member of an object of named things into `out` with `read(json, place, thing)`; returns their indices.
+template <class T, class Read>
+NameTable read_named(const JsonObject& root, const Place& at, const char* key, const char* expected,
+                     std::vector<T>& out, const Read& read) {
+  NameTable table;
+  const JsonValue* json = find(root, key);
+  if (!json) return table;
+  const Place here{at, key};
+  const JsonObject& object = object_at(*json, here, expected);
+  out.reserve(object.size());
+  for (const JsonMember& member : object) {
+    table.emplace(member.key, static_cast<int>(out.size()));
+    out.emplace_back().name = member.key;
+    read(member.value, Place{here, member.key}, out.back());
+  }
+  return table;
+}
+
+Scene scene_from(const JsonValue& json, const std::filesystem::path& folder) {
+  const Place at;
+  const JsonObject& root = object_at(json, at, "a scene: { \"tyndall\": 1, … }");
+  read_version(root, at);
+  allow_keys(
+      root, at,
+      {"tyndall", "name", "image", "camera", "background", "render", "display", "textures", "materials", "objects"});
+  Scene scene;
+  const auto section = [&](const char* key, const auto& read, auto& out) {
+    if (const JsonValue* value = find(root, key)) read(*value, Place{at, key}, out);
+  };
+  if (const JsonValue* name = find(root, "name"))
+    scene.name = string_at(*name, {at, "name"}, "a text (the scene's name)");
+  section("image", read_size, scene);
+  section("camera", read_camera, scene.camera);
+  section("background", read_background, scene.background);
+  section("render", read_render, scene.render);
+  section("display", read_display, scene.display);
+  References references;
+  PictureShelf shelf(folder);
+  references.textures = read_named(
+      root, at, "textures", "an object of textures by name", scene.textures,
+      [&](const auto& value, const Place& here, Texture& texture) { read_texture(value, here, shelf, texture); });
+  references.materials = read_named(root, at, "materials", "an object of materials by name", scene.materials,
+                                    [&](const auto& value, const Place& here, Material& material) {
+                                      read_material(value, here, references.textures, material);
+                                    });
+  if (const JsonValue* objects = find(root, "objects"))
+    scene.objects = read_objects(*objects, {at, "objects"}, references);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                 const std::vector<Override>& overrides) {
+  try {
+    JsonValue root = parse_json(text);
+    for (const Override& one : overrides) apply_override(root, one);
+    Scene scene = scene_from(root, folder);
+    if (const auto broken = check(scene)) throw *broken;
+    return scene;
+  } catch (const Broken& broken) {
+    throw SceneError(name, broken.where, broken.found, broken.expected);
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,26 @@
+#pragma once
+#include "core/scene/json_values.h"
+
+#include <string_view>
+#include <unordered_map>
+
+/// The parts of reading a scene that need what was read before them. All throw Broken.
+namespace tyndall {
+
+/// Index of each texture or material by its name. The names must outlive it.
+using NameTable = std::unordered_map<std::string_view, int>;
+
+struct References {
+  NameTable textures, materials;
+};
+
+/// The thing that a value names. kind: "material", "texture".
+int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind);
+
+/// The colour under colour_name ("albedo" or "radiance"), which must be there: three numbers or a texture's name.
+ColourOrTexture read_colour(const JsonObject& object, const Place& at, const char* colour_name,
+                            const NameTable& textures);
+
+std::vector<Object> read_objects(const JsonValue& json, const Place& at, const References& references);
+
+}  // namespace tyndall

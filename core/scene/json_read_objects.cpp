@@ -1,0 +1,144 @@
+#include "core/scene/json_read.h"
+
+namespace tyndall {
+namespace {
+
+std::vector<std::string_view> names_in(const NameTable& table) {
+  std::vector<std::string_view> names;
+  names.reserve(table.size());
+  for (const auto& entry : table) names.push_back(entry.first);
+  return names;
+}
+
+Transform read_transform(const JsonObject& object, const Place& at) {
+  Transform transform;
+  const JsonValue* json = find(object, "transform");
+  if (!json) return transform;
+  const Place here{at, "transform"};
+  const char* expected = "{ \"rotate_y\": degrees } or { \"translate\": [x, y, z] }";
+  const JsonArray& steps =
+      array_at(*json, here, "a list of { \"rotate_y\": degrees } and { \"translate\": [x, y, z] }");
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Place step{here, i};
+    const JsonObject& members = object_at(steps[i], step, expected);
+    if (members.size() != 1) fail(step, "an object with " + std::to_string(members.size()) + " keys", expected);
+    const auto read = [&](auto&& move) {
+      const auto list = fields_of<std::decay_t<decltype(move)>>();
+      if (members[0].key != std::get<0>(list).name) return false;
+      read_fields(members, step, list, move);
+      transform.emplace_back(move);
+      return true;
+    };
+    if (!read(RotateY()) && !read(Translate()))
+      fail({step, members[0].key}, "an unknown key",
+           expected + did_you_mean(members[0].key, {"rotate_y", "translate"}));
+  }
+  return transform;
+}
+
+void read_name_of(const JsonObject& object, const Place& at, std::string& name) {
+  if (const JsonValue* json = find(object, "name")) name = string_at(*json, {at, "name"}, "a text (the object's name)");
+}
+
+bool read_solid(const JsonObject& json, const Place& at, std::string_view type, const References& references,
+                Object& object) {
+  Solid3d solid;
+  const bool known = read_kind(type, solid.shape, [&]<class T>(T& shape) {
+    allow_keys(json, at, keys_of(fields_of<T>(), {"name", "type", "material", "transform"}));
+    read_fields(json, at, fields_of<T>(), shape);
+  });
+  if (!known) return false;
+  const JsonValue* material = find(json, "material");
+  if (!material) fail(at, "no \"material\"", "the name of a material");
+  solid.material = read_reference(*material, {at, "material"}, references.materials, "material");
+  object.kind = std::move(solid);
+  return true;
+}
+
+void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
+  const char* expected = "an object that describes a sphere or a box";
+  const JsonValue* json = find(medium, "boundary");
+  if (!json) fail(at, "no \"boundary\"", expected);
+  const Place here{at, "boundary"};
+  const JsonObject& object = object_at(*json, here, expected);
+  if (find(object, "material"))
+    fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
+  const auto types = type_names<decltype(volume.boundary)>();
+  const std::string_view type = type_at(object, here, types);
+  const bool known = read_kind(type, volume.boundary, [&]<class T>(T& shape) {
+    allow_keys(object, here, keys_of(fields_of<T>(), {"type", "transform"}));
+    read_fields(object, here, fields_of<T>(), shape);
+  });
+  if (!known) fail_type(here, type, types);
+  volume.boundary_transform = read_transform(object, here);
+}
+
+Volume read_volume(const JsonObject& json, const Place& at, const References& references) {
+  allow_keys(json, at, keys_of(fields_of<Medium<>>(), {"name", "type", "boundary", "albedo", "transform"}));
+  Volume volume;
+  read_boundary(json, at, volume);
+  read_fields(json, at, fields_of<Medium<>>(), volume.medium);
+  volume.albedo = read_colour(json, at, "albedo", references.textures);
+  return volume;
+}
+
+Group read_group(const JsonObject& json, const Place& at, const References& references) {
+  allow_keys(json, at, {"name", "type", "transform", "objects"});
+  const JsonValue* objects = find(json, "objects");
+  if (!objects) fail(at, "no \"objects\"", "a list of objects");
+  return {read_objects(*objects, {at, "objects"}, references)};
+}
+
+void read_object(const JsonValue& json, const Place& at, const References& references, Object& object) {
+  const JsonObject& members = object_at(json, at, "an object of the scene: { \"type\": …, … }");
+  auto types = type_names<decltype(Solid3d::shape)>();
+  types.insert(types.end(), {Medium<>::type, "group"});
+  const std::string_view type = type_at(members, at, types);
+  if (type == Medium<>::type) {
+    object.kind = read_volume(members, at, references);
+  } else if (type == "group") {
+    object.kind = read_group(members, at, references);
+  } else if (!read_solid(members, at, type, references, object)) {
+    fail_type(at, type, types);
+  }
+  read_name_of(members, at, object.name);
+  object.transform = read_transform(members, at);
+}
+
+}  // namespace
+
+int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind) {
+  const std::string expected = "the name of a " + kind;
+  const std::string& name = string_at(json, at, expected);
+  const auto entry = table.find(name);
+  if (entry == table.end()) {
+    const std::string hint = table.empty() ? " (the scene has none)" : did_you_mean(name, names_in(table));
+    fail(at, in_quotes(shortened(name, 80)) + ", which is no " + kind + " of this scene", expected + hint);
+  }
+  return entry->second;
+}
+
+ColourOrTexture read_colour(const JsonObject& object, const Place& at, const char* colour_name,
+                            const NameTable& textures) {
+  const Meaning meaning = colour_meaning(colour_name);
+  const std::string expected = expected_text(meaning, Form::vector) + " or the name of a texture";
+  const JsonValue* json = find(object, colour_name);
+  if (!json) fail(at, "no " + in_quotes(colour_name), expected);
+  const Place here{at, colour_name};
+  if (std::holds_alternative<std::string>(json->value))
+    return TextureIndex{read_reference(*json, here, textures, "texture")};
+  const auto* array = std::get_if<JsonArray>(&json->value);
+  if (!array || array->size() != 3) fail(here, describe(*json), expected);
+  Vec3d colour;
+  read_value(*json, here, meaning, colour);
+  return colour;
+}
+
+std::vector<Object> read_objects(const JsonValue& json, const Place& at, const References& references) {
+  const JsonArray& array = array_at(json, at, "a list of objects");
+  std::vector<Object> objects(array.size());
+  for (std::size_t i = 0; i < array.size(); ++i) read_object(array[i], {at, i}, references, objects[i]);
+  return objects;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,102 @@
+#pragma once
+#include "core/scene/json_tree.h"
+#include "core/scene/names.h"
+#include "core/scene/place.h"
+#include "core/scene/text.h"
+
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+/// Typed values out of a JSON tree, driven by fields(). All throw Broken. Ranges are check()'s business.
+namespace tyndall {
+
+/// The members of an object; `expected` is said where it is none.
+const JsonObject& object_at(const JsonValue& json, const Place& at, const char* expected);
+const JsonArray& array_at(const JsonValue& json, const Place& at, const char* expected);
+const std::string& string_at(const JsonValue& json, const Place& at, const std::string& expected);
+
+/// Refuses keys that are not in `known`.
+void allow_keys(const JsonObject& object, const Place& at, const std::vector<std::string_view>& known);
+
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, double& out);
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out);
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::uint32_t& out);
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, Vec3d& out);
+template <class T>
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::optional<T>& out) {
+  read_value(json, at, meaning, out.emplace());
+}
+
+inline constexpr Form form_of(const double*) { return Form::number; }
+inline constexpr Form form_of(const int*) { return Form::whole; }
+inline constexpr Form form_of(const std::uint32_t*) { return Form::whole; }
+inline constexpr Form form_of(const Vec3d*) { return Form::vector; }
+template <class T>
+constexpr Form form_of(const std::optional<T>*) {
+  return form_of(static_cast<const T*>(nullptr));
+}
+
+/// One field of `out`, if it is there; required fields must be.
+template <class Owner, class T>
+void read_field(const JsonObject& object, const Place& at, const Field<Owner, T>& field, Owner& out) {
+  if (const JsonValue* json = find(object, field.name)) {
+    read_value(*json, {at, field.name}, meaning(field), out.*field.value);
+  } else if (field.required) {
+    fail(at, "no " + in_quotes(field.name), expected_text(meaning(field), form_of(static_cast<const T*>(nullptr))));
+  }
+}
+
+template <class Fields, class Owner>
+void read_fields(const JsonObject& object, const Place& at, const Fields& list, Owner& out) {
+  std::apply([&](const auto&... field) { (read_field(object, at, field, out), ...); }, list);
+}
+
+/// The keys of a list of fields, and `more`.
+template <class Fields>
+std::vector<std::string_view> keys_of(const Fields& list, std::initializer_list<std::string_view> more = {}) {
+  std::vector<std::string_view> keys(more);
+  std::apply([&](const auto&... field) { (keys.emplace_back(field.name), ...); }, list);
+  return keys;
+}
+
+template <class T>
+constexpr auto fields_of() {
+  return fields(static_cast<const T*>(nullptr));
+}
+
+/// The "type" of an object; `types` are said where it is missing.
+std::string_view type_at(const JsonObject& object, const Place& at, const std::vector<std::string_view>& types);
+[[noreturn]] void fail_type(const Place& at, std::string_view found, const std::vector<std::string_view>& types);
+
+template <class... Kinds>
+std::vector<std::string_view> type_names(const std::variant<Kinds...>*) {
+  return {Kinds::type...};
+}
+template <class Variant>
+std::vector<std::string_view> type_names() {
+  return type_names(static_cast<const Variant*>(nullptr));
+}
+
+/// Makes `out` the kind of that type name and hands it to `read`; false if there is none.
+template <class... Kinds, class Read>
+bool read_kind(std::string_view type, std::variant<Kinds...>& out, const Read& read) {
+  return ((type == Kinds::type && (read(out.template emplace<Kinds>()), true)) || ...);
+}
+
+/// One of the names of a table, if the key is there.
+template <class E, std::size_t n>
+void read_name(const JsonObject& object, const Place& at, const char* key, const Named<E> (&table)[n], E& out) {
+  const JsonValue* json = find(object, key);
+  if (!json) return;
+  const Place here{at, key};
+  const std::vector<std::string_view> names = available_names(table);
+  const std::string& name = string_at(*json, here, one_of(names));
+  const Named<E>* entry = find_name(table, name);
+  if (!entry) fail(here, describe(*json), one_of(names) + did_you_mean(name, names));
+  if (entry->missing) fail(here, in_quotes(name), one_of(names) + " (" + entry->missing + ")");
+  out = entry->value;
+}
+
+}  // namespace tyndall

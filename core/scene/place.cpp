@@ -1,0 +1,74 @@
+#include "core/scene/place.h"
+
+#include "core/scene/text.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace tyndall {
+namespace {
+
+std::string range_text(const Valid& valid) {
+  const bool low = std::isfinite(valid.low), high = std::isfinite(valid.high);
+  std::string text;
+  if (low && high && !valid.low_open && !valid.high_open) {
+    text = " in [" + number_text(valid.low) + ", " + number_text(valid.high) + "]";
+  } else {
+    if (low) text += (valid.low_open ? " > " : " >= ") + number_text(valid.low);
+    if (low && high) text += " and";
+    if (high) text += (valid.high_open ? " < " : " <= ") + number_text(valid.high);
+  }
+  if (valid.nonzero) text += " other than 0";
+  return text;
+}
+
+}  // namespace
+
+std::string pointer_step(std::string_view key) {
+  std::string out;
+  for (const char c : key) {
+    if (c == '~') {
+      out += "~0";
+    } else if (c == '/') {
+      out += "~1";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string pointer(const Place& place) {
+  if (!place.parent) return "/";
+  std::vector<const Place*> steps;
+  for (const Place* p = &place; p->parent; p = p->parent) steps.push_back(p);
+  std::string out;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    const Place& p = **step;
+    out += '/';
+    out += p.key.data() ? pointer_step(p.key) : std::to_string(p.index);
+  }
+  return out;
+}
+
+void fail(const Place& place, std::string found, std::string expected) {
+  throw Broken{pointer(place), std::move(found), std::move(expected)};
+}
+
+Meaning colour_meaning(std::string_view colour_name) {
+  if (colour_name == "radiance") return {at_least(0), "", "radiance, linear RGB"};
+  return {between(0, 1), "", "share of the light that goes on, linear RGB"};
+}
+
+std::string expected_text(const Meaning& meaning, Form form) {
+  const char* kind = form == Form::number  ? "a number"
+                     : form == Form::whole ? "a whole number"
+                                           : "an array of 3 numbers";
+  std::string text = kind + range_text(meaning.valid);
+  const std::string help = meaning.help, unit = meaning.unit;
+  if (help.empty() && unit.empty()) return text;
+  return text + " (" + help + (help.empty() || unit.empty() ? "" : ", in ") + unit + ")";
+}
+
+}  // namespace tyndall

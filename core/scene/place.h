@@ -1,0 +1,49 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/scene/check.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+/// Where a value stands in a scene, and what is said when it is wrong there. Reading and checking share these words.
+namespace tyndall {
+
+/// A place in a scene, as a step from the place that holds it: costs nothing until somebody asks for its pointer.
+struct Place {
+  const Place* parent = nullptr;  ///< must outlive this place; null: the whole scene
+  std::string_view key;
+  std::size_t index = 0;  ///< counts where key is null
+
+  Place() = default;
+  Place(const Place& holder, std::string_view name) : parent(&holder), key(name) {}
+  Place(const Place& holder, std::size_t i) : parent(&holder), key(nullptr, 0), index(i) {}
+};
+
+/// A key as one step of a JSON pointer (RFC 6901): ~ as ~0, / as ~1.
+std::string pointer_step(std::string_view key);
+/// The JSON pointer of a place; "/" for the whole scene.
+std::string pointer(const Place& place);
+
+/// Throws Broken.
+[[noreturn]] void fail(const Place& place, std::string found, std::string expected);
+
+/// What a number, or each number of a vector, means.
+struct Meaning {
+  Valid valid;
+  const char* unit = "";
+  const char* help = "";
+};
+template <class Owner, class T>
+Meaning meaning(const Field<Owner, T>& field) {
+  return {field.valid, field.unit, field.help};
+}
+
+/// What a material's or a medium's colour means. colour_name: its key, "albedo" or "radiance".
+Meaning colour_meaning(std::string_view colour_name);
+
+enum class Form { number, whole, vector };
+/// "a number >= 0 (mean number of events per unit length)".
+std::string expected_text(const Meaning& meaning, Form form);
+
+}  // namespace tyndall

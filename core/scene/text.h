@@ -1,0 +1,31 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Pieces of messages and files.
+namespace tyndall {
+
+/// The text for one line: control characters as \n or \u001b; past `limit` bytes its end is left out ("…").
+std::string printable(std::string_view text, std::size_t limit = 300);
+
+/// The text, or its first `limit` bytes (whole letters) and "…".
+std::string shortened(std::string_view text, std::size_t limit);
+
+/// A JSON string: in quotes, with ", \ and control characters escaped.
+std::string in_quotes(std::string_view text);
+
+/// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" where there is none.
+std::string number_text(double value);
+
+/// The candidate that a misspelt name probably meant (a third of its letters wrong at most); empty: none.
+std::string_view closest(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// ` (did you mean "closest"?)`, or nothing.
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// `one of "a", "b", "c"`, or `"a"` alone.
+std::string one_of(const std::vector<std::string_view>& names);
+
+}  // namespace tyndall
