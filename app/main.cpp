@@ -1,0 +1,42 @@
+#include "app/commands/commands.h"
+#include "app/options.h"
+#include "app/standard_streams.h"
+#include "core/film/merge.h"
+#include "core/scene/error.h"
+#include "core/scene/text.h"
+
+#include <exception>
+#include <new>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace {
+
+constexpr int wrong_usage = 2, input_output_error = 3;
+
+int fail(const std::exception& error, int code) {
+  tyndall::complain(tyndall::printable(error.what(), 2000));
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tyndall::keep_standard_streams();
+  try {
+    const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+    return std::visit([](const auto& command) { return tyndall::run(command); }, tyndall::read_command(arguments));
+  } catch (const tyndall::UsageError& error) {
+    return fail(error, wrong_usage);
+  } catch (const tyndall::SceneError& error) {
+    return fail(error, wrong_usage);
+  } catch (const tyndall::MergeError& error) {
+    return fail(error, wrong_usage);
+  } catch (const std::bad_alloc&) {
+    tyndall::complain("not enough memory");
+  } catch (const std::exception& error) {
+    return fail(error, input_output_error);
+  }
+  return input_output_error;
+}

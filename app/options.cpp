@@ -1,0 +1,163 @@
+#include "app/options.h"
+
+#include "app/options_render.h"
+#include "core/scene/text.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tyndall {
+namespace {
+
+using Text = const std::string&;
+using Words = const std::vector<std::string>&;
+
+Command read_compare(Words words) {
+  CompareCommand command;
+  CommandLine line(
+      "compare",
+      "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the mean of each channel.\n\n"
+      "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+      "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same pictures with all\n"
+      "lights ten times as bright give another number. PSNR and FLIP are of the sRGB images clipped to [0,1].",
+      "Exit code 1: an error is above its --max-..., or not a number.");
+  std::string image, reference;
+  line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
+  line.argument("REFERENCE", "what it should be; of the same size", reference);
+  line.value("--heatmap", "FILE.png", "write a map of the errors", [&](Text t) { command.heatmap = t; });
+  line.flag("--json", "print JSON", command.json);
+  line.group("Checks");
+  const auto limit = [&line](const char* name, const char* help, std::optional<double>& value) {
+    line.value(name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
+  };
+  limit("--max-rmse", "fail if RMSE is above X", command.max_rmse);
+  limit("--max-relmse", "fail if relMSE is above X", command.max_rel_mse);
+  limit("--max-flip", "fail if FLIP is above X", command.max_flip);
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!image.empty(), "IMAGE");
+  line.require(!reference.empty(), "REFERENCE");
+  command.image = image;
+  command.reference = reference;
+  return command;
+}
+
+Command read_merge(Words words) {
+  MergeCommand command;
+  CommandLine line(
+      "merge",
+      "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for bit,\n"
+      "the film of one render of all the samples.",
+      "Example:\n"
+      "  tyndall render fog.json --samples 0:64 -o a.exr\n"
+      "  tyndall render fog.json --samples 64:128 -o b.exr\n"
+      "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
+  std::vector<std::string> parts;
+  line.arguments("PART", "EXR files that hold films of the same scene, in any order", parts);
+  line.values("-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
+              [&](Text t) { command.outputs.push_back(t); });
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!parts.empty(), "PART");
+  line.require(!command.outputs.empty(), "an output (-o FILE)");
+  command.parts.assign(parts.begin(), parts.end());
+  return command;
+}
+
+Command read_inspect(Words words) {
+  InspectCommand command;
+  command.scene.what.clear();
+  CommandLine line("inspect", "Says what a scene contains and which models its kernel needs.", "");
+  add_scene(line, command.scene);
+  line.flag("--json", "print JSON", command.json);
+  bool measure = false;
+  line.flag("--measure", "measure what the chosen kernel gains; not in this version yet", measure);
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!command.scene.what.empty(), "SCENE");
+  if (measure) throw UsageError("inspect --measure is not in this version yet");
+  return command;
+}
+
+Command read_scenes(Words words) {
+  CommandLine line("scenes", "Lists the built-in scenes. Every command takes their names in place of a file.", "");
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  return ScenesCommand{};
+}
+
+Command read_convert(Words words) {
+  ConvertCommand command;
+  command.scene.what.clear();
+  CommandLine line("convert",
+                   "Writes a scene in normal form: every value that is not its default, keys in the format's order,\n"
+                   "without comments. Also gets the scene out of an image that Tyndall made.",
+                   "Example:\n  tyndall convert snapshot.png -o snapshot.json");
+  add_scene(line, command.scene);
+  line.value("-o,--output", "FILE.json", "where to; - for standard output; required",
+             [&](Text t) { command.output = t; });
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!command.scene.what.empty(), "SCENE");
+  line.require(!command.output.empty(), "an output (-o FILE.json)");
+  if (command.output != "-" && command.output.extension() != ".json")
+    throw UsageError("--output: found " + in_quotes(command.output.string()) +
+                     ", expected a name that ends in .json, or -");
+  return command;
+}
+
+Command refuse_chart(Words) { throw UsageError("'tyndall chart' is not in this version yet"); }
+Command refuse_verify(Words) { throw UsageError("'tyndall verify' is not in this version yet"); }
+
+struct Entry {
+  const char* name;
+  const char* about;
+  Command (*read)(Words words);
+};
+
+constexpr Entry entries[] = {
+    {"view", "open a scene in the window (also without this word; default: the showroom)", read_view},
+    {"render", "render without a window and write images", read_render},
+    {"compare", "how far an image is from a reference", read_compare},
+    {"chart", "speed against accuracy (not in this version yet)", refuse_chart},
+    {"verify", "check the renderer against known answers (not in this version yet)", refuse_verify},
+    {"merge", "add films of neighbouring sample ranges", read_merge},
+    {"inspect", "what a scene contains and which models it needs", read_inspect},
+    {"scenes", "list the built-in scenes", read_scenes},
+    {"convert", "write a scene in normal form, also from an image", read_convert},
+};
+
+std::string overview() {
+  std::string text =
+      "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
+      "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
+  for (const Entry& entry : entries)
+    text += "  " + std::string(entry.name) + std::string(10 - std::string(entry.name).size(), ' ') + entry.about + "\n";
+  return text +
+         "\nOptions:\n"
+         "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
+         "  --version     show the version\n\n"
+         "Exit codes: 0 done; 1 a check failed; 2 wrong usage or a scene that cannot be read;\n"
+         "3 input, output or display error; 130 Ctrl-C; 143 SIGTERM.\n";
+}
+
+/// Throws if a word that was not taken for a command must have been meant as one.
+void refuse_misspelt_command(Text word, bool alone) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  const std::string hint = suggestion(word, names);
+  if ((hint.empty() && alone) || word[0] == '-' || word.find_first_of("./") != std::string::npos) return;
+  std::error_code error;
+  if (hint.empty() || std::filesystem::exists(word, error)) return;
+  throw UsageError("unknown command " + in_quotes(word) + hint);
+}
+
+}  // namespace
+
+Command read_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return ViewCommand{};
+  const std::string& first = arguments.front();
+  if (first == "-h" || first == "--help" || first == "help") return PrintCommand{overview()};
+  if (first == "--version") return PrintCommand{"tyndall " TYNDALL_VERSION "\n"};
+  for (const Entry& entry : entries)
+    if (first == entry.name) return entry.read({arguments.begin() + 1, arguments.end()});
+  refuse_misspelt_command(first, arguments.size() == 1);
+  return read_view(arguments);
+}
+
+}  // namespace tyndall

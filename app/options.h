@@ -1,0 +1,86 @@
+#pragma once
+#include "app/progress.h"
+#include "app/values.h"
+#include "core/scene/scene.h"
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What the user asked for, one struct a command. The command line is turned into one of them here and nowhere else.
+namespace tyndall {
+
+/// A scene, and what options change in it.
+struct SceneRequest {
+  std::string what = "showroom";  ///< file, built-in name, image, or "-": standard input
+  std::vector<Override> overrides;
+  std::optional<Size> size;
+  std::optional<int> max_depth;
+  std::optional<Integrator> integrator;
+  std::optional<SamplerKind> sampler;
+  std::optional<FresnelKind> fresnel;
+  std::optional<double> exposure;
+  std::optional<ToneMap> tone_map;
+  std::optional<std::uint32_t> seed;
+};
+
+struct ViewCommand {
+  SceneRequest scene;
+  int threads = 0;  ///< 0: all cores
+  std::string isa;  ///< "": the best
+};
+
+struct RenderCommand {
+  SceneRequest scene;
+  std::vector<std::filesystem::path> outputs;
+  std::optional<std::uint32_t> spp;
+  std::optional<SampleRange> samples;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+  double target_error = 0;                                      ///< 0: none
+  std::optional<Region> region;
+  int threads = 0;              ///< 0: all cores
+  std::string isa;              ///< "": the best
+  std::filesystem::path stats;  ///< empty: none
+  bool resume = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+struct CompareCommand {
+  std::filesystem::path image, reference;
+  std::filesystem::path heatmap;  ///< empty: none
+  std::optional<double> max_rmse, max_rel_mse, max_flip;
+  bool json = false;
+};
+
+struct MergeCommand {
+  std::vector<std::filesystem::path> parts, outputs;
+};
+
+struct InspectCommand {
+  SceneRequest scene;
+  bool json = false;
+};
+
+struct ScenesCommand {};
+
+struct ConvertCommand {
+  SceneRequest scene;
+  std::filesystem::path output;  ///< "-": standard output
+};
+
+/// Only this text is asked for: help or the version.
+struct PrintCommand {
+  std::string text;
+};
+
+using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, MergeCommand, InspectCommand, ScenesCommand,
+                             ConvertCommand, PrintCommand>;
+
+/// Reads the command line; arguments[0] is what follows the program's name. Throws UsageError. Reads no file but to see
+/// whether a first argument that looks like a misspelt command is one.
+Command read_command(const std::vector<std::string>& arguments);
+
+}  // namespace tyndall

@@ -1,0 +1,50 @@
+#pragma once
+#include "core/base/fields.h"
+#include "core/film/film.h"
+#include "core/scene/json.h"
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// The values of command-line options, as text and as what they mean. All readers take the whole text or throw
+/// UsageError `found "X", expected Y`; nothing is clamped.
+namespace tyndall {
+
+/// Wrong usage of the command line. what(): one line.
+struct UsageError : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+struct Size {
+  int width = 0, height = 0;  ///< pixels
+};
+
+/// Sample indices first <= i < last.
+struct SampleRange {
+  std::uint32_t first = 0, last = 0;
+};
+
+/// Most samples a pixel that a film can add without losing exactness.
+inline constexpr std::uint32_t most_samples = 1u << 24;
+
+/// A whole number, low <= n <= high.
+std::int64_t read_whole(const std::string& text, std::int64_t low, std::int64_t high);
+/// A finite number in a range. expected: "a number > 0", ...
+double read_number(const std::string& text, Valid valid, const std::string& expected);
+/// WIDTHxHEIGHT, both at least 1.
+Size read_size(const std::string& text);
+/// A:B, A < B, at most most_samples of them.
+SampleRange read_samples(const std::string& text);
+/// X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1.
+Region read_region(const std::string& text);
+/// POINTER=VALUE; the pointer starts with "/".
+Override read_override(const std::string& text);
+/// The place of text in names; a near miss gets a suggestion.
+std::size_t read_name(const std::string& text, const std::vector<std::string>& names);
+
+/// ` (did you mean "X"?)` for a misspelt name, or nothing.
+std::string suggestion(const std::string& word, const std::vector<std::string>& names);
+
+}  // namespace tyndall

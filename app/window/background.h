@@ -1,0 +1,42 @@
+#pragma once
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace tyndall {
+
+/// Work that must not stop the window: jobs run one after another on a thread of their own, and what they return is
+/// called by the main thread.
+class Background {
+ public:
+  using Result = std::function<void()>;
+  using Job = std::function<Result()>;
+
+  /// on_result: called from the thread when a result waits; must be quick.
+  explicit Background(std::function<void()> on_result);
+  /// Finishes the jobs that are waiting; their results are dropped.
+  ~Background();
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  void run(Job job);
+  /// Calls the results that have come. For the main thread.
+  void collect();
+  bool busy() const;
+
+ private:
+  void work(const std::stop_token& stop);
+
+  std::function<void()> on_result_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::deque<Job> jobs_;
+  std::vector<Result> results_;
+  bool working_ = false;
+  std::jthread thread_;  // last: it uses the others
+};
+
+}  // namespace tyndall

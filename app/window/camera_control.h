@@ -1,0 +1,39 @@
+#pragma once
+#include "core/scene/scene.h"
+
+/// Mouse and keys to cameras. Pure: a camera goes in, a camera comes out. All keep the camera valid (a direction, not
+/// parallel to vup) and round it to six digits of its distance, so that saved files stay readable.
+namespace tyndall {
+
+/// The camera's own axes, unit: to the right, up in the picture, and forward.
+struct CameraAxes {
+  Vec3d right, up, forward;
+};
+CameraAxes axes_of(const Camera& camera);
+
+/// Distance from look_from to look_at.
+double target_distance(const Camera& camera);
+/// Distance of the plane in focus along the axis.
+double focus_distance(const Camera& camera);
+
+/// Turns the eye around look_at: yaw about vup, pitch about the horizontal, in radians; positive: the scene follows the
+/// mouse to the right, or down. Stops one degree short of the poles.
+Camera orbit(const Camera& camera, double yaw, double pitch);
+/// Moves eye and target together; right, up: in heights of the picture at the target's distance.
+Camera pan(const Camera& camera, double right, double up);
+/// Scales the distance of the eye from the target by factor > 0.
+Camera dolly(const Camera& camera, double factor);
+/// Opens the field of view: scales the tangent of half of it by factor > 0. Stays within 0.1 and 170 degrees.
+Camera zoom(const Camera& camera, double factor);
+/// Moves eye and target together along the camera's axes, scene units.
+Camera fly(const Camera& camera, double right, double up, double forward);
+/// Puts the plane in focus at `depth` > 0 along the axis. The lens stays as it is, so the defocus angle follows;
+/// keep_blur: the angle stays, and with it the blur of what is far away.
+Camera focus(const Camera& camera, double depth, bool keep_blur);
+/// Looks at a ball from the same direction and from so far that it fills the picture. aspect: width over height.
+Camera frame_ball(const Camera& camera, Vec3d center, double radius, double aspect);
+
+/// A point in the camera's frame: right, up, and depth along the axis.
+Vec3d in_camera_frame(const Camera& camera, Vec3d point);
+
+}  // namespace tyndall

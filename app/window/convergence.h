@@ -1,0 +1,50 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// What the live chart shows: how the estimated error fell with time, for the current edit and a few before it. Pure.
+namespace tyndall {
+
+struct ConvergencePoint {
+  double seconds = 0;  ///< of rendering since the edit, > 0
+  double rel_mse = 0;  ///< estimated: the square of the relative error, > 0
+};
+
+struct ConvergenceRun {
+  std::uint64_t edit = 0;
+  std::string method;  ///< "mis · sobol"
+  std::vector<ConvergencePoint> points;
+};
+
+/// "mis · sobol", with "· schlick" where that approximation is on.
+std::string method_of(const RenderSettings& settings);
+
+class Convergence {
+ public:
+  /// Adds a point to the current run. A new edit begins a new one; the old one is kept if it was long enough to say
+  /// something. Points closer than 4 % in time to the last one replace it. Errors that are not finite are left out.
+  void add(std::uint64_t edit, const std::string& method, ConvergencePoint point);
+  /// Forgets all runs: another scene.
+  void clear();
+
+  const ConvergenceRun& current() const { return current_; }
+  /// Oldest first, the newest of each method.
+  const std::vector<ConvergenceRun>& earlier() const { return earlier_; }
+
+  static constexpr std::size_t most_earlier = 4;
+  static constexpr double least_seconds = 0.5;  ///< shorter runs (drags) are not kept
+
+ private:
+  void keep_current();
+
+  ConvergenceRun current_;
+  std::vector<ConvergenceRun> earlier_;
+};
+
+/// Seconds of rendering until the relative error is `target`, if it falls as 1/sqrt(time); 0 when it is reached.
+double seconds_to(double target, double relative_error, double seconds);
+
+}  // namespace tyndall

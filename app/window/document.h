@@ -1,0 +1,30 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace tyndall {
+
+/// Where a scene came from. Never changes once it is shared by documents.
+struct Origin {
+  std::string title;              ///< shown: "cornell.json", "showroom"
+  std::filesystem::path file;     ///< what Ctrl+S writes; empty: it asks for a name
+  std::filesystem::path watched;  ///< read again when it changes; empty: none
+  std::filesystem::path folder;   ///< relative texture files are relative to it
+  bool comments = false;          ///< the file has comments, which saving would lose
+  Scene saved;                    ///< what the file holds
+};
+
+/// A scene that is being edited. What undo goes back to includes where it came from: opening a scene is an edit too.
+struct Document {
+  Scene scene;
+  std::shared_ptr<const Origin> origin;
+  bool operator==(const Document&) const = default;
+};
+
+/// The scene is not what its file holds.
+inline bool edited(const Document& document) { return !(document.scene == document.origin->saved); }
+
+}  // namespace tyndall

@@ -1,0 +1,28 @@
+#pragma once
+
+namespace tyndall {
+
+/// A rectangle of the window, y down, in window units.
+struct Rect {
+  float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  float width() const { return x1 - x0; }
+  float height() const { return y1 - y0; }
+  bool contains(float x, float y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+  bool operator==(const Rect&) const = default;
+};
+
+/// Where things are. Empty rectangles (no width or height) are not drawn.
+struct Layout {
+  Rect area;    ///< left: where the image may be
+  Rect image;   ///< the image itself, its aspect kept, in the middle of the area
+  Rect column;  ///< right: the panels
+  Rect status;  ///< bottom line
+};
+
+/// Widths of the column and height of the status line, in window units at scale 1.
+inline constexpr float column_width = 372, status_height = 30;
+
+/// panels: whether the column is shown. A window narrower than twice the column gives it half.
+Layout make_layout(float width, float height, int image_width, int image_height, float scale, bool panels);
+
+}  // namespace tyndall

@@ -1,0 +1,31 @@
+#pragma once
+#include "core/base/fields.h"
+
+#include <string>
+
+/// How numbers are shown, typed and put on sliders. Pure.
+namespace tyndall {
+
+/// The slider's range with room for a value beyond it, where the value's own range has it: the next powers of ten.
+Slider widened(const Slider& slider, const Valid& valid, double value);
+
+/// Where a value is on a slider, in [0, 1]. Logarithmic sliders show the size and keep the sign.
+double slider_position(const Slider& slider, double value);
+/// The value at a position in [0, 1], rounded to what a user would type. `before` gives the sign on logarithmic sliders.
+double slider_value(const Slider& slider, double position, double before);
+/// The value after dragging a number sideways by `steps`: 400 of them cross the slider.
+double dragged(const Slider& slider, double before, double steps);
+
+/// "0.180", "34.0": digits as the slider's range asks; unlimited: the shortest with four digits.
+std::string format_value(const Slider& slider, double value);
+/// Four significant digits at most: "278", "-0.75", "1.2e+06".
+std::string format_short(double value);
+/// "1,024".
+std::string format_count(unsigned long long n);
+
+/// The number in a text that a user typed; a decimal comma, spaces and the unit are allowed. Nothing: not a number.
+bool parse_number(const std::string& text, const std::string& unit, double& value);
+/// "a number in [0, 1]", "a number > 0".
+std::string describe(const Valid& valid);
+
+}  // namespace tyndall

@@ -1,0 +1,40 @@
+#pragma once
+
+/// When to draw. Pure: times are seconds of one clock.
+namespace tyndall {
+
+/// Least time between two drawings.
+inline constexpr double least_frame_interval = 0.016;
+
+/// How long a new picture of an edit waits after the one before it: the first three of an edit not at all, then 0.1 s,
+/// growing with the age of the edit to 0.5 s. age: seconds since the edit; shown: pictures of it shown so far.
+double picture_interval(double age, int shown);
+
+/// Decides when the window is drawn: after an event at once and twice more, for a picture when it is due, else never.
+class Pacing {
+ public:
+  /// Something was pressed, moved, resized: draw, and draw further frames for what appears one frame later.
+  void on_event() { frames_ = 3; }
+  /// A picture of `edit` was shown.
+  void on_picture(unsigned long long edit, double now);
+  /// An edit was made: its pictures are due at once.
+  void on_edit(unsigned long long edit, double now);
+  /// The window was drawn.
+  void on_drawn(double now);
+  /// The window should be drawn again at that time at the latest (a message goes, a key is held).
+  void wake_at(double time);
+
+  /// When a newer picture may be shown; a finished one always may.
+  double picture_due() const { return due_; }
+  /// Seconds to wait for events before drawing: 0 draw now; infinite: until something happens.
+  double wait(double now) const;
+  /// Draws are due: an event's further frames, or the time of wake_at came.
+  bool draw_due(double now) const { return frames_ > 0 || now >= wake_; }
+
+ private:
+  int frames_ = 3, shown_ = 0;
+  unsigned long long edit_ = 0;
+  double edit_time_ = 0, due_ = 0, drawn_ = -1, wake_ = 1e300;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,47 @@
+#pragma once
+#include "core/compile/flatten.h"
+#include "core/scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// Indices into Scene::objects and, for each further one, into the group's objects. Empty: nothing.
+using ObjectPath = std::vector<int>;
+
+/// The object at a path; null for an empty path and for one that leads nowhere.
+const Object* find_object(const Scene& scene, const ObjectPath& path);
+Object* find_object(Scene& scene, const ObjectPath& path);
+
+/// "sphere", "quad", "box", "medium", "group".
+const char* kind_name(const Object& object);
+/// "lambertian", "metal", ...; a medium's or group's own kind.
+const char* material_name(const Material& material);
+/// The object's name with a capital, or its kind and number: "Ball", "Sphere 3".
+std::string title_of(const Scene& scene, const ObjectPath& path);
+
+/// The material of an object with a surface; null for others.
+const Material* material_of(const Scene& scene, const Object& object);
+/// How many objects (in groups too) have the material.
+int users_of(const Scene& scene, int material);
+
+/// Every object that is no group, in file order.
+std::vector<ObjectPath> leaves(const Scene& scene);
+
+/// Where the object's own frame is in the world (a medium: its boundary's).
+Placement placement_at(const Scene& scene, const ObjectPath& path);
+
+/// A ball around an object; nothing for an empty group.
+struct Ball {
+  Vec3d center;
+  double radius = 0;
+};
+std::optional<Ball> ball_around(const Scene& scene, const ObjectPath& path);
+
+/// What a new user should touch first: the first object of fuzzy or plain metal, of glass and of fog; without them the
+/// first lamp and the first matt object.
+std::vector<ObjectPath> interesting(const Scene& scene);
+
+}  // namespace tyndall

@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+namespace tyndall {
+
+/// Difference that an eye sees when it flips between two pictures: one number a pixel, top row first, in [0, 1].
+/// Both are linear Rec.709, 3 floats a pixel, and are looked at as sRGB clipped to [0, 1]; what is not a number counts
+/// as black. 67 pixels a degree: a screen of 0.7 m with 3840 pixels seen from 0.7 m.
+/// Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, FLIP: A Difference Evaluator for Alternating
+/// Images, Proc. ACM Comput. Graph. Interact. Tech. 3 (2020).
+std::vector<float> flip_map(const std::vector<float>& image, const std::vector<float>& reference, int width,
+                            int height);
+
+}  // namespace tyndall
