@@ -17,7 +17,7 @@ struct RenderOptions {
   std::string isa;                   ///< "": the best
   std::optional<Region> region;      ///< absent: the whole image
   std::uint32_t first_sample = 0;    ///< index of the first sample
-  std::optional<std::uint32_t> spp;  ///< samples a pixel; absent: until another limit
+  std::optional<std::uint32_t> spp;  ///< samples a pixel in all, those of a continued film included; absent: no limit
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
   double target_error = 0;           ///< estimated relative error at which to stop; 0: none
   int tile = 0;                      ///< edge of a tile in pixels; 0: chosen. Never changes the picture.

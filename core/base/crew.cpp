@@ -1,0 +1,50 @@
+#include "core/base/crew.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace tyndall {
+
+Crew::Crew(int size) {
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  for (int i = 0; i < (size > 0 ? size : machine); ++i)
+    threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+}
+
+Crew::~Crew() {
+  for (auto& thread : threads_) thread.request_stop();
+  wake_.notify_all();
+}
+
+void Crew::for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll) {
+  std::unique_lock lock(mutex_);
+  job_ = &job;
+  count_ = count;
+  next_ = 0;
+  busy_ = size();
+  ++round_;
+  wake_.notify_all();
+  const auto finished = [&] { return busy_ == 0; };
+  if (!poll) return done_.wait(lock, finished);
+  while (!done_.wait_for(lock, std::chrono::milliseconds(50), finished)) {
+    lock.unlock();
+    poll();
+    lock.lock();
+  }
+}
+
+void Crew::work(const std::stop_token& stop) {
+  for (std::uint64_t seen = 0;;) {
+    std::unique_lock lock(mutex_);
+    if (!wake_.wait(lock, stop, [&] { return round_ != seen; })) return;
+    seen = round_;
+    const auto& job = *job_;
+    const int count = count_;
+    lock.unlock();
+    for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count;) job(i);
+    lock.lock();
+    if (--busy_ == 0) done_.notify_one();
+  }
+}
+
+}  // namespace tyndall

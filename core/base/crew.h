@@ -1,0 +1,40 @@
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace tyndall {
+
+/// A fixed set of threads that run one indexed job at a time. It knows nothing of what the job is.
+class Crew {
+ public:
+  /// size >= 1 threads; 0: as many as the machine runs at once.
+  explicit Crew(int size);
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  int size() const { return static_cast<int>(threads_.size()); }
+
+  /// Calls job(i) for every i in [0, count), each once, on the crew's threads, and returns when all have returned.
+  /// The job must not throw. Only one call at a time.
+  /// poll, if given, is called on the calling thread every 50 ms meanwhile.
+  void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
+
+ private:
+  void work(const std::stop_token& stop);
+
+  std::mutex mutex_;
+  std::condition_variable_any wake_, done_;
+  const std::function<void(int)>* job_ = nullptr;
+  int count_ = 0, busy_ = 0;
+  std::uint64_t round_ = 0;
+  std::atomic<int> next_ = 0;
+  std::vector<std::jthread> threads_;  // last: joined first
+};
+
+}  // namespace tyndall

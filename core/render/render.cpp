@@ -1,0 +1,99 @@
+#include "core/render/render.h"
+
+#include "core/film/error.h"
+#include "core/render/pass.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+namespace tyndall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Samples of the next pass. Where only a count limits the render, passes are long; where time or error decide, they
+/// grow with what is there, so that a look between them costs little and comes in time.
+std::uint32_t next_samples(const RenderOptions& options, std::uint32_t taken) {
+  const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
+  const std::uint32_t wish = looks ? std::clamp(taken / 4, 1u, 32u) : 32u;
+  return options.spp ? std::min(wish, *options.spp - taken) : wish;
+}
+
+class BlockingRender {
+ public:
+  BlockingRender(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film)
+      : view_(scene), options_(options), progress_(progress) {
+    const auto kernels = choose_kernels(options.isa);
+    if (!kernels) throw std::invalid_argument("no kernel for instruction set \"" + options.isa + "\"");
+    kernels_ = *kernels;
+    const Region region = options.region.value_or(Region{0, 0, scene.width, scene.height});
+    result_.film = film.pixels.empty() ? make_film(scene.width, scene.height, region, options.first_sample, scene.film_unit)
+                                       : std::move(film);
+    taken_ = result_.film.pixels.empty() ? 0 : totals(result_.film).least_taken;
+  }
+
+  RenderResult run() {
+    start_ = Clock::now();
+    Crew crew(options_.threads);
+    while (!stop_ && !reached_limit()) {
+      const std::uint32_t count = next_samples(options_, taken_), first = result_.film.first_sample + taken_;
+      Pass pass(result_.film.region, first, first + count, 1, 0, options_.tile);
+      pass.run(crew, kernels_, view_.view(), result_.film, stop_, [&] { report(pass, taken_); });
+      result_.seconds = seconds_since(start_);
+      result_.rays += pass.rays();
+      result_.shadow_rays += pass.shadow_rays();
+      if (stop_) break;
+      taken_ += count;
+      if (options_.target_error > 0) error_ = estimated_relative_error(result_.film);
+      report_between();
+    }
+    result_.threads = crew.size();
+    result_.isa = kernels_.isa;
+    result_.lanes = kernels_.lanes;
+    result_.interrupted = stop_;
+    return std::move(result_);
+  }
+
+ private:
+  bool reached_limit() const {
+    if (options_.spp && taken_ >= *options_.spp) return true;
+    if (taken_ == 0) return false;
+    return result_.seconds >= options_.time_limit || (options_.target_error > 0 && error_ <= options_.target_error);
+  }
+  void report(const Pass& pass, std::uint32_t spp) {
+    if (!progress_) return;
+    const double seconds = seconds_since(start_);
+    const double rays = static_cast<double>(result_.rays + pass.rays());
+    if (!progress_({spp, seconds, rays / seconds * 1e-6, error_})) stop_ = true;
+  }
+  /// The error is estimated now and then only: it reads the whole film.
+  void report_between() {
+    if (!progress_) return;
+    if (options_.target_error <= 0 && result_.seconds >= next_estimate_) {
+      error_ = estimated_relative_error(result_.film);
+      next_estimate_ = 1.5 * seconds_since(start_) + 0.5;
+    }
+    if (!progress_({taken_, result_.seconds, static_cast<double>(result_.rays) / result_.seconds * 1e-6, error_})) stop_ = true;
+  }
+
+  SceneViewOf view_;
+  RenderOptions options_;
+  const ProgressCallback& progress_;
+  Kernels kernels_{};
+  RenderResult result_;
+  Clock::time_point start_;
+  std::uint32_t taken_ = 0;
+  double error_ = std::numeric_limits<double>::infinity(), next_estimate_ = 0.5;
+  std::atomic<bool> stop_ = false;
+};
+
+}  // namespace
+
+RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film) {
+  return BlockingRender(scene, options, progress, std::move(film)).run();
+}
+
+}  // namespace tyndall
