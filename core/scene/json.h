@@ -22,8 +22,8 @@ struct Override {
 Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                  const std::vector<Override>& overrides = {});
 
-/// The scene in normal form: every value that is not its default, keys in the format's order. Reading it gives an equal
-/// scene. texture_folder: image textures are written relative to it where they lie beneath it.
+/// A valid scene in normal form: every value that is required or not its default, keys in the format's order. Reading
+/// it gives an equal scene. Image files are written as they stand in the scene: see move_textures().
 std::string write_scene(const Scene& scene);
 
 /// Comment lines at the top of a scene file (without "//"), for `inspect`.

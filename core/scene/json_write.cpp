@@ -1,0 +1,191 @@
+#include "core/scene/json_tree.h"
+#include "core/scene/names.h"
+#include "core/scene/place.h"
+
+#include <cassert>
+
+namespace tyndall {
+namespace {
+
+JsonValue to_json(double value) { return {value}; }
+JsonValue to_json(int value) { return {static_cast<double>(value)}; }
+JsonValue to_json(std::uint32_t value) { return {static_cast<double>(value)}; }
+JsonValue to_json(const Vec3d& v) { return {JsonArray{{v.x}, {v.y}, {v.z}}}; }
+template <class T>
+JsonValue to_json(const std::optional<T>& value) {
+  return value ? to_json(*value) : JsonValue();
+}
+
+void put(JsonObject& out, const char* key, JsonValue value) { out.push_back({key, std::move(value)}); }
+
+enum class Which { all, required, optional };
+
+/// The fields that are required or differ from their defaults.
+template <class Fields, class Owner>
+void put_fields(JsonObject& out, const Fields& list, const Owner& owner, Which which = Which::all) {
+  const Owner defaults{};
+  const auto one = [&](const auto& field) {
+    if (which != Which::all && field.required != (which == Which::required)) return;
+    if (field.required || !(owner.*field.value == defaults.*field.value))
+      put(out, field.name, to_json(owner.*field.value));
+  };
+  std::apply([&](const auto&... field) { (one(field), ...); }, list);
+}
+template <class Owner>
+void put_fields(JsonObject& out, const Owner& owner, Which which = Which::all) {
+  put_fields(out, fields(static_cast<const Owner*>(nullptr)), owner, which);
+}
+
+template <class E, std::size_t n>
+void put_name(JsonObject& out, const char* key, const Named<E> (&table)[n], E value, E default_value) {
+  if (value != default_value) put(out, key, {std::string(name_of(table, value))});
+}
+
+/// A part of the scene that is left out where it says nothing.
+void put_part(JsonObject& out, const char* key, JsonObject part) {
+  if (!part.empty()) put(out, key, {std::move(part)});
+}
+
+JsonObject camera_json(const Camera& camera) {
+  JsonObject out;
+  put_fields(out, camera);
+  if (camera.shutter_open != 0 || camera.shutter_close != 0)
+    put(out, "shutter", {JsonArray{{camera.shutter_open}, {camera.shutter_close}}});
+  return out;
+}
+
+JsonValue background_json(const Background& background) {
+  if (const auto* radiance = std::get_if<Vec3d>(&background)) return to_json(*radiance);
+  JsonObject out;
+  const auto put_sky = [&](const auto& sky) {
+    put(out, "type", {std::string(sky.type)});
+    put_fields(out, sky);
+  };
+  if (const auto* sky = std::get_if<Gradient>(&background)) put_sky(*sky);
+  if (const auto* sky = std::get_if<Hemispheres>(&background)) put_sky(*sky);
+  return {std::move(out)};
+}
+
+JsonObject render_json(const RenderSettings& render) {
+  const RenderSettings defaults;
+  const auto all = fields(static_cast<const RenderSettings*>(nullptr));
+  JsonObject out;
+  put_fields(out, std::tuple{std::get<0>(all), std::get<1>(all)}, render);
+  put_name(out, "integrator", integrators, render.integrator, defaults.integrator);
+  put_name(out, "sampler", samplers, render.sampler, defaults.sampler);
+  put_name(out, "fresnel", fresnel_rules, render.fresnel, defaults.fresnel);
+  put_fields(out, std::tuple{std::get<2>(all)}, render);
+  return out;
+}
+
+JsonObject display_json(const Display& display) {
+  JsonObject out;
+  put_fields(out, display);
+  put_name(out, "tone_map", tone_maps, display.tone_map, Display().tone_map);
+  return out;
+}
+
+JsonValue texture_json(const Texture& texture) {
+  JsonObject out;
+  std::visit(
+      [&]<class T>(const T& kind) {
+        put(out, "type", {std::string(T::type)});
+        if constexpr (std::is_same_v<T, Image>) {
+          put(out, "file", {kind.file});
+        } else {
+          put_fields(out, kind);
+        }
+        if constexpr (std::is_same_v<T, Noise<>>) put(out, "style", {std::string(name_of(noise_styles, kind.style))});
+      },
+      texture.kind);
+  return {std::move(out)};
+}
+
+JsonValue colour_json(const ColourOrTexture& colour, const Scene& scene) {
+  if (const auto* radiance = std::get_if<Vec3d>(&colour)) return to_json(*radiance);
+  const auto index = static_cast<std::size_t>(std::get<TextureIndex>(colour).index);
+  assert(index < scene.textures.size());
+  return {scene.textures[index].name};
+}
+
+JsonValue material_json(const Material& material, const Scene& scene) {
+  JsonObject out;
+  std::visit(
+      [&]<class T>(const T& kind) {
+        put(out, "type", {std::string(T::type)});
+        if constexpr (T::colour_name != nullptr) put(out, T::colour_name, colour_json(material.colour, scene));
+        put_fields(out, kind);
+      },
+      material.kind);
+  return {std::move(out)};
+}
+
+void put_transform(JsonObject& out, const Transform& transform) {
+  if (transform.empty()) return;
+  JsonArray steps;
+  for (const auto& move : transform)
+    std::visit([&](const auto& m) { put_fields(std::get<JsonObject>(steps.emplace_back(JsonObject()).value), m); },
+               move);
+  put(out, "transform", {std::move(steps)});
+}
+
+template <class Shape>
+void put_shape(JsonObject& out, const Shape& shape) {
+  put(out, "type", {std::string(Shape::type)});
+  put_fields(out, shape);
+}
+
+void put_volume(JsonObject& out, const Volume& volume, const Scene& scene) {
+  put(out, "type", {std::string(Medium<>::type)});
+  JsonObject boundary;
+  std::visit([&](const auto& shape) { put_shape(boundary, shape); }, volume.boundary);
+  put_transform(boundary, volume.boundary_transform);
+  put(out, "boundary", {std::move(boundary)});
+  put_fields(out, volume.medium, Which::required);
+  put(out, "albedo", colour_json(volume.albedo, scene));
+  put_fields(out, volume.medium, Which::optional);
+}
+
+JsonArray objects_json(const std::vector<Object>& objects, const Scene& scene) {
+  JsonArray array;
+  array.reserve(objects.size());
+  for (const Object& object : objects) {
+    JsonObject out;
+    if (!object.name.empty()) put(out, "name", {object.name});
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) {
+      std::visit([&](const auto& shape) { put_shape(out, shape); }, solid->shape);
+      put(out, "material", {scene.materials[static_cast<std::size_t>(solid->material)].name});
+    } else if (const auto* volume = std::get_if<Volume>(&object.kind)) {
+      put_volume(out, *volume, scene);
+    } else {
+      put(out, "type", {std::string("group")});
+    }
+    put_transform(out, object.transform);
+    if (const auto* group = std::get_if<Group>(&object.kind))
+      put(out, "objects", {objects_json(group->objects, scene)});
+    array.push_back({std::move(out)});
+  }
+  return array;
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  JsonObject root, image, textures, materials;
+  put(root, "tyndall", {1.0});
+  if (!scene.name.empty()) put(root, "name", {scene.name});
+  put_fields(image, image_fields(), scene);
+  put_part(root, "image", std::move(image));
+  put_part(root, "camera", camera_json(scene.camera));
+  if (!(scene.background == Scene().background)) put(root, "background", background_json(scene.background));
+  put_part(root, "render", render_json(scene.render));
+  put_part(root, "display", display_json(scene.display));
+  for (const Texture& texture : scene.textures) textures.push_back({texture.name, texture_json(texture)});
+  put_part(root, "textures", std::move(textures));
+  for (const Material& material : scene.materials) materials.push_back({material.name, material_json(material, scene)});
+  put_part(root, "materials", std::move(materials));
+  put(root, "objects", {objects_json(scene.objects, scene)});
+  return print_json({std::move(root)});
+}
+
+}  // namespace tyndall

@@ -1,0 +1,164 @@
+#include "core/scene/load.h"
+
+#include "core/film/image_io.h"
+#include "core/scene/check.h"
+#include "core/scene/json_tree.h"
+#include "core/scene/text.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* expected_scene =
+    "a scene file, an image that Tyndall wrote, or the name of a built-in scene (\"tyndall scenes\" lists them)";
+
+/// Everything in a file or pipe; one byte more than a scene may have is enough to refuse it.
+std::string read_all(std::FILE* file, const std::string& name) {
+  std::string text;
+  std::size_t got = 1;
+  while (got > 0 && text.size() <= max_scene_bytes) {
+    const std::size_t old = text.size();
+    text.resize(old + (std::size_t(1) << 16));
+    got = std::fread(text.data() + old, 1, text.size() - old, file);
+    text.resize(old + got);
+  }
+  if (std::ferror(file)) throw SceneError(name, "something that cannot be read", expected_scene);
+  return text;
+}
+
+std::string read_file(const std::string& name) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), &std::fclose);
+  if (!file)
+    throw SceneError(name, std::string("a file that cannot be read (") + std::strerror(errno) + ")", expected_scene);
+  return read_all(file.get(), name);
+}
+
+bool is_image(std::string_view bytes) {
+  constexpr std::string_view beginnings[] = {"\x89PNG", "\x76\x2f\x31\x01", "\xff\xd8\xff", "PF\n", "#?RADIANCE"};
+  return std::any_of(std::begin(beginnings), std::end(beginnings), [&](auto b) { return bytes.starts_with(b); });
+}
+
+std::string scene_in_image(const std::string& name) {
+  std::optional<std::string> scene;
+  try {
+    scene = read_embedded_scene(name);
+  } catch (const ImageFileError& why) {
+    throw SceneError(name, std::string("an image that cannot be read (") + why.what() + ")", expected_scene);
+  }
+  if (!scene) throw SceneError(name, "an image without a scene in it", "a PNG or EXR that Tyndall wrote");
+  return *scene;
+}
+
+fs::path scenes_folder() {
+  const fs::path assets = assets_folder();
+  return assets.empty() ? fs::path() : assets / "scenes";
+}
+
+std::vector<std::string> built_in_names() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(scenes_folder(), error))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Its file, if `what` is the name of a built-in scene; else an empty path.
+fs::path built_in_file(const std::string& what) {
+  const auto names = built_in_names();
+  return std::binary_search(names.begin(), names.end(), what) ? scenes_folder() / (what + ".json") : fs::path();
+}
+
+[[noreturn]] void fail_missing(const std::string& what) {
+  const auto names = built_in_names();
+  std::string hint = did_you_mean(what, {names.begin(), names.end()});
+  if (names.empty()) hint = "; no built-in scenes were found (TYNDALL_ASSETS names their folder)";
+  throw SceneError(what, "no such file", expected_scene + hint);
+}
+
+std::string title_of(const fs::path& file) {
+  const std::string text = read_file(file.string());
+  const auto comments = leading_comments(text);
+  const std::string comment = comments.empty() ? "" : comments[0];
+  try {
+    const JsonValue json = parse_json(text);
+    const auto* root = std::get_if<JsonObject>(&json.value);
+    const JsonValue* name = root ? find(*root, "name") : nullptr;
+    const auto* title = name ? std::get_if<std::string>(&name->value) : nullptr;
+    return title ? printable(*title) : comment;
+  } catch (const Broken&) {
+    return comment;  // a broken file is reported when it is opened
+  }
+}
+
+}  // namespace
+
+fs::path assets_folder() {
+  if (const char* chosen = std::getenv("TYNDALL_ASSETS"); chosen && *chosen) return chosen;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = program.parent_path().parent_path() / "share" / "tyndall";
+  if (!error && fs::is_directory(installed / "scenes", error)) return installed;
+#ifdef TYNDALL_ASSETS_DIR
+  if (fs::is_directory(fs::path(TYNDALL_ASSETS_DIR) / "scenes", error)) return TYNDALL_ASSETS_DIR;
+#endif
+  return {};
+}
+
+std::vector<BuiltIn> built_in_scenes() {
+  std::vector<BuiltIn> scenes;
+  for (const std::string& name : built_in_names()) {
+    const fs::path path = scenes_folder() / (name + ".json");
+    scenes.push_back({name, title_of(path), path});
+  }
+  return scenes;
+}
+
+LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides) {
+  LoadedScene loaded;
+  loaded.name = what;
+  if (what == "-") {
+    loaded.name = "standard input";
+    loaded.folder = ".";
+    loaded.text = read_all(stdin, loaded.name);
+  } else if (const fs::path built_in = built_in_file(what); !built_in.empty()) {
+    loaded.folder = built_in.parent_path();
+    loaded.text = read_file(built_in.string());
+  } else {
+    std::error_code error;
+    const fs::file_status status = fs::status(what, error);
+    if (status.type() == fs::file_type::not_found) fail_missing(what);
+    if (fs::is_directory(status)) throw SceneError(what, "a folder", expected_scene);
+    loaded.folder = fs::path(what).has_parent_path() ? fs::path(what).parent_path() : fs::path(".");
+    loaded.text = read_file(what);
+    const bool image = is_image(loaded.text);
+    if (image) loaded.text = scene_in_image(what);
+    if (!image) loaded.source = what;
+  }
+  loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
+  return loaded;
+}
+
+Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(fs::absolute(to, error), error);
+  for (Texture& texture : scene.textures) {
+    auto* image = std::get_if<Image>(&texture.kind);
+    if (!image || fs::path(image->file).is_absolute()) continue;
+    const fs::path file = fs::weakly_canonical(fs::absolute(from / image->file, error), error);
+    const fs::path relative = file.lexically_relative(target);
+    image->file = (relative.empty() ? file : relative).generic_string();
+  }
+  return scene;
+}
+
+}  // namespace tyndall

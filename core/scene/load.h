@@ -1,0 +1,41 @@
+#pragma once
+#include "core/scene/json.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Scenes by what a user calls them.
+namespace tyndall {
+
+struct LoadedScene {
+  Scene scene;
+  std::string name;              ///< what messages call it: the file as given, a built-in scene's name
+  std::filesystem::path source;  ///< the scene file, to watch and to save to; empty for built-in scenes, images and
+                                 ///< standard input
+  std::filesystem::path folder;  ///< where the scene's relative texture files are
+  std::string text;              ///< the scene file's text, before overrides
+};
+
+/// Loads a scene. what: the name of a built-in scene, a scene file, an image that Tyndall wrote (PNG or EXR), or "-"
+/// for standard input. A name goes before a file of the same name: "./cover" is the file. Throws SceneError.
+LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides = {});
+
+struct BuiltIn {
+  std::string name;   ///< what load_scene takes
+  std::string title;  ///< the scene's own name, else its first comment
+  std::filesystem::path path;
+};
+
+/// The scenes in the assets folder, by name. Empty if there is no such folder.
+std::vector<BuiltIn> built_in_scenes();
+
+/// The folder with scenes/ and textures/: $TYNDALL_ASSETS, else share/tyndall of the installation, else that of the
+/// source tree; empty if there is none.
+std::filesystem::path assets_folder();
+
+/// The scene with its relative texture files respelt so that a scene file in folder `to` finds what one in folder
+/// `from` found.
+Scene move_textures(Scene scene, const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace tyndall
