@@ -24,7 +24,8 @@ Command read_compare(Words words) {
   std::string image, reference;
   line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
   line.argument("REFERENCE", "what it should be; of the same size", reference);
-  line.value("--heatmap", "FILE.png", "write a map of the errors", [&](Text t) { command.heatmap = t; });
+  line.value("--heatmap", "FILE.png", "write FLIP of each pixel: black 0, violet, red, orange, white 1",
+             [&](Text t) { command.heatmap = t; });
   line.flag("--json", "print JSON", command.json);
   line.group("Checks");
   const auto limit = [&line](const char* name, const char* help, std::optional<double>& value) {

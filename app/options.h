@@ -29,8 +29,9 @@ struct SceneRequest {
 
 struct ViewCommand {
   SceneRequest scene;
-  int threads = 0;  ///< 0: all cores
-  std::string isa;  ///< "": the best
+  std::vector<std::string> words;  ///< as they were given, to say what does the same without a window
+  int threads = 0;                 ///< 0: all cores
+  std::string isa;                 ///< "": the best
 };
 
 struct RenderCommand {

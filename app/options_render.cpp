@@ -120,6 +120,7 @@ void add_scene(CommandLine& line, SceneRequest& scene, const std::string& note) 
 
 Command read_view(const std::vector<std::string>& words) {
   ViewCommand command;
+  command.words = words;
   CommandLine line("view", "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.",
                    "");
   add_scene(line, command.scene, " [showroom]");

@@ -22,11 +22,13 @@ ToneCurve curve(ToneMap map) { return map == ToneMap::aces ? ToneCurve::aces : T
 
 }  // namespace
 
+bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
+
 void check_image_names(const std::vector<std::filesystem::path>& files) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string name = "--output: found " + in_quotes(files[i].string());
     if (!is_image_output(files[i])) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
-    if (ending(files[i]) == ".exr" && !has_openexr())
+    if (is_exr(files[i]) && !has_openexr())
       throw UsageError(name + ", expected .png, .pfm or .hdr: this build has no OpenEXR");
     if (std::find(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), files[i]) !=
         files.begin() + static_cast<std::ptrdiff_t>(i))
@@ -51,9 +53,9 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
       const std::string kind = ending(file);
       if (kind != ".exr" && !image) image = LinearImage{region.width(), region.height(), resolve(picture.film)};
       if (kind == ".exr")
-        write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded);
+        write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded(file));
       else if (kind == ".png")
-        write_png(file, *image, picture.display.exposure, curve(picture.display.tone_map), picture.embedded);
+        write_png(file, *image, picture.display.exposure, curve(picture.display.tone_map), picture.embedded(file));
       else if (kind == ".pfm")
         write_pfm(file, *image);
       else

@@ -13,14 +13,17 @@ namespace tyndall {
 /// Throws UsageError for an ending that is no image's, EXR in a build without it, or a file named twice.
 void check_image_names(const std::vector<std::filesystem::path>& files);
 
+/// True for names that end in .exr (any case).
+bool is_exr(const std::filesystem::path& file);
+
 /// Throws IoError unless the file could be written now: its folder exists and takes new files. Leaves nothing behind.
 void check_can_write(const std::filesystem::path& file);
 
 /// What becomes image files.
 struct Picture {
   const Film& film;
-  Display display;                             ///< for PNG
-  Embedded embedded;                           ///< for PNG and EXR
+  Display display;                                                      ///< for PNG
+  std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
   std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty
 };
 

@@ -38,7 +38,8 @@ int terminal_columns() {
 
 double progress_fraction(const RenderProgress& now, const ProgressGoal& goal) {
   double part = 0;
-  if (goal.spp > 0) part = static_cast<double>(now.spp) / goal.spp;
+  if (goal.spp > goal.spp_before && now.spp > goal.spp_before)
+    part = static_cast<double>(now.spp - goal.spp_before) / (goal.spp - goal.spp_before);
   if (std::isfinite(goal.time_limit)) part = std::max(part, now.seconds / goal.time_limit);
   if (goal.target_error > 0 && std::isfinite(now.relative_error)) {
     const double ratio = goal.target_error / std::max(now.relative_error, 1e-300);

@@ -12,6 +12,7 @@ enum class ProgressStyle { automatic, plain, none };
 
 /// Where a render is to end: what fraction and remaining time are measured against.
 struct ProgressGoal {
+  std::uint32_t spp_before = 0;                                 ///< that were there when the render began
   std::uint32_t spp = 0;                                        ///< 0: none
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   double target_error = 0;                                      ///< 0: none

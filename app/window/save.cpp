@@ -27,19 +27,6 @@ bool has_comments(std::string_view text) {
   return false;
 }
 
-Scene rebased(Scene scene, const fs::path& from, const fs::path& to) {
-  const fs::path there = fs::absolute(from).lexically_normal(), here = fs::absolute(to).lexically_normal();
-  if (there == here) return scene;
-  for (Texture& texture : scene.textures) {
-    Image* image = std::get_if<Image>(&texture.kind);
-    if (!image || fs::path(image->file).is_absolute()) continue;
-    const fs::path file = (there / image->file).lexically_normal();
-    const fs::path relative = file.lexically_relative(here);
-    image->file = (relative.empty() ? file : relative).generic_string();
-  }
-  return scene;
-}
-
 void save_scene(const Scene& scene, const fs::path& file) {
   try {
     WholeFile out(file);

@@ -11,9 +11,6 @@ namespace tyndall {
 /// Whether a scene file's text has comments, // or /* */, outside of strings.
 bool has_comments(std::string_view text);
 
-/// The scene with relative texture files that were relative to `from` made relative to `to`.
-Scene rebased(Scene scene, const std::filesystem::path& from, const std::filesystem::path& to);
-
 /// Writes a scene file in normal form, whole or not at all. Throws IoError: one line.
 void save_scene(const Scene& scene, const std::filesystem::path& file);
 

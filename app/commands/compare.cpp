@@ -1,0 +1,120 @@
+#include "app/commands/commands.h"
+#include "app/outputs.h"
+#include "app/standard_streams.h"
+#include "core/film/error.h"
+#include "core/film/flip.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace tyndall {
+namespace {
+
+struct Comparison {
+  int width = 0, height = 0;
+  ImageError error;
+  double flip = 0;  ///< mean
+  std::vector<float> flip_map;
+};
+
+Comparison compare(const CompareCommand& command) {
+  const LinearImage image = read_image(command.image), reference = read_image(command.reference);
+  const auto size = [](const LinearImage& i) { return std::to_string(i.width) + "x" + std::to_string(i.height); };
+  if (image.width != reference.width || image.height != reference.height)
+    throw UsageError(command.image.string() + ": found " + size(image) + " pixels, expected " + size(reference) +
+                     " as in " + command.reference.string());
+  Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}};
+  result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
+  for (const float value : result.flip_map) result.flip += static_cast<double>(value);
+  result.flip /= static_cast<double>(result.flip_map.size());
+  return result;
+}
+
+std::string json_text(const Comparison& c) {
+  const auto channels = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
+  nlohmann::ordered_json json;
+  json["width"] = c.width;
+  json["height"] = c.height;
+  json["mse"] = c.error.mse;
+  json["rmse"] = c.error.rmse;
+  json["relmse"] = c.error.rel_mse;
+  json["psnr"] = c.error.psnr;  // infinite for equal images: null
+  json["flip"] = c.flip;
+  json["mean_image"] = channels(c.error.mean_image);
+  json["mean_reference"] = channels(c.error.mean_reference);
+  return json.dump(2) + "\n";
+}
+
+std::string row(const char* name, double value, const char* note) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%-8s %-13.6g %s", name, value, note);
+  std::string line = text;
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string table(const Comparison& c) {
+  char means[400];
+  const Vec3d a = c.error.mean_image, b = c.error.mean_reference;
+  std::snprintf(means, sizeof means,
+                "mean     image         reference\n"
+                "  red    %-13.6g %.6g\n"
+                "  green  %-13.6g %.6g\n"
+                "  blue   %-13.6g %.6g\n",
+                a.x, b.x, a.y, b.y, a.z, b.z);
+  return row("MSE", c.error.mse, "") + row("RMSE", c.error.rmse, "") +
+         row("relMSE", c.error.rel_mse, "depends on the unit of radiance") + row("PSNR", c.error.psnr, "dB, sRGB") +
+         row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + means;
+}
+
+/// Black, violet, red, orange, white: brighter all the way, so that it also reads in grey. value in [0, 1].
+std::array<float, 3> heat(float value) {
+  static constexpr std::array<std::array<float, 3>, 5> stops = {
+      {{0, 0, 0}, {0.30f, 0.07f, 0.45f}, {0.78f, 0.20f, 0.34f}, {0.98f, 0.60f, 0.25f}, {1, 1, 0.85f}}};
+  const float at = std::clamp(value, 0.0f, 1.0f) * 4;
+  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
+  const float part = at - static_cast<float>(i);
+  std::array<float, 3> colour{};
+  for (std::size_t k = 0; k < 3; ++k) colour[k] = srgb_decode(stops[i][k] + part * (stops[i + 1][k] - stops[i][k]));
+  return colour;
+}
+
+void write_heatmap(const Comparison& c, const std::filesystem::path& file) {
+  LinearImage map{c.width, c.height, {}};
+  for (const float value : c.flip_map) {
+    const auto colour = heat(value);
+    map.rgb.insert(map.rgb.end(), colour.begin(), colour.end());
+  }
+  write_png(file, map, 0, ToneCurve::srgb, {});
+}
+
+/// Says which errors are too large; what is not a number always is.
+bool passes(const CompareCommand& command, const Comparison& c) {
+  bool good = true;
+  const auto check = [&good](const char* name, double value, const std::optional<double>& limit) {
+    if (!limit || value <= *limit) return;
+    char text[120];
+    std::snprintf(text, sizeof text, "check failed: %s is %.6g, expected at most %.6g", name, value, *limit);
+    complain(text);
+    good = false;
+  };
+  check("RMSE", c.error.rmse, command.max_rmse);
+  check("relMSE", c.error.rel_mse, command.max_rel_mse);
+  check("FLIP", c.flip, command.max_flip);
+  return good;
+}
+
+}  // namespace
+
+int run(const CompareCommand& command) {
+  if (!command.heatmap.empty()) check_can_write(command.heatmap);
+  const Comparison comparison = compare(command);
+  if (!command.heatmap.empty()) write_heatmap(comparison, command.heatmap);
+  write_standard_output(command.json ? json_text(comparison) : table(comparison));
+  return passes(command, comparison) ? 0 : 1;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,121 @@
+#include "app/commands/commands.h"
+#include "app/contents.h"
+#include "app/open_scene.h"
+#include "app/standard_streams.h"
+#include "core/compile/compile.h"
+#include "core/film/film.h"
+#include "core/scene/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace tyndall {
+namespace {
+
+struct Report {
+  LoadedScene loaded;
+  Contents contents;
+  RenderScene compiled;
+  std::size_t film_bytes = 0;
+};
+
+Report examine(const SceneRequest& request) {
+  Report report{open_scene(request), {}, {}, 0};
+  const Scene& scene = report.loaded.scene;
+  report.contents = contents_of(scene);
+  report.compiled = compile(scene);
+  report.film_bytes =
+      sizeof(FilmPixel) * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  return report;
+}
+
+std::string json_text(const Report& report) {
+  const Scene& scene = report.loaded.scene;
+  const Contents& c = report.contents;
+  nlohmann::ordered_json json;
+  json["scene"] = report.loaded.name;
+  json["name"] = scene.name;
+  json["comments"] = leading_comments(report.loaded.text);
+  json["width"] = scene.width;
+  json["height"] = scene.height;
+  json["spp"] = scene.render.spp ? nlohmann::ordered_json(*scene.render.spp) : nlohmann::ordered_json();
+  json["max_depth"] = scene.render.max_depth;
+  json["shapes"] = nlohmann::ordered_json::object();
+  for (const auto& [type, count] : c.shapes) json["shapes"][type] = count;
+  json["materials"] = nlohmann::ordered_json::object();
+  for (const auto& [type, count] : c.materials) json["materials"][type] = count;
+  json["textures"] = nlohmann::ordered_json::object();
+  for (const auto& [type, count] : c.textures) json["textures"][type] = count;
+  json["media"] = c.media;
+  json["phase_functions"] = c.phase_functions;
+  json["lights"] = c.lights;
+  json["background"] = c.background;
+  json["motion"] = c.motion;
+  json["defocus"] = c.defocus;
+  json["primitives"] = report.compiled.primitives();
+  json["tree"] = report.compiled.bvh != nullptr;
+  json["kernel_features"] = names_of(report.compiled.needs);
+  json["scene_bytes"] = bytes_of(report.compiled);
+  json["film_bytes"] = report.film_bytes;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string listed(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [type, count] : counts) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + type;
+  return text.empty() ? "none" : text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+std::string bytes_text(std::size_t bytes) {
+  char text[40];
+  if (bytes < 100'000)
+    std::snprintf(text, sizeof text, "%.1f kB", static_cast<double>(bytes) / 1e3);
+  else
+    std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) / 1e6);
+  return text;
+}
+
+std::string table(const Report& report) {
+  const Scene& scene = report.loaded.scene;
+  const Contents& c = report.contents;
+  std::string text = printable(report.loaded.name) + (scene.name.empty() ? "" : ": " + printable(scene.name)) + "\n";
+  for (const std::string& line : leading_comments(report.loaded.text)) text += "  " + printable(line) + "\n";
+  const auto row = [&text](const std::string& name, const std::string& value) {
+    text += name + std::string(12 - name.size(), ' ') + value + "\n";
+  };
+  const auto spp = scene.render.spp ? std::to_string(*scene.render.spp) + " spp, " : std::string();
+  row("image", std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + spp + "max depth " +
+                   std::to_string(scene.render.max_depth));
+  row("shapes", listed(c.shapes));
+  row("materials", listed(c.materials));
+  row("textures", listed(c.textures));
+  row("media", c.media == 0
+                   ? "none"
+                   : std::to_string(c.media) + ", " + std::to_string(c.phase_functions) + " of them not isotropic");
+  row("lights", c.lights == 0 ? "none" : std::to_string(c.lights) + " emitting primitives");
+  row("background", c.background);
+  row("motion", c.motion ? "yes" : "no");
+  row("defocus", c.defocus ? "yes" : "no");
+  row("primitives", std::to_string(report.compiled.primitives()) +
+                        (report.compiled.bvh ? ", in a tree" : ", each tested for every ray"));
+  row("kernel", listed(names_of(report.compiled.needs)));
+  row("memory", "scene " + bytes_text(bytes_of(report.compiled)) + ", film " + bytes_text(report.film_bytes));
+  return text;
+}
+
+}  // namespace
+
+int run(const InspectCommand& command) {
+  const Report report = examine(command.scene);
+  write_standard_output(command.json ? json_text(report) : table(report));
+  return 0;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,132 @@
+#include "app/commands/commands.h"
+#include "app/film_files.h"
+#include "app/layers.h"
+#include "app/open_scene.h"
+#include "app/outputs.h"
+#include "app/render_setup.h"
+#include "app/signals.h"
+#include "app/standard_streams.h"
+#include "app/stats.h"
+#include "core/compile/compile.h"
+#include "core/film/error.h"
+
+#include <chrono>
+#include <cstdio>
+#include <new>
+
+namespace tyndall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// One headless render from command to files.
+struct Job {
+  const RenderCommand& command;
+  Clock::time_point start = Clock::now();
+  LoadedScene loaded{};
+  RenderOptions options{};
+  Film film{};  ///< to go on from; empty: none
+  RenderScene compiled{};
+  RenderResult result{};
+  std::uint64_t samples_before = 0;
+  double seconds_build = 0;
+};
+
+/// Finds everything that can be wrong before the first sample.
+void prepare(Job& job) {
+  const RenderCommand& command = job.command;
+  check_image_names(command.outputs);
+  find_kernels(command.isa);
+  job.loaded = open_scene(command.scene);
+  check_available(job.loaded.scene.render);
+  job.options = render_options(command, job.loaded);
+  for (const auto& file : command.outputs) check_can_write(file);
+  if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
+  job.film = film_to_resume(command, job.loaded, job.options);
+  job.samples_before = totals(job.film).samples;
+}
+
+std::string outcome(const Job& job) {
+  const RenderResult& r = job.result;
+  const RenderProgress end{totals(r.film).least_taken, r.seconds,
+                           r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
+                           estimated_relative_error(r.film)};
+  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {});
+}
+
+void render(Job& job, const SignalWatch& signals) {
+  const Clock::time_point start = Clock::now();
+  job.compiled = compile(job.loaded.scene);
+  job.seconds_build = seconds_since(start);
+  const bool counted = *job.options.spp < most_samples;
+  ProgressReport report(job.command.progress, {totals(job.film).least_taken, counted ? *job.options.spp : 0,
+                                               job.command.time_limit, job.command.target_error});
+  const auto progress = [&](const RenderProgress& now) {
+    report.show(now);
+    return signals.received() == 0;
+  };
+  try {
+    job.result = render(job.compiled, job.options, progress, std::move(job.film));
+  } catch (const std::bad_alloc&) {
+    const Region& r = *job.options.region;
+    throw IoError("not enough memory: the film of " + std::to_string(r.width()) + "x" + std::to_string(r.height()) +
+                  " pixels takes " + std::to_string(sizeof(FilmPixel)) + " bytes a pixel");
+  }
+  report.finish(outcome(job));
+}
+
+RunFigures figures(const Job& job) {
+  return {job.loaded.name,   job.loaded.scene,        job.compiled, job.result, job.samples_before,
+          job.seconds_build, seconds_since(job.start)};
+}
+
+/// Writes all that can be written; false if something could not.
+bool write(const Job& job) {
+  const auto embedded = [&job](const std::filesystem::path& file) {
+    return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, job.result.film, file),
+                    embedded_stats_text(figures(job))};
+  };
+  const auto layers = [&job] {
+    return first_hit_layers(job.compiled, job.result.film.region, find_kernels(job.command.isa));
+  };
+  auto problems = write_images({job.result.film, job.loaded.scene.display, embedded, layers}, job.command.outputs);
+  const std::filesystem::path& stats = job.command.stats;
+  try {
+    if (stats == "-")
+      write_standard_output(stats_text(figures(job)));
+    else if (!stats.empty())
+      write_text_file(stats, stats_text(figures(job)));
+  } catch (const std::exception& error) {
+    problems.emplace_back(error.what());
+  }
+  for (const std::string& problem : problems) complain(problem);
+  return problems.empty();
+}
+
+void warn_of_rejected(const Job& job) {
+  const FilmTotals sum = totals(job.result.film);
+  if (sum.rejected == 0 || job.command.progress == ProgressStyle::none) return;
+  complain(std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
+           " samples were rejected: not finite, or brighter than any light of the scene explains");
+}
+
+}  // namespace
+
+int run(const RenderCommand& command) {
+  constexpr int output_failed = 3;
+  Job job{command};
+  prepare(job);
+  const SignalWatch signals;
+  render(job, signals);
+  const int code = job.result.interrupted ? 128 + signals.received() : 0;
+  if (totals(job.result.film).most_taken == 0) {
+    complain("interrupted before the first samples: nothing written");
+    return code;
+  }
+  warn_of_rejected(job);
+  return write(job) ? code : output_failed;
+}
+
+}  // namespace tyndall

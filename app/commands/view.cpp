@@ -1,0 +1,44 @@
+#include "app/commands/commands.h"
+#include "app/open_scene.h"
+#include "core/scene/error.h"
+
+#include <cstdlib>
+
+namespace tyndall {
+namespace {
+
+/// The word as a shell needs it.
+std::string shell_word(const std::string& word) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The render command that makes the picture which the window would show.
+std::string headless_command(const ViewCommand& command) {
+  std::string text = "tyndall render";
+  if (command.words.empty() || command.words.front() != command.scene.what)
+    text += " " + shell_word(command.scene.what);
+  for (const std::string& word : command.words) text += " " + shell_word(word);
+  const std::string name = std::filesystem::path(command.scene.what).stem().string();
+  return text + " -o " + shell_word((name == "-" ? "image" : name) + ".png");
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+}  // namespace
+
+int run(const ViewCommand& command) {
+  const LoadedScene loaded = open_scene(command.scene);
+  check_available(loaded.scene.render);
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
+    throw IoError("no display for a window; the same picture without one: " + headless_command(command));
+  throw IoError("this build has no window; the same picture without one: " + headless_command(command));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,23 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <map>
+#include <string>
+
+namespace tyndall {
+
+/// What a scene contains, counted through all groups.
+struct Contents {
+  std::map<std::string, int> shapes;     ///< by type; moving spheres as "moving sphere"
+  std::map<std::string, int> materials;  ///< by type
+  std::map<std::string, int> textures;   ///< by type
+  int media = 0, phase_functions = 0;    ///< phase_functions: media with g != 0
+  int lights = 0;                        ///< emitting primitives; a box has six
+  bool motion = false;                   ///< something moves while the shutter is open
+  bool defocus = false;
+  std::string background;  ///< "constant", "gradient", "hemispheres"; "none" if it is black
+};
+
+Contents contents_of(const Scene& scene);
+
+}  // namespace tyndall

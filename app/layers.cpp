@@ -1,0 +1,26 @@
+#include "app/layers.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tyndall {
+
+std::vector<Layer> first_hit_layers(const RenderScene& scene, const Region& region, const Kernels& kernels) {
+  constexpr int rows = 64;  // at a time, to spare memory
+  std::vector<Layer> layers = {{"albedo", {"R", "G", "B"}, {}}, {"normal", {"X", "Y", "Z"}, {}}, {"depth", {"Z"}, {}}};
+  std::vector<float>&albedo = layers[0].values, &normal = layers[1].values, &depth = layers[2].values;
+  const SceneViewOf view(scene);
+  for (int y = region.y0; y < region.y1; y += rows) {
+    const Region strip{region.x0, y, region.x1, std::min(y + rows, region.y1)};
+    std::vector<FirstHit> hits(static_cast<std::size_t>(strip.width()) * static_cast<std::size_t>(strip.height()));
+    kernels.first_hits(view.view(), strip, hits.data());
+    for (const FirstHit& hit : hits) {
+      albedo.insert(albedo.end(), {hit.albedo.x, hit.albedo.y, hit.albedo.z});
+      normal.insert(normal.end(), {hit.normal.x, hit.normal.y, hit.normal.z});
+      depth.push_back(hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth);
+    }
+  }
+  return layers;
+}
+
+}  // namespace tyndall

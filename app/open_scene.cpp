@@ -1,0 +1,41 @@
+#include "app/open_scene.h"
+
+#include "core/scene/check.h"
+#include "core/scene/error.h"
+
+namespace tyndall {
+namespace {
+
+void apply(const SceneRequest& request, Scene& scene) {
+  if (request.size) {
+    scene.width = request.size->width;
+    scene.height = request.size->height;
+  }
+  if (request.max_depth) scene.render.max_depth = *request.max_depth;
+  if (request.integrator) scene.render.integrator = *request.integrator;
+  if (request.sampler) scene.render.sampler = *request.sampler;
+  if (request.fresnel) scene.render.fresnel = *request.fresnel;
+  if (request.seed) scene.render.seed = *request.seed;
+  if (request.exposure) scene.display.exposure = *request.exposure;
+  if (request.tone_map) scene.display.tone_map = *request.tone_map;
+}
+
+}  // namespace
+
+LoadedScene open_scene(const SceneRequest& request) {
+  LoadedScene loaded = load_scene(request.what, request.overrides);
+  apply(request, loaded.scene);
+  if (const auto broken = check(loaded.scene))
+    throw SceneError(loaded.name, broken->where, broken->found, broken->expected);
+  return loaded;
+}
+
+void check_available(const RenderSettings& settings) {
+  if (settings.integrator != Integrator::path)
+    throw UsageError(std::string("the integrator ") + (settings.integrator == Integrator::nee ? "nee" : "mis") +
+                     " is not in this version yet; use --integrator path");
+  if (settings.sampler != SamplerKind::random)
+    throw UsageError("the sampler sobol is not in this version yet; use --sampler random");
+}
+
+}  // namespace tyndall

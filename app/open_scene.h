@@ -1,0 +1,14 @@
+#pragma once
+#include "app/options.h"
+#include "core/scene/load.h"
+
+namespace tyndall {
+
+/// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
+/// again. Throws SceneError.
+LoadedScene open_scene(const SceneRequest& request);
+
+/// Throws UsageError for a method that this version does not have yet.
+void check_available(const RenderSettings& settings);
+
+}  // namespace tyndall

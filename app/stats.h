@@ -1,0 +1,30 @@
+#pragma once
+#include "core/compile/render_scene.h"
+#include "core/render/render.h"
+#include "core/scene/scene.h"
+
+#include <string>
+
+namespace tyndall {
+
+/// What --stats says about a run, and what made it.
+struct RunFigures {
+  std::string scene;  ///< file or built-in name
+  const Scene& settings;
+  const RenderScene& compiled;
+  const RenderResult& result;
+  std::uint64_t samples_before = 0;  ///< in the film when the run began
+  double seconds_build = 0;          ///< compiling the scene
+  double seconds_total = 0;          ///< from the command's start to now
+};
+
+/// All figures, as a JSON object. What is not known is null.
+std::string stats_text(const RunFigures& run);
+
+/// What PNG and EXR carry beside the scene: the figures that are the same for every run of the same build.
+std::string embedded_stats_text(const RunFigures& run);
+
+/// Most memory that this process has held at a time, bytes.
+std::size_t peak_memory();
+
+}  // namespace tyndall

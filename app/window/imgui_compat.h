@@ -1,0 +1,86 @@
+#pragma once
+#include <imgui.h>
+
+#include <cstdint>
+
+/// What differs between Dear ImGui 1.86 (Debian 12) and later versions.
+namespace tyndall::compat {
+
+/// Null: the current font (1.86: the default one).
+inline void push_font(ImFont* font) {
+#if IMGUI_VERSION_NUM >= 19200
+  ImGui::PushFont(font, font ? font->LegacySize : 0.0f);
+#else
+  ImGui::PushFont(font);
+#endif
+}
+
+inline float size_of(const ImFont* font) {
+#if IMGUI_VERSION_NUM >= 19200
+  return font->LegacySize;
+#else
+  return font->FontSize;
+#endif
+}
+
+inline bool tab_pressed() {
+#if IMGUI_VERSION_NUM >= 18700
+  return ImGui::IsKeyPressed(ImGuiKey_Tab);
+#else
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab));
+#endif
+}
+
+// Input for tests without a window. Before 1.87 there is no event queue: the fields are written directly, before
+// ImGui::NewFrame().
+inline void mouse_pos(ImGuiIO& io, float x, float y) {
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddMousePosEvent(x, y);
+#else
+  io.MousePos = ImVec2(x, y);
+#endif
+}
+inline void mouse_button(ImGuiIO& io, int button, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddMouseButtonEvent(button, down);
+#else
+  io.MouseDown[button] = down;
+#endif
+}
+inline void key(ImGuiIO& io, ImGuiKey name, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddKeyEvent(name, down);
+#else
+  io.KeysDown[io.KeyMap[name]] = down;
+#endif
+}
+
+/// What the backends of a window would have set up.
+inline void init_without_window(ImGuiIO& io) {
+#if IMGUI_VERSION_NUM < 18700
+  for (int k = 0; k < ImGuiKey_COUNT; ++k) io.KeyMap[k] = k;
+#endif
+#if IMGUI_VERSION_NUM >= 19200
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasTextures;
+#else
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+#endif
+}
+/// After ImGui::Render() without a renderer.
+inline void textures_without_window() {
+#if IMGUI_VERSION_NUM >= 19200
+  for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) {
+    if (texture->Status == ImTextureStatus_WantCreate) texture->SetTexID(1);
+    if (texture->Status == ImTextureStatus_WantDestroy) {
+      texture->SetTexID(ImTextureID_Invalid);
+      texture->SetStatus(ImTextureStatus_Destroyed);
+    } else {
+      texture->SetStatus(ImTextureStatus_OK);
+    }
+  }
+#endif
+}
+
+}  // namespace tyndall::compat
