@@ -37,9 +37,10 @@ void fill(TextureColumns& out, const Checker<>& checker, Vec3d origin) {
 }
 
 void fill(TextureColumns& out, const Noise<>& noise, Vec3d origin) {
+  const double scale = noise.style == Noise<>::Style::marble ? 1 : noise.scale;  // marble's scale is its veins' alone
   out.style = noise.style;
-  out.scale = static_cast<float>(noise.scale);
-  out.offset = to_float(modulo(noise.scale * origin, 256));
+  out.scale = static_cast<float>(scale);
+  out.offset = to_float(modulo(scale * origin, 256));
   out.z_scale = static_cast<float>(noise.scale / (2 * pi));
   out.z_offset = static_cast<float>(std::fmod(noise.scale * origin.z / (2 * pi), 1.0));
 }

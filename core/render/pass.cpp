@@ -57,17 +57,21 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
   pixels.assign(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()), {});
   UnitCounts counts;
   kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, pixels.data(), counts);
-  std::uint64_t paths = 0;
+  std::uint64_t paths = 0, rejected = 0, truncated = 0;
   auto from = pixels.begin();
   for (int y = where.y0; y < where.y1; ++y)
     for (int x = where.x0; x < where.x1; ++x, ++from) {
       if (!from->taken) continue;
       paths += from->taken;
+      rejected += from->rejected[0] + from->rejected[1];
+      truncated += from->truncated;
       add_pixel(film.at(x, y), *from);
     }
   rays_.fetch_add(counts.rays, std::memory_order_relaxed);
   shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);
   paths_.fetch_add(paths, std::memory_order_relaxed);
+  rejected_.fetch_add(rejected, std::memory_order_relaxed);
+  truncated_.fetch_add(truncated, std::memory_order_relaxed);
 }
 
 }  // namespace tyndall

@@ -26,6 +26,8 @@ class Pass {
   std::uint64_t shadow_rays() const { return shadow_rays_; }
   /// Paths that the units done so far have followed.
   std::uint64_t paths() const { return paths_; }
+  std::uint64_t rejected() const { return rejected_; }
+  std::uint64_t truncated() const { return truncated_; }
   std::uint32_t last() const { return last_; }
 
  private:
@@ -37,7 +39,7 @@ class Pass {
   int step_, skip_step_, tile_;
   int columns_, rows_;
   std::vector<std::uint8_t> done_;  ///< a flag a unit; each is written by the one thread that runs it
-  std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0;
+  std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
 };
 
 }  // namespace tyndall

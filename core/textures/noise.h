@@ -20,7 +20,7 @@ struct Noise {
 template <class F>
 constexpr auto fields(const Noise<F>*) {
   return std::tuple{Field{"scale", &Noise<F>::scale, above(0), Slider{0.01, 100, true}, "",
-                          "lattice cells per scene unit", true}};
+                          "lattice cells per scene unit; marble: veins per 2π scene units", true}};
 }
 
 /// One of 256 unit vectors of a lattice that repeats every 256 cells; x, y, z: whole lattice coordinates.
@@ -62,7 +62,7 @@ TYNDALL_INLINE F turbulence(Vec3<F> p, const float* gradients) {
   return abs(sum);
 }
 
-/// Grey value in [0, 1] for a style. p: scale · position (modulo 256); z_turn: scale · z / 2π, modulo 1.
+/// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_turn: scale · z / 2π.
 template <class F>
 TYNDALL_INLINE F noise_grey(typename Noise<double>::Style style, Vec3<F> p, F z_turn, const float* gradients) {
   if (style == Noise<double>::Style::perlin) return F(0.5f) * (F(1.0f) + gradient_noise(p, gradients));

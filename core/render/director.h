@@ -1,0 +1,94 @@
+#pragma once
+#include "core/compile/compile.h"
+#include "core/render/pass.h"
+#include "core/render/renderer.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+/// The inside of Renderer: what its callers and its one thread share, and what that thread owns.
+namespace tyndall {
+
+using Clock = std::chrono::steady_clock;
+
+/// Shared by the callers' threads and the director; everything but the flag is guarded by `mutex`.
+struct Mailbox {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::atomic<bool> give_up = false;  ///< asks the crew to leave the current pass
+
+  // in
+  std::optional<Scene> scene;          ///< not yet taken
+  Scene newest;                        ///< last submitted
+  std::uint64_t edit = 0;              ///< of the newest scene; 0: none yet
+  Clock::time_point submitted;
+  bool restart = false, paused = false, view_changed = false;
+  View view = View::beauty;
+  std::uint32_t limit = 0;             ///< samples a pixel at which to stop
+  int threads = 0;                     ///< wanted
+  std::vector<std::promise<Film>> films;  ///< asked for, not yet answered
+
+  // out
+  std::shared_ptr<const Frame> latest;
+  std::shared_ptr<const RenderProblem> problem;
+  std::shared_ptr<const RenderScene> compiled;
+};
+
+/// The thread that takes scenes from the mailbox, drives the crew pass by pass and publishes frames.
+class Director {
+ public:
+  Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame);
+
+  /// Until stop is requested.
+  void run(const std::stop_token& stop);
+
+ private:
+  bool wait_for_work(const std::stop_token& stop);
+  void take_orders();
+  void take_scene(Scene scene);
+  void start_over();
+  void answer_films();
+  Pass& current_pass();
+  void finish_pass(double seconds);
+  void publish();
+  std::vector<float> picture();
+  bool has_work() const;
+  std::int64_t pixels() const { return static_cast<std::int64_t>(compiled_->width) * compiled_->height; }
+
+  Mailbox& mail_;
+  Kernels kernels_;
+  std::function<void()> on_frame_;
+  std::unique_ptr<Crew> crew_;
+
+  // the scene that is shown
+  Scene scene_;
+  std::shared_ptr<const RenderScene> compiled_;
+  std::unique_ptr<SceneViewOf> scene_view_;
+  std::uint64_t edit_ = 0;
+  Clock::time_point submitted_;
+  double budget_ = 0;
+  std::uint32_t limit_ = 0;
+  View view_ = View::beauty;
+  std::vector<FirstHit> first_hits_;  ///< found when a view asks
+
+  // its samples
+  Film film_;
+  std::unique_ptr<Pass> pass_;  ///< null between passes
+  bool pass_is_coarse_ = false;
+  int step_ = 1;                ///< of the coarse pass
+  std::uint32_t taken_ = 0;     ///< samples that every pixel has
+  bool coarse_done_ = false;
+  double seconds_ = 0, mrays_per_s_ = 0, error_ = 0, first_picture_ms_ = 0;
+  double paths_per_second_ = 0;  ///< of the last full pass: sets the next edit's coarseness
+  double pass_seconds_ = 0;
+  std::uint64_t frames_ = 0, rejected_ = 0, truncated_ = 0;
+  Clock::time_point next_estimate_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,119 @@
+#include "core/render/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+std::size_t offset(int width, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
+void put(std::vector<float>& rgba, std::size_t pixel, Vec3f colour) {
+  float* to = rgba.data() + 4 * pixel;
+  to[0] = colour.x, to[1] = colour.y, to[2] = colour.z, to[3] = 1;
+}
+
+Vec3f get(const std::vector<float>& rgba, std::size_t pixel) {
+  const float* from = rgba.data() + 4 * pixel;
+  return {from[0], from[1], from[2]};
+}
+
+Vec3f mix(Vec3f a, Vec3f b, float t) { return a + t * (b - a); }
+
+/// Fills row y between the pixels of the coarse grid, which are there already.
+void fill_row(std::vector<float>& rgba, int width, int height, int y, int step) {
+  const int top = y / step * step, bottom = std::min(top + step, (height - 1) / step * step);
+  const float down = static_cast<float>(y - top) / static_cast<float>(step);
+  for (int x = 0; x < width; ++x) {
+    if (x % step == 0 && y == top) continue;
+    const int left = x / step * step, right = std::min(left + step, (width - 1) / step * step);
+    const float across = static_cast<float>(x - left) / static_cast<float>(step);
+    const Vec3f above = mix(get(rgba, offset(width, left, top)), get(rgba, offset(width, right, top)), across);
+    const Vec3f below = mix(get(rgba, offset(width, left, bottom)), get(rgba, offset(width, right, bottom)), across);
+    put(rgba, offset(width, x, y), mix(above, below, down));
+  }
+}
+
+/// Squared estimated relative error of a pixel, mean over channels.
+float squared_error(const Film& film, const FilmPixel& pixel) {
+  if (!counted(film, pixel, 0) || !counted(film, pixel, 1)) return 1;
+  const Vec3f a = half_mean(film, pixel, 0), b = half_mean(film, pixel, 1), m = mean(film, pixel);
+  const auto part = [](float x, float y, float centre) {
+    const float half = 0.5f * (x - y);
+    return half * half / (centre * centre + 0.01f);
+  };
+  return (part(a.x, b.x, m.x) + part(a.y, b.y, m.y) + part(a.z, b.z, m.z)) / 3;
+}
+
+}  // namespace
+
+std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew) {
+  std::vector<float> rgba(4 * film.pixels.size());
+  const int width = film.region.width(), height = film.region.height();
+  crew.for_each((height + step - 1) / step, [&](int row) {
+    for (int x = 0; x < width; x += step) {
+      const std::size_t at = offset(width, x, row * step);
+      put(rgba, at, mean(film, film.pixels[at]));
+    }
+  });
+  if (step > 1) crew.for_each(height, [&](int y) { fill_row(rgba, width, height, y, step); });
+  return rgba;
+}
+
+std::vector<float> noise_rgba(const Film& film, Crew& crew) {
+  const int width = film.region.width(), height = film.region.height();
+  std::vector<float> squared(film.pixels.size());
+  crew.for_each(height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      squared[offset(width, x, y)] = squared_error(film, film.pixels[offset(width, x, y)]);
+  });
+  std::vector<float> rgba(4 * film.pixels.size());
+  crew.for_each(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      float sum = 0;
+      int count = 0;
+      for (int j = std::max(y - 3, 0); j <= std::min(y + 3, height - 1); ++j)
+        for (int i = std::max(x - 3, 0); i <= std::min(x + 3, width - 1); ++i, ++count) sum += squared[offset(width, i, j)];
+      const float error = std::sqrt(sum / static_cast<float>(count));
+      put(rgba, offset(width, x, y), {error, error, error});
+    }
+  });
+  return rgba;
+}
+
+std::vector<float> samples_rgba(const Film& film) {
+  const auto most = static_cast<float>(std::max(1u, totals(film).most_taken));
+  std::vector<float> rgba(4 * film.pixels.size());
+  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+    const float share = static_cast<float>(film.pixels[i].taken) / most;
+    put(rgba, i, {share, share, share});
+  }
+  return rgba;
+}
+
+std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view) {
+  float farthest = 1e-37f;
+  for (const FirstHit& hit : hits) farthest = std::max(farthest, hit.depth);
+  std::vector<float> rgba(4 * hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const FirstHit& hit = hits[i];
+    const float depth = hit.depth / farthest;
+    const Vec3f normal = 0.5f * (hit.normal + Vec3f{1, 1, 1});
+    Vec3f colour{};
+    if (hit.element >= 0) colour = view == View::albedo ? hit.albedo : view == View::normal ? normal : Vec3f{depth, depth, depth};
+    put(rgba, i, colour);
+  }
+  return rgba;
+}
+
+std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, Crew& crew) {
+  std::vector<FirstHit> hits(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
+  crew.for_each(scene.height, [&](int y) {
+    kernels.first_hits(scene, {0, y, scene.width, y + 1}, hits.data() + offset(scene.width, 0, y));
+  });
+  return hits;
+}
+
+}  // namespace tyndall
