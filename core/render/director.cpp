@@ -59,12 +59,12 @@ bool Director::wait_for_work(const std::stop_token& stop) {
 }
 
 void Director::take_orders() {
-  std::optional<Scene> scene;
+  std::unique_ptr<Scene> scene;
   bool restart = false, view_changed = false;
   int threads = 0;
   {
     const std::lock_guard lock(mail_.mutex);
-    scene = std::exchange(mail_.scene, {});
+    scene = std::move(mail_.scene);
     restart = std::exchange(mail_.restart, false);
     view_changed = std::exchange(mail_.view_changed, false);
     view_ = mail_.view;

@@ -8,7 +8,6 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -24,7 +23,7 @@ struct Mailbox {
   std::atomic<bool> give_up = false;  ///< asks the crew to leave the current pass
 
   // in
-  std::optional<Scene> scene;          ///< not yet taken
+  std::unique_ptr<Scene> scene;        ///< not yet taken
   Scene newest;                        ///< last submitted
   std::uint64_t edit = 0;              ///< of the newest scene; 0: none yet
   Clock::time_point submitted;

@@ -52,7 +52,7 @@ std::uint64_t Renderer::submit(Scene scene) {
   const bool same = mail.edit > 0 && same_picture(mail.newest, scene);
   mail.newest = scene;
   if (!same) {
-    mail.scene = std::move(scene);
+    mail.scene = std::make_unique<Scene>(std::move(scene));
     mail.submitted = Clock::now();
     ++mail.edit;
     mail.give_up = true;
