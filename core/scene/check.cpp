@@ -1,5 +1,6 @@
 #include "core/scene/check.h"
 
+#include "core/scene/names.h"
 #include "core/scene/place.h"
 #include "core/scene/text.h"
 
@@ -16,7 +17,8 @@ void check_value(const Place& at, const Meaning& meaning, double value) {
   // Kernels compute in single precision: there, too, the value must be finite and valid.
   const float single = static_cast<float>(value);
   if (good && std::isfinite(single) && valid.contains(static_cast<double>(single))) return;
-  fail(at, number_text(value), expected_text(meaning, Form::number) + (good ? ", also in single precision" : ""));
+  const std::string rounded = good ? " (" + number_text(static_cast<double>(single)) + " in single precision)" : "";
+  fail(at, number_text(value) + rounded, expected_text(meaning, Form::number));
 }
 void check_value(const Place& at, const Meaning& meaning, int value) {
   if (!meaning.valid.contains(value)) fail(at, std::to_string(value), expected_text(meaning, Form::whole));
@@ -73,6 +75,20 @@ void check_camera(const Place& at, const Camera& camera) {
          "a shutter that closes (" + number_text(camera.shutter_close) + ") before it opens (" +
              number_text(camera.shutter_open) + ")",
          "two times, the first not after the second");
+}
+
+/// A choice that this build can make.
+template <class E, std::size_t n>
+void check_choice(const Place& at, const Named<E> (&table)[n], E value) {
+  const std::string name = name_of(table, value);
+  const Named<E>* entry = find_name(table, name);
+  if (entry && entry->missing) fail(at, in_quotes(name), one_of(available_names(table)) + " (" + entry->missing + ")");
+}
+
+void check_render(const Place& at, const RenderSettings& render) {
+  check_fields(at, render);
+  check_choice({at, "integrator"}, integrators, render.integrator);
+  check_choice({at, "sampler"}, samplers, render.sampler);
 }
 
 void check_background(const Place& at, const Background& background) {
@@ -178,7 +194,7 @@ void check_all(const Scene& scene) {
   check_fields({at, "image"}, image_fields(), scene);
   check_camera({at, "camera"}, scene.camera);
   check_background({at, "background"}, scene.background);
-  check_fields({at, "render"}, scene.render);
+  check_render({at, "render"}, scene.render);
   check_fields({at, "display"}, scene.display);
   const Place textures{at, "textures"}, materials{at, "materials"};
   check_names(textures, scene.textures);

@@ -1,3 +1,4 @@
+#include "core/scene/json_syntax.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 #include "core/scene/text.h"
@@ -13,16 +14,6 @@ namespace {
 
 constexpr std::size_t max_values = std::size_t(1)
                                    << 25;  // more than 256 MiB of real scene hold; about 1.5 GB as a tree
-
-/// "line 3, column 5" of a byte offset.
-std::string line_and_column(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
-  const auto column = std::count_if(before.begin() + static_cast<std::ptrdiff_t>(begin), before.end(),
-                                    [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
-  return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::ptrdiff_t>(column, 1));
-}
 
 /// Receives the parser's events, builds the tree and refuses what the format refuses, before it is built.
 class TreeBuilder {
@@ -64,19 +55,7 @@ class TreeBuilder {
 
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) {
     if (error.id == 406) return refuse({where(open_.size()), token, "a number within the range of a double"});
-    const std::string what = error.what();
-    // "[json.exception...] parse error at ...: syntax error while ... - unexpected X; expected Y" or "- reason; last
-    // read: X"
-    const std::size_t dash = what.find(" - "), semicolon = what.rfind("; ");
-    std::string found =
-        dash == what.npos ? what : what.substr(dash + 3, semicolon < dash ? what.npos : semicolon - dash - 3);
-    std::string expected = "JSON";
-    if (constexpr std::string_view tag = "; expected ";
-        semicolon != what.npos && what.compare(semicolon, tag.size(), tag) == 0)
-      expected = what.substr(semicolon + tag.size());
-    if (constexpr std::string_view tag = "unexpected "; found.starts_with(tag)) found.erase(0, tag.size());
-    if (expected == "JSON") found += " at " + in_quotes(shortened(token, 40));
-    return refuse({line_and_column(text_, position), found, expected});
+    return refuse(syntax_error(text_, position, error.what()));
   }
 
  private:

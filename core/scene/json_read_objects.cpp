@@ -1,5 +1,7 @@
 #include "core/scene/json_read.h"
 
+#include <algorithm>
+
 namespace tyndall {
 namespace {
 
@@ -7,6 +9,7 @@ std::vector<std::string_view> names_in(const NameTable& table) {
   std::vector<std::string_view> names;
   names.reserve(table.size());
   for (const auto& entry : table) names.push_back(entry.first);
+  std::sort(names.begin(), names.end());
   return names;
 }
 
@@ -112,8 +115,11 @@ int read_reference(const JsonValue& json, const Place& at, const NameTable& tabl
   const std::string& name = string_at(json, at, expected);
   const auto entry = table.find(name);
   if (entry == table.end()) {
-    const std::string hint = table.empty() ? " (the scene has none)" : did_you_mean(name, names_in(table));
-    fail(at, in_quotes(shortened(name, 80)) + ", which is no " + kind + " of this scene", expected + hint);
+    const auto names = names_in(table);
+    std::string hint = did_you_mean(name, names);
+    if (names.empty()) hint = " (the scene has none)";
+    if (hint.empty() && names.size() <= 12) hint = ": " + one_of(names);
+    fail(at, in_quotes(shortened(name, 80)), expected + hint);
   }
   return entry->second;
 }

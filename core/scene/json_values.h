@@ -85,7 +85,7 @@ bool read_kind(std::string_view type, std::variant<Kinds...>& out, const Read& r
   return ((type == Kinds::type && (read(out.template emplace<Kinds>()), true)) || ...);
 }
 
-/// One of the names of a table, if the key is there.
+/// One of the names of a table, if the key is there; check() refuses those that this build lacks.
 template <class E, std::size_t n>
 void read_name(const JsonObject& object, const Place& at, const char* key, const Named<E> (&table)[n], E& out) {
   const JsonValue* json = find(object, key);
@@ -95,7 +95,6 @@ void read_name(const JsonObject& object, const Place& at, const char* key, const
   const std::string& name = string_at(*json, here, one_of(names));
   const Named<E>* entry = find_name(table, name);
   if (!entry) fail(here, describe(*json), one_of(names) + did_you_mean(name, names));
-  if (entry->missing) fail(here, in_quotes(name), one_of(names) + " (" + entry->missing + ")");
   out = entry->value;
 }
 

@@ -66,9 +66,9 @@ std::string expected_text(const Meaning& meaning, Form form) {
                      : form == Form::whole ? "a whole number"
                                            : "an array of 3 numbers";
   std::string text = kind + range_text(meaning.valid);
-  const std::string help = meaning.help, unit = meaning.unit;
-  if (help.empty() && unit.empty()) return text;
-  return text + " (" + help + (help.empty() || unit.empty() ? "" : ", in ") + unit + ")";
+  if (*meaning.unit) text += std::string(" in ") + meaning.unit;
+  if (*meaning.help) text += std::string(" (") + meaning.help + ")";
+  return text;
 }
 
 }  // namespace tyndall

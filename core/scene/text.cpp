@@ -10,8 +10,13 @@ namespace {
 
 constexpr bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
 
-void append_escaped(std::string& out, unsigned char c) {
+void append_hex(std::string& out, unsigned char c) {
   constexpr std::string_view digits = "0123456789abcdef";
+  out += digits[c >> 4];
+  out += digits[c & 15];
+}
+
+void append_escaped(std::string& out, unsigned char c) {
   if (c == '\n') {
     out += "\\n";
   } else if (c == '\t') {
@@ -19,15 +24,24 @@ void append_escaped(std::string& out, unsigned char c) {
   } else if (c == '\r') {
     out += "\\r";
   } else {
-    out += "\\u00";
-    out += digits[c >> 4];
-    out += digits[c & 15];
+    append_hex(out += "\\u00", c);
   }
 }
 
-/// The second byte of a control character in U+0080 … U+009F, which some terminals obey.
-bool is_c1(std::string_view text, std::size_t i) {
-  return text[i] == '\xc2' && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+/// Bytes of the UTF-8 letter at the beginning of a text, 1 to 4; 0 if they are none. (Unicode, table 3-7.)
+std::size_t letter_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto continues = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
+  const unsigned first = byte(0), second = byte(1);
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first < 0xe0) return continues(1) ? 2 : 0;
+  if (first >= 0xe0 && first < 0xf0) {
+    const bool too_long = first == 0xe0 && second < 0xa0, surrogate = first == 0xed && second >= 0xa0;
+    return continues(1) && continues(2) && !too_long && !surrogate ? 3 : 0;
+  }
+  const bool too_long = first == 0xf0 && second - 0x80 < 0x10;
+  const bool too_large = first > 0xf4 || (first == 0xf4 && second >= 0x90);
+  return first >= 0xf0 && continues(1) && continues(2) && continues(3) && !too_long && !too_large ? 4 : 0;
 }
 
 /// Edits (a letter added, left out, replaced, or two neighbours swapped) that turn a into b.
@@ -50,17 +64,21 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string printable(std::string_view text, std::size_t limit) {
   std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool inside_letter = (c & 0xc0) == 0x80;
-    if (out.size() >= limit && !inside_letter) return out + "…";
-    if (is_control(c)) {
-      append_escaped(out, c);
-    } else if (is_c1(text, i)) {
-      append_escaped(out, static_cast<unsigned char>(text[++i]));
+  for (std::size_t i = 0; i < text.size();) {
+    if (out.size() >= limit) return out + "…";
+    const std::string_view rest = text.substr(i);
+    const std::size_t size = letter_size(rest);
+    const auto first = static_cast<unsigned char>(rest[0]);
+    if (size == 0) {
+      append_hex(out += "\\x", first);
+    } else if (is_control(first)) {
+      append_escaped(out, first);
+    } else if (size == 2 && first == 0xc2 && static_cast<unsigned char>(rest[1]) < 0xa0) {
+      append_escaped(out, static_cast<unsigned char>(rest[1]));  // U+0080 … U+009F, which some terminals obey
     } else {
-      out += text[i];
+      out += rest.substr(0, size);
     }
+    i += std::max<std::size_t>(size, 1);
   }
   return out;
 }

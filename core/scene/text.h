@@ -7,7 +7,8 @@
 /// Pieces of messages and files.
 namespace tyndall {
 
-/// The text for one line: control characters as \n or \u001b; past `limit` bytes its end is left out ("…").
+/// The text for one line: control characters as \n or \u001b, bytes that are not UTF-8 as \xff; past `limit` bytes its
+/// end is left out ("…").
 std::string printable(std::string_view text, std::size_t limit = 300);
 
 /// The text, or its first `limit` bytes (whole letters) and "…".
