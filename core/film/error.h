@@ -9,6 +9,9 @@ namespace tyndall {
 /// Estimated relative error of a film from its two halves: sqrt(mean over pixels and channels of
 /// ((A-B)/2)² / (mean² + 0.01)). Its square estimates relMSE. Infinite while a half is empty.
 double estimated_relative_error(const Film& film);
+/// The same for each pixel of the region from the 7 x 7 pixels around it, less those with an empty half; infinite where
+/// none is left.
+std::vector<float> pixel_relative_error(const Film& film);
 
 /// Errors of an image against a reference. Means over pixels and channels.
 struct ImageError {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
-#include <limits>
 #include <memory>
 #include <string_view>
 #include <system_error>
@@ -31,16 +31,37 @@ void cannot_write(const std::filesystem::path& file, const std::string& why) {
   throw ImageFileError(file.string() + ": cannot write: " + why);
 }
 
-void check_writable(const std::filesystem::path& file, int width, int height) {
-  if (width < 1 || height < 1) {
-    cannot_write(file, "an image of " + std::to_string(width) + " x " + std::to_string(height) + " has no pixels");
-  }
+namespace {
+
+bool is_valid_size(std::int64_t width, std::int64_t height) {
+  return width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width;
+}
+
+std::string size_problem(std::int64_t width, std::int64_t height) {
+  return "found an image of " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels, expected 1 to 2^28 in all";
+}
+
+}  // namespace
+
+void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
+  if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
+}
+
+void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
+  if (!is_valid_size(width, height)) cannot_write(file, size_problem(width, height));
+}
+
+void check_writable(const std::filesystem::path& file, const LinearImage& image) {
+  check_writable(file, image.width, image.height);
+  assert(image.rgb.size() ==
+         std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
 }
 
 WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), target_(file) {
   std::error_code error;
-  if (std::filesystem::is_symlink(file, error)) {
-    target_ = std::filesystem::weakly_canonical(file, error);
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(target_, error); ++links) {
+    target_ = target_.parent_path() / std::filesystem::read_symlink(target_, error);
     if (error) cannot_write(file_, error.message());
   }
   const std::filesystem::file_status status = std::filesystem::status(target_, error);
@@ -89,17 +110,23 @@ void WholeFile::commit() {
   temporary_.clear();
 }
 
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::size_t limit) {
   const ReadStream stream(std::fopen(file.c_str(), "rb"));
   if (!stream) cannot_read(file, error_text(errno));
   std::vector<std::uint8_t> bytes;
-  std::array<std::uint8_t, 65536> buffer;
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), stream.get())) > 0) {
-    bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count));
-    if (bytes.size() > std::numeric_limits<int>::max()) cannot_read(file, "longer than 2 GiB");
+  for (std::size_t size = 0, want = 0; size == want && size < limit;) {
+    want = std::min(limit, std::max<std::size_t>(2 * size, 65536));
+    bytes.resize(want);
+    size += std::fread(bytes.data() + size, 1, want - size, stream.get());
+    if (std::ferror(stream.get()) != 0) cannot_read(file, error_text(errno));
+    bytes.resize(size);
   }
-  if (std::ferror(stream.get()) != 0) cannot_read(file, error_text(errno));
+  return bytes;
+}
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
+  std::vector<std::uint8_t> bytes = read_bytes(file, max_file_size + 1);
+  if (bytes.size() > max_file_size) cannot_read(file, "longer than 2 GiB");
   return bytes;
 }
 
@@ -111,16 +138,6 @@ ImageKind image_kind(std::span<const std::uint8_t> start) {
   if (text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n")) return ImageKind::hdr;
   if (text.size() > 2 && (text.starts_with("PF") || text.starts_with("Pf")) && text[2] <= ' ') return ImageKind::pfm;
   return ImageKind::unknown;
-}
-
-ImageKind image_kind(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return ImageKind::unknown;  // a pipe can be read only once
-  const ReadStream stream(std::fopen(file.c_str(), "rb"));
-  if (!stream) return ImageKind::unknown;
-  std::array<std::uint8_t, 16> start{};
-  const std::size_t count = std::fread(start.data(), 1, start.size(), stream.get());
-  return image_kind(std::span(start).first(count));
 }
 
 }  // namespace tyndall

@@ -9,6 +9,10 @@
 
 namespace tyndall {
 
+std::uint32_t get_u32(std::span<const std::uint8_t> from) {
+  return std::uint32_t{from[0]} << 24 | std::uint32_t{from[1]} << 16 | std::uint32_t{from[2]} << 8 | from[3];
+}
+
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -32,10 +36,6 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
 
 void put_u32(Bytes& to, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-std::uint32_t get_u32(std::span<const std::uint8_t> from) {
-  return std::uint32_t{from[0]} << 24 | std::uint32_t{from[1]} << 16 | std::uint32_t{from[2]} << 8 | from[3];
 }
 
 void put_chunk(Bytes& to, std::string_view type, std::string_view data) {
@@ -72,7 +72,7 @@ Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, co
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneCurve curve,
                const Embedded& embedded) {
-  check_writable(file, image.width, image.height);
+  check_writable(file, image);
   const Bytes png = encode_png(file, image, tone_map(image.rgb, exposure, curve));
   Bytes extra;
   put_chunk(extra, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual

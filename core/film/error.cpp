@@ -1,0 +1,118 @@
+#include "core/film/error.h"
+
+#include "core/film/tonemap.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace tyndall {
+
+namespace {
+
+constexpr double floor_of_square = 0.01;  // keeps black pixels from dominating
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double square(double x) { return x * x; }
+
+/// Mean over the channels of ((A-B)/2)² / (mean² + 0.01) of one pixel; infinite if a half is empty.
+double squared_error(const Film& film, const FilmPixel& pixel) {
+  if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
+  const Vec3f a = half_mean(film, pixel, 0), b = half_mean(film, pixel, 1), both = mean(film, pixel);
+  const auto channel = [](double x, double y, double m) { return square((x - y) / 2) / (square(m) + floor_of_square); };
+  return (channel(a.x, b.x, both.x) + channel(a.y, b.y, both.y) + channel(a.z, b.z, both.z)) / 3;
+}
+
+}  // namespace
+
+double estimated_relative_error(const Film& film) {
+  double sum = 0;
+  for (const FilmPixel& pixel : film.pixels) {
+    sum += squared_error(film, pixel);
+    if (sum == infinity) return infinity;
+  }
+  return film.pixels.empty() ? infinity : std::sqrt(sum / static_cast<double>(film.pixels.size()));
+}
+
+namespace {
+
+struct Sum {
+  double value = 0;
+  int count = 0;
+};
+
+/// Replaces each of `count` numbers, `stride` apart, by the sum over itself and its neighbours up to `reach` away.
+void sum_window(Sum* numbers, int count, std::size_t stride, int reach, std::vector<Sum>& row) {
+  row.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) row[static_cast<std::size_t>(i)] = numbers[static_cast<std::size_t>(i) * stride];
+  for (int i = 0; i < count; ++i) {
+    Sum sum;
+    for (int j = std::max(i - reach, 0); j <= std::min(i + reach, count - 1); ++j) {
+      sum.value += row[static_cast<std::size_t>(j)].value;
+      sum.count += row[static_cast<std::size_t>(j)].count;
+    }
+    numbers[static_cast<std::size_t>(i) * stride] = sum;
+  }
+}
+
+}  // namespace
+
+std::vector<float> pixel_relative_error(const Film& film) {
+  constexpr int reach = 3;
+  const int width = film.region.width(), height = film.region.height();
+  std::vector<Sum> sums, row;
+  sums.reserve(film.pixels.size());
+  for (const FilmPixel& pixel : film.pixels) {
+    const double error = squared_error(film, pixel);
+    sums.push_back(error == infinity ? Sum{} : Sum{error, 1});
+  }
+  const auto stride = static_cast<std::size_t>(width);
+  for (int y = 0; y < height; ++y) sum_window(&sums[static_cast<std::size_t>(y) * stride], width, 1, reach, row);
+  for (int x = 0; x < width; ++x) sum_window(&sums[static_cast<std::size_t>(x)], height, stride, reach, row);
+  std::vector<float> errors;
+  errors.reserve(sums.size());
+  for (const Sum& sum : sums) {
+    errors.push_back(static_cast<float>(sum.count == 0 ? infinity : std::sqrt(sum.value / sum.count)));
+  }
+  return errors;
+}
+
+namespace {
+
+/// sRGB of a value clipped to [0, 1]; what is not a number stays so.
+double displayed(float linear) {
+  if (linear < 0) return 0;
+  return static_cast<double>(srgb_encode(linear > 1 ? 1.0f : linear));
+}
+
+}  // namespace
+
+ImageError image_error(const std::vector<float>& image, const std::vector<float>& reference) {
+  assert(!image.empty() && image.size() == reference.size() && image.size() % 3 == 0);
+  ImageError error;
+  std::array<double, 3> sum_image{}, sum_reference{};
+  double displayed_mse = 0;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const double x = static_cast<double>(image[i]), ref = static_cast<double>(reference[i]);
+    error.mse += square(x - ref);
+    error.rel_mse += square(x - ref) / (square(ref) + floor_of_square);
+    displayed_mse += square(displayed(image[i]) - displayed(reference[i]));
+    sum_image[i % 3] += x;
+    sum_reference[i % 3] += ref;
+  }
+  const double count = static_cast<double>(image.size());
+  const auto mean_of = [count](const std::array<double, 3>& sum) {
+    return (3 / count) * Vec3d{sum[0], sum[1], sum[2]};
+  };
+  error.mse /= count;
+  error.rmse = std::sqrt(error.mse);
+  error.rel_mse /= count;
+  error.psnr = -10 * std::log10(displayed_mse / count);
+  error.mean_image = mean_of(sum_image);
+  error.mean_reference = mean_of(sum_reference);
+  return error;
+}
+
+}  // namespace tyndall
