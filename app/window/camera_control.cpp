@@ -80,8 +80,8 @@ Camera dolly(const Camera& camera, double factor) {
 Camera zoom(const Camera& camera, double factor) {
   Camera result = camera;
   const double wanted = 2 / degree * std::atan(factor * half_tangent(camera));
-  const double limited = factor > 1 ? std::min(wanted, std::max(170.0, camera.vfov))
-                                    : std::max(wanted, std::min(0.1, camera.vfov));
+  const double limited =
+      factor > 1 ? std::min(wanted, std::max(170.0, camera.vfov)) : std::max(wanted, std::min(0.1, camera.vfov));
   result.vfov = std::round(limited * 1e4) / 1e4;
   return result;
 }

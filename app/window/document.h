@@ -9,12 +9,11 @@ namespace tyndall {
 
 /// Where a scene came from. Never changes once it is shared by documents.
 struct Origin {
-  std::string title;              ///< shown: "cornell.json", "showroom"
-  std::filesystem::path file;     ///< what Ctrl+S writes; empty: it asks for a name
-  std::filesystem::path watched;  ///< read again when it changes; empty: none
-  std::filesystem::path folder;   ///< relative texture files are relative to it
-  bool comments = false;          ///< the file has comments, which saving would lose
-  Scene saved;                    ///< what the file holds
+  std::string title;             ///< shown: "cornell.json", "showroom"
+  std::filesystem::path file;    ///< what Ctrl+S writes and what is watched; empty: Ctrl+S asks for a name
+  std::filesystem::path folder;  ///< relative texture files are relative to it
+  bool comments = false;         ///< the file has comments, which saving would lose
+  Scene saved;                   ///< what the file holds
 };
 
 /// A scene that is being edited. What undo goes back to includes where it came from: opening a scene is an edit too.

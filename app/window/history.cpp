@@ -9,7 +9,7 @@ History::History(Document start) { steps_.push_back(std::move(start)); }
 bool History::record(Document next, std::uint64_t gesture) {
   if (next == current()) return false;
   steps_.resize(at_ + 1);
-  if (open_ && gesture == gesture_) {
+  if (open_ && gesture != 0 && gesture == gesture_) {
     steps_[at_] = std::move(next);
     return true;
   }

@@ -31,13 +31,22 @@ std::string degrees_text(double degrees) { return format_short(std::round(10 * d
 }  // namespace
 
 std::string label_of(std::string_view field) {
-  static constexpr std::pair<std::string_view, const char*> words[] = {
-      {"g", "Asymmetry g"},       {"vfov", "Field of view"},  {"defocus_angle", "Defocus"},
-      {"focus_distance", "Focus"}, {"look_from", "Position"}, {"look_at", "Target"},
-      {"vup", "Up"},               {"center", "Centre"},      {"center_end", "Centre, end"},
-      {"u", "Edge u"},             {"v", "Edge v"},           {"min", "Low corner"},
-      {"max", "High corner"},      {"even", "Even cubes"},    {"odd", "Odd cubes"},
-      {"color", "Colour"}};
+  static constexpr std::pair<std::string_view, const char*> words[] = {{"g", "Asymmetry g"},
+                                                                       {"vfov", "Field of view"},
+                                                                       {"defocus_angle", "Defocus"},
+                                                                       {"focus_distance", "Focus"},
+                                                                       {"look_from", "Position"},
+                                                                       {"look_at", "Target"},
+                                                                       {"vup", "Up"},
+                                                                       {"center", "Centre"},
+                                                                       {"center_end", "Centre, end"},
+                                                                       {"u", "Edge u"},
+                                                                       {"v", "Edge v"},
+                                                                       {"min", "Low corner"},
+                                                                       {"max", "High corner"},
+                                                                       {"even", "Even cubes"},
+                                                                       {"odd", "Odd cubes"},
+                                                                       {"color", "Colour"}};
   for (const auto& [name, label] : words)
     if (name == field) return label;
   std::string label(field);
@@ -98,7 +107,8 @@ std::string meaning(const Sphere<>& sphere, std::string_view field) {
 std::string meaning(const Camera& camera, std::string_view field) {
   if (field == "vfov") {
     const double lens = 12 / std::tan(0.5 * degree * camera.vfov);  // half of 24 mm
-    return "as a " + format_short(lens < 100 ? std::round(lens) : 10 * std::round(lens / 10)) + " mm lens on 35 mm film";
+    return "as a " + format_short(lens < 100 ? std::round(lens) : 10 * std::round(lens / 10)) +
+           " mm lens on 35 mm film";
   }
   if (field == "defocus_angle") {
     if (camera.defocus_angle == 0) return "a pinhole: all is sharp";

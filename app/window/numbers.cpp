@@ -53,7 +53,8 @@ double slider_value(const Slider& slider, double position, double before) {
   const double t = std::clamp(position, 0.0, 1.0);
   if (!slider.logarithmic)
     return std::clamp(round_to(slider.low + t * (slider.high - slider.low), step_exponent(slider)), slider.low,
-                      slider.high) + 0.0;
+                      slider.high) +
+           0.0;
   const double size = three_digits(slider.low * std::pow(slider.high / slider.low, t));
   return std::copysign(std::clamp(size, slider.low, slider.high), before < 0 ? -1.0 : 1.0);
 }
@@ -90,7 +91,8 @@ bool parse_number(const std::string& text, const std::string& unit, double& valu
     number.erase(number.find_last_not_of(' ') + 1);
   };
   trim();
-  if (!unit.empty() && number.size() > unit.size() && number.ends_with(unit)) number.resize(number.size() - unit.size());
+  if (!unit.empty() && number.size() > unit.size() && number.ends_with(unit))
+    number.resize(number.size() - unit.size());
   trim();
   if (number.empty()) return false;
   char* end = nullptr;

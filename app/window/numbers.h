@@ -11,7 +11,8 @@ Slider widened(const Slider& slider, const Valid& valid, double value);
 
 /// Where a value is on a slider, in [0, 1]. Logarithmic sliders show the size and keep the sign.
 double slider_position(const Slider& slider, double value);
-/// The value at a position in [0, 1], rounded to what a user would type. `before` gives the sign on logarithmic sliders.
+/// The value at a position in [0, 1], rounded to what a user would type. `before` gives the sign on logarithmic
+/// sliders.
 double slider_value(const Slider& slider, double position, double before);
 /// The value after dragging a number sideways by `steps`: 400 of them cross the slider.
 double dragged(const Slider& slider, double before, double steps);

@@ -36,7 +36,8 @@ void material_rows(Ui& ui, Scene& scene, int index) {
   std::visit([&](auto& kind) { field_rows(ui, kind); }, material.kind);
   const char* name = colour_field(material);
   if (!name) return;
-  Row row{name, label_of(name), between(0, 1), {0, 1}, "", "share of light that comes back, per colour; linear RGB", ""};
+  Row row{name, label_of(name), between(0, 1), {0, 1}, "", "share of light that comes back, per colour; linear RGB",
+          ""};
   if (std::holds_alternative<Light<>>(material.kind)) {
     row.valid = at_least(0);
     row.slider = {0, 20};
@@ -60,7 +61,8 @@ void transform_rows(Ui& ui, const char* prefix, Transform& transform) {
   for (auto& step : transform) {
     const std::string name = prefix + std::to_string(number++);
     if (RotateY* rotation = std::get_if<RotateY>(&step))
-      slider_row(ui, {name, "Turn", any_number(), {-180, 180}, "°", "rotation about the y axis", ""}, rotation->degrees);
+      slider_row(ui, {name, "Turn", any_number(), {-180, 180}, "°", "rotation about the y axis", ""},
+                 rotation->degrees);
     else
       value_row(ui, {name, "Move", any_number(), {}, "", "translation, scene units", ""},
                 std::get<Translate>(step).offset);
@@ -69,7 +71,8 @@ void transform_rows(Ui& ui, const char* prefix, Transform& transform) {
 
 void medium_rows(Ui& ui, Scene& scene, Volume& volume) {
   field_rows(ui, volume.medium);
-  Row row{"albedo", "Albedo", between(0, 1), {0, 1}, "", "share of events that scatter, per colour; the rest absorbs", ""};
+  Row row{"albedo", "Albedo", between(0, 1), {0, 1}, "", "share of events that scatter, per colour; the rest absorbs",
+          ""};
   if (const Vec3d* colour = std::get_if<Vec3d>(&volume.albedo)) row.meaning = albedo_meaning(volume.medium, *colour);
   colour_rows(ui, scene, volume.albedo, row);
 }
@@ -92,6 +95,10 @@ void brief_section(Ui& ui, Scene& scene, const ObjectPath& path) {
   }
   Solid3d& solid = std::get<Solid3d>(object.kind);
   material_rows(ui, scene, solid.material);
+  Sphere<>* sphere = std::get_if<Sphere<>>(&solid.shape);
+  if (!sphere || !std::holds_alternative<Metal<>>(material_of(scene, object)->kind)) return;
+  const Scope scope(ui, title_of(scene, path));
+  field_rows(ui, *sphere, [](const auto&, std::string_view name) { return name == "radius"; });
 }
 
 void full_section(Ui& ui, Scene& scene, const ObjectPath& path) {

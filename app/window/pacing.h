@@ -26,10 +26,10 @@ class Pacing {
 
   /// When a newer picture may be shown; a finished one always may.
   double picture_due() const { return due_; }
+  /// The earliest time at which it may be drawn again.
+  double next_drawing() const { return drawn_ + least_frame_interval; }
   /// Seconds to wait for events before drawing: 0 draw now; infinite: until something happens.
   double wait(double now) const;
-  /// Draws are due: an event's further frames, or the time of wake_at came.
-  bool draw_due(double now) const { return frames_ > 0 || now >= wake_; }
 
  private:
   int frames_ = 3, shown_ = 0;

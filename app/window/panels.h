@@ -26,15 +26,15 @@ struct Wishes {
 };
 
 struct PanelState {
-  Scene scene;             ///< edited in place
-  ObjectPath selected;     ///< edited in place
-  int view = 0;            ///< edited in place: index into view_names
-  Wishes wishes;           ///< out
+  Scene scene;          ///< edited in place
+  ObjectPath selected;  ///< edited in place
+  int view = 0;         ///< edited in place: index into view_names
+  Wishes wishes;        ///< out
   // What is shown.
   std::shared_ptr<const Frame> frame;  ///< null before the first
   const Convergence* convergence = nullptr;
   const std::vector<BuiltIn>* scenes = nullptr;
-  std::string title;       ///< of the open scene
+  std::string title;  ///< of the open scene
   bool paused = false;
   int threads = 1;
 };

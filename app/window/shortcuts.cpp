@@ -68,13 +68,20 @@ std::optional<Action> action_of(int key, Modifiers modifiers) {
 
 std::optional<FlyKey> fly_key(int key) {
   switch (key) {
-    case 'D': return FlyKey{0, 1};
-    case 'A': return FlyKey{0, -1};
-    case 'E': return FlyKey{1, 1};
-    case 'Q': return FlyKey{1, -1};
-    case 'W': return FlyKey{2, 1};
-    case 'S': return FlyKey{2, -1};
-    default: return {};
+    case 'D':
+      return FlyKey{0, 1};
+    case 'A':
+      return FlyKey{0, -1};
+    case 'E':
+      return FlyKey{1, 1};
+    case 'Q':
+      return FlyKey{1, -1};
+    case 'W':
+      return FlyKey{2, 1};
+    case 'S':
+      return FlyKey{2, -1};
+    default:
+      return {};
   }
 }
 

@@ -7,8 +7,27 @@
 namespace tyndall {
 
 enum class Action {
-  help, deselect, frame, reset_camera, pause, restart, undo, redo, save, save_as, snapshot,
-  view_beauty, view_albedo, view_normal, view_depth, view_noise, view_samples, view_cost, panels, full_screen, quit
+  help,
+  deselect,
+  frame,
+  reset_camera,
+  pause,
+  restart,
+  undo,
+  redo,
+  save,
+  save_as,
+  snapshot,
+  view_beauty,
+  view_albedo,
+  view_normal,
+  view_depth,
+  view_noise,
+  view_samples,
+  view_cost,
+  panels,
+  full_screen,
+  quit
 };
 
 struct Modifiers {

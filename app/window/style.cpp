@@ -43,7 +43,7 @@ ImFont* add_font(const std::string& file, float size) {
 
 }  // namespace
 
-ImU32 shade(ImVec4 colour, float alpha) {
+ImU32 shade(Tone colour, float alpha) {
   colour.w *= alpha;
   return ImGui::ColorConvertFloat4ToU32(colour);
 }

@@ -5,15 +5,19 @@ namespace tyndall {
 
 /// The palette: scattered blue and transmitted amber, as in Tyndall's tank of milky water; the rest is neutral so that
 /// the picture keeps its colours.
+struct Tone {
+  float x, y, z, w;
+  operator ImVec4() const { return {x, y, z, w}; }
+};
 namespace palette {
-inline constexpr ImVec4 ink{0.086f, 0.094f, 0.106f, 1}, panel{0.118f, 0.129f, 0.145f, 1}, field{0.165f, 0.180f, 0.204f, 1},
-    field_hovered{0.21f, 0.23f, 0.26f, 1}, field_active{0.24f, 0.27f, 0.30f, 1}, text{0.90f, 0.91f, 0.93f, 1},
-    dim{0.56f, 0.60f, 0.65f, 1}, blue{0.36f, 0.65f, 0.92f, 1}, amber{0.96f, 0.64f, 0.31f, 1}, red{0.94f, 0.42f, 0.38f, 1},
-    line{1, 1, 1, 0.07f};
+inline constexpr Tone ink{0.086f, 0.094f, 0.106f, 1}, panel{0.118f, 0.129f, 0.145f, 1},
+    field{0.165f, 0.180f, 0.204f, 1}, field_hovered{0.21f, 0.23f, 0.26f, 1}, field_active{0.24f, 0.27f, 0.30f, 1},
+    text{0.90f, 0.91f, 0.93f, 1}, dim{0.56f, 0.60f, 0.65f, 1}, blue{0.36f, 0.65f, 0.92f, 1},
+    amber{0.96f, 0.64f, 0.31f, 1}, red{0.94f, 0.42f, 0.38f, 1}, line{1, 1, 1, 0.07f};
 }  // namespace palette
 
 /// A colour for draw lists; alpha scales its own.
-ImU32 shade(ImVec4 colour, float alpha = 1);
+ImU32 shade(Tone colour, float alpha = 1);
 
 /// Null fonts are the default one.
 struct Fonts {

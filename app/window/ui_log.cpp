@@ -51,8 +51,10 @@ void UiLog::widget(const std::string& name, const Rect& rect, const std::string&
   if (same) return;
   std::string word = name;
   std::replace(word.begin(), word.end(), ' ', '_');
-  line("widget " + word + printed(" %.0f %.0f %.0f %.0f ", static_cast<double>(rect.x0), static_cast<double>(rect.y0),
-                                  static_cast<double>(rect.x1), static_cast<double>(rect.y1)) + value);
+  line("widget " + word +
+       printed(" %.0f %.0f %.0f %.0f ", static_cast<double>(rect.x0), static_cast<double>(rect.y0),
+               static_cast<double>(rect.x1), static_cast<double>(rect.y1)) +
+       value);
 }
 
 void UiLog::end_of_widgets() {
@@ -99,8 +101,8 @@ void UiLog::changed(const std::string& kind, const std::string& value) {
 
 void UiLog::summary(const char* what, std::vector<double> values) {
   const double middle = quantile(values, 0.5), p95 = quantile(values, 0.95), p99 = quantile(values, 0.99);
-  line(std::string(what) + printed(" n %zu p50 %.1f p95 %.1f p99 %.1f max %.1f ms", values.size(), middle, p95, p99,
-                                   quantile(values, 1)));
+  line(std::string(what) +
+       printed(" n %zu p50 %.1f p95 %.1f p99 %.1f max %.1f ms", values.size(), middle, p95, p99, quantile(values, 1)));
 }
 
 }  // namespace tyndall

@@ -9,9 +9,10 @@
 namespace tyndall {
 namespace {
 
-ImVec4 frame_colour() {
-  return ImGui::IsItemActive() ? palette::field_active
-                               : ImGui::IsItemHovered() ? palette::field_hovered : palette::field;
+Tone frame_colour() {
+  return ImGui::IsItemActive()    ? palette::field_active
+         : ImGui::IsItemHovered() ? palette::field_hovered
+                                  : palette::field;
 }
 
 void draw_frame(const Ui& ui) {
@@ -90,7 +91,8 @@ bool colour_picker(Ui& ui, Vec3d& value) {
   const ImVec4 now = swatch_colour(value);
   float rgb[3] = {now.x, now.y, now.z};
   ImGui::SetNextItemWidth(220 * ui.scale);
-  const bool changed = ImGui::ColorPicker3("##picker", rgb, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs);
+  const bool changed =
+      ImGui::ColorPicker3("##picker", rgb, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs);
   const auto decode = [&](float x) { return std::round(1e3 * scale * static_cast<double>(srgb_decode(x))) / 1e3; };
   if (changed) value = {decode(rgb[0]), decode(rgb[1]), decode(rgb[2])};
   ImGui::EndPopup();
@@ -116,8 +118,8 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   ImGui::InvisibleButton("slider", {std::max(width, 8.0f), height});
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
   const float grab = 14 * ui.scale, pad = 2 * ui.scale, first = a.x + pad + grab / 2, way = b.x - a.x - 2 * pad - grab;
-  const Slider range = ImGui::IsItemActive() && !ImGui::IsItemActivated() ? ui.drag_range
-                                                                         : widened(row.slider, row.valid, value);
+  const Slider range =
+      ImGui::IsItemActive() && !ImGui::IsItemActivated() ? ui.drag_range : widened(row.slider, row.valid, value);
   const auto place_of = [&](double v) { return first + way * static_cast<float>(slider_position(range, v)); };
   const float mouse = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemActivated()) {
@@ -129,11 +131,13 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   // A press on the grab moves nothing until the mouse does.
   const bool moved = ui.drag_offset == 0 || static_cast<double>(mouse) != ui.drag_start;
   if (ImGui::IsItemActive() && moved && way > 0)
-    changed = accept(row.valid, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value), value);
+    changed = accept(row.valid, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value),
+                     value);
   draw_frame(ui);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float at = place_of(value), from = range.low < 0 && !range.logarithmic ? place_of(0) : a.x + pad;
-  draw->AddRectFilled({std::min(at, from), a.y + pad}, {std::max(at, from), b.y - pad}, shade(palette::blue, 0.20f), 3 * ui.scale);
+  draw->AddRectFilled({std::min(at, from), a.y + pad}, {std::max(at, from), b.y - pad}, shade(palette::blue, 0.20f),
+                      3 * ui.scale);
   if (range.low < 0 && !range.logarithmic)
     draw->AddRectFilled({from - 0.5f, b.y - 6 * ui.scale}, {from + 0.5f, b.y - pad}, shade(palette::dim));
   draw->AddRectFilled({at - grab / 2, a.y + pad}, {at + grab / 2, b.y - pad},
@@ -157,7 +161,8 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   bool changed = false;
   if (ImGui::IsItemActive() && (ui.drag_moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
     ui.drag_moved = true;
-    const double steps = static_cast<double>((io.MousePos.x - io.MouseClickedPos[0].x) / ui.scale) * (io.KeyShift ? 0.1 : 1.0);
+    const double steps =
+        static_cast<double>((io.MousePos.x - io.MouseClickedPos[0].x) / ui.scale) * (io.KeyShift ? 0.1 : 1.0);
     changed = accept(row.valid, dragged(row.slider, ui.drag_start, steps), value);
   }
   if (ImGui::IsItemDeactivated() && !ui.drag_moved) begin_edit(ui, item, text);

@@ -1,9 +1,9 @@
 #include "app/window/watch.h"
 
 #ifdef __linux__
-#include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/inotify.h>
+#include <poll.h>
 #include <unistd.h>
 #endif
 

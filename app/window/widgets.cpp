@@ -58,7 +58,7 @@ void tooltip(Ui& ui, const std::string& text) {
   ImGui::PopFont();
 }
 
-void note(Ui& ui, const std::string& text, bool indent, ImVec4 colour) {
+void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
   if (text.empty()) return;
   if (indent) ImGui::SetCursorPosX(label_column * ui.scale);
   compat::push_font(ui.fonts.small);
@@ -140,7 +140,7 @@ namespace {
 
 /// A button of a choice; whether it was pressed though it was not on.
 bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2 size) {
-  constexpr ImVec4 chosen{0.24f, 0.40f, 0.56f, 1}, other{0.72f, 0.75f, 0.79f, 1}, missing{0.42f, 0.45f, 0.49f, 1};
+  constexpr Tone chosen{0.24f, 0.40f, 0.56f, 1}, other{0.72f, 0.75f, 0.79f, 1}, missing{0.42f, 0.45f, 0.49f, 1};
   ImGui::PushStyleColor(ImGuiCol_Button, on ? chosen : palette::field);
   ImGui::PushStyleColor(ImGuiCol_Text, on ? palette::text : choice.missing ? missing : other);
   const bool pressed = ImGui::Button(choice.name, size);

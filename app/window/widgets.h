@@ -15,30 +15,30 @@ namespace tyndall {
 
 /// The number that is being typed.
 struct TextEdit {
-  ImGuiID id = 0;          ///< of its box; 0: none
-  std::string start;       ///< text when it began; unchanged text changes nothing
+  ImGuiID id = 0;     ///< of its box; 0: none
+  std::string start;  ///< text when it began; unchanged text changes nothing
   char text[64] = {};
-  bool started = false;    ///< the keyboard has reached it
-  int waited = 0;          ///< frames until then
-  bool next = false;       ///< Tab: the next box in the column is typed into
+  bool started = false;  ///< the keyboard has reached it
+  int waited = 0;        ///< frames until then
+  bool next = false;     ///< Tab: the next box in the column is typed into
 };
 
 /// What all controls share. One per window; lives as long as it.
 struct Ui {
   Fonts fonts;
-  float scale = 1;         ///< window units per unit of the design
-  UiLog* log = nullptr;    ///< null: none
-  std::string scope;       ///< prefix of names in the log: "gold." or ""
-  double size = 10;        ///< scene units that dragging a coordinate across 400 units of the screen is worth, halved
+  float scale = 1;       ///< window units per unit of the design
+  UiLog* log = nullptr;  ///< null: none
+  std::string scope;     ///< prefix of names in the log: "gold." or ""
+  double size = 10;      ///< scene units that dragging a coordinate across 400 units of the screen is worth, halved
   TextEdit edit;
-  double drag_start = 0;   ///< value when the drag of the active control began
-  Slider drag_range;       ///< range of the slider that is dragged
-  float drag_offset = 0;   ///< from the mouse to the middle of the grab
+  double drag_start = 0;  ///< value when the drag of the active control began
+  Slider drag_range;      ///< range of the slider that is dragged
+  float drag_offset = 0;  ///< from the mouse to the middle of the grab
   bool drag_moved = false;
-  ImGuiID hovered = 0;     ///< for the delay of tooltips
+  ImGuiID hovered = 0;  ///< for the delay of tooltips
   double hovered_since = 0;
-  double wake_in = 1e300;  ///< seconds until something appears by itself
-  std::string problem;     ///< why a typed value was refused: one line; "": it was not
+  double wake_in = 1e300;        ///< seconds until something appears by itself
+  std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed
 };
 
@@ -79,7 +79,7 @@ void text_row(Ui& ui, const Row& row, const std::string& text);
 /// A small button in the label's column or anywhere; logged as `name`.
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width = 0);
 /// Grey small text, wrapped. indent: start in the column of the values.
-void note(Ui& ui, const std::string& text, bool indent = true, ImVec4 colour = palette::dim);
+void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = palette::dim);
 
 /// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);

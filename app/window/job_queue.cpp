@@ -1,24 +1,24 @@
-#include "app/window/background.h"
+#include "app/window/job_queue.h"
 
 #include <utility>
 
 namespace tyndall {
 
-Background::Background(std::function<void()> on_result)
+JobQueue::JobQueue(std::function<void()> on_result)
     : on_result_(std::move(on_result)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-Background::~Background() {
+JobQueue::~JobQueue() {
   thread_.request_stop();
   thread_.join();
 }
 
-void Background::run(Job job) {
+void JobQueue::run(Job job) {
   const std::lock_guard lock(mutex_);
   jobs_.push_back(std::move(job));
   wake_.notify_one();
 }
 
-void Background::collect() {
+void JobQueue::collect() {
   std::vector<Result> results;
   {
     const std::lock_guard lock(mutex_);
@@ -28,12 +28,12 @@ void Background::collect() {
     if (result) result();
 }
 
-bool Background::busy() const {
+bool JobQueue::busy() const {
   const std::lock_guard lock(mutex_);
   return working_ || !jobs_.empty() || !results_.empty();
 }
 
-void Background::work(const std::stop_token& stop) {
+void JobQueue::work(const std::stop_token& stop) {
   for (;;) {
     Job job;
     {

@@ -10,17 +10,17 @@ namespace tyndall {
 
 /// Work that must not stop the window: jobs run one after another on a thread of their own, and what they return is
 /// called by the main thread.
-class Background {
+class JobQueue {
  public:
   using Result = std::function<void()>;
   using Job = std::function<Result()>;
 
   /// on_result: called from the thread when a result waits; must be quick.
-  explicit Background(std::function<void()> on_result);
+  explicit JobQueue(std::function<void()> on_result);
   /// Finishes the jobs that are waiting; their results are dropped.
-  ~Background();
-  Background(const Background&) = delete;
-  Background& operator=(const Background&) = delete;
+  ~JobQueue();
+  JobQueue(const JobQueue&) = delete;
+  JobQueue& operator=(const JobQueue&) = delete;
 
   void run(Job job);
   /// Calls the results that have come. For the main thread.

@@ -1,0 +1,11 @@
+#pragma once
+#include <chrono>
+
+namespace tyndall {
+
+/// Seconds of a clock that never goes back.
+inline double clock_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace tyndall

@@ -1,0 +1,191 @@
+#include "app/window/main_window.h"
+
+#include "app/window/camera_control.h"
+#include "app/window/clock.h"
+#include "core/scene/error.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+namespace tyndall {
+namespace {
+
+double thread_cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
+  return file.empty() ? nullptr : std::make_unique<UiLog>(file);
+}
+
+}  // namespace
+
+MainWindow::MainWindow(const WindowOptions& options)
+    : log_(open_log(options.ui_log)),
+      platform_(options.scene.scene.width, options.scene.scene.height),
+      session_(
+          options, [] { Platform::wake(); },
+          [this] {
+            if (clock_seconds() >= due_ && !posted_.exchange(true)) Platform::wake();
+          },
+          log_.get()),
+      scenes_(built_in_scenes()) {
+  ui_.log = log_.get();
+  panels_.scenes = &scenes_;
+  panels_.convergence = &session_.convergence();
+}
+
+void MainWindow::run() {
+  while (!platform_.closing()) {
+    platform_.wait(waiting_time(clock_seconds()));
+    posted_ = false;
+    const InputEvents events = platform_.take_events();
+    if (events.any || session_.collect()) pacing_.on_event();
+    take_input(events);
+    const double now = clock_seconds();
+    if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
+    if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
+  }
+}
+
+bool MainWindow::picture_due(double now) const {
+  const auto latest = session_.latest();
+  if (!latest || latest == shown_ || now < pacing_.next_drawing()) return false;
+  return now >= pacing_.picture_due() || latest->finished;
+}
+
+double MainWindow::waiting_time(double now) {
+  // The order matters: from here on a frame that comes after its time wakes the window, one that came is seen below.
+  const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
+  due_ = due;
+  const auto latest = session_.latest();
+  double wait = pacing_.wait(now);
+  const bool waits = latest && latest != shown_;
+  const bool more = latest && !latest->finished && !session_.paused();
+  if (waits)
+    wait = std::min(wait, std::max(0.0, (latest->finished ? pacing_.next_drawing() : due) - now));
+  else if (more && due > now)
+    wait = std::min(wait, due - now);
+  return wait;
+}
+
+void MainWindow::update_scale() {
+  const float pixels = platform_.pixels(), scale = platform_.scale();
+  if (pixels == pixels_ && scale == ui_.scale) return;
+  set_style(scale);
+  ui_.fonts = load_fonts(pixels, scale);
+  if (pixels_ != 0) platform_.renew_fonts();
+  pixels_ = pixels;
+  ui_.scale = scale;
+}
+
+void MainWindow::draw(double now) {
+  const double cpu_before = thread_cpu_seconds();
+  if (platform_.framebuffer_width() <= 0 || platform_.framebuffer_height() <= 0) return pacing_.on_drawn(now);
+  update_scale();
+  platform_.begin_frame();
+  ui_.wake_in = 1e300;
+  ui_.problem.clear();
+  count_gestures(now);
+  const Scene& scene = session_.scene();
+  const Layout layout = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
+                                    scene.width, scene.height, ui_.scale, columns_);
+  const bool fresh = picture_due(now);
+  if (fresh) {
+    shown_ = session_.latest();
+    session_.shown(*shown_);
+  }
+  draw_interface(layout);
+  pointer(layout, now);
+  fly(now);
+  apply_panels(now);
+  show_picture(layout, fresh);
+  finish_drawing(now, cpu_before, fresh);
+}
+
+void MainWindow::draw_interface(const Layout& layout) {
+  panels_.scene = session_.scene();
+  panels_.frame = shown_;
+  panels_.title = session_.document().origin->title;
+  panels_.paused = session_.paused();
+  panels_.threads = session_.threads();
+  panels_.wishes = {};
+  ui_.size = target_distance(panels_.scene.camera);
+  if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
+  draw_column(ui_, panels_, layout.column);
+  draw_outline(ui_, layout.image, outline(panels_.scene, panels_.selected));
+  draw_status(ui_, layout.status, status_cells(shown_.get(), session_.document(), session_.paused()));
+  draw_message(ui_, layout.area, session_.message());
+  if (help_) draw_help(ui_, layout.area, help_);
+  if (const auto file = draw_dialog(ui_, layout.area, dialog_, session_.document())) session_.save(*file);
+  if (ui_.log) {
+    ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
+    ui_.log->end_of_widgets();
+  }
+}
+
+void MainWindow::apply_panels(double now) {
+  session_.edit(panels_.scene, gesture_);
+  if (!ui_.problem.empty()) session_.say(ui_.problem, true);
+  if (panels_.wishes.open) session_.open(*panels_.wishes.open);
+  if (panels_.wishes.threads) session_.set_threads(*panels_.wishes.threads);
+  select_view(panels_.view);
+  if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
+  const Message& message = session_.message();
+  if (!message.text.empty() && !message.error) {
+    if (now >= message.until)
+      session_.dismiss();
+    else
+      pacing_.wake_at(message.until);
+  }
+  if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
+  const Document& document = session_.document();
+  const std::string title = document.origin->title + (edited(document) ? " (edited)" : "") + " – Tyndall";
+  if (title != window_title_) platform_.set_title(window_title_ = title);
+}
+
+void MainWindow::show_picture(const Layout& layout, bool fresh) {
+  try {
+    if (fresh) display_.upload(*shown_);
+  } catch (const IoError& error) {
+    session_.say(error.what(), true);
+  }
+  platform_.clear();
+  const float dots =
+      static_cast<float>(platform_.framebuffer_width()) / static_cast<float>(std::max(1, platform_.width()));
+  const Rect& r = layout.image;
+  const Display& display = session_.scene().display;
+  const bool beauty = !shown_ || shown_->view == View::beauty;
+  const Look look = beauty ? Look{display.exposure, display.tone_map} : Look{};
+  display_.draw({r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}, platform_.framebuffer_height(), look);
+  platform_.end_frame();
+}
+
+void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
+  pacing_.on_drawn(now);
+  const double after = clock_seconds();
+  if (fresh) pacing_.on_picture(shown_->edit, after);
+  if (!log_) return;
+  if (fresh) log_->shown(shown_->edit, shown_->spp, shown_->step, after);
+  log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
+}
+
+int run_window(const WindowOptions& options) {
+  // GLFW is not touched without a display: its error would say less.
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
+    throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
+  MainWindow(options).run();
+  return 0;
+}
+
+}  // namespace tyndall

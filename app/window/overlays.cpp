@@ -1,0 +1,148 @@
+#include "app/window/overlays.h"
+
+#include "app/window/imgui_compat.h"
+#include "app/window/shortcuts.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tyndall {
+namespace {
+
+constexpr ImGuiWindowFlags box_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+
+/// Begins a box with round corners, in the middle of an area or at its foot.
+void begin_box(Ui& ui, const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowBgAlpha(0.97f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18 * ui.scale, 14 * ui.scale});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::panel);
+  ImGui::Begin(name, nullptr, box_flags | more);
+}
+
+void end_box() {
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+}
+
+ImVec2 middle(const Rect& area) { return {(area.x0 + area.x1) / 2, (area.y0 + area.y1) / 2}; }
+
+}  // namespace
+
+void draw_message(Ui& ui, const Rect& area, const Message& message) {
+  if (message.text.empty() || area.width() <= 0) return;
+  const float s = ui.scale;
+  begin_box(ui, "##message", {area.x0 + 14 * s, area.y1 - 14 * s}, {0, 1},
+            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav);
+  ImGui::PushTextWrapPos(std::max(120 * s, std::min(640 * s, area.width() - 64 * s)));
+  ImGui::PushStyleColor(ImGuiCol_Text, message.error ? palette::amber : palette::text);
+  ImGui::TextUnformatted(message.text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  end_box();
+}
+
+void draw_help(Ui& ui, const Rect& area, bool& open) {
+  const float s = ui.scale;
+  begin_box(ui, "##help", middle(area), {0.5f, 0.5f}, ImGuiWindowFlags_NoNav);
+  compat::push_font(ui.fonts.strong);
+  ImGui::TextUnformatted("Mouse and keys");
+  ImGui::PopFont();
+  ImGui::Separator();
+  ImGui::Dummy({0, 2 * s});
+  for (const HelpLine& line : help_lines()) {
+    ImGui::TextUnformatted(line.input);
+    ImGui::SameLine(210 * s);
+    ImGui::TextColored(palette::dim, "%s", line.action);
+  }
+  const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);
+  if (outside && !ImGui::IsWindowAppearing()) open = false;
+  if (ui.log) ui.log->changed("help", "open");
+  end_box();
+}
+
+void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines) {
+  if (lines.empty() || image.width() <= 0) return;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->PushClipRect({image.x0, image.y0}, {image.x1, image.y1}, true);
+  const auto at = [&](ImagePoint p) {
+    // Points far outside would overflow the draw list's arithmetic.
+    const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
+    return ImVec2{image.x0 + limited(p.x) * image.width(), image.y0 + limited(p.y) * image.height()};
+  };
+  for (const ImageLine& line : lines) draw->AddLine(at(line.a), at(line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
+  draw->PopClipRect();
+}
+
+void ask_comments(Dialog& dialog) { dialog = {Dialog::Kind::comments, {}, true}; }
+
+void ask_name(Dialog& dialog, const std::filesystem::path& suggestion) {
+  dialog = {Dialog::Kind::save_as, {}, true};
+  std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
+}
+
+namespace {
+
+using Decision = std::optional<std::filesystem::path>;
+
+Decision comments_question(Ui& ui, Dialog& dialog, const Document& document) {
+  ImGui::TextUnformatted(("Saving " + document.origin->title + " loses its comments.").c_str());
+  note(ui, "Scenes are written in normal form, which has none.", false);
+  ImGui::Dummy({0, 4 * ui.scale});
+  Decision decision;
+  if (small_button(ui, "dialog.save", "Save anyway")) decision = document.origin->file;
+  ImGui::SameLine();
+  const bool other = small_button(ui, "dialog.save_as", "Save as…");
+  ImGui::SameLine();
+  if (small_button(ui, "dialog.cancel", "Cancel") || decision) dialog.kind = Dialog::Kind::none;
+  if (other) ask_name(dialog, document.origin->file);
+  return decision;
+}
+
+Decision name_question(Ui& ui, Dialog& dialog) {
+  ImGui::TextUnformatted("Save the scene as");
+  ImGui::SetNextItemWidth(420 * ui.scale);
+  if (dialog.fresh) ImGui::SetKeyboardFocusHere();
+  const bool enter = ImGui::InputText("##name", dialog.name, sizeof dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  log_item(ui, "dialog.name", dialog.name);
+  ImGui::Dummy({0, 4 * ui.scale});
+  const bool save = small_button(ui, "dialog.save", "Save");
+  ImGui::SameLine();
+  if (small_button(ui, "dialog.cancel", "Cancel")) dialog.kind = Dialog::Kind::none;
+  if ((!enter && !save) || dialog.name[0] == '\0') return {};
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(dialog.name, ignored);
+  dialog.kind = exists ? Dialog::Kind::replace : Dialog::Kind::none;
+  return exists ? Decision() : Decision(dialog.name);
+}
+
+Decision replace_question(Ui& ui, Dialog& dialog) {
+  ImGui::TextUnformatted((std::string(dialog.name) + " exists.").c_str());
+  ImGui::Dummy({0, 4 * ui.scale});
+  const bool replace = small_button(ui, "dialog.replace", "Replace it");
+  ImGui::SameLine();
+  const bool cancel = small_button(ui, "dialog.cancel", "Cancel");
+  if (replace || cancel) dialog.kind = Dialog::Kind::none;
+  return replace ? Decision(dialog.name) : Decision();
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
+  if (dialog.kind == Dialog::Kind::none) return {};
+  begin_box(ui, "##dialog", middle(area), {0.5f, 0.5f}, 0);
+  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+  Decision decision;
+  const Dialog::Kind shown = dialog.kind;
+  if (shown == Dialog::Kind::comments) decision = comments_question(ui, dialog, document);
+  if (shown == Dialog::Kind::save_as) decision = name_question(ui, dialog);
+  if (shown == Dialog::Kind::replace) decision = replace_question(ui, dialog);
+  if (dialog.kind == shown) dialog.fresh = false;
+  end_box();
+  return decision;
+}
+
+}  // namespace tyndall

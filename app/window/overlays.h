@@ -1,0 +1,51 @@
+#pragma once
+#include "app/window/document.h"
+#include "app/window/outline.h"
+#include "app/window/session.h"
+#include "app/window/widgets.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What is drawn over and under the picture: status line, messages, the help table, dialogs, the selection's outline.
+namespace tyndall {
+
+/// A part of the status line: a grey word and a value.
+struct StatusCell {
+  std::string key, value;
+  int rank = 0;  ///< the cells of the highest rank go first when there is no room
+  bool warning = false;
+};
+
+/// The parts for a state of things. frame: what is on the screen, may be null.
+std::vector<StatusCell> status_cells(const Frame* frame, const Document& document, bool paused);
+
+/// Which cells fit: drops those of the highest rank, last ones first, until the rest is at most `room` wide.
+std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,
+                                       float room);
+
+void draw_status(Ui& ui, const Rect& rect, const std::vector<StatusCell>& cells);
+
+/// A box above the status line.
+void draw_message(Ui& ui, const Rect& area, const Message& message);
+
+/// The table of inputs; sets `open` to false when it is clicked away.
+void draw_help(Ui& ui, const Rect& area, bool& open);
+
+void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines);
+
+/// A question that waits for an answer.
+struct Dialog {
+  enum class Kind { none, comments, save_as, replace } kind = Kind::none;
+  char name[512] = {};  ///< of the file that is typed
+  bool fresh = false;   ///< it was opened in this drawing
+};
+
+void ask_comments(Dialog& dialog);
+void ask_name(Dialog& dialog, const std::filesystem::path& suggestion);
+/// Draws the question; returns the file to write once that is decided. empty path: the document's own.
+std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
+
+}  // namespace tyndall

@@ -1,0 +1,273 @@
+#include "app/window/platform.h"
+
+#include "app/window/imgui_compat.h"
+#include "app/window/style.h"
+#include "core/scene/error.h"
+
+#include <glad/gl.h>
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tyndall {
+
+struct Platform::State {
+  GLFWwindow* window = nullptr;
+  InputEvents events;
+  std::set<int> held;
+  std::set<int> pressed;                  ///< since the last frame
+  std::vector<std::pair<int, int>> late;  ///< key and scancode of releases that wait for the next frame
+  Rect windowed;                          ///< place before full screen
+};
+
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+Platform::State& state_of(GLFWwindow* window) {
+  return *static_cast<Platform::State*>(glfwGetWindowUserPointer(window));
+}
+
+/// The letter that a key has on the user's keyboard, as GLFW's number; other keys stay.
+int named_key(int key, int scancode) {
+  if (key < 'A' || key > 'Z') return key;  // also what GLFW does not know
+  const char* name = glfwGetKeyName(key, scancode);
+  const bool letter = name && name[1] == '\0' && name[0] >= 'a' && name[0] <= 'z';
+  return letter ? name[0] - 'a' + 'A' : key;
+}
+
+void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
+  Platform::State& state = state_of(window);
+  const int name = named_key(key, scancode);
+  state.events.any = true;
+  if (action == GLFW_RELEASE && state.pressed.contains(key)) {
+    // Before 1.87 Dear ImGui sees keys only once a frame and would miss this press.
+    state.late.emplace_back(key, scancode);
+  } else {
+    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, mods);
+  }
+  const bool typing = ImGui::GetIO().WantTextInput;
+  if (action == GLFW_RELEASE) {
+    state.held.erase(name);
+    return;
+  }
+  if (action == GLFW_PRESS) {
+    state.pressed.insert(key);
+    if (!typing) state.held.insert(name);
+  }
+  const Modifiers modifiers{(mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) != 0, (mods & GLFW_MOD_SHIFT) != 0,
+                            (mods & GLFW_MOD_ALT) != 0};
+  if (action == GLFW_PRESS) state.events.keys.push_back({name, modifiers, typing});
+}
+
+void install_callbacks(GLFWwindow* window) {
+  glfwSetKeyCallback(
+      window, [](GLFWwindow* w, int key, int code, int action, int mods) { on_key(w, key, code, action, mods); });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned c) {
+    state_of(w).events.any = true;
+    ImGui_ImplGlfw_CharCallback(w, c);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+    state_of(w).events.any = true;
+    ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    state_of(w).events.any = true;
+    ImGui_ImplGlfw_ScrollCallback(w, x, y);
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, [[maybe_unused]] double x, [[maybe_unused]] double y) {
+    state_of(w).events.any = true;
+#if IMGUI_VERSION_NUM >= 18700
+    ImGui_ImplGlfw_CursorPosCallback(w, x, y);
+#endif
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    state_of(w).events.any = true;
+    ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+  });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    state_of(w).events.any = true;
+    if (!focused) state_of(w).held.clear();
+    ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+  });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { state_of(w).events.any = true; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).events.any = true; });
+  glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { state_of(w).events.any = true; });
+  glfwSetWindowContentScaleCallback(
+      window, [](GLFWwindow* w, float, float) { state_of(w).events.any = state_of(w).events.rescaled = true; });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
+    state_of(w).events.any = true;
+    for (int k = 0; k < count; ++k) state_of(w).events.dropped.emplace_back(files[k]);
+  });
+}
+
+/// Room on the screen for a window, without its frame.
+std::pair<int, int> screen_room() {
+  int x = 0, y = 0, width = 0, height = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  return width > 0 && height > 0 ? std::pair{width, height} : std::pair{1280, 800};
+}
+
+GLFWwindow* open_window(int image_width, int image_height) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  float sx = 1, sy = 1;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &sx, &sy);
+  const auto [room_width, room_height] = screen_room();
+  const int width = image_width + static_cast<int>(std::lround(column_width * sx));
+  const int height = std::max(image_height, static_cast<int>(std::lround(600 * sx))) +
+                     static_cast<int>(std::lround(status_height * sx));
+  return glfwCreateWindow(std::min(width, room_width), std::min(height, room_height), "Tyndall", nullptr, nullptr);
+}
+
+}  // namespace
+
+Platform::Platform(int image_width, int image_height) : state_(std::make_unique<State>()) {
+  if (!glfwInit()) throw IoError("the display cannot be used: " + last_glfw_error());
+  state_->window = open_window(image_width, image_height);
+  if (!state_->window) {
+    const std::string why = last_glfw_error();
+    glfwTerminate();
+    throw IoError("no window with OpenGL 3.3: " + why);
+  }
+  glfwMakeContextCurrent(state_->window);
+  if (!gladLoadGL(glfwGetProcAddress)) {
+    glfwTerminate();
+    throw IoError("no window: OpenGL's functions cannot be loaded");
+  }
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(state_->window, state_.get());
+  glfwSetWindowSizeLimits(state_->window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+  install_callbacks(state_->window);
+}
+
+Platform::~Platform() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwTerminate();
+}
+
+void Platform::wait(double seconds) {
+  if (seconds <= 0)
+    glfwPollEvents();
+  else if (seconds > 1e6)
+    glfwWaitEvents();
+  else
+    glfwWaitEventsTimeout(seconds);
+}
+
+void Platform::wake() { glfwPostEmptyEvent(); }
+
+InputEvents Platform::take_events() { return std::exchange(state_->events, {}); }
+
+bool Platform::closing() const { return glfwWindowShouldClose(state_->window); }
+void Platform::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
+
+int Platform::width() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return width;
+}
+int Platform::height() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return height;
+}
+int Platform::framebuffer_width() const {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(state_->window, &width, &height);
+  return glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) ? 0 : width;
+}
+int Platform::framebuffer_height() const {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(state_->window, &width, &height);
+  return glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) ? 0 : height;
+}
+
+float Platform::pixels() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(state_->window, &x, &y);
+  return std::clamp(x, 0.5f, 8.0f);
+}
+
+float Platform::scale() const {
+  // Where the system counts the window in points, a framebuffer of more pixels makes up for the density already.
+  const float points = static_cast<float>(std::max(1, width())), dots = static_cast<float>(framebuffer_width());
+  return dots > 0 ? pixels() * points / dots : pixels();
+}
+
+const std::set<int>& Platform::held() const { return state_->held; }
+bool Platform::shift_held() const {
+  return state_->held.contains(GLFW_KEY_LEFT_SHIFT) || state_->held.contains(GLFW_KEY_RIGHT_SHIFT);
+}
+
+void Platform::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+
+void Platform::toggle_full_screen() {
+  GLFWwindow* window = state_->window;
+  if (glfwGetWindowMonitor(window)) {
+    const Rect& r = state_->windowed;
+    const auto whole = [](float v) { return static_cast<int>(v); };
+    glfwSetWindowMonitor(window, nullptr, whole(r.x0), whole(r.y0), whole(r.width()), whole(r.height()),
+                         GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (!mode) return;
+  int x = 0, y = 0;
+  glfwGetWindowPos(window, &x, &y);
+  const auto real = [](int v) { return static_cast<float>(v); };
+  state_->windowed = {real(x), real(y), real(x + width()), real(y + height())};
+  glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Platform::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Platform::clear() {
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, framebuffer_width(), framebuffer_height());
+  glClearColor(palette::ink.x, palette::ink.y, palette::ink.z, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void Platform::end_frame() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(state_->window);
+  state_->pressed.clear();
+  for (const auto& [key, scancode] : std::exchange(state_->late, {})) {
+    ImGui_ImplGlfw_KeyCallback(state_->window, key, scancode, GLFW_RELEASE, 0);
+    state_->events.any = true;
+  }
+}
+
+void Platform::renew_fonts() {
+#if IMGUI_VERSION_NUM < 19200
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+#endif
+}
+
+}  // namespace tyndall

@@ -1,0 +1,121 @@
+#include "app/window/panels.h"
+#include "core/scene/names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+namespace tyndall {
+
+const char* const view_names[view_count] = {"beauty", "albedo", "normal", "depth", "noise", "samples", "cost"};
+
+namespace {
+
+/// Buttons for the entries of a table of names; whether the value changed.
+template <class E, std::size_t n>
+bool named_row(Ui& ui, const Row& row, const Named<E> (&table)[n], E& value) {
+  Choice choices[n];
+  int chosen = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    choices[k] = {table[k].name, table[k].missing};
+    if (table[k].value == value) chosen = static_cast<int>(k);
+  }
+  if (!choice_row(ui, row, choices, chosen)) return false;
+  value = table[static_cast<std::size_t>(chosen)].value;
+  return true;
+}
+
+const char* integrator_meaning(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::path:
+      return "finds lamps by chance";
+    case Integrator::nee:
+      return "asks a lamp at every event";
+    case Integrator::mis:
+      return "lamps and scattering, weighted";
+  }
+  return "";
+}
+
+std::string share_cut_off(const Frame* frame) {
+  if (!frame || frame->spp == 0) return "scattering events of the longest path";
+  const double paths = static_cast<double>(frame->spp) * frame->width * frame->height;
+  const double share = static_cast<double>(frame->truncated) / paths;
+  if (share == 0) return "no path was cut off";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2g %% of the paths cut off", 100 * share);
+  return text;
+}
+
+/// A slider over whole numbers.
+bool whole_row(Ui& ui, const Row& row, int& value) {
+  double number = value;
+  if (!slider_row(ui, row, number)) return false;
+  const int rounded = static_cast<int>(std::lround(number));
+  const bool changed = rounded != value;
+  value = rounded;
+  return changed;
+}
+
+void limit_rows(Ui& ui, PanelState& state) {
+  RenderSettings& render = state.scene.render;
+  whole_row(ui,
+            {"max_depth",
+             "Depth",
+             between(0, 1e6),
+             {1, 1000, true},
+             "",
+             "longest path, in scattering events",
+             share_cut_off(state.frame.get())},
+            render.max_depth);
+  int limit = render.spp.value_or(0);
+  const char* goal = limit == 0 ? "0: goes on for ever" : "samples a pixel at which it stops";
+  if (whole_row(ui, {"spp", "Limit", between(0, 1 << 24), {1, 65536, true}, "", "samples a pixel; 0: no limit", goal},
+                limit))
+    render.spp = limit > 0 ? std::optional(limit) : std::nullopt;
+  int threads = state.threads;
+  const double cores = std::max(2u, std::thread::hardware_concurrency());
+  if (whole_row(ui, {"threads", "Threads", between(1, 1024), {1, cores}, "", "never changes the picture", ""}, threads))
+    state.wishes.threads = threads;
+}
+
+std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × " + std::to_string(frame->lanes) : ""; }
+
+}  // namespace
+
+void image_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Image", "never starts over")) return;
+  ui.scope = "image.";
+  Display& display = state.scene.display;
+  const std::string brightness = "brightness × " + format_short(std::exp2(display.exposure));
+  slider_row(
+      ui, {"exposure", "Exposure", between(-64, 64), {-6, 6}, " EV", "stops: brightness doubles with each", brightness},
+      display.exposure);
+  named_row(ui, {"tone_map", "Tone map", {}, {}, "", "srgb: clipped; aces: a film's shoulder", ""}, tone_maps,
+            display.tone_map);
+  Choice views[view_count];
+  for (int k = 0; k < view_count; ++k) views[k] = {view_names[k], nullptr};
+  views[view_count - 1].missing = "this view is not built yet";
+  choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 7", ""}, views, state.view, 4);
+  ui.scope.clear();
+}
+
+void render_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Render", kernel_note(state.frame.get()))) return;
+  ui.scope = "render.";
+  RenderSettings& render = state.scene.render;
+  named_row(ui, {"integrator", "Integrator", {}, {}, "", "how light is found", integrator_meaning(render.integrator)},
+            integrators, render.integrator);
+  named_row(ui, {"sampler", "Sampler", {}, {}, "", "random: independent; sobol: evenly spread, less noise", ""},
+            samplers, render.sampler);
+  named_row(ui, {"fresnel", "Fresnel", {}, {}, "", "how much glass reflects", ""}, fresnel_rules, render.fresnel);
+  if (render.fresnel == FresnelKind::schlick) {
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4 * ui.scale);
+    note(ui, "an approximation: wrong by up to 0.93 in glass", true, palette::amber);
+  }
+  limit_rows(ui, state);
+  ui.scope.clear();
+}
+
+}  // namespace tyndall

@@ -1,0 +1,188 @@
+#include "app/window/session.h"
+
+#include "app/window/clock.h"
+#include "app/window/open_document.h"
+#include "app/window/snapshot.h"
+#include "core/scene/check.h"
+#include "core/scene/error.h"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <utility>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+bool same_picture(const Scene& a, const Scene& b) {
+  Scene shown = a;
+  shown.display = b.display;
+  shown.name = b.name;
+  return shown == b;
+}
+
+Session::Session(const WindowOptions& options, std::function<void()> wake, std::function<void()> on_frame, UiLog* log)
+    : reload_(options.reload),
+      reloads_(options.scene.source),
+      log_(log),
+      wake_(std::move(wake)),
+      history_(document_of(options.scene)),
+      threads_(options.threads > 0 ? options.threads
+                                   : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+      renderer_({options.threads, options.isa}, std::move(on_frame)),
+      loading_([this] { came_ = true, wake_(); }),
+      saving_([this] { came_ = true, wake_(); }) {
+  submit();
+  watch();
+}
+
+void Session::submit() {
+  const double now = clock_seconds();
+  const std::uint64_t before = edit_;
+  edit_ = renderer_.submit(scene());
+  if (log_ && edit_ != before) log_->submitted(edit_, now);
+}
+
+void Session::edit(Scene next, std::uint64_t gesture) {
+  if (next == scene()) return;
+  if (const auto broken = check(next)) {
+    say(broken->where + ": found " + broken->found + ", expected " + broken->expected, true);
+    return;
+  }
+  const bool same = same_picture(next, scene());
+  history_.record({std::move(next), document().origin}, gesture);
+  if (message_.error) dismiss();
+  if (!same) submit();
+}
+
+void Session::undo() {
+  const Scene before = scene();
+  if (!history_.undo()) return say("nothing to undo");
+  if (!same_picture(before, scene())) submit();
+  watch();
+}
+
+void Session::redo() {
+  const Scene before = scene();
+  if (!history_.redo()) return say("nothing to redo");
+  if (!same_picture(before, scene())) submit();
+  watch();
+}
+
+void Session::show(Document next, bool own_file) {
+  const bool same = same_picture(next.scene, scene());
+  if (own_file && next.scene == scene()) {
+    history_.set_origin(next.origin);  // the file now holds what is shown
+    return;
+  }
+  history_.record(std::move(next), 0);
+  if (!same) {
+    if (!own_file) convergence_.clear();
+    submit();
+  }
+  watch();
+  say((own_file ? "read again: " : "opened ") + document().origin->title);
+}
+
+void Session::open(const std::string& what) {
+  loading_.run([this, what]() -> JobQueue::Result {
+    try {
+      return [this, next = document_of(load_scene(what))] { show(next, false); };
+    } catch (const std::exception& error) {
+      return [this, text = std::string(error.what())] { say(text, true); };
+    }
+  });
+}
+
+void Session::reload() {
+  const fs::path file = document().origin->file;
+  const bool first = reload_ && file == reloads_;
+  loading_.run([this, file, first]() -> JobQueue::Result {
+    try {
+      Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
+      return [this, file, next = std::move(next)] {
+        if (document().origin->file == file) show(next, true);
+      };
+    } catch (const std::exception& error) {
+      return [this, text = std::string(error.what())] { say(text, true); };
+    }
+  });
+}
+
+void Session::watch() {
+  const fs::path& file = document().origin->file;
+  if (file == watched_) return;
+  watch_.reset();
+  watched_ = file;
+  if (file.empty()) return;
+  watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, came_ = true, wake_(); });
+}
+
+void Session::save(const fs::path& file) {
+  try {
+    history_.set_origin(save_document(document(), file));
+    watch();
+    say("saved " + file.string());
+    if (log_) log_->line("saved " + file.string());
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+void Session::snapshot() {
+  const auto frame = latest();
+  if (!frame) return say("there is no picture yet");
+  Snapshot snapshot{document(), snapshot_base(fs::current_path(), stem_of(document().origin->title), snapshots_ + 1),
+                    frame->isa, frame->lanes, frame->threads};
+  snapshots_ = snapshot_number(snapshot.base);
+  saving_.run([this, snapshot = std::move(snapshot), edit = edit_number()]() -> JobQueue::Result {
+    std::string text;
+    bool failed = false;
+    try {
+      Film film = wait_for_film([this] { return renderer_.film(); }, [this, edit] { return edit_ == edit; },
+                                [this] { return !closing_; });
+      failed = film.pixels.empty();
+      text = failed ? "no snapshot: the picture was edited before it had a sample everywhere"
+                    : write_snapshot(snapshot, std::move(film));
+    } catch (const std::exception& error) {
+      text = error.what();
+      failed = true;
+    }
+    return [this, text, failed, base = snapshot.base] {
+      say(text, failed);
+      if (log_ && !failed) log_->line("saved " + base.string());
+    };
+  });
+}
+
+void Session::set_threads(int threads) {
+  if (threads == threads_) return;
+  threads_ = threads;
+  renderer_.set_threads(threads);
+}
+
+void Session::shown(const Frame& frame) {
+  const double error = frame.relative_error;
+  convergence_.add(frame.edit, method_of(scene().render), {frame.seconds, error * error});
+}
+
+bool Session::collect() {
+  const bool came = came_.exchange(false);
+  loading_.collect();
+  saving_.collect();
+  if (file_changed_.exchange(false)) reload();
+  const auto problem = renderer_.problem();
+  if (!problem || problem->edit <= problem_edit_) return came;
+  problem_edit_ = problem->edit;
+  say(problem->what, true);
+  return true;
+}
+
+void Session::say(const std::string& text, bool error) {
+  constexpr double seconds = 6;
+  message_ = {text, error, clock_seconds() + seconds};
+  if (log_) log_->line("message " + text);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,99 @@
+#pragma once
+#include "app/window/convergence.h"
+#include "app/window/history.h"
+#include "app/window/job_queue.h"
+#include "app/window/ui_log.h"
+#include "app/window/watch.h"
+#include "app/window/window.h"
+#include "core/render/renderer.h"
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tyndall {
+
+/// What the user is told, one line.
+struct Message {
+  std::string text;  ///< "": none
+  bool error = false;
+  double until = 0;  ///< clock second at which it goes; errors stay until something is done about them
+};
+
+/// Whether both scenes render to the same picture: equal but for what is applied when it is shown.
+bool same_picture(const Scene& a, const Scene& b);
+
+/// The open document, its history, the renderer, files: all that a window does but for drawing and input. Used by the
+/// main thread only; never waits for rendering or for files.
+class Session {
+ public:
+  /// wake: called from any thread when collect() has something to do; on_frame: from the renderer's, after each frame;
+  /// log: may be null.
+  Session(const WindowOptions& options, std::function<void()> wake, std::function<void()> on_frame, UiLog* log);
+  /// Finishes what is being saved.
+  ~Session() { closing_ = true; }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const Document& document() const { return history_.current(); }
+  const Scene& scene() const { return history_.current().scene; }
+  /// Takes an edited scene: checks it, remembers it, submits it if its picture differs. What is broken is refused with
+  /// a message.
+  void edit(Scene scene, std::uint64_t gesture);
+  void undo();
+  void redo();
+
+  /// Opens what load_scene takes, in the background.
+  void open(const std::string& what);
+  /// Writes the scene to its own file, or to another one; says how it went. An existing file is replaced.
+  void save(const std::filesystem::path& file);
+  /// Writes the picture as numbered files into the current folder, in the background.
+  void snapshot();
+
+  void pause(bool paused) { renderer_.pause(paused); }
+  bool paused() const { return renderer_.paused(); }
+  void restart() { renderer_.restart(); }
+  void set_threads(int threads);
+  int threads() const { return threads_; }
+  void set_view(View view) { renderer_.set_view(view); }
+  Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
+
+  std::shared_ptr<const Frame> latest() const { return renderer_.latest(); }
+  /// A frame is on the screen: for the chart.
+  void shown(const Frame& frame);
+  /// Number of the newest edit.
+  std::uint64_t edit_number() const { return edit_; }
+  const Convergence& convergence() const { return convergence_; }
+
+  /// Takes what the background has done, a changed file, a problem of the renderer. Whether anything came.
+  bool collect();
+
+  void say(const std::string& text, bool error = false);
+  const Message& message() const { return message_; }
+  void dismiss() { message_ = {}; }
+
+ private:
+  void show(Document document, bool own_file);
+  void submit();
+  void watch();
+  void reload();
+
+  std::function<LoadedScene()> reload_;
+  std::filesystem::path reloads_;  ///< the file that reload_ reads
+  UiLog* log_;
+  std::function<void()> wake_;
+  History history_;
+  Convergence convergence_;
+  Message message_;
+  int threads_ = 1, snapshots_ = 0;
+  std::atomic<std::uint64_t> edit_ = 0;
+  std::uint64_t problem_edit_ = 0;
+  std::atomic<bool> file_changed_ = false, came_ = false, closing_ = false;
+  std::filesystem::path watched_;
+  Renderer renderer_;
+  std::unique_ptr<FileWatch> watch_;
+  JobQueue loading_, saving_;  // last: their jobs use the others
+};
+
+}  // namespace tyndall

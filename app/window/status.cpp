@@ -1,0 +1,98 @@
+#include "app/progress.h"
+#include "app/window/imgui_compat.h"
+#include "app/window/overlays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tyndall {
+namespace {
+
+template <class... Arguments>
+std::string printed(const char* format, Arguments... arguments) {
+  char text[128];
+  std::snprintf(text, sizeof text, format, arguments...);
+  return text;
+}
+
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "?";
+  return printed(share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
+}
+
+std::string state_of(const Frame* frame, bool paused) {
+  if (paused) return "paused";
+  if (!frame) return "starting";
+  return frame->finished ? "finished" : "rendering";
+}
+
+std::string time_left(const Frame& frame) {
+  if (!std::isfinite(frame.relative_error)) return "?";
+  const double seconds = seconds_to(0.01, frame.relative_error, frame.seconds);
+  return seconds > 0 ? duration(seconds) : "reached";
+}
+
+}  // namespace
+
+std::vector<StatusCell> status_cells(const Frame* frame, const Document& document, bool paused) {
+  std::vector<StatusCell> cells{{"", state_of(frame, paused), 0}};
+  if (frame) {
+    const std::string spp = frame->spp > 0 ? format_count(frame->spp) : printed("1/%d", frame->step * frame->step);
+    cells.push_back({"spp", spp, 1});
+    cells.push_back({"error", percent(frame->relative_error), 1});
+    cells.push_back({"to 1 %", time_left(*frame), 2});
+    cells.push_back({"", printed(frame->mrays_per_s < 10 ? "%.1f Mrays/s" : "%.0f Mrays/s", frame->mrays_per_s), 3});
+    cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),
+                     std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});
+    cells.push_back({"film", printed("%.0f MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
+    cells.push_back({"rejected", format_count(frame->rejected), frame->rejected > 0 ? 1 : 5, frame->rejected > 0});
+  }
+  cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});
+  cells.push_back({document.origin->title, edited(document) ? "edited" : "", 2});
+  return cells;
+}
+
+std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,
+                                       float room) {
+  std::vector<std::size_t> shown(cells.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = i;
+  const auto total = [&] {
+    float sum = 0;
+    for (const std::size_t i : shown) sum += widths[i];
+    return sum;
+  };
+  while (shown.size() > 1 && total() > room)
+    shown.erase(std::max_element(shown.begin(), shown.end(),
+                                 [&](std::size_t a, std::size_t b) { return cells[a].rank < cells[b].rank; }));
+  return shown;
+}
+
+void draw_status(Ui& ui, const Rect& rect, const std::vector<StatusCell>& cells) {
+  if (rect.height() <= 0) return;
+  const float s = ui.scale, gap = 20 * s, inner = 6 * s;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled({rect.x0, rect.y0}, {rect.x1, rect.y1}, shade(palette::ink));
+  compat::push_font(ui.fonts.mono);
+  std::vector<float> widths;
+  const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  for (const StatusCell& cell : cells)
+    widths.push_back(width(cell.key) + width(cell.value) + (!cell.key.empty() && !cell.value.empty() ? inner : 0.0f) +
+                     gap);
+  float x = rect.x0 + 14 * s;
+  const float y = rect.y0 + (rect.height() - ImGui::GetTextLineHeight()) / 2;
+  std::string line;
+  for (const std::size_t i : fitting_cells(cells, widths, rect.width() - 28 * s + gap)) {
+    const StatusCell& cell = cells[i];
+    draw->AddText({x, y}, shade(palette::dim), cell.key.c_str());
+    const float value_at = x + width(cell.key) + (cell.key.empty() ? 0.0f : inner);
+    const Tone colour = cell.warning ? palette::amber : i == 0 ? palette::blue : palette::text;
+    draw->AddText({value_at, y}, shade(colour), cell.value.c_str());
+    x += widths[i];
+    line += (line.empty() ? "" : " | ") + cell.key + (cell.key.empty() ? "" : " ") + cell.value;
+  }
+  ImGui::PopFont();
+  if (ui.log) ui.log->changed("state", cells.front().value);
+}
+
+}  // namespace tyndall

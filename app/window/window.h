@@ -1,0 +1,22 @@
+#pragma once
+#include "core/scene/load.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace tyndall {
+
+struct WindowOptions {
+  LoadedScene scene;
+  std::function<LoadedScene()> reload;  ///< reads the scene again, as the command line asked for it; may be empty
+  int threads = 0;                      ///< 0: all cores
+  std::string isa;                      ///< "": the best
+  std::filesystem::path ui_log;         ///< diagnostic, see ui_log.h; empty: none, "-": standard output
+};
+
+/// Opens the window and returns the exit code when it is closed. Throws IoError where there is no display (neither
+/// DISPLAY nor WAYLAND_DISPLAY is set) or it cannot be used.
+int run_window(const WindowOptions& options);
+
+}  // namespace tyndall
