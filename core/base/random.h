@@ -53,23 +53,64 @@ struct Pair {
   F x, y;
 };
 
-/// The numbers of one sample. `random`: independent, counter-based.
+/// The order of the bits reversed.
+template <class U>
+TYNDALL_INLINE U reverse_bits(U x) {
+  x = shift_left<16>(x) | shift_right<16>(x);
+  x = (shift_left<8>(x & U(0x00ff00ffu))) | (shift_right<8>(x) & U(0x00ff00ffu));
+  x = (shift_left<4>(x & U(0x0f0f0f0fu))) | (shift_right<4>(x) & U(0x0f0f0f0fu));
+  x = (shift_left<2>(x & U(0x33333333u))) | (shift_right<2>(x) & U(0x33333333u));
+  return (shift_left<1>(x & U(0x55555555u))) | (shift_right<1>(x) & U(0x55555555u));
+}
+
+/// A random permutation, by `seed`, of an index held in reversed bits, in which a digit depends on higher digits only:
+/// it keeps the sequence's strata (nested uniform scrambling). Laine & Karras, Stratified Sampling for Stochastic
+/// Transparency, EGSR 2011, section 3; the constants are N. Vegdahl's.
+template <class U>
+TYNDALL_INLINE U shuffle_index(U x, U seed) {
+  x = x ^ (x * U(0x3d20adeau));
+  x = x + seed;
+  x = x * (shift_right<16>(seed) | U(1u));
+  x = x ^ (x * U(0x05526c56u));
+  return x ^ (x * U(0x53a22864u));
+}
+
+/// Second dimension of Sobol' points from the reversed index: the Pascal matrix modulo 2, as a butterfly.
+template <class U>
+TYNDALL_INLINE U sobol_second(U x) {
+  x = x ^ shift_left<16>(x);
+  x = x ^ shift_left<8>(x & U(0x00ff00ffu));
+  x = x ^ shift_left<4>(x & U(0x0f0f0f0fu));
+  x = x ^ shift_left<2>(x & U(0x33333333u));
+  return x ^ shift_left<1>(x & U(0x55555555u));
+}
+
+/// The numbers of one sample.
+/// `random`: independent, counter-based. `sobol`: each dimension or pair of dimensions is its own (0,2)-sequence over the
+/// samples of a pixel, shuffled and digitally shifted (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020,
+/// section 4, with a digital shift in place of the scrambling); sample i is point i/2 of randomisation i mod 2.
 template <class F>
 struct Dice {
   using U = UintOf<F>;
-  U low, high;  ///< 64 bits that name (seed, x, y, sample)
+  U low, high;  ///< random: 64 bits that name (seed, x, y, sample); sobol: pixel and half, and the point's reversed index
   U event;      ///< golden_ratio · the first dimension of the current event
+  bool sobol;
 
   /// Key of one sample; x, y: pixel in full-image coordinates.
-  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample) {
+  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, bool sobol) {
     const U where = hash(x ^ hash(y ^ U(seed)));
+    if (sobol) return {hash(where ^ ((sample & U(1u)) * U(0x85ebca6bu))), reverse_bits(shift_right<1>(sample)), U(0u), true};
     const U a = hash(where ^ (sample * U(0x85ebca6bu)));
     const U b = hash((where + U(0x68bc21ebu)) ^ hash(sample + U(0x02e5be93u)));
-    return {a, b, U(0u)};
+    return {a, b, U(0u), false};
   }
   /// 32 bits for dimension `offset` of the current event.
   TYNDALL_INLINE U word(std::uint32_t offset) const {
     U x = low + event + U(offset * golden_ratio);
+    if (sobol) {
+      x = hash(x);
+      return shuffle_index(high, x) ^ (x * U(0x9e3779b1u));
+    }
     x = x ^ shift_right<16>(x);
     x = x * U(0x21f0aaadu);
     x = (x ^ shift_right<15>(x)) + high;
@@ -77,7 +118,14 @@ struct Dice {
     return x ^ shift_right<15>(x);
   }
   TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
-  TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const { return {one(offset), one(offset + 1)}; }
+  /// Dimensions offset and offset + 1, well placed together.
+  TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const {
+    if (!sobol) return {one(offset), one(offset + 1)};
+    const U seed = hash(low + event + U(offset * golden_ratio));
+    const U index = shuffle_index(high, seed);
+    return {unit_interval<F>(index ^ (seed * U(0x9e3779b1u))),
+            unit_interval<F>(sobol_second(index) ^ (seed * U(0x85ebca6bu)))};
+  }
   /// In (0, 1], for -log(u). `stream` separates media that share one event.
   TYNDALL_INLINE F open(std::uint32_t offset, std::uint32_t stream) const {
     return unit_interval_open<F>(word(offset + stream * 0x10000u));

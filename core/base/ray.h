@@ -63,6 +63,10 @@ struct Scattered {
   Vec3<F> direction;      ///< unit
   MaskOf<F> absorbed;     ///< nothing leaves
   MaskOf<F> transmitted;  ///< the direction is on the other side of the surface
+  F density;              ///< of the direction, per steradian; `one_direction`: it was the only one, or one of two
 };
+
+/// Marks a direction that light sampling cannot choose: a mirror's, glass's, the camera's.
+inline constexpr float one_direction = -1.0f;
 
 }  // namespace tyndall

@@ -20,6 +20,12 @@ std::shared_ptr<const std::vector<float>> gradient_table();
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin);
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin);
 
+/// Face 0 … 5 of a box (x-, x+, y-, y+, z-, z+), in the box's own frame. Its u × v is along the outward normal.
+struct BoxFace {
+  Vec3d normal, corner, u, v;
+};
+BoxFace box_face_edges(const Box<>& box, std::int32_t face);
+
 /// Appends an element per sphere, quad and box face.
 void append_elements(const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& elements);
 

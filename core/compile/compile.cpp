@@ -1,6 +1,7 @@
 #include "core/compile/compile.h"
 
 #include "core/compile/columns.h"
+#include "core/compile/lights.h"
 #include "core/film/film.h"
 
 #include <algorithm>
@@ -116,6 +117,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
     first_element.push_back(out.elements.count());
     append_elements(shape, out.origin, out.needs.image_textures, out.needs.moving_spheres, out.elements);
   }
+  out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {
     const PlacedShape& shape = flat.shapes[static_cast<std::size_t>(i)];
     std::visit(SlotFiller{out, shape.placement, first_element[static_cast<std::size_t>(i)]}, shape.shape);
@@ -215,6 +217,9 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.max_depth = scene.render.max_depth;
   out.seed = scene.render.seed;
   out.schlick = scene.render.fresnel == FresnelKind::schlick;
+  out.sobol = scene.render.sampler == SamplerKind::sobol;
+  out.light_sampling = scene.render.integrator != Integrator::path && out.lights.count() > 0;
+  out.multiple_importance = scene.render.integrator == Integrator::mis;
   out.film_unit = film_unit(brightest(scene));
   return out;
 }

@@ -49,19 +49,9 @@ void append_shape(const Quad<>& q, const PlacedShape& shape, Vec3d origin, bool 
   if (uv) append_flat_uv(e, place(shape.placement, q.corner) - origin, u, v);
 }
 
-/// The faces' corners and edges are those of the box in The Next Week, section 8.1.
 void append_shape(const Box<>& b, const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& e) {
-  const Vec3d d = b.max - b.min, dx{d.x, 0, 0}, dy{0, d.y, 0}, dz{0, 0, d.z};
-  struct Face {
-    Vec3d normal, corner, u, v;
-  };
-  const Face faces[6] = {{{-1, 0, 0}, b.min, dz, dy},
-                         {{1, 0, 0}, {b.max.x, b.min.y, b.max.z}, -dz, dy},
-                         {{0, -1, 0}, b.min, dx, dz},
-                         {{0, 1, 0}, {b.min.x, b.max.y, b.max.z}, dx, -dz},
-                         {{0, 0, -1}, {b.max.x, b.min.y, b.min.z}, -dx, dy},
-                         {{0, 0, 1}, {b.min.x, b.min.y, b.max.z}, dx, dy}};
-  for (const Face& face : faces) {
+  for (std::int32_t i = 0; i < 6; ++i) {
+    const BoxFace face = box_face_edges(b, i);
     append(e, to_float(turn(shape.placement, face.normal)), 0, {}, motion, shape);
     if (uv)
       append_flat_uv(e, place(shape.placement, face.corner) - origin, turn(shape.placement, face.u),
@@ -70,6 +60,19 @@ void append_shape(const Box<>& b, const PlacedShape& shape, Vec3d origin, bool u
 }
 
 }  // namespace
+
+/// Corners and edges are those of the box in The Next Week, section 8.1.
+BoxFace box_face_edges(const Box<>& b, std::int32_t face) {
+  const Vec3d d = b.max - b.min, dx{d.x, 0, 0}, dy{0, d.y, 0}, dz{0, 0, d.z};
+  switch (face) {
+    case 0: return {{-1, 0, 0}, b.min, dz, dy};
+    case 1: return {{1, 0, 0}, {b.max.x, b.min.y, b.max.z}, -dz, dy};
+    case 2: return {{0, -1, 0}, b.min, dx, dz};
+    case 3: return {{0, 1, 0}, {b.min.x, b.max.y, b.max.z}, dx, -dz};
+    case 4: return {{0, 0, -1}, {b.max.x, b.min.y, b.min.z}, -dx, dy};
+    default: return {{0, 0, 1}, {b.min.x, b.min.y, b.max.z}, dx, dy};
+  }
+}
 
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin) {
   const Vec3d u = turn(placement, quad.u), v = turn(placement, quad.v);

@@ -58,6 +58,7 @@ struct Elements {
   std::vector<float> x, y, z, inverse_radius;
   std::vector<float> move_x, move_y, move_z;  ///< filled only if some sphere moves
   std::vector<std::int32_t> material;
+  std::vector<std::int32_t> light;  ///< index into Lights, or -1
   /// For image textures. Flats: u and v as affine functions of the point (8 floats). Spheres: cosine and sine of the
   /// rotation into the sphere's own frame in the first two. Filled only if there are image textures.
   std::vector<float> uv;
@@ -98,6 +99,24 @@ struct MediumColumns {
   std::int32_t texture = -1;
 };
 
+/// Emitting primitives: spheres, quads, faces of boxes. Columns by light.
+struct Lights {
+  enum Kind : std::int32_t { rectangle, parallelogram, sphere };  ///< rectangle: edges at right angles
+  std::vector<std::int32_t> kind, element, primitive;  ///< primitive: its first element (of a box, all six are skipped)
+  /// Flats: a corner, and unit edges; spheres: the centre, and its way over the shutter in edge_u.
+  std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
+  std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
+  std::vector<float> area;
+  std::vector<float> center[3];           ///< for choosing
+  std::vector<float> power;               ///< area times the largest component of the radiance
+  std::vector<float> reach2;              ///< squared radius of a ball around center that holds the light
+  /// Choice by power alone, for many lights: Vose's alias table.
+  std::vector<float> probability, keep;
+  std::vector<std::int32_t> alias;
+  int count() const { return static_cast<int>(kind.size()); }
+};
+inline constexpr int most_lights_by_contribution = 16;
+
 struct RenderScene {
   int width = 0, height = 0;
   Vec3d origin;  ///< world position of (0, 0, 0): the component-wise median of the shapes' centres
@@ -107,6 +126,7 @@ struct RenderScene {
   Flats quads, boxes;
   std::shared_ptr<const Bvh> bvh;  ///< null: few primitives, all are tested
   Elements elements;
+  Lights lights;
   Materials materials;
   std::vector<TextureColumns> textures;
   std::vector<MediumColumns> media;
@@ -114,6 +134,9 @@ struct RenderScene {
   int max_depth = 1000;
   std::uint32_t seed = 0;
   bool schlick = false;
+  bool sobol = false;
+  bool light_sampling = false;  ///< integrators nee and mis
+  bool multiple_importance = false;  ///< mis
   double film_unit = 1;
   Needs needs;
   int primitives() const;

@@ -19,25 +19,32 @@ struct Hit {
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
 /// How a primitive test is asked for: by a leaf of the tree, whose box a lane must have met at `near`, or for all.
-template <class F>
+/// shadow: only whether something is in the way counts, and each lane leaves out the primitive it aims at.
+template <class F, bool is_shadow = false>
 struct Asked {
+  static constexpr bool shadow = is_shadow;
   MaskOf<F> lanes;
   F near;
   bool by_tree;
+  IntOf<F> aim;  ///< shadow rays: first element of the primitive that is left out
 };
 
 /// Where candidate hits beat the best so far.
-template <class F>
-TYNDALL_INLINE MaskOf<F> beats(F t, std::int32_t element, MaskOf<F> hit, const Hit<F>& best, const Asked<F>& asked) {
+template <class F, class Q>
+TYNDALL_INLINE MaskOf<F> beats(F t, std::int32_t element, MaskOf<F> hit, const Hit<F>& best, const Q& asked) {
   using I = IntOf<F>;
+  if constexpr (Q::shadow) {
+    const auto between = mask_and(mask_and(less(F(0.0f), t), less(t, best.t)), asked.lanes);
+    return mask_and_not(mask_and(hit, between), equal(asked.aim, I(element)));
+  }
   const auto closer = mask_or(less(t, best.t), mask_and(equal(t, best.t), less(I(element), best.element)));
   const auto ok = mask_and(mask_and(hit, closer), mask_and(less(F(0.0f), t), asked.lanes));
   return asked.by_tree ? mask_and(ok, less_equal(asked.near, t * F(slab_room))) : ok;
 }
 
-template <class F>
+template <class F, class Q>
 TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t element, const Ray<F>& ray,
-                                const Asked<F>& asked, Hit<F>& best) {
+                                const Q& asked, Hit<F>& best) {
   const Vec3<F> to_center = center - ray.origin;
   Interval<F> line = sphere_interval(to_center, splat<F>(radius), ray.direction);
   const Start<F> start = start_on<F>(ray.from, element, 1);
@@ -49,24 +56,24 @@ TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t eleme
   best.element = select(better, IntOf<F>(element), best.element);
 }
 
-template <class F>
-TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Asked<F>& asked,
+template <class F, class Q>
+TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& asked,
                                  Hit<F>& best) {
   for (int i = first; i < last; ++i)
     test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), s.radius[i], s.element[i], ray, asked, best);
 }
 
-template <class F>
+template <class F, class Q>
 TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray,
-                                        const Asked<F>& asked, Hit<F>& best) {
+                                        const Q& asked, Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const Vec3<F> way = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
     test_sphere(along(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, way), s.radius[i], s.element[i], ray, asked, best);
   }
 }
 
-template <class F>
-TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Asked<F>& asked,
+template <class F, class Q>
+TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Q& asked,
                                Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const std::int32_t element = q.element[i];
@@ -79,8 +86,8 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
   }
 }
 
-template <class F>
-TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Asked<F>& asked,
+template <class F, class Q>
+TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Q& asked,
                                Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const std::int32_t element = b.element[i];
@@ -98,15 +105,18 @@ TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray
   }
 }
 
-/// Every primitive, in turn.
-template <class F>
-TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
-  Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  const Asked<F> asked{active, F(0.0f), false};
+template <class F, class Q>
+TYNDALL_INLINE void test_all(const SceneView& s, const Ray<F>& ray, const Q& asked, Hit<F>& best) {
   test_spheres(s.spheres, 0, s.spheres.count, ray, asked, best);
   test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, asked, best);
   test_quads(s.quads, 0, s.quads.count, ray, asked, best);
   test_boxes(s.boxes, 0, s.boxes.count, ray, asked, best);
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
+  test_all(s, ray, Asked<F>{active, F(0.0f), false, IntOf<F>(-1)}, best);
   return best;
 }
 
@@ -154,8 +164,8 @@ struct Stack {
   }
 };
 
-template <class F>
-TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray<F>& ray, const Asked<F>& asked,
+template <class F, class Q>
+TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray<F>& ray, const Q& asked,
                               Hit<F>& best) {
   const int last = leaf.first + leaf.count;
   switch (leaf.kind) {
@@ -166,15 +176,14 @@ TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray
   }
 }
 
-/// Through the tree, all lanes together; a lane takes part where its own ray meets a box.
-template <class F>
-TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+/// Through the tree, all lanes together; a lane takes part where its own ray meets a box. best.t: how far to look.
+template <class F, class Q>
+TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hit<F>& best) {
   const F infinity = F(__builtin_inff());
-  Hit<F> best{select(active, infinity, F(-1.0f)), IntOf<F>(-1)};
   const Slopes<F> slopes = slopes_of(ray);
   Stack<F> stack;
   std::int32_t current = 0;
-  F near = F(0.0f);
+  asked.near = F(0.0f);
   for (;;) {
     if (current >= 0) {
       const BvhNode& node = s.nodes[current];
@@ -184,15 +193,36 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
       for (int c = 0; c < node.count; ++c)
         if (any(less(enter[c], infinity))) stack.push(bottom, node.child[c], least_lane(enter[c]), enter[c]);
     } else {
-      test_leaf(s, s.leaves[~current], ray, {less(near, infinity), near, true}, best);
+      asked.lanes = less(asked.near, infinity);
+      test_leaf(s, s.leaves[~current], ray, asked, best);
+      if constexpr (Q::shadow) best.t = select(less(best.element, IntOf<F>(0)), best.t, F(-1.0f));
     }
     do {
-      if (stack.size == 0) return best;
+      if (stack.size == 0) return;
       const auto& top = stack.entry[--stack.size];
       current = top.node;
-      near = select(less_equal(top.near, best.t * F(slab_room)), top.near, infinity);
-    } while (!any(less(near, infinity)));
+      asked.near = select(less_equal(top.near, best.t * F(slab_room)), top.near, infinity);
+    } while (!any(less(asked.near, infinity)));
   }
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
+  test_tree(s, ray, Asked<F>{active, F(0.0f), true, IntOf<F>(-1)}, best);
+  return best;
+}
+
+/// Lanes whose way to `distance` is blocked by something else than the primitive whose first element is `aim`.
+template <class F>
+TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
+  Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
+  const Asked<F, true> asked{active, F(0.0f), s.nodes != nullptr, aim};
+  if (s.nodes)
+    test_tree(s, ray, asked, best);
+  else
+    test_all(s, ray, asked, best);
+  return less_equal(IntOf<F>(0), best.element);
 }
 
 template <class F>

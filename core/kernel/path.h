@@ -1,5 +1,6 @@
 #pragma once
 #include "core/kernel/camera.h"
+#include "core/kernel/lights.h"
 #include "core/kernel/shade.h"
 #include "core/media/medium.h"
 
@@ -13,6 +14,7 @@ struct Paths {
   Vec3<F> throughput, radiance;
   Dice<F> dice;
   IntOf<F> depth;  ///< scattering events so far
+  F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
   std::int32_t slot[lanes_of<F>];
   std::uint32_t half[lanes_of<F>];
   std::uint32_t alive = 0;  ///< a bit a lane
@@ -49,8 +51,22 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     p.throughput = select(m, Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.throughput);
     p.radiance = select(m, zero3<F>(), p.radiance);
     p.depth = select(m, IntOf<F>(0), p.depth);
+    p.density = select(m, F(one_direction), p.density);
     p.alive |= fresh;
   }
+}
+
+/// The part of a ray within a medium's boundary.
+template <class F>
+TYNDALL_INLINE Interval<F> within_medium(const MediumColumns& m, const Ray<F>& ray) {
+  const Start<F> start = start_on<F>(ray.from, m.first, m.count);
+  if (m.box) {
+    const Interval<F> line = box_slabs(m.map, ray.origin, ray.direction).inside;
+    return any(start.here) ? leave_box(line, start) : line;
+  }
+  const Vec3<F> to_center = splat<F>(m.center) - ray.origin;
+  const Interval<F> line = sphere_interval(to_center, splat<F>(m.radius), ray.direction);
+  return any(start.here) ? leave_sphere(line, to_center, ray.direction, ray.from, start) : line;
 }
 
 /// Where a path scatters within a medium, if it does.
@@ -64,7 +80,7 @@ struct MediumEvent {
 };
 
 /// The nearest of the media's independent exponential flights, if it ends before the surface: right for media that
-/// overlap, whose densities add. Shortens best.t to it.
+/// overlap, whose densities add. Shortens `nearest` to it.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>& ray, const Dice<F>& dice,
                                                 MaskOf<F> active, F& nearest) {
@@ -72,16 +88,7 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>
   MediumEvent<F> event{less(F(1.0f), F(0.0f)), IntOf<F>(from_nowhere), zero3<F>(), IntOf<F>(-1), F(0.0f)};
   for (int k = 0; k < s.medium_count; ++k) {
     const MediumColumns& m = s.media[k];
-    Interval<F> inside;
-    const Start<F> start = start_on<F>(ray.from, m.first, m.count);
-    if (m.box) {
-      inside = box_slabs(m.map, ray.origin, ray.direction).inside;
-      if (any(start.here)) inside = leave_box(inside, start);
-    } else {
-      const Vec3<F> to_center = splat<F>(m.center) - ray.origin;
-      inside = sphere_interval(to_center, splat<F>(m.radius), ray.direction);
-      if (any(start.here)) inside = leave_sphere(inside, to_center, ray.direction, ray.from, start);
-    }
+    const Interval<F> inside = within_medium(m, ray);
     const F begin = max(inside.near, F(0.0f)), end = min(inside.far, nearest);
     const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
     if (!any(crosses)) continue;
@@ -97,54 +104,132 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>
   return event;
 }
 
-/// What a group does at its next event: where it goes on, and which lanes stop.
+/// Share of light that passes all media on the way to `distance`.
 template <class F>
-struct Next {
-  Vec3<F> origin, direction, colour;
-  IntOf<F> from;
-  MaskOf<F> goes_on;
+TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, MaskOf<F> active) {
+  F depth = F(0.0f);
+  for (int k = 0; k < s.medium_count; ++k) {
+    const Interval<F> inside = within_medium(s.media[k], ray);
+    const F begin = max(inside.near, F(0.0f)), end = min(inside.far, distance);
+    const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
+    if (any(crosses)) depth = select(crosses, mul_add(end - begin, splat<F>(s.media[k].density), depth), depth);
+  }
+  return any(less(F(0.0f), depth)) ? transmittance(depth) : F(1.0f);
+}
+
+/// What a group of lanes is at: surfaces and points in media, ready to scatter.
+template <class F>
+struct Event {
+  MaskOf<F> surface, medium;  ///< lanes; never both
+  Vec3<F> point;
+  Vec3<F> colour;             ///< albedo
+  IntOf<F> from;              ///< Ray::from on the side that the ray came from, or within the medium
+  Incident<F> incident;
+  SurfacePoint<F> at;
+  IntOf<F> kind;              ///< of the material
+  F g;
 };
 
+/// Light that lanes see directly from an event, by one sample of one light, weighed against what scattering would have
+/// found by itself. E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2: the power
+/// heuristic, written in the ratio r of the two densities: r² / (1 + r²) and 1 / (1 + r²).
 template <class F>
-TYNDALL_INLINE void scatter_on_surfaces(const SceneView& s, Paths<F>& p, const Hit<F>& hit, MaskOf<F> lanes,
-                                        Vec3<F> unit, Next<F>& next) {
-  const SurfacePoint<F> at = surface_at(s, p.ray, hit.t, hit.element);
-  const IntOf<F> kind = gather_int<F>(s.kind, at.material);
-  const Vec3<F> colour = surface_colour(s, at, lanes);
-  const auto lit = mask_and(lanes, equal(kind, IntOf<F>(kind_of<Light<double>>())));
-  if (any(lit)) p.radiance = select(lit, p.radiance + p.throughput * colour, p.radiance);
-  const auto scattering = mask_and_not(lanes, lit);
-  if (!any(scattering)) return;
-  const F towards = dot(p.ray.direction, at.normal);
+TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, std::uint32_t& shadows) {
+  const LightChoice<F> choice = choose_light(s.lights, e.point, p.dice.one(dimension::light_choice));
+  const LightSample<F> sample =
+      sample_light(s.lights, choice.light, e.point, p.ray.time, p.dice.pair(dimension::light_point));
+  F scattered = F(0.0f);
+  if (any(e.surface)) scattered = density_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
+  if (s.needs.media && any(e.medium))
+    scattered = select(e.medium, henyey_greenstein_density(e.g, dot(p.ray.direction, sample.direction)), scattered);
+  const F chosen = sample.density * choice.probability;
+  const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered), less(F(0.0f), chosen)));
+  if (!any(useful)) return zero3<F>();
+  shadows = bits(useful);
+  const Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
+  const IntOf<F> element = s.lights.count == 1 ? IntOf<F>(s.lights.element[0]) : gather_int<F>(s.lights.element, choice.light);
+  const IntOf<F> aim = s.lights.count == 1 ? IntOf<F>(s.lights.primitive[0]) : gather_int<F>(s.lights.primitive, choice.light);
+  const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, aim, useful));
+  if (!any(arrives)) return zero3<F>();
+  const F ratio = scattered / select(useful, chosen, F(1.0f));
+  F weight = s.multiple_importance ? ratio / mul_add(ratio, ratio, F(1.0f)) : ratio;
+  if (s.needs.media) weight = weight * pass_media(s, ray, sample.distance, arrives);
+  const Vec3<F> radiance = light_radiance(s, element, along(e.point, sample.distance, sample.direction), arrives);
+  return select(arrives, weight * (p.throughput * e.colour * radiance), zero3<F>());
+}
+
+/// Weight of a light that a ray met by itself.
+template <class F>
+TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
+  const auto could = mask_and(lit, less(F(0.0f), p.density));
+  if (!s.light_sampling || !any(could)) return F(1.0f);
+  if (!s.multiple_importance) return select(could, F(0.0f), F(1.0f));
+  const IntOf<F> light = gather_int<F>(s.light_of, element);
+  const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
+  const F chosen = light_density(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
+  const F ratio = p.density / max(chosen, F(1e-30f));
+  const F other = F(1.0f) / mul_add(ratio, ratio, F(1.0f));
+  return select(could, F(1.0f) - other, F(1.0f));
+}
+
+/// Adds what lanes on a light see, and fills the event of the others.
+template <class F>
+TYNDALL_INLINE void meet_surfaces(const SceneView& s, Paths<F>& p, const Hit<F>& hit, Vec3<F> unit, Event<F>& e) {
+  e.at = surface_at(s, p.ray, hit.t, hit.element);
+  e.kind = gather_int<F>(s.kind, e.at.material);
+  const Vec3<F> colour = surface_colour(s, e.at, e.surface);
+  const auto lit = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Light<double>>())));
+  if (any(lit)) {
+    const F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
+    p.radiance = select(lit, p.radiance + weight * (p.throughput * colour), p.radiance);
+  }
+  e.surface = mask_and_not(e.surface, lit);
+  const F towards = dot(p.ray.direction, e.at.normal);
   const auto along_normal = less(F(0.0f), towards);
-  const Vec3<F> facing = select(along_normal, -at.normal, at.normal);
-  const Incident<F> in{p.ray.direction, at.normal, facing, min(abs(towards), F(1.0f)), along_normal, unit, s.schlick, &p.dice};
-  const Scattered<F> out = scatter_any(s, at.material, kind, scattering, in);
-  // Geometrically inside before, and not through the surface; or outside before, and through it: inside after.
+  const Vec3<F> facing = select(along_normal, -e.at.normal, e.at.normal);
+  e.incident = {p.ray.direction, e.at.normal, facing, min(abs(towards), F(1.0f)), along_normal, unit, s.schlick, &p.dice};
   const IntOf<F> one = IntOf<F>(1), zero = IntOf<F>(0);
-  const IntOf<F> was_inside = select(along_normal, select(at.inverted, zero, one), select(at.inverted, one, zero));
-  const IntOf<F> is_inside = select(out.transmitted, one - was_inside, was_inside);
-  next.origin = select(scattering, at.point, next.origin);
-  next.direction = select(scattering, out.direction, next.direction);
-  next.colour = select(scattering, colour, next.colour);
-  next.from = select(scattering, at.element * IntOf<F>(4) + is_inside, next.from);
-  next.goes_on = mask_or(next.goes_on, mask_and_not(scattering, out.absorbed));
+  const IntOf<F> inside = select(along_normal, select(e.at.inverted, zero, one), select(e.at.inverted, one, zero));
+  e.point = select(e.surface, e.at.point, e.point);
+  e.colour = select(e.surface, colour, e.colour);
+  e.from = select(e.surface, e.at.element * IntOf<F>(4) + inside, e.from);
 }
 
 template <class F>
-TYNDALL_INLINE void scatter_in_media(const SceneView& s, Paths<F>& p, const MediumEvent<F>& event, F t, Vec3<F> unit,
-                                     Pair<F> u, Next<F>& next) {
-  const auto here = event.happens;
-  const Vec3<F> point = along(p.ray.origin, select(here, t, F(0.0f)), p.ray.direction);
-  Vec3<F> albedo = event.albedo;
-  if (s.needs.textures) albedo = textured<F>(s, albedo, event.texture, here, point, nullptr);
-  Vec3<F> direction = unit;
-  if (s.needs.phase_functions) direction = scatter_in_medium(event.g, p.ray.direction, unit, u);
-  next.origin = select(here, point, next.origin);
-  next.direction = select(here, direction, next.direction);
-  next.colour = select(here, albedo, next.colour);
-  next.from = select(here, event.from, next.from);
-  next.goes_on = mask_or(next.goes_on, here);
+TYNDALL_INLINE void meet_media(const SceneView& s, const Paths<F>& p, const MediumEvent<F>& found, F t, Event<F>& e) {
+  const Vec3<F> point = along(p.ray.origin, select(e.medium, t, F(0.0f)), p.ray.direction);
+  Vec3<F> albedo = found.albedo;
+  if (s.needs.textures) albedo = textured<F>(s, albedo, found.texture, e.medium, point, nullptr);
+  e.point = select(e.medium, point, e.point);
+  e.colour = select(e.medium, albedo, e.colour);
+  e.from = select(e.medium, found.from, e.from);
+  e.g = found.g;
+}
+
+/// New directions; answers which lanes go on.
+template <class F>
+TYNDALL_INLINE MaskOf<F> scatter(const SceneView& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u) {
+  const Vec3<F> before = p.ray.direction;
+  MaskOf<F> goes_on = e.medium;
+  p.ray.origin = e.point;
+  p.ray.from = e.from;
+  if (any(e.surface)) {
+    const Scattered<F> out = scatter_any(s, e.at.material, e.kind, e.surface, e.incident);
+    p.ray.direction = select(e.surface, out.direction, p.ray.direction);
+    p.density = select(e.surface, out.density, p.density);
+    // Through the surface: on its other side, inside for outside.
+    const auto through = mask_and(e.surface, out.transmitted);
+    const IntOf<F> side = e.from & IntOf<F>(1);
+    p.ray.from = select(through, e.from + IntOf<F>(1) - (side + side), p.ray.from);
+    goes_on = mask_or(goes_on, mask_and_not(e.surface, out.absorbed));
+  }
+  if (s.needs.media && any(e.medium)) {
+    Vec3<F> direction = unit;
+    if (s.needs.phase_functions) direction = scatter_in_medium(e.g, before, unit, u);
+    p.ray.direction = select(e.medium, direction, p.ray.direction);
+    p.density = select(e.medium, henyey_greenstein_density(e.g, dot(before, direction)), p.density);
+  }
+  return goes_on;
 }
 
 /// Ends paths with a probability that grows as they carry less: survivors carry what the ended ones would have.
@@ -163,29 +248,31 @@ TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
 /// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
 /// that max_depth ended.
 template <class F>
-TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut) {
+TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut, std::uint32_t& shadows) {
+  const MaskOf<F> none = less(F(1.0f), F(0.0f));
   Hit<F> hit = closest(s, p.ray, active);
-  MediumEvent<F> event{less(F(1.0f), F(0.0f)), IntOf<F>(0), zero3<F>(), IntOf<F>(-1), F(0.0f)};
-  if (s.needs.media) event = fly_through_media(s, p.ray, p.dice, active, hit.t);
-  const auto met = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), event.happens));
-  const auto escaped = mask_and_not(mask_and_not(active, met), event.happens);
+  MediumEvent<F> found{none, IntOf<F>(0), zero3<F>(), IntOf<F>(-1), F(0.0f)};
+  if (s.needs.media) found = fly_through_media(s, p.ray, p.dice, active, hit.t);
+  Event<F> e{};
+  e.medium = found.happens;
+  e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
+  e.point = p.ray.origin, e.colour = zero3<F>(), e.from = p.ray.from;
+  const auto escaped = mask_and_not(mask_and_not(active, e.surface), e.medium);
   if (s.needs.background && any(escaped))
     p.radiance = select(escaped, p.radiance + p.throughput * background_radiance(s.background, p.ray.direction), p.radiance);
   const Pair<F> u = p.dice.pair(dimension::direction);
   const Vec3<F> unit = on_sphere(u);
-  Next<F> next{p.ray.origin, p.ray.direction, zero3<F>(), p.ray.from, less(F(1.0f), F(0.0f))};
-  if (any(met)) scatter_on_surfaces(s, p, hit, met, unit, next);
-  if (s.needs.media && any(event.happens)) scatter_in_media(s, p, event, hit.t, unit, u, next);
+  if (any(e.surface)) meet_surfaces(s, p, hit, unit, e);
+  if (s.needs.media && any(e.medium)) meet_media(s, p, found, hit.t, e);
   // A path that carries nothing has ended, not been cut.
-  const Vec3<F> carried = p.throughput * next.colour;
-  const auto useful = mask_and(next.goes_on, less(F(0.0f), max_component(carried)));
+  const Vec3<F> carried = p.throughput * e.colour;
+  const auto useful = mask_and(mask_or(e.surface, e.medium), less(F(0.0f), max_component(carried)));
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   cut = mask_and(useful, deep);
-  const auto lanes = mask_and_not(useful, deep);
+  const auto scattering = mask_and_not(useful, deep);
+  if (s.light_sampling && any(scattering)) p.radiance = p.radiance + direct_light(s, p, e, scattering, shadows);
+  const auto lanes = mask_and(scattering, scatter(s, p, e, unit, u));
   p.throughput = select(lanes, carried, p.throughput);
-  p.ray.origin = next.origin;
-  p.ray.direction = next.direction;
-  p.ray.from = next.from;
   p.depth = p.depth + IntOf<F>(1);
   const auto survivors = roulette(p, lanes);
   p.dice.next_event();
@@ -219,7 +306,11 @@ TYNDALL_INLINE void render_unit(const SceneView& s, const Unit& unit, double fil
     if (!p.alive) return;
     counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
     MaskOf<F> cut;
-    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut)) & p.alive;
+    std::uint32_t shadows = 0;
+    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, shadows)) & p.alive;
+    const auto shadow_rays = static_cast<std::uint64_t>(__builtin_popcount(shadows));
+    counts.rays += shadow_rays;
+    counts.shadow_rays += shadow_rays;
     finish(p, p.alive & ~survivors, bits(cut), per_unit, pixels);
     p.alive = survivors;
   }

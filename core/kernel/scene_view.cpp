@@ -15,6 +15,19 @@ TextureView view_of(const TextureColumns& t) {
           t.width, t.height, t.texels ? t.texels->data() : nullptr};
 }
 
+LightView view_of(const Lights& l) {
+  LightView v{};
+  v.count = l.count();
+  v.kind = l.kind.data(), v.element = l.element.data(), v.primitive = l.primitive.data(), v.alias = l.alias.data();
+  for (int i = 0; i < 3; ++i) {
+    v.corner[i] = l.corner[i].data(), v.edge_u[i] = l.edge_u[i].data(), v.edge_v[i] = l.edge_v[i].data();
+    v.normal[i] = l.normal[i].data(), v.center[i] = l.center[i].data();
+  }
+  v.length_u = l.length_u.data(), v.length_v = l.length_v.data(), v.area = l.area.data(), v.power = l.power.data();
+  v.reach2 = l.reach2.data(), v.probability = l.probability.data(), v.keep = l.keep.data();
+  return v;
+}
+
 }  // namespace
 
 SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
@@ -30,7 +43,8 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   const Elements& e = s.elements;
   v.x = e.x.data(), v.y = e.y.data(), v.z = e.z.data(), v.inverse_radius = e.inverse_radius.data();
   v.move_x = e.move_x.data(), v.move_y = e.move_y.data(), v.move_z = e.move_z.data(), v.uv = e.uv.data();
-  v.material = e.material.data();
+  v.material = e.material.data(), v.light_of = e.light.data();
+  v.lights = view_of(s.lights);
   const Materials& m = s.materials;
   v.kind = m.kind.data(), v.texture_of = m.texture.data();
   v.red = m.red.data(), v.green = m.green.data(), v.blue = m.blue.data();
@@ -42,7 +56,8 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.gradients = s.gradients ? s.gradients->data() : nullptr;
   v.max_depth = s.max_depth;
   v.seed = s.seed;
-  v.schlick = s.schlick;
+  v.schlick = s.schlick, v.sobol = s.sobol;
+  v.light_sampling = s.light_sampling, v.multiple_importance = s.multiple_importance;
   v.needs = s.needs;
 }
 

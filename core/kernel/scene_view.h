@@ -24,6 +24,13 @@ struct TextureView {
   const float* texels;
 };
 
+struct LightView {
+  int count = 0;
+  const std::int32_t *kind, *element, *primitive, *alias;
+  const float *corner[3], *edge_u[3], *edge_v[3], *normal[3], *center[3];
+  const float *length_u, *length_v, *area, *power, *reach2, *probability, *keep;
+};
+
 struct SceneView {
   int width, height;
   CameraColumns camera;
@@ -34,7 +41,8 @@ struct SceneView {
   const BvhLeaf* leaves;
   // elements
   const float *x, *y, *z, *inverse_radius, *move_x, *move_y, *move_z, *uv;
-  const std::int32_t* material;
+  const std::int32_t *material, *light_of;
+  LightView lights;
   // materials
   const std::int32_t *kind, *texture_of;
   const float *red, *green, *blue;
@@ -46,7 +54,7 @@ struct SceneView {
   const float* gradients;
   int max_depth;
   std::uint32_t seed;
-  bool schlick;
+  bool schlick, sobol, light_sampling, multiple_importance;
   Needs needs;
 };
 

@@ -112,6 +112,22 @@ TYNDALL_INLINE Vec3<F> surface_colour(const SceneView& s, const SurfacePoint<F>&
   return textured(s, colour, gather_int<F>(s.texture_of, p.material), lanes, p.point, &p);
 }
 
+/// Radiance that a light's element sends from a point on it.
+template <class F>
+TYNDALL_INLINE Vec3<F> light_radiance(const SceneView& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
+  SurfacePoint<F> p;
+  p.element = element;
+  p.material = gather_int<F>(s.material, element);
+  p.point = point;
+  p.inverted = less(F(1.0f), F(0.0f));
+  p.normal = zero3<F>();
+  if (s.needs.image_textures) {
+    const Vec3<F> arm = point - Vec3<F>{gather<F>(s.x, element), gather<F>(s.y, element), gather<F>(s.z, element)};
+    p.normal = (F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f)))) * arm;  // outward; only spheres use it
+  }
+  return surface_colour(s, p, lanes);
+}
+
 /// A material of kind M with its fields gathered.
 template <class M, class F>
 TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
@@ -140,7 +156,7 @@ template <class F>
 TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                                         const Incident<F>& in) {
   const MaskOf<F> none = less(F(1.0f), F(0.0f));
-  Scattered<F> out{in.facing, none, none};
+  Scattered<F> out{in.facing, none, none, F(one_direction)};
   [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
     (([&]() __attribute__((always_inline)) {
        using M = std::variant_alternative_t<i, MaterialKinds<F>>;
@@ -150,6 +166,24 @@ TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, I
        out.direction = select(here, one.direction, out.direction);
        out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
        out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
+       out.density = select(here, one.density, out.density);
+     }()), ...);
+  }(std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
+  return out;
+}
+
+/// Density per steradian with which the material each lane is at scatters into `direction`.
+template <class F>
+TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes, const Incident<F>& in,
+                             Vec3<F> direction) {
+  F out = F(0.0f);
+  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+    (([&]() __attribute__((always_inline)) {
+       using M = std::variant_alternative_t<i, MaterialKinds<F>>;
+       if constexpr (M::samples_lights) {
+         const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(i))));
+         if (any(here)) out = select(here, density(load_material<M, F>(s, material), in, direction), out);
+       }
      }()), ...);
   }(std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
   return out;

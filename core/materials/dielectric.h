@@ -11,6 +11,7 @@ template <class F = double>
 struct Dielectric {
   static constexpr const char* type = "dielectric";
   static constexpr const char* colour_name = nullptr;
+  static constexpr bool samples_lights = false;  ///< it sends light into a range of directions
   F refractive_index = F(1.5);
   bool operator==(const Dielectric&) const = default;
 };
@@ -71,7 +72,8 @@ TYNDALL_INLINE Scattered<F> scatter(const Dielectric<F>& glass, const Incident<F
   const auto reflects = less(in.dice->one(dimension::lobe), share);
   const Vec3<F> bent = along(in.direction, in.cosine - g, in.facing);
   const F scale = select(equal(eta, F(1.0f)), F(1.0f), F(1.0f) / sqrt(max(dot(bent, bent), F(1e-30f))));
-  return {select(reflects, reflect(in.direction, in.normal), scale * bent), less(F(1.0f), F(0.0f)), mask_not(reflects)};
+  return {select(reflects, reflect(in.direction, in.normal), scale * bent), less(F(1.0f), F(0.0f)), mask_not(reflects),
+          F(one_direction)};
 }
 
 }  // namespace tyndall

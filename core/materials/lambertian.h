@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/fields.h"
+#include "core/base/math.h"
 #include "core/base/ray.h"
 
 #include <tuple>
@@ -11,12 +12,20 @@ template <class F = double>
 struct Lambertian {
   static constexpr const char* type = "lambertian";
   static constexpr const char* colour_name = "albedo";
+  static constexpr bool samples_lights = true;  ///< it sends light into a range of directions
   bool operator==(const Lambertian&) const = default;
 };
 
 template <class F>
 constexpr auto fields(const Lambertian<F>*) {
   return std::tuple{};
+}
+
+/// Probability density per steradian of scattering into a unit direction: cos θ / π, 0 below the surface. Times the
+/// albedo it is the reflected share (the BRDF times the cosine).
+template <class F>
+TYNDALL_INLINE F density(const Lambertian<F>&, const Incident<F>& in, Vec3<F> direction) {
+  return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));
 }
 
 /// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where the two cancel (to 1e-6 in
@@ -29,7 +38,8 @@ TYNDALL_INLINE Scattered<F> scatter(const Lambertian<F>&, const Incident<F>& in)
   const auto cancelled = less(squared, F(1e-12f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
   const MaskOf<F> none = less(F(1.0f), F(0.0f));
-  return {select(cancelled, in.facing, scale * sum), none, none};
+  const Vec3<F> out = select(cancelled, in.facing, scale * sum);
+  return {out, none, none, density(Lambertian<F>{}, in, out)};
 }
 
 }  // namespace tyndall

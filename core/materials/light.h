@@ -11,6 +11,7 @@ template <class F = double>
 struct Light {
   static constexpr const char* type = "light";
   static constexpr const char* colour_name = "radiance";
+  static constexpr bool samples_lights = false;  ///< it sends light into a range of directions
   bool operator==(const Light&) const = default;
 };
 
@@ -22,7 +23,7 @@ constexpr auto fields(const Light<F>*) {
 /// A path ends at a lamp.
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Light<F>&, const Incident<F>& in) {
-  return {in.facing, less(F(0.0f), F(1.0f)), less(F(1.0f), F(0.0f))};
+  return {in.facing, less(F(0.0f), F(1.0f)), less(F(1.0f), F(0.0f)), F(one_direction)};
 }
 
 }  // namespace tyndall

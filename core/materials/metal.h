@@ -12,6 +12,7 @@ template <class F = double>
 struct Metal {
   static constexpr const char* type = "metal";
   static constexpr const char* colour_name = "albedo";
+  static constexpr bool samples_lights = true;  ///< it sends light into a range of directions
   F fuzz = F(0);
   bool operator==(const Metal&) const = default;
 };
@@ -20,6 +21,29 @@ template <class F>
 constexpr auto fields(const Metal<F>*) {
   return std::tuple{Field{"fuzz", &Metal<F>::fuzz, between(0, 1), Slider{0, 1}, "",
                           "radius of the blur around the mirror direction; 0 is a mirror"}};
+}
+
+/// Up to this fuzz a metal counts as a mirror for light sampling: its lobe is narrower than float directions resolve well.
+inline constexpr float least_sampled_fuzz = 1e-3f;
+
+/// Probability density per steradian of scattering into a unit direction above the surface; 0 below it and for a mirror.
+/// A ray from the centre of the mirror direction's unit sphere crosses the ball between s- and s+ = cos β ± h,
+/// h² = fuzz² - sin² β: the ball's uniform density 3 / (4π fuzz³), integrated with r² dr.
+template <class F>
+TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direction) {
+  const Vec3<F> mirror = reflect(in.direction, in.normal);
+  const F cosine = dot(mirror, direction);
+  const Vec3<F> across = along(direction, -cosine, mirror);
+  const F fuzz2 = metal.fuzz * metal.fuzz;
+  const F h2 = fuzz2 - dot(across, across);  // sin² from the part across: exact for small angles
+  const F h = sqrt(max(h2, F(0.0f)));
+  // s+³ - s-³ = 2h (3 cos² + h²) where both ends are in front; at fuzz 1 the near end is the centre itself.
+  const F middle = max(cosine, F(0.0f));
+  const F volume = F(2.0f) * h * mul_add(F(3.0f) * middle, middle, h * h);
+  const auto inside = mask_and(mask_and(less(F(0.0f), h2), less(F(0.0f), dot(direction, in.facing))),
+                               less(F(least_sampled_fuzz), metal.fuzz));
+  const F scale = F(static_cast<float>(0.25 / pi)) / max(fuzz2 * metal.fuzz, F(1e-30f));
+  return select(mask_and(inside, less(F(0.0f), cosine)), volume * scale, F(0.0f));
 }
 
 /// The unit mirror direction plus fuzz times a point uniform in the unit ball; what ends below the surface is absorbed.
@@ -34,7 +58,8 @@ TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in
   const auto cancelled = less(squared, F(1e-12f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
   const Vec3<F> out = select(cancelled, in.facing, scale * sum);
-  return {out, less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f))};
+  return {out, less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f)),
+          select(less(F(least_sampled_fuzz), metal.fuzz), density(metal, in, out), F(one_direction))};
 }
 
 /// Share of the light that leaves, at a cosine of incidence in [0, 1]: what the ball puts below the surface is lost.

@@ -1,0 +1,264 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/base/sampling.h"
+#include "core/kernel/scene_view.h"
+#include "core/shapes/sphere.h"
+
+/// Sampling lights as seen from a point: which light, and where on it, with the density of the direction per steradian.
+/// The density is a function of the point and the light alone, so that a ray which finds a light by itself can be
+/// weighed against the sample that would have chosen it.
+namespace tyndall {
+
+/// A light's columns for each lane. A scene with one light reads them once for all.
+template <class F>
+struct LightColumns {
+  IntOf<F> kind;
+  Vec3<F> corner, edge_u, edge_v, normal;
+  F length_u, length_v, area;
+};
+
+template <class F>
+TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
+  const auto value = [&](const float* column) { return l.count == 1 ? splat<F>(column[0]) : gather<F>(column, k); };
+  const auto vector = [&](const float* const* c) { return Vec3<F>{value(c[0]), value(c[1]), value(c[2])}; };
+  return {l.count == 1 ? IntOf<F>(l.kind[0]) : gather_int<F>(l.kind, k),
+          vector(l.corner), vector(l.edge_u), vector(l.edge_v), vector(l.normal),
+          value(l.length_u), value(l.length_v), value(l.area)};
+}
+
+/// What light k is worth at a point: its power over the squared distance, which stays finite within its reach.
+template <class F>
+TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
+  const Vec3<F> way = splat<F>(Vec3f{l.center[0][k], l.center[1][k], l.center[2][k]}) - point;
+  return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
+}
+
+template <class F>
+TYNDALL_INLINE F total_worth(const LightView& l, Vec3<F> point) {
+  F sum = F(0.0f);
+  for (int k = 0; k < l.count; ++k) sum = sum + light_worth(l, k, point);
+  return sum;
+}
+
+/// A light for each lane, and the probability of that choice.
+template <class F>
+struct LightChoice {
+  IntOf<F> light;
+  F probability;
+};
+
+template <class F>
+TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F u) {
+  using I = IntOf<F>;
+  if (l.count == 1) return {I(0), F(1.0f)};
+  if (l.count <= most_lights_by_contribution) {
+    const F total = total_worth(l, point);
+    LightChoice<F> choice{I(l.count - 1), F(0.0f)};
+    F left = u * total, worth = F(0.0f);
+    MaskOf<F> open = less(F(-1.0f), F(0.0f));
+    for (int k = 0; k < l.count; ++k) {
+      worth = light_worth(l, k, point);
+      const auto here = k + 1 < l.count ? mask_and(open, less(left, worth)) : open;
+      choice.light = select(here, I(k), choice.light);
+      choice.probability = select(here, worth / total, choice.probability);
+      open = mask_and_not(open, here);
+      left = left - worth;
+    }
+    return choice;
+  }
+  const F scaled = u * splat<F>(static_cast<float>(l.count));
+  const F slot = min(floor(scaled), splat<F>(static_cast<float>(l.count - 1)));
+  const I first = to_int(slot);
+  const I light = select(less(scaled - slot, gather<F>(l.keep, first)), first, gather_int<F>(l.alias, first));
+  return {light, gather<F>(l.probability, light)};
+}
+
+/// Probability with which choose_light would take `light` at a point.
+template <class F>
+TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> light) {
+  if (l.count == 1) return F(1.0f);
+  if (l.count > most_lights_by_contribution) return gather<F>(l.probability, light);
+  F total = F(0.0f), own = F(0.0f);
+  for (int k = 0; k < l.count; ++k) {
+    const F worth = light_worth(l, k, point);
+    own = select(equal(light, IntOf<F>(k)), worth, own);
+    total = total + worth;
+  }
+  return own / total;
+}
+
+/// A rectangle seen from a point: its edges in its own frame with the point at the origin, and its solid angle.
+/// The corners as complex numbers, z r + i x y: the angle of their product is the solid angle; so one arc tangent serves
+/// for Ureña, Fajardo, King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+template <class F>
+struct SphericalRectangle {
+  F x0, y0, x1, y1, z;      ///< z >= 0; in units of `scale`
+  F scale;
+  F solid_angle;            ///< 0: too small, too flat or too wide for these formulas; sample the area instead
+  F turn_cos, turn_sin;     ///< of the angle of conj(c01) c00
+};
+
+template <class F>
+struct Complex {
+  F re, im;
+};
+template <class F>
+TYNDALL_INLINE Complex<F> times(Complex<F> a, Complex<F> b) {
+  return {a.re * b.re - a.im * b.im, mul_add(a.re, b.im, a.im * b.re)};
+}
+template <class F>
+TYNDALL_INLINE Complex<F> conjugate(Complex<F> a) {
+  return {a.re, -a.im};
+}
+
+template <class F>
+TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light, Vec3<F> point) {
+  const Vec3<F> way = light.corner - point;
+  SphericalRectangle<F> r;
+  const F x = dot(way, light.edge_u), y = dot(way, light.edge_v), z = abs(dot(way, light.normal));
+  const F largest = max(max(max(abs(x), abs(x + light.length_u)), max(abs(y), abs(y + light.length_v))), max(z, F(1e-30f)));
+  r.scale = largest;
+  const F down = F(1.0f) / largest;
+  r.x0 = x * down, r.y0 = y * down, r.z = z * down;
+  r.x1 = (x + light.length_u) * down, r.y1 = (y + light.length_v) * down;
+  const auto corner = [&](F a, F b) {
+    const F distance = sqrt(mul_add(a, a, mul_add(b, b, r.z * r.z)));
+    return Complex<F>{r.z * distance, a * b};
+  };
+  const Complex<F> q = times(conjugate(corner(r.x0, r.y1)), corner(r.x0, r.y0));
+  const Complex<F> all = times(times(corner(r.x1, r.y1), conjugate(corner(r.x1, r.y0))), q);
+  const F angle = atan2(all.im, all.re);
+  const F solid_angle = select(less(angle, F(0.0f)), angle + F(static_cast<float>(2 * pi)), angle);
+  const auto good = mask_and(mask_and(less(F(2e-3f), solid_angle), less(solid_angle, F(6.28f))), less(F(1e-4f), r.z));
+  r.solid_angle = select(mask_and(good, equal(light.kind, IntOf<F>(Lights::rectangle))), solid_angle, F(0.0f));
+  const F inverse = F(1.0f) / sqrt(max(mul_add(q.re, q.re, q.im * q.im), F(1e-37f)));
+  r.turn_cos = q.re * inverse, r.turn_sin = q.im * inverse;
+  return r;
+}
+
+/// Point of a rectangle that is uniform in solid angle, as (x, y) in the rectangle's frame, in units of its scale.
+template <class F>
+TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pair<F> u) {
+  const SinCos<F> part = sin_cos_turn(min(u.x * r.solid_angle * F(static_cast<float>(0.5 / pi)), F(0.9999999f)));
+  // The angle is u S + π - arg q.
+  const F sine = mul_add(r.turn_sin, part.cos, -(r.turn_cos * part.sin));
+  const F cosine = -mul_add(r.turn_cos, part.cos, r.turn_sin * part.sin);
+  const F z2 = r.z * r.z;
+  const F b0 = -r.y0 / sqrt(mul_add(r.y0, r.y0, z2)), b1 = r.y1 / sqrt(mul_add(r.y1, r.y1, z2));
+  const F safe = select(less(abs(sine), F(1e-20f)), F(1e-20f), sine);
+  const F f = mul_add(cosine, b0, -b1) / safe;
+  const F c = min(max(copy_sign(F(1.0f), f) / sqrt(mul_add(f, f, b0 * b0)), F(-1.0f)), F(1.0f));
+  const F x = min(max(c * r.z / sqrt(max(neg_mul_add(c, c, F(1.0f)), F(1e-14f))), r.x0), r.x1);
+  const F d2 = mul_add(x, x, z2);
+  const F h0 = r.y0 / sqrt(mul_add(r.y0, r.y0, d2)), h1 = r.y1 / sqrt(mul_add(r.y1, r.y1, d2));
+  const F h = mul_add(u.y, h1 - h0, h0);
+  const F y = h * sqrt(d2) / sqrt(max(neg_mul_add(h, h, F(1.0f)), F(1e-14f)));
+  return {x, min(max(y, r.y0), r.y1)};
+}
+
+/// A sphere seen from a point.
+template <class F>
+struct SphericalCap {
+  Vec3<F> axis;      ///< unit, towards the centre
+  F one_minus_cos;   ///< of the half angle; 2: the point is inside, every direction meets it
+  F density;
+};
+
+template <class F>
+TYNDALL_INLINE SphericalCap<F> cap_from(Vec3<F> to_center, F radius) {
+  const F d2 = dot(to_center, to_center), r2 = radius * radius;
+  const auto inside = less_equal(d2, r2);
+  const F sine2 = min(r2 / max(d2, F(1e-37f)), F(1.0f));
+  // 1 - cos without cancellation: sin² / (1 + cos).
+  const F narrow = sine2 / (F(1.0f) + sqrt(max(F(1.0f) - sine2, F(0.0f))));
+  const F part = select(inside, F(2.0f), narrow);
+  const F scale = F(1.0f) / sqrt(max(d2, F(1e-37f)));
+  return {scale * to_center, part, F(static_cast<float>(0.5 / pi)) / part};
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> in_cap(const SphericalCap<F>& cap, Pair<F> u) {
+  const F x = u.x * cap.one_minus_cos;  // 1 - cos of the angle from the axis
+  const F sine = sqrt(max(x * (F(2.0f) - x), F(0.0f)));
+  const Basis<F> b = basis_around(cap.axis);
+  const SinCos<F> a = sin_cos_turn(u.y);
+  return along(along((F(1.0f) - x) * cap.axis, sine * a.cos, b.s), sine * a.sin, b.t);
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> sphere_light_center(const LightColumns<F>& light, F time) {
+  return along(light.corner, time, light.edge_u);
+}
+
+/// A direction to a light.
+template <class F>
+struct LightSample {
+  Vec3<F> direction;  ///< unit
+  F distance;
+  F density;          ///< per steradian, the choice of the light not included; 0: nothing can come from there
+};
+
+template <class F>
+TYNDALL_INLINE LightSample<F> sample_flat(const LightColumns<F>& light, Vec3<F> point, Pair<F> u) {
+  const SphericalRectangle<F> r = rectangle_from(light, point);
+  const auto by_area = equal(r.solid_angle, F(0.0f));
+  Vec3<F> way = along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
+  if (!all(by_area)) {
+    const Pair<F> at = on_spherical_rectangle(r, u);
+    const F side = copy_sign(F(1.0f), dot(light.corner - point, light.normal));
+    const Vec3<F> local = along(along(at.x * light.edge_u, at.y, light.edge_v), side * r.z, light.normal);
+    way = select(by_area, way, r.scale * local);
+  }
+  const F d2 = max(dot(way, way), F(1e-37f)), inverse = F(1.0f) / sqrt(d2);
+  const Vec3<F> direction = inverse * way;
+  const F cosine = abs(dot(direction, light.normal));
+  const F area_density = select(less(F(0.0f), cosine), d2 / max(cosine * light.area, F(1e-37f)), F(0.0f));
+  return {direction, d2 * inverse, select(by_area, area_density, F(1.0f) / r.solid_angle)};
+}
+
+template <class F>
+TYNDALL_INLINE LightSample<F> sample_sphere_light(const LightColumns<F>& light, Vec3<F> point, F time, Pair<F> u) {
+  const Vec3<F> to_center = sphere_light_center(light, time) - point;
+  const SphericalCap<F> cap = cap_from(to_center, light.length_u);
+  const Vec3<F> direction = in_cap(cap, u);
+  // A direction that misses by rounding counts as grazing: it was drawn within the cap.
+  const F middle = dot(to_center, direction);
+  const Vec3<F> across = along(to_center, -middle, direction);
+  const F half = sqrt(max(mul_add(light.length_u, light.length_u, -dot(across, across)), F(0.0f)));
+  const F near = middle - half;
+  return {direction, select(less(F(0.0f), near), near, middle + half), cap.density};
+}
+
+template <class F>
+TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Pair<F> u) {
+  const LightColumns<F> columns = load_light<F>(l, light);
+  const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
+  LightSample<F> sample{{F(0.0f), F(0.0f), F(1.0f)}, F(0.0f), F(0.0f)};
+  if (!all(round)) sample = sample_flat(columns, point, u);
+  if (any(round)) {
+    const LightSample<F> ball = sample_sphere_light(columns, point, time, u);
+    sample = {select(round, ball.direction, sample.direction), select(round, ball.distance, sample.distance),
+              select(round, ball.density, sample.density)};
+  }
+  return sample;
+}
+
+/// Density per steradian with which a direction from `point`, which meets `light` at `distance`, would be sampled; the
+/// choice of the light included.
+template <class F>
+TYNDALL_INLINE F light_density(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction, F distance) {
+  const LightColumns<F> columns = load_light<F>(l, light);
+  const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
+  F density = F(0.0f);
+  if (!all(round)) {
+    const SphericalRectangle<F> r = rectangle_from(columns, point);
+    const F cosine = abs(dot(direction, columns.normal));
+    const F by_area = distance * distance / max(cosine * columns.area, F(1e-37f));
+    density = select(less(F(0.0f), r.solid_angle), F(1.0f) / r.solid_angle, by_area);
+  }
+  if (any(round))
+    density = select(round, cap_from(sphere_light_center(columns, time) - point, columns.length_u).density, density);
+  return density * choice_probability(l, point, light);
+}
+
+}  // namespace tyndall
