@@ -60,12 +60,13 @@ struct Dice {
   U low, high;  ///< 64 bits that name (seed, x, y, sample)
   U event;      ///< golden_ratio · the first dimension of the current event
 
-  /// Key of one sample; x, y: pixel in full-image coordinates.
+  /// Key of one sample; x, y: pixel in full-image coordinates. Two chains of hashes in different orders, so that
+  /// samples share both words only by a chance of 2^-64; the seed is mixed before it meets a coordinate, for else
+  /// neighbouring seeds would only exchange rows.
   TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample) {
-    const U where = hash(x ^ hash(y ^ U(seed)));
-    const U a = hash(where ^ (sample * U(0x85ebca6bu)));
-    const U b = hash((where + U(0x68bc21ebu)) ^ hash(sample + U(0x02e5be93u)));
-    return {a, b, U(0u)};
+    const U a = hash(hash(U(hash(seed ^ 0x68bc21ebu)) ^ y) ^ x);
+    const U b = hash(hash(U(hash(seed + 0x02e5be93u)) ^ sample) ^ y);
+    return {hash(a ^ sample), hash(b ^ x), U(0u)};
   }
   /// 32 bits for dimension `offset` of the current event.
   TYNDALL_INLINE U word(std::uint32_t offset) const {
