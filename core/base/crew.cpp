@@ -1,6 +1,7 @@
 #include "core/base/crew.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 namespace tyndall {
@@ -18,6 +19,7 @@ Crew::~Crew() {
 
 void Crew::for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll) {
   std::unique_lock lock(mutex_);
+  assert(busy_ == 0 && "one call at a time, and none from within a job");
   job_ = &job;
   count_ = count;
   next_ = 0;

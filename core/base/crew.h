@@ -21,7 +21,7 @@ class Crew {
   int size() const { return static_cast<int>(threads_.size()); }
 
   /// Calls job(i) for every i in [0, count), each once, on the crew's threads, and returns when all have returned.
-  /// The job must not throw. Only one call at a time.
+  /// The job must not throw. Only one call at a time, and none from within a job.
   /// poll, if given, is called on the calling thread every 50 ms meanwhile.
   void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
 

@@ -96,13 +96,14 @@ struct Dice {
   U event;      ///< golden_ratio · the first dimension of the current event
   bool sobol;
 
-  /// Key of one sample; x, y: pixel in full-image coordinates.
-  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, bool sobol) {
-    const U where = hash(x ^ hash(y ^ U(seed)));
-    if (sobol) return {hash(where ^ ((sample & U(1u)) * U(0x85ebca6bu))), reverse_bits(shift_right<1>(sample)), U(0u), true};
-    const U a = hash(where ^ (sample * U(0x85ebca6bu)));
-    const U b = hash((where + U(0x68bc21ebu)) ^ hash(sample + U(0x02e5be93u)));
-    return {a, b, U(0u), false};
+  /// Key of one sample; x, y: pixel in full-image coordinates. `random`: two chains of hashes in different orders, so
+  /// that samples share both words only by a chance of 2^-64; the seed is mixed before it meets a coordinate, for else
+  /// neighbouring seeds would only exchange rows.
+  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, bool sobol = false) {
+    const U a = hash(hash(U(hash(seed ^ 0x68bc21ebu)) ^ y) ^ x);
+    if (sobol) return {hash(a ^ (sample & U(1u))), reverse_bits(shift_right<1>(sample)), U(0u), true};
+    const U b = hash(hash(U(hash(seed + 0x02e5be93u)) ^ sample) ^ y);
+    return {hash(a ^ sample), hash(b ^ x), U(0u), false};
   }
   /// 32 bits for dimension `offset` of the current event.
   TYNDALL_INLINE U word(std::uint32_t offset) const {

@@ -24,10 +24,12 @@ constexpr auto fields(const Dielectric<F>*) {
 
 /// Snell's law at one boundary: n·cos of the refracted direction (n = eta), or 0 at total reflection.
 /// cos_in: between the ray and the normal on its own side, in [0, 1]. eta: index of the far side over the near side.
-/// sqrt(cos²+ eta² - 1), written so that eta = 1 gives cos_in to the last bit: matched glass is invisible.
+/// sqrt(cos² + eta² - 1); eta = 1 gives cos_in to the last bit, also where its square underflows: matched glass is
+/// invisible.
 template <class F>
 TYNDALL_INLINE F refracted_cosine(F cos_in, F eta) {
-  return sqrt(max(mul_add(eta - F(1.0f), eta + F(1.0f), cos_in * cos_in), F(0.0f)));
+  const F root = sqrt(max(mul_add(eta - F(1.0f), eta + F(1.0f), cos_in * cos_in), F(0.0f)));
+  return select(equal(eta, F(1.0f)), cos_in, root);
 }
 
 /// Reflected share of unpolarised light at a smooth boundary, in [0, 1].

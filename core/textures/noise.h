@@ -69,7 +69,8 @@ TYNDALL_INLINE F noise_grey(typename Noise<double>::Style style, Vec3<F> p, F z_
   const F t = turbulence(p, gradients);
   if (style == Noise<double>::Style::turbulence) return t;
   const F turn = mul_add(t, F(static_cast<float>(10 / (2 * pi))), z_turn);
-  return F(0.5f) * (F(1.0f) + sin_cos_turn(turn - floor(turn)).sin);
+  const F wave = sin_cos_turn(turn - floor(turn)).sin;  // can pass 1 by a rounding
+  return F(0.5f) * (F(1.0f) + min(max(wave, F(-1.0f)), F(1.0f)));
 }
 
 }  // namespace tyndall

@@ -1,0 +1,80 @@
+#include "core/base/crew.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+using namespace tyndall;
+
+TEST_CASE("crew: every index is called exactly once, in every round") {
+  for (const int size : {1, 2, 7}) {
+    Crew crew(size);
+    CHECK(crew.size() == size);
+    for (const int count : {0, 1, 2, 6, 1000, 20000}) {
+      std::vector<std::atomic<int>> calls(static_cast<std::size_t>(count) + 1);
+      crew.for_each(count, [&](int i) { ++calls[static_cast<std::size_t>(std::min(i, count))]; });
+      CHECK(std::all_of(calls.begin(), calls.end() - 1, [](const auto& n) { return n == 1; }));
+      CHECK(calls.back() == 0);
+    }
+  }
+}
+
+TEST_CASE("crew: size 0 means as many as the machine runs at once") {
+  CHECK(Crew(0).size() == static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+}
+
+TEST_CASE("crew: what the jobs wrote is there when for_each returns, round after round") {
+  Crew crew(3);
+  int sum[3] = {};  // no atomics: for_each itself must order the accesses
+  for (int round = 0; round < 3000; ++round) crew.for_each(3, [&](int i) { sum[i] += i + round; });
+  for (int i = 0; i < 3; ++i) CHECK(sum[i] == 3000 * i + 2999 * 3000 / 2);
+}
+
+TEST_CASE("crew: jobs run on its threads, all at once, never on the caller's") {
+  Crew crew(3);
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  std::atomic<int> waiting = 0;
+  // Each job waits for the two others: with fewer threads than three this would time out.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  crew.for_each(3, [&](int) {
+    ++waiting;
+    while (waiting < 3 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    const std::lock_guard lock(mutex);
+    threads.insert(std::this_thread::get_id());
+  });
+  CHECK(waiting == 3);
+  CHECK(threads.size() == 3);
+  CHECK(threads.count(std::this_thread::get_id()) == 0);
+}
+
+TEST_CASE("crew: poll is called now and then on the calling thread while the job runs") {
+  Crew crew(1);
+  int polls = 0;
+  bool elsewhere = false;
+  std::atomic<bool> polled = false;
+  const auto caller = std::this_thread::get_id();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto job = [&](int) {
+    while (!polled && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  };
+  crew.for_each(1, job, [&] {
+    elsewhere |= std::this_thread::get_id() != caller;
+    if (++polls == 3) polled = true;
+  });
+  CHECK(polls >= 3);
+  CHECK_FALSE(elsewhere);
+}
+
+TEST_CASE("crew: a crew that never worked, and one that just did, end cleanly") {
+  for (int i = 0; i < 50; ++i) {
+    Crew idle(2), busy(2);
+    busy.for_each(5, [](int) {});
+  }
+}

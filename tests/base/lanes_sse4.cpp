@@ -1,0 +1,5 @@
+#include "tests/base/lanes_simd_check.h"
+
+namespace tyndall::test {
+LanesReport lanes_report_sse4() { return lanes_report(); }
+}  // namespace tyndall::test

@@ -1,0 +1,172 @@
+#include "core/base/random.h"
+
+#include "core/base/math.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+using namespace tyndall;
+
+namespace {
+
+using FloatDice = Dice<float>;
+
+struct Key {
+  std::uint32_t seed, x, y, sample;
+};
+FloatDice dice_of(Key k) { return FloatDice::of(k.seed, k.x, k.y, k.sample); }
+
+constexpr std::uint32_t edge = 256;
+constexpr int dimensions = 8;
+
+/// The first dimensions of a sample of every pixel of a square, those of the event `events` steps later.
+std::vector<std::array<double, dimensions>> numbers(std::uint32_t seed, std::uint32_t sample, int dx, int dy,
+                                                    int events) {
+  std::vector<std::array<double, dimensions>> all;
+  for (std::uint32_t y = 0; y < edge; ++y)
+    for (std::uint32_t x = 0; x < edge; ++x) {
+      FloatDice dice = dice_of({seed, x + static_cast<std::uint32_t>(dx), y + static_cast<std::uint32_t>(dy), sample});
+      for (int e = 0; e < events; ++e) dice.next_event();
+      auto& row = all.emplace_back();
+      for (std::uint32_t d = 0; d < dimensions; ++d) row[d] = static_cast<double>(dice.one(d)) - 0.5;
+    }
+  return all;
+}
+
+/// Largest correlation of any dimension of a with any of b; `same`: they are one set, whose diagonal is 1.
+double largest_correlation(const std::vector<std::array<double, dimensions>>& a,
+                           const std::vector<std::array<double, dimensions>>& b, bool same = false) {
+  double most = 0;
+  for (std::size_t i = 0; i < dimensions; ++i)
+    for (std::size_t j = 0; j < dimensions; ++j) {
+      if (same && i == j) continue;
+      double sum = 0;
+      for (std::size_t k = 0; k < a.size(); ++k) sum += a[k][i] * b[k][j];
+      most = std::max(most, std::abs(sum / (static_cast<double>(a.size()) / 12)));
+    }
+  return most;
+}
+
+/// Chi-square of counts against equal shares, as a normal deviate (Wilson and Hilferty's cube root).
+double chi_square_deviate(const std::vector<int>& counts, double expected) {
+  double chi = 0;
+  for (const int n : counts) chi += (n - expected) * (n - expected) / expected;
+  const double freedom = static_cast<double>(counts.size()) - 1, spread = 2 / (9 * freedom);
+  return (std::cbrt(chi / freedom) - (1 - spread)) / std::sqrt(spread);
+}
+
+}  // namespace
+
+TEST_CASE("dice: dimensions, neighbouring pixels, samples, events and seeds are uncorrelated") {
+  const auto base = numbers(5, 0, 0, 0, 0);
+  const double limit = 4 / std::sqrt(static_cast<double>(base.size()));
+  CHECK(largest_correlation(base, base, true) < limit);
+  CHECK(largest_correlation(base, numbers(5, 0, 1, 0, 0)) < limit);
+  CHECK(largest_correlation(base, numbers(5, 0, 0, 1, 0)) < limit);
+  CHECK(largest_correlation(base, numbers(5, 0, 1, 1, 0)) < limit);
+  CHECK(largest_correlation(base, numbers(5, 1, 0, 0, 0)) < limit);
+  CHECK(largest_correlation(base, numbers(5, 2, 0, 0, 0)) < limit);
+  CHECK(largest_correlation(base, numbers(6, 0, 0, 0, 0)) < limit);
+  CHECK(largest_correlation(base, numbers(5, 0, 0, 0, 1)) < limit);
+}
+
+TEST_CASE("dice: no two samples share a stream, whatever the pixel, sample index or seed") {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> streams;
+  std::size_t count = 0;
+  for (const std::uint32_t seed : {0u, 1u, 2u, 3u, 64u, 0x80000000u, 0xffffffffu})
+    for (std::uint32_t y = 0; y < 32; ++y)
+      for (std::uint32_t x = 0; x < 32; ++x)
+        for (std::uint32_t sample = 0; sample < 16; ++sample, ++count) {
+          const FloatDice dice = dice_of({seed, x, y, sample});
+          streams.insert({dice.low, dice.high});
+        }
+  CHECK(streams.size() == count);
+}
+
+TEST_CASE("dice: the mean over a picture scatters from seed to seed as independent runs do") {
+  // 64 pictures of 64 x 64: a seed that only exchanged pixels would give the same mean again.
+  constexpr int runs = 64, pixels = 64 * 64;
+  double sum = 0, squares = 0;
+  for (std::uint32_t seed = 0; seed < runs; ++seed) {
+    double mean = 0;
+    for (std::uint32_t i = 0; i < pixels; ++i)
+      mean += static_cast<double>(dice_of({seed, i % 64, i / 64, 0}).one(dimension::lobe)) / pixels;
+    sum += mean, squares += mean * mean;
+  }
+  const double variance = (squares - sum * sum / runs) / (runs - 1), expected = 1.0 / 12 / pixels;
+  CHECK(std::abs(variance / expected - 1) < 4 * std::sqrt(2.0 / (runs - 1)));
+  CHECK(std::abs(sum / runs - 0.5) < 4 * std::sqrt(expected / runs));
+}
+
+TEST_CASE("dice: every dimension is uniform, alone and in pairs") {
+  for (std::uint32_t d = 0; d < 2 * dimension::per_event; ++d) {
+    std::vector<int> bins(256), squares(256);
+    for (std::uint32_t i = 0; i < 65536; ++i) {
+      FloatDice dice = dice_of({9, i % 256, i / 256, d % 5});
+      const Pair<float> u = dice.pair(d);
+      ++bins[static_cast<std::size_t>(u.x * 256)];
+      ++squares[static_cast<std::size_t>(u.x * 16) * 16 + static_cast<std::size_t>(u.y * 16)];
+    }
+    CAPTURE(d);
+    CHECK(std::abs(chi_square_deviate(bins, 256)) < 4);
+    CHECK(std::abs(chi_square_deviate(squares, 256)) < 4);
+  }
+}
+
+TEST_CASE("dice: every bit of a word is set half of the time, whichever coordinate runs") {
+  constexpr int count = 1 << 16;
+  for (int which = 0; which < 4; ++which)
+    for (std::uint32_t d = 0; d < 4; ++d) {
+      std::array<int, 32> set{};
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Key keys[4] = {{i, 3, 4, 5}, {7, i, 4, 5}, {7, 3, i, 5}, {7, 3, 4, i}};
+        const std::uint32_t word = dice_of(keys[which]).word(d);
+        for (std::size_t b = 0; b < 32; ++b) set[b] += static_cast<int>(word >> b & 1u);
+      }
+      for (const int n : set) CHECK(std::abs(n - count / 2) < 4.5 * std::sqrt(count / 4.0));
+    }
+}
+
+TEST_CASE("dice: the numbers of a sample are the same whenever they are asked for") {
+  const FloatDice a = dice_of({1, 2, 3, 4});
+  FloatDice b = dice_of({1, 2, 3, 4});
+  CHECK(a.word(3) == b.word(3));
+  CHECK(b.pair(2).y == b.one(3));
+  b.next_event();
+  CHECK(a.word(dimension::per_event + 3) == b.word(3));  // events follow each other in one table
+  CHECK(a.open(0, 0) != a.open(0, 1));                   // media that share an event have their own numbers
+}
+
+TEST_CASE("numbers from bits: [0, 1) and (0, 1], to the last bit") {
+  CHECK(unit_interval<float>(0u) == 0.0f);
+  CHECK(unit_interval<float>(0xffffffffu) == 1.0f - 0x1p-24f);
+  CHECK(unit_interval<float>(0x80000000u) == 0.5f);
+  CHECK(unit_interval_open<float>(0u) == 0x1p-32f);
+  CHECK(unit_interval_open<float>(0xffffffffu) == 1.0f);
+  CHECK(-tyndall::log(unit_interval_open<float>(0xffffffffu)) == 0.0f);
+  CHECK(-tyndall::log(unit_interval_open<float>(0u)) == doctest::Approx(32 * std::log(2.0)));
+  for (std::uint32_t i = 0; i < 10000; ++i) {
+    const std::uint32_t h = i * 429496u + 7;
+    CHECK(std::abs(static_cast<double>(unit_interval<float>(h)) - h * 0x1p-32) <= 0x1p-24);
+    CHECK(std::abs(static_cast<double>(unit_interval_open<float>(h)) / (h * 0x1p-32) - 1) <= 1.0 / h + 0x1p-23);
+  }
+}
+
+TEST_CASE("hash: an input bit moves every output bit half of the time") {
+  constexpr int count = 20000;
+  for (std::uint32_t in = 0; in < 32; ++in) {
+    std::array<int, 32> moved{};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t x = i * golden_ratio;
+      const std::uint32_t change = hash(x) ^ hash(x ^ (1u << in));
+      for (std::size_t b = 0; b < 32; ++b) moved[b] += static_cast<int>(change >> b & 1u);
+    }
+    for (const int n : moved) CHECK(std::abs(n / double{count} - 0.5) < 0.05);
+  }
+}

@@ -1,0 +1,131 @@
+#include "core/base/sampling.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr int count = 400000;
+constexpr float largest = 1.0f - 0x1p-24f;
+constexpr float edges[] = {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, largest};
+
+Pair<float> numbers(int i) {
+  return Dice<float>::of(3, static_cast<std::uint32_t>(i), 0, 0).pair(dimension::direction);
+}
+
+/// Chi-square of counts against equal shares, as a normal deviate (Wilson and Hilferty's cube root).
+double chi_square_deviate(const std::vector<int>& bins) {
+  double total = 0, chi = 0;
+  for (const int n : bins) total += n;
+  const double expected = total / static_cast<double>(bins.size());
+  for (const int n : bins) chi += (n - expected) * (n - expected) / expected;
+  const double freedom = static_cast<double>(bins.size()) - 1, spread = 2 / (9 * freedom);
+  return (std::cbrt(chi / freedom) - (1 - spread)) / std::sqrt(spread);
+}
+
+/// Bin of v in [low, high) out of n.
+std::size_t bin(double v, double low, double high, int n) {
+  return static_cast<std::size_t>(std::clamp(static_cast<int>((v - low) / (high - low) * n), 0, n - 1));
+}
+
+}  // namespace
+
+TEST_CASE("on_sphere: moments of the uniform sphere") {
+  double first[3] = {}, second[3][3] = {}, fourth = 0;
+  for (int i = 0; i < count; ++i) {
+    const Vec3f v = on_sphere(numbers(i));
+    const double c[3] = {v.x, v.y, v.z};
+    for (int a = 0; a < 3; ++a) {
+      first[a] += c[a] / count;
+      for (int b = 0; b < 3; ++b) second[a][b] += c[a] * c[b] / count;
+    }
+    fourth += c[2] * c[2] * c[2] * c[2] / count;
+  }
+  const double sigma = std::sqrt(1.0 / 3 / count);
+  for (int a = 0; a < 3; ++a) {
+    CHECK(std::abs(first[a]) < 4 * sigma);
+    for (int b = 0; b < 3; ++b) CHECK(std::abs(second[a][b] - (a == b ? 1.0 / 3 : 0)) < 4 * 0.3 / std::sqrt(count));
+  }
+  CHECK(std::abs(fourth - 0.2) < 4 * std::sqrt(1.0 / 9 - 0.04) / std::sqrt(count));
+}
+
+TEST_CASE("on_sphere: equal areas of sphere are hit equally, about every axis") {
+  std::array<std::vector<int>, 3> bins;
+  bins.fill(std::vector<int>(32 * 32));
+  for (int i = 0; i < count; ++i) {
+    const Vec3f v = on_sphere(numbers(i));
+    const double c[5] = {v.x, v.y, v.z, v.x, v.y};
+    for (std::size_t a = 0; a < 3; ++a)
+      ++bins[a][bin(c[a], -1, 1, 32) * 32 + bin(std::atan2(c[a + 2], c[a + 1]), -pi, pi, 32)];
+  }
+  for (const auto& b : bins) CHECK(std::abs(chi_square_deviate(b)) < 4);
+}
+
+TEST_CASE("on_sphere, in_disc: unit, bounded and a number for every input, the ends included") {
+  for (const float x : edges)
+    for (const float y : edges) {
+      CAPTURE(x);
+      CAPTURE(y);
+      CHECK(std::abs(length(on_sphere<float>({x, y})) - 1) < 1e-6f);
+      const Pair<float> p = in_disc<float>({x, y});
+      CHECK(std::abs(std::hypot(p.x, p.y) - std::sqrt(x)) < 1e-6f);
+      CHECK(p.x * p.x + p.y * p.y < 1 + 1e-6f);
+    }
+  for (int i = 0; i < count; ++i) {
+    const float size = length(on_sphere(numbers(i)));
+    if (!(std::abs(size - 1) < 1e-6f)) CHECK_MESSAGE(false, size);
+  }
+}
+
+TEST_CASE("in_disc: equal areas are hit equally, mean 0, mean square 1/4 per axis") {
+  std::vector<int> bins(32 * 32);
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  for (int i = 0; i < count; ++i) {
+    const Pair<float> p = in_disc(numbers(i));
+    const double a = p.x, b = p.y;
+    ++bins[bin(a * a + b * b, 0, 1, 32) * 32 + bin(std::atan2(b, a), -pi, pi, 32)];
+    x += a / count, y += b / count, xx += a * a / count, yy += b * b / count, xy += a * b / count;
+  }
+  CHECK(std::abs(chi_square_deviate(bins)) < 4);
+  const double sigma = 0.5 / std::sqrt(count);
+  CHECK(std::abs(x) < 4 * sigma);
+  CHECK(std::abs(y) < 4 * sigma);
+  CHECK(std::abs(xx - 0.25) < 4 * 0.25 / std::sqrt(count));
+  CHECK(std::abs(yy - 0.25) < 4 * 0.25 / std::sqrt(count));
+  CHECK(std::abs(xy) < 4 * 0.25 / std::sqrt(count));
+}
+
+TEST_CASE("around: unit, with the given cosine to the axis, for every axis") {
+  std::mt19937 engine(1);
+  std::normal_distribution<float> normal;
+  for (int i = 0; i < 2000; ++i) {
+    Vec3f axis = normalize(Vec3f{normal(engine), normal(engine), normal(engine)});
+    if (i < 6) axis = {i / 2 == 0 ? 1.0f : 0.0f, i / 2 == 1 ? 1.0f : 0.0f, i / 2 == 2 ? 1.0f : 0.0f};
+    if (i < 6 && i % 2) axis = -axis;
+    for (const float cosine : {-1.0f, -0.99999994f, -0.3f, 0.0f, 0.5f, 0.99999994f, 1.0f})
+      for (const float turn : edges) {
+        const Vec3f v = around(axis, cosine, turn);
+        if (std::abs(length(v) - 1) < 1e-6f && std::abs(dot(v, axis) - cosine) < 1e-6f) continue;
+        CHECK_MESSAGE(false, axis.x << ' ' << axis.y << ' ' << axis.z << ' ' << cosine << ' ' << turn);
+      }
+  }
+}
+
+TEST_CASE("around: all turns about the axis are equally likely") {
+  const Vec3f axis = normalize(Vec3f{0.3f, -0.5f, -0.8f});
+  // Any pair of directions across the axis will do.
+  const Vec3f s = normalize(cross(axis, Vec3f{0, 1, 0})), t = cross(axis, s);
+  std::vector<int> bins(64);
+  for (int i = 0; i < count; ++i) {
+    const Vec3f v = around(axis, 0.7f, numbers(i).y);
+    ++bins[bin(std::atan2(dot(v, t), dot(v, s)), -pi, pi, 64)];
+  }
+  CHECK(std::abs(chi_square_deviate(bins)) < 4);
+}

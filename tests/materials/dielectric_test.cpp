@@ -1,0 +1,108 @@
+#include "core/materials/dielectric.h"
+#include "tests/support/event.h"
+#include "tests/support/statistics.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+double length_error(Vec3f v) {
+  const Vec3d w{v.x, v.y, v.z};
+  return std::abs(length(w) - 1);
+}
+
+/// Angle to the normal by Snell's law; the larger index is `index`.
+double snell(double angle, double eta) { return std::asin(std::sin(angle) / eta); }
+
+}  // namespace
+
+TEST_CASE("dielectric: refracts by Snell's law, reflects by the mirror's, in the share of Fresnel") {
+  ZScores scores;
+  std::uint32_t event_number = 0;
+  for (const double index : {1.333, 1.5, 2.417, 1 / 1.5})
+    for (const double angle : {0.0, 20.0, 40.0, 60.0, 80.0})
+      for (const bool leaving : {false, true}) {
+        const double eta = leaving ? 1 / index : index, cosine = std::cos(angle * degrees);
+        const Vec3d normal = leaving ? -up<double> : up<double>, down = down_at<double>(angle * degrees);
+        Moments reflected;
+        for (int i = 0; i < 40000; ++i) {
+          const Dice<double> d = dice<double>(event_number++);
+          const Scattered<double> out = scatter(Dielectric<double>{index}, event(d, down, normal));
+          REQUIRE_FALSE(out.absorbed);
+          reflected.add(out.transmitted ? 0 : 1);
+          const double sine = out.transmitted ? std::sin(snell(angle * degrees, eta)) : std::sin(angle * degrees);
+          REQUIRE(out.direction.x == doctest::Approx(sine).epsilon(1e-12));
+          REQUIRE(std::abs(out.direction.y) < 1e-15);
+          REQUIRE((out.direction.z < 0) == out.transmitted);
+          REQUIRE(length(out.direction) == doctest::Approx(1).epsilon(1e-14));
+        }
+        scores.add("reflected share", reflected.estimate(), fresnel(cosine, eta), 0.2);
+      }
+}
+
+TEST_CASE("dielectric: near critical angles and at normal incidence every direction is a unit vector") {
+  Directions directions;
+  for (const float index : {1.000001f, 1.1f, 1.333f, 1.5f, 2.5f}) {
+    const double critical = std::asin(1 / static_cast<double>(index));
+    for (const double off : {0.0, 1e-8, -1e-8, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, -critical})
+      for (std::uint32_t i = 0; i < 20000; ++i) {
+        const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, critical + off);
+        const Dice<float> d = dice<float>(i);
+        const Scattered<float> out = scatter(Dielectric<float>{index}, event(d, way, normal));
+        REQUIRE(length_error(out.direction) < 4e-7);  // false for NaN
+        if (out.transmitted) REQUIRE(dot(out.direction, normal) >= 0.0f);
+        if (off > 1e-6 && index > 1.001f) REQUIRE_FALSE(out.transmitted);
+      }
+  }
+}
+
+TEST_CASE("dielectric: matched to its surroundings it is not there, to the last bit, also at grazing incidence") {
+  Directions directions;
+  for (const double angle : {0.0, 0.5, 1.5, 1.5707, 1.570796, 1.57079632, pi / 2})
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, i % 2 ? angle : pi - angle);
+      const Dice<float> d = dice<float>(i);
+      const Scattered<float> out = scatter(Dielectric<float>{1.0f}, event(d, way, normal));
+      REQUIRE(out.transmitted);
+      REQUIRE(out.direction == way);
+    }
+}
+
+TEST_CASE("dielectric: a bubble is glass seen from the other side") {
+  Directions directions;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    const Vec3f normal = directions.next<float>(), way = directions.next<float>();
+    const Dice<float> d = dice<float>(i);
+    const Scattered<float> inward = scatter(Dielectric<float>{1.5f}, event(d, way, -normal));
+    const Scattered<float> relative = scatter(Dielectric<float>{1 / 1.5f}, event(d, way, normal));
+    REQUIRE(inward.transmitted == relative.transmitted);
+    REQUIRE(inward.direction == relative.direction);
+  }
+}
+
+TEST_CASE("dielectric: an enormous index is a mirror, a tiny one reflects all but the straight ray") {
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    const Dice<float> d = dice<float>(i);
+    const Vec3f slanted = down_at<float>(0.6);
+    const Scattered<float> mirror = scatter(Dielectric<float>{1e15f}, event(d, slanted, up<float>));
+    CHECK(mirror.direction.z == doctest::Approx(-slanted.z));
+    CHECK_FALSE(scatter(Dielectric<float>{1e-6f}, event(d, slanted, up<float>)).transmitted);
+  }
+}
+
+TEST_CASE("dielectric: the books' rule is used where it is asked for") {
+  const Vec3d down = down_at<double>(80 * degrees);
+  Moments reflected;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Dice<double> d = dice<double>(i);
+    Incident<double> in = event(d, down, up<double>);
+    in.schlick = true;
+    reflected.add(scatter(Dielectric<double>{1.5}, in).transmitted ? 0 : 1);
+  }
+  ZScores scores;
+  scores.add("schlick", reflected.estimate(), schlick(std::cos(80 * degrees), 1.5));
+  CHECK(std::abs(reflected.estimate().mean - fresnel(std::cos(80 * degrees), 1.5)) > 0.005);
+}

@@ -1,0 +1,60 @@
+#include "core/materials/lambertian.h"
+#include "tests/support/event.h"
+#include "tests/support/statistics.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+template <class F>
+void check_cosine_law(std::uint32_t count) {
+  ZScores scores;
+  Directions directions;
+  for (const bool from_behind : {false, true}) {
+    Moments cosine, cosine2, around_cos, around_sin, around_cos2;
+    std::vector<double> turns, squares;
+    const Vec3<F> normal = directions.next<F>(), way = directions.at_angle(normal, from_behind ? 0.5 : 2.5);
+    const Vec3<F> facing = from_behind ? -normal : normal;
+    const Basis<F> basis = basis_around(facing);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Dice<F> d = dice<F>(i + (from_behind ? count : 0));
+      const Scattered<F> out = scatter(Lambertian<F>{}, event(d, way, normal));
+      REQUIRE_FALSE(out.absorbed);
+      REQUIRE_FALSE(out.transmitted);
+      const auto c = static_cast<double>(dot(out.direction, facing));
+      REQUIRE(c >= -1e-6);
+      REQUIRE(std::abs(static_cast<double>(length(out.direction)) - 1) < 4e-7);
+      const double x = static_cast<double>(dot(out.direction, basis.s));
+      const double y = static_cast<double>(dot(out.direction, basis.t));
+      const double angle = std::atan2(y, x);
+      cosine.add(c), cosine2.add(c * c);
+      around_cos.add(std::cos(angle)), around_sin.add(std::sin(angle)), around_cos2.add(std::cos(2 * angle));
+      turns.push_back(angle / (2 * pi) + 0.5), squares.push_back(c * c);
+    }
+    scores.add("mean cosine", cosine.estimate(), 2.0 / 3, 1e-3);  // 4/5 for the books' old density 2 cos^3/π
+    scores.add("mean square", cosine2.estimate(), 0.5, 1e-3);
+    for (const Moments& m : {around_cos, around_sin, around_cos2})
+      CHECK(std::abs(m.estimate().mean) <= 4 * m.estimate().error);
+    CHECK(kolmogorov_smirnov(turns, [](double t) { return t; }) < 2.23);
+    CHECK(kolmogorov_smirnov(squares, [](double c2) { return c2; }) < 2.23);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lambertian: density cos/pi on the side where the light comes from") {
+  check_cosine_law<float>(500000);
+  check_cosine_law<double>(500000);
+}
+
+TEST_CASE("lambertian: where the unit vector cancels the normal, the normal") {
+  const Dice<float> d = dice<float>(1);
+  Incident<float> in = event(d, down_at<float>(0.3), up<float>);
+  in.unit = {0, 0, -1};
+  CHECK(scatter(Lambertian<float>{}, in).direction == up<float>);
+  in.unit = {1e-8f, 0, -1};
+  CHECK(scatter(Lambertian<float>{}, in).direction == up<float>);
+}

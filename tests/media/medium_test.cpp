@@ -1,0 +1,151 @@
+#include "core/media/medium.h"
+
+#include "tests/support/event.h"
+#include "tests/support/statistics.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// P(cosine <= c) of Henyey and Greenstein's law, g != 0: its density integrated.
+double cumulative_cosine(double g, double c) {
+  return (1 - g * g) / (2 * g) * (1 / std::sqrt(1 + g * g - 2 * g * c) - 1 / (1 + g));
+}
+
+/// Cosines for evenly spaced u: moments of the inverse without noise.
+struct CosineMoments {
+  double mean = 0, legendre2 = 0, forward = 0, least = 2, most = -2;
+};
+template <class F>
+CosineMoments cosine_moments(double g, int count) {
+  CosineMoments m;
+  for (int i = 0; i < count; ++i) {
+    const F u = static_cast<F>((i + 0.5) / count);
+    const auto c = static_cast<double>(henyey_greenstein_cosine(static_cast<F>(g), u));
+    m.mean += c / count;
+    m.legendre2 += (1.5 * c * c - 0.5) / count;
+    m.forward += (c > 0 ? 1.0 : 0.0) / count;
+    m.least = std::min(m.least, c), m.most = std::max(m.most, c);
+  }
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("medium: free flights follow the exponential law, in every stream") {
+  std::uint32_t number = 0;
+  for (const double density : {1.0, 1e-3, 1e4})
+    for (const std::uint32_t stream : {0u, 3u}) {
+      Moments length, square;
+      std::vector<double> flights;
+      for (int i = 0; i < 500000; ++i) {
+        const float u = dice<float>(number++).open(dimension::free_flight, stream);
+        const auto t = static_cast<double>(free_flight(static_cast<float>(density), u));
+        REQUIRE(t >= 0);
+        REQUIRE(std::isfinite(t));
+        length.add(t), square.add(t * t);
+        flights.push_back(t);
+      }
+      ZScores scores;
+      scores.add("mean", length.estimate(), 1 / density);
+      scores.add("mean square", square.estimate(), 2 / (density * density));
+      CHECK(kolmogorov_smirnov(flights, [&](double t) { return 1 - std::exp(-density * t); }) < 2.23);
+    }
+}
+
+TEST_CASE("medium: the generator's extreme numbers give finite flights; long flights are not cut short") {
+  const float least = unit_interval_open<float>(0u), most = unit_interval_open<float>(0xffffffffu);
+  CHECK(least > 0.0f);
+  CHECK(most == 1.0f);
+  CHECK(free_flight(1.0f, most) == 0.0f);
+  CHECK(free_flight(1.0f, least) > 22.0f);  // mean free paths: 2^-32 of all flights go farther
+  CHECK(std::isfinite(free_flight(1e-30f, least)));
+}
+
+TEST_CASE("medium: streams of one event are independent") {
+  Moments product;
+  for (std::uint32_t i = 0; i < 500000; ++i) {
+    const Dice<float> d = dice<float>(i);
+    const auto centred = [&](std::uint32_t stream) {
+      return static_cast<double>(d.open(dimension::free_flight, stream)) - 0.5;
+    };
+    product.add(12 * centred(0) * centred(1));
+  }
+  CHECK(std::abs(product.estimate().mean) <= 4 * product.estimate().error);
+}
+
+TEST_CASE("medium: transmittance is Beer's and Lambert's law") {
+  CHECK(transmittance(0.0f) == 1.0f);
+  for (const double depth : {1e-6, 0.01, 0.5, 1.0, 5.0, 20.0})
+    CHECK(transmittance(static_cast<float>(depth)) == doctest::Approx(std::exp(-depth)).epsilon(1e-6));
+  CHECK(transmittance(1e6f) < 1e-30f);
+}
+
+TEST_CASE("henyey-greenstein: Legendre moments are powers of g") {
+  constexpr double forward[][2] = {
+      {-0.5, 0.1708204}, {0.3, 0.7139635}, {0.75, 0.9333333}, {0.95, 0.9891119}, {0.999, 0.9997927}};
+  for (const auto& [g, share] : forward) {
+    CAPTURE(g);
+    const CosineMoments m = cosine_moments<double>(g, 1000000), single = cosine_moments<float>(g, 1000000);
+    CHECK(m.mean == doctest::Approx(g).epsilon(1e-6));
+    CHECK(m.legendre2 == doctest::Approx(g * g).epsilon(1e-5));
+    CHECK(m.forward == doctest::Approx(share).epsilon(3e-6));
+    CHECK(single.mean == doctest::Approx(g).epsilon(1e-5));
+    CHECK(single.legendre2 == doctest::Approx(g * g).epsilon(1e-4));
+    CHECK(single.forward == doctest::Approx(share).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("henyey-greenstein: cosines stay cosines and keep their mean down to g = 0 and up to 0.9999") {
+  for (const double size :
+       {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.4999, 0.5, 0.5001, 0.9, 0.99, 0.999, 0.9999})
+    for (const double g : {size, -size}) {
+      CAPTURE(g);
+      const CosineMoments m = cosine_moments<float>(g, 200000);
+      CHECK(m.least >= -1);
+      CHECK(m.most <= 1);
+      CHECK(std::abs(m.mean - static_cast<double>(static_cast<float>(g))) < 2e-6);
+      CHECK(std::abs(m.legendre2 - g * g) < 2e-5);
+    }
+}
+
+TEST_CASE("henyey-greenstein: the inverse has the law's distribution, whose density integrates to 1") {
+  for (const double g : {-0.9, -0.3, 0.2, 0.75, 0.95}) {
+    CAPTURE(g);
+    for (const float u : {0.01f, 0.2f, 0.5f, 0.8f, 0.99f}) {
+      const auto c = static_cast<double>(henyey_greenstein_cosine(static_cast<float>(g), u));
+      CHECK(cumulative_cosine(g, c) == doctest::Approx(static_cast<double>(u)).epsilon(2e-5));
+    }
+    const auto around = [&](double c) { return 2 * pi * henyey_greenstein_density(g, c); };
+    CHECK(integrate(around, -1, 1, 20000) == doctest::Approx(1).epsilon(1e-6));
+    CHECK(integrate([&](double c) { return around(c) * c; }, -1, 1, 20000) == doctest::Approx(g).epsilon(1e-6));
+    CHECK(integrate(around, -1, 0.3) == doctest::Approx(cumulative_cosine(g, 0.3)).epsilon(1e-6));
+  }
+  CHECK(henyey_greenstein_density(0.0, 0.7) == doctest::Approx(0.25 / pi));
+}
+
+TEST_CASE("medium: scattered directions are unit vectors about the old one, all the way round") {
+  Directions directions;
+  ZScores scores;
+  for (const float g : {0.0f, 0.6f, -0.6f, 0.99f}) {
+    const Vec3f way = directions.next<float>();
+    const Basis<float> basis = basis_around(way);
+    Moments cosine;
+    std::vector<double> turns;
+    for (std::uint32_t i = 0; i < 200000; ++i) {
+      const Dice<float> d = dice<float>(i);
+      const Pair<float> u = d.pair(dimension::direction);
+      const Vec3f out = scatter_in_medium(g, way, on_sphere(u), u);
+      REQUIRE(std::abs(length(out) - 1) < 4e-7f);
+      cosine.add(static_cast<double>(dot(out, way)));
+      const auto x = static_cast<double>(dot(out, basis.s)), y = static_cast<double>(dot(out, basis.t));
+      turns.push_back(std::atan2(y, x) / (2 * pi) + 0.5);
+    }
+    if (g != 0) scores.add("mean cosine", cosine.estimate(), static_cast<double>(g));
+    CHECK(std::abs(cosine.estimate().mean - static_cast<double>(g)) < 4 * cosine.estimate().error);
+    CHECK(kolmogorov_smirnov(turns, [](double t) { return t; }) < 2.23);
+  }
+}

@@ -1,0 +1,90 @@
+#include "tests/scene/files.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+using namespace tyndall;
+
+namespace {
+
+const std::filesystem::path folder = TYNDALL_TESTS_DIR "/bad_scenes";
+
+/// The message about a file, without the folder's path.
+std::string message(const std::filesystem::path& file) {
+  std::string what = "read without complaint";
+  try {
+    read_scene(text_of(file), file.filename().string(), folder);
+  } catch (const SceneError& error) {
+    what = error.what();
+  }
+  const std::string path = folder.string() + "/";
+  if (const std::size_t at = what.find(path); at != what.npos) what.erase(at, path.size());
+  return what;
+}
+
+bool has_control_character(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; });
+}
+
+}  // namespace
+
+// Each file says in its first line, a comment, what is to be said about it; "…" at its end stands for anything.
+TEST_CASE("bad scenes: each is refused with the line that it carries") {
+  const auto files = json_files(folder);
+  CHECK(files.size() > 150);
+  for (const auto& file : files) {
+    const std::string text = text_of(file), name = file.filename().string();
+    REQUIRE(text.starts_with("// "));
+    std::string expected = name + ": " + text.substr(3, text.find('\n') - 3), found = message(file);
+    CHECK_FALSE(has_control_character(found));
+    if (constexpr std::string_view more = "…"; expected.ends_with(more)) {
+      expected.resize(expected.size() - more.size());
+      CHECK(found.size() > expected.size());
+      found.resize(std::min(found.size(), expected.size()));
+    }
+    CHECK(found == expected);
+  }
+}
+
+TEST_CASE("bad scenes: what a file cannot show") {
+  CHECK(complaint("") == "/: found an empty file, expected a scene: { \"tyndall\": 1, … }");
+  CHECK(complaint(" \n\t ") == "/: found an empty file, expected a scene: { \"tyndall\": 1, … }");
+  CHECK(complaint(std::string(3, '\0')).starts_with("line 1, column 1: found '\\u0000', expected a value"));
+  CHECK(complaint("{\"tyndall\": 1, \"name\": \"\xff\"}") ==
+        "line 1, column 25: found bytes that are not UTF-8, expected text in UTF-8");
+  CHECK(complaint("{\"t\": \"abc").starts_with("line 1, column 11: found a text that is not closed"));
+  CHECK(complaint("{\"t\": \"\\ud800\"}").find("half of a \\u pair") != std::string::npos);
+  CHECK(complaint("{\"t\": \"\\u12x\"}").find("without 4 hexadecimal digits") != std::string::npos);
+  CHECK(complaint("{\"ä\": ö}").starts_with("line 1, column 7: found 'ö', expected a value"));
+  CHECK(complaint("{\r\n  \"tyndall\": 1,\r\n  nix\r\n}").starts_with("line 3, column 3: found 'nix'"));
+  CHECK(complaint("\"" + std::string(1000, 'x') + "\" 1").size() < 200);
+  CHECK(complaint("\xef\xbb\xbf{ \"tyndall\": 1 }") == "");  // a byte order mark is no fault
+}
+
+TEST_CASE("bad scenes: nesting is refused before it is built, 64 levels are not") {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string deep = complaint(std::string(1000000, '['));
+  const auto more = complaint("{ \"tyndall\": 1, \"objects\": " + std::string(1000000, '['));
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
+  CHECK(deep == "/0/0/0/…: found brackets nested more than 64 deep, expected at most 64 levels");
+  CHECK(more == "/objects/0/0/…: found brackets nested more than 64 deep, expected at most 64 levels");
+  const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+  CHECK(complaint(nested(65)).find("nested more") != std::string::npos);
+  CHECK(complaint(nested(64)) == "/: found an array of 1 value, expected a scene: { \"tyndall\": 1, … }");
+}
+
+TEST_CASE("bad scenes: long names and values are cut in the message") {
+  const std::string name(100000, 'n');
+  CHECK(complaint("{ \"tyndall\": 1, \"" + name + "\": 1 }").size() < 1000);
+  CHECK(complaint("{ \"tyndall\": 1, \"name\": 1, \"camera\": \"" + name + "\" }").size() < 1000);
+}
+
+TEST_CASE("bad scenes: a scene of more than 256 MiB is refused") {
+  std::string text(std::size_t(256) << 20, ' ');
+  const std::string begin = "{ \"tyndall\": 1 }";
+  text.replace(0, begin.size(), begin);
+  CHECK(complaint(text) == "");
+  text += ' ';
+  CHECK(complaint(text) == "/: found more than 256 MiB of text, expected a scene of at most 256 MiB");
+}

@@ -1,0 +1,150 @@
+#include "core/scene/check.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A scene with a texture of each sort, a material and a few objects: valid.
+Scene good() {
+  Scene scene;
+  const auto pixels = std::make_shared<const Image::Pixels>(Image::Pixels{1, 1, {1, 2, 3}});
+  scene.textures = {{"tiles", Checker<>()}, {"planet", Image{"planet.png", pixels}}};
+  scene.materials = {{"white", Vec3d{0.7, 0.7, 0.7}, Lambertian<>()}, {"a/b", Vec3d{1, 1, 1}, Metal<>{0.5}}};
+  Volume fog;
+  fog.boundary = Sphere<>{{0, 0, 0}, 1, std::nullopt};
+  scene.objects = {{"ball", Solid3d{Sphere<>(), 0}, {}},
+                   {"fog", fog, {}},
+                   {"pair", Group{{{"quad", Solid3d{Quad<>(), 1}, {}}}}, {}}};
+  return scene;
+}
+
+/// Where a scene is broken after `edit`; "" if it is not.
+template <class Edit>
+std::string where_after(const Edit& edit) {
+  Scene scene = good();
+  edit(scene);
+  const auto broken = check(scene);
+  return broken ? broken->where : "";
+}
+
+Solid3d& solid(Scene& scene) { return std::get<Solid3d>(scene.objects[0].kind); }
+Volume& fog(Scene& scene) { return std::get<Volume>(scene.objects[1].kind); }
+Solid3d& in_group(Scene& scene) { return std::get<Solid3d>(std::get<Group>(scene.objects[2].kind).objects[0].kind); }
+
+}  // namespace
+
+TEST_CASE("check: a valid scene, and the empty one") {
+  CHECK(where_after([](Scene&) {}) == "");
+  CHECK_FALSE(check(Scene()));
+}
+
+TEST_CASE("check: numbers that are not finite, wherever an edit may put them") {
+  CHECK(where_after([](Scene& s) { s.camera.look_from.y = not_a_number; }) == "/camera/look_from/1");
+  CHECK(where_after([](Scene& s) { s.camera.shutter_close = infinity; }) == "/camera/shutter/1");
+  CHECK(where_after([](Scene& s) { s.camera.focus_distance = not_a_number; }) == "/camera/focus_distance");
+  CHECK(where_after([](Scene& s) { s.display.exposure = -infinity; }) == "/display/exposure");
+  CHECK(where_after([](Scene& s) { s.background = Vec3d{0, 0, infinity}; }) == "/background/2");
+  CHECK(where_after([](Scene& s) { s.background = Hemispheres{{1, not_a_number, 1}, {}}; }) == "/background/up/1");
+  CHECK(where_after([](Scene& s) { s.textures[0].kind = Checker<>{not_a_number, {}, {}}; }) == "/textures/tiles/scale");
+  CHECK(where_after([](Scene& s) { s.materials[1].kind = Metal<>{not_a_number}; }) == "/materials/a~1b/fuzz");
+  CHECK(where_after([](Scene& s) {
+          s.materials[0].colour = Vec3d{not_a_number, 0, 0};
+        }) == "/materials/white/albedo/0");
+  CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{}, infinity, {}}; }) == "/objects/0/radius");
+  CHECK(where_after([](Scene& s) {
+          solid(s).shape = Sphere<>{{}, 1, Vec3d{0, 0, not_a_number}};
+        }) == "/objects/0/center_end/2");
+  CHECK(where_after([](Scene& s) {
+          s.objects[0].transform = {RotateY{}, RotateY{not_a_number}};
+        }) == "/objects/0/transform/1/rotate_y");
+  CHECK(where_after([](Scene& s) { fog(s).medium.density = infinity; }) == "/objects/1/density");
+  CHECK(where_after([](Scene& s) {
+          fog(s).boundary_transform = {Translate{{not_a_number, 0, 0}}};
+        }) == "/objects/1/boundary/transform/0/translate/0");
+  CHECK(where_after([](Scene& s) {
+          in_group(s).shape = Quad<>{{}, {not_a_number, 0, 0}, {}};
+        }) == "/objects/2/objects/0/u/0");
+}
+
+TEST_CASE("check: ranges hold for edits as they do for files") {
+  CHECK(where_after([](Scene& s) { s.width = 0; }) == "/image/width");
+  CHECK(where_after([](Scene& s) { s.height = 65537; }) == "/image/height");
+  CHECK(where_after([](Scene& s) { s.height = 65536; }) == "");
+  CHECK(where_after([](Scene& s) { s.render.max_depth = -1; }) == "/render/max_depth");
+  CHECK(where_after([](Scene& s) { s.render.max_depth = 0; }) == "");
+  CHECK(where_after([](Scene& s) { s.render.spp = 0; }) == "/render/spp");
+  CHECK(where_after([](Scene& s) { s.materials[0].colour = Vec3d{0, 0, 1.001}; }) == "/materials/white/albedo/2");
+  CHECK(where_after([](Scene& s) { s.materials[0].kind = Light<>(), s.materials[0].colour = Vec3d{0, 0, 100}; }) == "");
+  CHECK(where_after([](Scene& s) {
+          s.materials[0].kind = Light<>(), s.materials[0].colour = Vec3d{0, 0, -1};
+        }) == "/materials/white/radiance/2");
+  CHECK(where_after([](Scene& s) {
+          s.materials[0].kind = Dielectric<>(), s.materials[0].colour = Vec3d{9, 9, 9};
+        }) == "");
+  CHECK(where_after([](Scene& s) { fog(s).medium.g = -1; }) == "/objects/1/g");
+}
+
+TEST_CASE("check: what this build cannot do") {
+  CHECK(where_after([](Scene& s) { s.render.integrator = Integrator::nee; }) == "/render/integrator");
+  CHECK(where_after([](Scene& s) { s.render.sampler = SamplerKind::sobol; }) == "/render/sampler");
+  CHECK(where_after([](Scene& s) { s.render.fresnel = FresnelKind::schlick; }) == "");
+}
+
+TEST_CASE("check: indices in range, names once, pictures there") {
+  CHECK(where_after([](Scene& s) { solid(s).material = 2; }) == "/objects/0/material");
+  CHECK(where_after([](Scene& s) { solid(s).material = -1; }) == "/objects/0/material");
+  CHECK(where_after([](Scene& s) { s.materials[0].colour = TextureIndex{2}; }) == "/materials/white/albedo");
+  CHECK(where_after([](Scene& s) { s.materials[0].colour = TextureIndex{1}; }) == "");
+  CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{-1}; }) == "/objects/1/albedo");
+  CHECK(where_after([](Scene& s) { s.materials[1].name = "white"; }) == "/materials/white");
+  CHECK(where_after([](Scene& s) { s.textures[1].name = "tiles"; }) == "/textures/tiles");
+  CHECK(where_after([](Scene& s) { s.textures[1].kind = Image{"planet.png", nullptr}; }) == "/textures/planet/file");
+}
+
+TEST_CASE("check: media") {
+  CHECK(where_after([](Scene& s) { fog(s).boundary = Sphere<>{{}, -1, {}}; }) == "/objects/1/boundary/radius");
+  CHECK(where_after([](Scene& s) { fog(s).boundary = Sphere<>{{}, 1, Vec3d{}}; }) == "/objects/1/boundary/center_end");
+  CHECK(where_after([](Scene& s) { fog(s).boundary = Box<>{{0, 0, 0}, {1, 0, 1}}; }) == "/objects/1/boundary/max/1");
+  CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{1}; }) == "/objects/1/albedo");
+  CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{0}; }) == "");
+}
+
+TEST_CASE("check: degenerate quads, relative to their size") {
+  const auto where = [](Vec3d u, Vec3d v) { return where_after([&](Scene& s) { solid(s).shape = Quad<>{{}, u, v}; }); };
+  for (const double size : {1e-30, 1e-6, 1.0, 1e6, 1e30}) {
+    CAPTURE(size);
+    CHECK(where({size, 0, 0}, {0, size, 0}) == "");
+    CHECK(where({size, 0, 0}, {0, 1, 0}) == "");
+    CHECK(where({size, 0, 0}, {size, 1e-5 * size, 0}) == "");
+    CHECK(where({size, 0, 0}, {size, 1e-7 * size, 0}) == "/objects/0");
+    CHECK(where({size, 2 * size, 3 * size}, {-1, -2, -3}) == "/objects/0");
+    CHECK(where({size, 0, 0}, {0, 0, 0}) == "/objects/0");
+  }
+}
+
+TEST_CASE("check: the camera has a direction, and one that is up") {
+  const auto where = [](Vec3d from, Vec3d at, Vec3d up) {
+    return where_after([&](Scene& s) { s.camera.look_from = from, s.camera.look_at = at, s.camera.vup = up; });
+  };
+  CHECK(where({1, 2, 3}, {1, 2, 3}, {0, 1, 0}) == "/camera/look_at");
+  CHECK(where({0, 0, 0}, {0, 5, 0}, {0, 1, 0}) == "/camera/vup");
+  CHECK(where({0, 0, 0}, {0, -1e-20, 0}, {0, 1e20, 0}) == "/camera/vup");
+  CHECK(where({0, 0, 0}, {0, 5, 0.01}, {0, 1, 0}) == "");
+  CHECK(where({0, 0, 0}, {0, 0, -1}, {0, 0, 0}) == "/camera/vup");
+  CHECK(where_after([](Scene& s) { s.camera.shutter_open = 1, s.camera.shutter_close = 0.5; }) == "/camera/shutter");
+  CHECK(where_after([](Scene& s) { s.camera.shutter_open = 1, s.camera.shutter_close = 1; }) == "");
+}
+
+TEST_CASE("check: values that single precision cannot hold") {
+  CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{1e39, 0, 0}, 1, {}}; }) == "/objects/0/center/0");
+  CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{}, 1e-50, {}}; }) == "/objects/0/radius");
+  CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-12; }) == "/objects/1/g");
+  CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-6; }) == "");
+}

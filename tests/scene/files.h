@@ -1,0 +1,45 @@
+#pragma once
+#include "core/scene/json.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/// Helpers of the scene's tests.
+namespace tyndall {
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The scene files of a folder, by name.
+inline std::vector<std::filesystem::path> json_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+inline Scene read_text(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return read_scene(text, "x.json", TYNDALL_ASSETS_DIR "/scenes", overrides);
+}
+
+/// What reading a text says, without "x.json: "; empty if it is a scene.
+inline std::string complaint(const std::string& text, const std::vector<Override>& overrides = {}) {
+  try {
+    read_text(text, overrides);
+    return "";
+  } catch (const SceneError& error) {
+    const std::string what = error.what(), name = "x.json: ";
+    return what.compare(0, name.size(), name) == 0 ? what.substr(name.size()) : "without the file's name: " + what;
+  }
+}
+
+}  // namespace tyndall

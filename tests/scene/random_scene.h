@@ -1,0 +1,200 @@
+#pragma once
+#include "core/scene/check.h"
+#include "core/scene/names.h"
+
+#include <cmath>
+#include <random>
+
+/// Valid scenes that use every value of the format, driven by the same lists as reading and writing.
+namespace tyndall {
+
+class SceneGenerator {
+ public:
+  explicit SceneGenerator(unsigned seed) : random_(seed) {}
+
+  Scene scene() {
+    Scene out;
+    out.name = name();
+    out.width = 1 + below(65536);
+    out.height = 1 + below(65536);
+    out.camera = camera();
+    out.background = background();
+    fill(out.render);
+    if (chance()) out.render.fresnel = FresnelKind::schlick;
+    fill(out.display);
+    if (chance()) out.display.tone_map = ToneMap::aces;
+    for (int i = below(5); i > 0; --i) out.textures.push_back(texture(out.textures.size()));
+    textures_ = static_cast<int>(out.textures.size());
+    for (int i = 1 + below(5); i > 0; --i) out.materials.push_back(material(out.materials.size()));
+    materials_ = static_cast<int>(out.materials.size());
+    out.objects = objects(3);
+    return out;
+  }
+
+ private:
+  std::mt19937 random_;
+  int textures_ = 0, materials_ = 0;
+
+  int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  bool chance() { return below(2) == 0; }
+
+  /// A number of any magnitude and number of digits within the range.
+  double number(const Valid& valid) {
+    while (true) {
+      const double unit = std::uniform_real_distribution(-1.0, 1.0)(random_);
+      double v = unit * std::pow(10.0, below(13) - 6);
+      if (std::isfinite(valid.low) && std::isfinite(valid.high))
+        v = valid.low + (valid.high - valid.low) * std::abs(unit);
+      if (below(4) == 0) v = std::round(v);
+      if (valid.contains(v) && valid.contains(static_cast<double>(static_cast<float>(v)))) return v;
+    }
+  }
+
+  void fill(const Valid& valid, double& out) { out = number(valid); }
+  void fill(const Valid& valid, int& out) { out = static_cast<int>(valid.low) + below(5000); }
+  void fill(const Valid&, std::uint32_t& out) { out = static_cast<std::uint32_t>(random_()); }
+  void fill(const Valid& valid, Vec3d& out) { out = {number(valid), number(valid), number(valid)}; }
+  template <class T>
+  void fill(const Valid& valid, std::optional<T>& out) {
+    if (chance()) fill(valid, out.emplace());
+  }
+  template <class Owner>
+  void fill(Owner& out) {
+    const auto one = [&](const auto& field) {
+      if (field.required || chance()) fill(field.valid, out.*field.value);
+    };
+    std::apply([&](const auto&... field) { (one(field), ...); }, fields(static_cast<const Owner*>(nullptr)));
+  }
+
+  /// A text with letters that JSON, pointers and terminals treat specially.
+  std::string name() {
+    constexpr const char* letters[] = {"a",  "B",    "7", " ",  "/",    "~", "\"", "\\",
+                                       "\n", "\x01", "ä", "世", "🙂", "'", "{",  "//"};
+    std::string out;
+    for (int i = below(8); i > 0; --i) out += letters[below(16)];
+    return out;
+  }
+  std::string unique_name(std::size_t i) { return name() + std::to_string(i); }
+
+  Camera camera() {
+    Camera out;
+    fill(out);
+    out.vup = {0, 1, 0};
+    out.look_at = out.look_from + Vec3d{1 + std::abs(out.look_from.x), 0.1, 0.2};
+    out.shutter_open = number(any_number());
+    out.shutter_close = chance() ? out.shutter_open : out.shutter_open + number(at_least(0));
+    return out;
+  }
+
+  Background background() {
+    Background out;
+    if (chance())
+      fill(at_least(0), out.emplace<Vec3d>());
+    else if (chance())
+      fill(out.emplace<Gradient>());
+    else
+      fill(out.emplace<Hemispheres>());
+    return out;
+  }
+
+  Texture texture(std::size_t i) {
+    Texture out{unique_name(i), {}};
+    if (below(3) == 0)
+      fill(out.kind.emplace<Solid<>>());
+    else if (chance())
+      fill(out.kind.emplace<Checker<>>());
+    else
+      fill(out.kind.emplace<Noise<>>()), std::get<Noise<>>(out.kind).style = noise_styles[below(3)].value;
+    return out;
+  }
+
+  ColourOrTexture colour(const Valid& valid) {
+    if (textures_ > 0 && chance()) return TextureIndex{below(textures_)};
+    Vec3d out;
+    fill(valid, out);
+    return out;
+  }
+
+  Material material(std::size_t i) {
+    Material out;
+    out.name = unique_name(i);
+    switch (below(4)) {
+      case 0:
+        out.kind = Lambertian<>();
+        break;
+      case 1:
+        fill(out.kind.emplace<Metal<>>());
+        break;
+      case 2:
+        fill(out.kind.emplace<Dielectric<>>());
+        return out;  // without colour
+      default:
+        out.kind = Light<>();
+    }
+    out.colour = colour(std::holds_alternative<Light<>>(out.kind) ? at_least(0) : between(0, 1));
+    return out;
+  }
+
+  Transform transform() {
+    Transform out;
+    for (int i = below(3); i > 0; --i) {
+      if (chance())
+        out.emplace_back(RotateY{number(any_number())});
+      else
+        fill(any_number(), std::get<Translate>(out.emplace_back(Translate())).offset);
+    }
+    return out;
+  }
+
+  Box<> box() {
+    Box<> out;
+    fill(out);
+    out.max = {out.min.x + number(above(0.1)), out.min.y + number(above(0.1)), out.min.z + number(above(0.1))};
+    return out;
+  }
+  Quad<> quad() {
+    Quad<> out;
+    fill(out);
+    out.v = {out.u.y + 1, -out.u.x, out.u.z - 1};
+    return out;
+  }
+
+  Object object(int depth) {
+    Object out;
+    if (chance()) out.name = name();
+    out.transform = transform();
+    const int kind = below(depth > 0 ? 5 : 4);
+    if (kind == 4) {
+      out.kind = Group{objects(depth - 1)};
+    } else if (kind == 3) {
+      Volume fog;
+      Sphere<> ball{{1, 2, 3}, number(above(0.1)), std::nullopt};
+      if (chance())
+        fog.boundary = ball;
+      else
+        fog.boundary = box();
+      fog.boundary_transform = transform();
+      fill(fog.medium);
+      fog.albedo = colour(between(0, 1));
+      out.kind = fog;
+    } else {
+      Solid3d solid;
+      if (kind == 0) fill(solid.shape.emplace<Sphere<>>());
+      if (kind == 1) solid.shape = quad();
+      if (kind == 2) solid.shape = box();
+      solid.material = below(materials_);
+      out.kind = solid;
+    }
+    return out;
+  }
+
+  std::vector<Object> objects(int depth) {
+    std::vector<Object> out;
+    for (int i = below(6); i > 0; --i) out.push_back(object(depth));
+    return out;
+  }
+};
+
+inline Scene random_scene(unsigned seed) { return SceneGenerator(seed).scene(); }
+
+}  // namespace tyndall

@@ -1,0 +1,144 @@
+#include "tests/scene/files.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+// Every part of the format once, with values that are no defaults.
+const std::string everything = R"(// A first line
+// and a second.
+{
+  "tyndall": 1, /* comments may stand anywhere */
+  "name": "Everything",
+  "image": { "width": 600, "height": 300.0 },
+  "camera": { "look_from": [278, 278, -800], "look_at": [278, 278, 0], "vup": [0, 2, 0], "vfov": 40,
+              "defocus_angle": 0.5, "focus_distance": 10, "shutter": [0.25, 0.75] },
+  "background": { "type": "hemispheres", "up": [1, 2, 3], "down": [0, 0, 0.5] },
+  "render": { "max_depth": 50, "spp": 200, "integrator": "path", "sampler": "random", "fresnel": "schlick", "seed": 4294967295 },
+  "display": { "exposure": -1.5, "tone_map": "aces" },
+  "objects": [
+    { "name": "ball", "type": "sphere", "center": [0, 1, 0], "radius": -0.9, "material": "glass" },
+    { "type": "sphere", "center": [4, 1, 0], "center_end": [4, 1.5, 0], "radius": 0.2, "material": "gold" },
+    { "type": "quad", "corner": [0, 1, 2], "u": [555, 0, 0], "v": [0, 0, 555], "material": "lamp" },
+    { "type": "box", "min": [0, 0, 0], "max": [165, 330, 165], "material": "floor",
+      "transform": [{ "rotate_y": 15 }, { "translate": [265, 0, 295] }] },
+    { "type": "medium", "density": 0.01, "albedo": "marble", "g": -0.5, "transform": [{ "rotate_y": 1 }],
+      "boundary": { "type": "box", "min": [0, 0, 0], "max": [1, 1, 1], "transform": [{ "translate": [1, 2, 3] }] } },
+    { "type": "group", "name": "pair", "transform": [{ "rotate_y": 2 }], "objects": [
+      { "type": "group", "objects": [] },
+      { "type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "a/b~c \"d\"" }] }
+  ],
+  "materials": {
+    "floor": { "type": "lambertian", "albedo": "tiles" },
+    "gold": { "albedo": [0.8, 0.6, 0.2], "fuzz": 0.3, "type": "metal" },
+    "glass": { "type": "dielectric", "refractive_index": 0.5 },
+    "lamp": { "type": "light", "radiance": [7, 8, 9] },
+    "a/b~c \"d\"": { "type": "lambertian", "albedo": "paint" },
+    "screen": { "type": "light", "radiance": "planet" }
+  },
+  "textures": {
+    "tiles": { "type": "checker", "scale": 0.32, "even": [0.2, 0.3, 0.1], "odd": [0.9, 0.9, 0.9] },
+    "marble": { "type": "noise", "scale": 4, "style": "turbulence" },
+    "veins": { "type": "noise", "scale": 4 },
+    "paint": { "type": "solid", "color": [0.1, 0.2, 0.3] },
+    "planet": { "type": "image", "file": "../textures/planet.png" }
+  }
+})";
+
+template <class T, class Variant>
+const T& as(const Variant& variant) {
+  REQUIRE(std::holds_alternative<T>(variant));
+  return std::get<T>(variant);
+}
+
+}  // namespace
+
+TEST_CASE("read_scene: the settings") {
+  const Scene scene = read_text(everything);
+  CHECK(scene.name == "Everything");
+  CHECK(scene.width == 600);
+  CHECK(scene.height == 300);
+  CHECK(scene.camera == Camera{{278, 278, -800}, {278, 278, 0}, {0, 2, 0}, 40, 0.5, 10.0, 0.25, 0.75});
+  CHECK(as<Hemispheres>(scene.background) == Hemispheres{{1, 2, 3}, {0, 0, 0.5}});
+  CHECK(scene.render ==
+        RenderSettings{50, 200, Integrator::path, SamplerKind::random, FresnelKind::schlick, 4294967295u});
+  CHECK(scene.display == Display{-1.5, ToneMap::aces});
+}
+
+TEST_CASE("read_scene: materials and textures, in the file's order, wherever they stand") {
+  const Scene scene = read_text(everything);
+  REQUIRE(scene.materials.size() == 6);
+  CHECK(scene.materials[0].name == "floor");
+  CHECK(as<TextureIndex>(scene.materials[0].colour).index == 0);
+  CHECK(as<Metal<>>(scene.materials[1].kind).fuzz == 0.3);
+  CHECK(as<Vec3d>(scene.materials[1].colour) == Vec3d{0.8, 0.6, 0.2});
+  CHECK(as<Dielectric<>>(scene.materials[2].kind).refractive_index == 0.5);
+  CHECK(as<Vec3d>(scene.materials[3].colour) == Vec3d{7, 8, 9});
+  CHECK(scene.materials[4].name == "a/b~c \"d\"");
+  CHECK(as<TextureIndex>(scene.materials[4].colour).index == 3);
+  CHECK(as<TextureIndex>(scene.materials[5].colour).index == 4);
+  REQUIRE(scene.textures.size() == 5);
+  CHECK(as<Checker<>>(scene.textures[0].kind) == Checker<>{0.32, {0.2, 0.3, 0.1}, {0.9, 0.9, 0.9}});
+  CHECK(as<Noise<>>(scene.textures[1].kind) == Noise<>{4, Noise<>::Style::turbulence});
+  CHECK(as<Noise<>>(scene.textures[2].kind).style == Noise<>::Style::marble);
+  CHECK(as<Solid<>>(scene.textures[3].kind).color == Vec3d{0.1, 0.2, 0.3});
+  const Image& image = as<Image>(scene.textures[4].kind);
+  CHECK(image.file == "../textures/planet.png");
+  REQUIRE(image.pixels);
+  CHECK(image.pixels->width > 100);
+  CHECK(image.pixels->rgb.size() == static_cast<std::size_t>(3 * image.pixels->width * image.pixels->height));
+}
+
+TEST_CASE("read_scene: objects, media, groups and their transforms") {
+  const Scene scene = read_text(everything);
+  REQUIRE(scene.objects.size() == 6);
+  const auto& ball = as<Solid3d>(scene.objects[0].kind);
+  CHECK(scene.objects[0].name == "ball");
+  CHECK(ball.material == 2);
+  CHECK(as<Sphere<>>(ball.shape) == Sphere<>{{0, 1, 0}, -0.9, std::nullopt});
+  CHECK(as<Sphere<>>(as<Solid3d>(scene.objects[1].kind).shape).center_end == Vec3d{4, 1.5, 0});
+  CHECK(as<Quad<>>(as<Solid3d>(scene.objects[2].kind).shape) == Quad<>{{0, 1, 2}, {555, 0, 0}, {0, 0, 555}});
+  CHECK(as<Box<>>(as<Solid3d>(scene.objects[3].kind).shape) == Box<>{{0, 0, 0}, {165, 330, 165}});
+  CHECK(scene.objects[3].transform == Transform{RotateY{15}, Translate{{265, 0, 295}}});
+  const auto& fog = as<Volume>(scene.objects[4].kind);
+  CHECK(fog.medium == Medium<>{0.01, -0.5});
+  CHECK(as<TextureIndex>(fog.albedo).index == 1);
+  CHECK(as<Box<>>(fog.boundary) == Box<>{{0, 0, 0}, {1, 1, 1}});
+  CHECK(fog.boundary_transform == Transform{Translate{{1, 2, 3}}});
+  CHECK(scene.objects[4].transform == Transform{RotateY{1}});
+  const auto& pair = as<Group>(scene.objects[5].kind);
+  CHECK(scene.objects[5].transform == Transform{RotateY{2}});
+  REQUIRE(pair.objects.size() == 2);
+  CHECK(as<Group>(pair.objects[0].kind).objects.empty());
+  CHECK(as<Solid3d>(pair.objects[1].kind).material == 4);
+}
+
+TEST_CASE("read_scene: what a file leaves out has the format's defaults") {
+  const Scene scene = read_text("{ \"tyndall\": 1 }");
+  CHECK(scene == Scene());
+  CHECK(scene.camera == Camera{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 90, 0, std::nullopt, 0, 0});
+  CHECK(scene.render.max_depth == 1000);
+  CHECK_FALSE(scene.render.spp);
+  CHECK(scene.render.fresnel == FresnelKind::exact);
+  CHECK(as<Vec3d>(scene.background) == Vec3d{0, 0, 0});
+}
+
+TEST_CASE("read_scene: one picture in memory, however many textures use its file") {
+  const Scene scene = read_text(R"({ "tyndall": 1, "textures": {
+    "a": { "type": "image", "file": "../textures/planet.png" },
+    "b": { "type": "image", "file": "../textures/planet.png" } } })");
+  CHECK(as<Image>(scene.textures[0].kind).pixels == as<Image>(scene.textures[1].kind).pixels);
+}
+
+TEST_CASE("leading_comments: the lines above a scene") {
+  CHECK(leading_comments(everything) == std::vector<std::string>{"A first line", "and a second."});
+  CHECK(leading_comments("\xef\xbb\xbf /* one\r\n   two */\n//three\r\n{} // four") ==
+        std::vector<std::string>{"one", "two", "three"});
+  CHECK(leading_comments("// a\x1b[31m\n{}") == std::vector<std::string>{"a\\u001b[31m"});
+  CHECK(leading_comments("//") == std::vector<std::string>{});
+  CHECK(leading_comments("/* for ever") == std::vector<std::string>{"for ever"});
+  CHECK(leading_comments("{}") == std::vector<std::string>{});
+  CHECK(leading_comments("") == std::vector<std::string>{});
+}

@@ -1,0 +1,84 @@
+#pragma once
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+#include "tests/support/statistics.h"
+
+/// Small scenes written as values, and radiance measured through the whole pipeline: compile, kernels, film.
+namespace tyndall::test {
+
+inline Material lambertian(double albedo) { return {"", Vec3d{albedo, albedo, albedo}, Lambertian<>{}}; }
+inline Material metal(double albedo, double fuzz) { return {"", Vec3d{albedo, albedo, albedo}, Metal<>{fuzz}}; }
+inline Material glass(double index) { return {"", Vec3d{0.5, 0.5, 0.5}, Dielectric<>{index}}; }
+inline Material lamp(double radiance) { return {"", Vec3d{radiance, radiance, radiance}, Light<>{}}; }
+
+inline Sphere<> sphere(Vec3d center, double radius) { return {center, radius, {}}; }
+
+/// A white room without anything in it, seen by `random` samples along light paths alone.
+inline Scene white_room() {
+  Scene scene;
+  scene.width = scene.height = 32;
+  scene.background = Vec3d{1, 1, 1};
+  scene.render.integrator = Integrator::path;
+  scene.render.sampler = SamplerKind::random;
+  return scene;
+}
+
+inline Scene dark_room() {
+  Scene scene = white_room();
+  scene.background = Vec3d{0, 0, 0};
+  return scene;
+}
+
+/// Adds a surface of a material of its own.
+template <class Shape>
+Object& add(Scene& scene, const Shape& shape, const Material& material, Transform transform = {}) {
+  scene.materials.push_back(material);
+  const int index = static_cast<int>(scene.materials.size()) - 1;
+  scene.objects.push_back({"", Solid3d{shape, index}, std::move(transform)});
+  return scene.objects.back();
+}
+
+template <class Boundary>
+Object& add_medium(Scene& scene, const Boundary& boundary, Medium<> medium, double albedo, Transform transform = {}) {
+  scene.objects.push_back({"", Volume{boundary, {}, medium, Vec3d{albedo, albedo, albedo}}, std::move(transform)});
+  return scene.objects.back();
+}
+
+/// Turns the camera into a probe: all its rays run from `from` towards `to`, within a hundred-thousandth of a degree.
+inline void aim(Scene& scene, Vec3d from, Vec3d to) {
+  scene.camera = {};
+  scene.camera.look_from = from;
+  scene.camera.look_at = to;
+  const Vec3d way = normalize(to - from);
+  scene.camera.vup = std::abs(way.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+  scene.camera.vfov = 1e-5;
+}
+
+inline Film film_of(const Scene& scene, int spp, const std::string& isa = "") {
+  RenderOptions options;
+  options.isa = isa;
+  options.spp = static_cast<std::uint32_t>(spp);
+  return render(compile(scene), options).film;
+}
+
+/// Mean red radiance over the picture; every pixel is a batch. No sample may be rejected, and no path cut.
+inline Estimate radiance(const Scene& scene, int spp, const std::string& isa = "") {
+  const Film film = film_of(scene, spp, isa);
+  CHECK(totals(film).rejected == 0);
+  CHECK(totals(film).truncated == 0);
+  std::vector<double> batches;
+  for (const FilmPixel& pixel : film.pixels) batches.push_back(static_cast<double>(mean(film, pixel).x));
+  return estimate(batches);
+}
+
+/// What every sample of a picture is, if it is the same to the last bit; NaN if it is not.
+inline double common_value(const Scene& scene, const std::string& isa = "") {
+  const Film film = film_of(scene, 1, isa);
+  CHECK(totals(film).truncated == 0);
+  const Vec3f first = mean(film, film.pixels[0]);
+  for (const FilmPixel& pixel : film.pixels)
+    if (!(mean(film, pixel) == first)) return std::nan("");
+  return static_cast<double>(first.x);
+}
+
+}  // namespace tyndall::test
