@@ -25,7 +25,7 @@ Command read_compare(Words words) {
   line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
   line.argument("REFERENCE", "what it should be; of the same size", reference);
   line.value("--heatmap", "FILE.png", "write FLIP of each pixel: black 0, violet, red, orange, white 1",
-             [&](Text t) { command.heatmap = t; });
+             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
   line.flag("--json", "print JSON", command.json);
   line.group("Checks");
   const auto limit = [&line](const char* name, const char* help, std::optional<double>& value) {
@@ -92,13 +92,10 @@ Command read_convert(Words words) {
                    "Example:\n  tyndall convert snapshot.png -o snapshot.json");
   add_scene(line, command.scene);
   line.value("-o,--output", "FILE.json", "where to; - for standard output; required",
-             [&](Text t) { command.output = t; });
+             [&](Text t) { command.output = t == "-" ? std::filesystem::path(t) : read_file_name(t, ".json"); });
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");
   line.require(!command.output.empty(), "an output (-o FILE.json)");
-  if (command.output != "-" && command.output.extension() != ".json")
-    throw UsageError("--output: found " + in_quotes(command.output.string()) +
-                     ", expected a name that ends in .json, or -");
   return command;
 }
 

@@ -3,6 +3,7 @@
 #include "core/scene/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -78,6 +79,13 @@ Override read_override(const std::string& text) {
   if (equals == std::string::npos || text.front() != '/')
     refuse(text, "POINTER=VALUE, such as /materials/gold/fuzz=0.2");
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::filesystem::path read_file_name(const std::string& text, const std::string& ending) {
+  std::string tail = std::filesystem::path(text).extension().string();
+  std::transform(tail.begin(), tail.end(), tail.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (tail != ending) refuse(text, "a name that ends in " + ending);
+  return text;
 }
 
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names) {

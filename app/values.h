@@ -4,6 +4,7 @@
 #include "core/scene/json.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ SampleRange read_samples(const std::string& text);
 Region read_region(const std::string& text);
 /// POINTER=VALUE; the pointer starts with "/".
 Override read_override(const std::string& text);
+/// A file name with that ending (".png", any case).
+std::filesystem::path read_file_name(const std::string& text, const std::string& ending);
 /// The place of text in names; a near miss gets a suggestion.
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names);
 

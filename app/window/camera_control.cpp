@@ -73,8 +73,9 @@ Camera pan(const Camera& camera, double right, double up) {
 Camera dolly(const Camera& camera, double factor) {
   Camera result = camera;
   result.look_from = camera.look_at + factor * (camera.look_from - camera.look_at);
-  result = tidy(result);
-  return result.look_from == result.look_at ? camera : result;
+  const double distance = target_distance(result), least = 1e-9 * std::max(1.0, length(camera.look_at)), most = 1e12;
+  if (distance < least || distance > most) return camera;
+  return tidy(result);
 }
 
 Camera zoom(const Camera& camera, double factor) {
@@ -92,8 +93,7 @@ Camera fly(const Camera& camera, double right, double up, double forward) {
   Camera result = camera;
   result.look_from = camera.look_from + step;
   result.look_at = camera.look_at + step;
-  result = tidy(result);
-  return result.look_from == result.look_at ? camera : result;
+  return tidy(result);
 }
 
 Camera focus(const Camera& camera, double depth, bool keep_blur) {

@@ -21,7 +21,7 @@ double focus_distance(const Camera& camera);
 Camera orbit(const Camera& camera, double yaw, double pitch);
 /// Moves eye and target together; right, up: in heights of the picture at the target's distance.
 Camera pan(const Camera& camera, double right, double up);
-/// Scales the distance of the eye from the target by factor > 0.
+/// Scales the distance of the eye from the target by factor > 0; not nearer or farther than numbers can tell.
 Camera dolly(const Camera& camera, double factor);
 /// Opens the field of view: scales the tangent of half of it by factor > 0. Stays within 0.1 and 170 degrees.
 Camera zoom(const Camera& camera, double factor);

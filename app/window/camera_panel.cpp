@@ -10,7 +10,7 @@ namespace {
 
 std::string focus_meaning(const Scene& scene) {
   const Camera& camera = scene.camera;
-  if (camera.defocus_angle == 0) return camera.focus_distance ? "" : "at the target";
+  if (camera.defocus_angle == 0) return "";
   const SharpRange sharp = sharp_range(camera, scene.height);
   if (!std::isfinite(sharp.far)) return "sharp from " + format_short(sharp.near) + " on";
   return "sharp from " + format_short(sharp.near) + " to " + format_short(sharp.far);

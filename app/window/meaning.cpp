@@ -6,6 +6,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -22,6 +23,12 @@ std::string percent(double share) {
   std::string text = format_short(shown);
   if (unit == 10 && text.find('.') == std::string::npos) text += ".0";
   return text + " %";
+}
+
+std::string format_three(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
 }
 
 double luminance(Vec3d c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
@@ -92,7 +99,7 @@ std::string meaning(const Dielectric<>& glass, std::string_view) {
 
 std::string meaning(const Medium<>& medium, std::string_view field) {
   if (field == "density")
-    return medium.density > 0 ? "mean free path " + format_short(1 / medium.density) : "empty: light passes";
+    return medium.density > 0 ? "mean free path " + format_three(1 / medium.density) : "empty: light passes";
   if (medium.g == 0) return "isotropic: scatters evenly";
   const double forward = forward_share(medium.g);
   return medium.g > 0 ? percent(forward) + " goes on forward" : percent(1 - forward) + " goes back";
@@ -112,7 +119,8 @@ std::string meaning(const Camera& camera, std::string_view field) {
   }
   if (field == "defocus_angle") {
     if (camera.defocus_angle == 0) return "a pinhole: all is sharp";
-    return "lens radius " + format_short(focus_distance(camera) * std::tan(0.5 * degree * camera.defocus_angle));
+    const double lens = focus_distance(camera) * std::tan(0.5 * degree * camera.defocus_angle);
+    return "lens radius " + format_three(lens) + "; Shift+click focuses";
   }
   return "";
 }

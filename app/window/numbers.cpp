@@ -30,7 +30,7 @@ double three_digits(double value) {
 }
 
 int step_exponent(const Slider& slider) {
-  return static_cast<int>(std::floor(std::log10((slider.high - slider.low) / 1000) + 1e-9));
+  return static_cast<int>(std::floor(std::log10((slider.high - slider.low) / 500) + 1e-9));
 }
 
 }  // namespace
@@ -70,9 +70,10 @@ double dragged(const Slider& slider, double before, double steps) {
 }
 
 std::string format_value(const Slider& slider, double value) {
-  if (slider.logarithmic || std::abs(value) >= 1e5) return format_short(value);
-  const int decimals = std::clamp(-step_exponent(slider), 0, 6);
-  return printed("%.*f", decimals, value);
+  const double size = std::abs(value);
+  if (size >= 1e4 || (size != 0 && size < 1e-3)) return format_short(value);
+  if (!slider.logarithmic && size < 100) return printed("%.*f", std::clamp(-step_exponent(slider), 0, 6), value);
+  return printed("%.*f", size < 10 ? 3 : size < 100 ? 2 : size < 1000 ? 1 : 0, value);
 }
 
 std::string format_short(double value) { return printed("%.*g", 4, value + 0.0); }

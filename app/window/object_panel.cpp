@@ -30,7 +30,7 @@ const char* colour_field(const Material& material) {
   return std::visit([](const auto& kind) { return kind.colour_name; }, material.kind);
 }
 
-void material_rows(Ui& ui, Scene& scene, int index) {
+void material_rows(Ui& ui, Scene& scene, int index, bool brief) {
   Material& material = scene.materials[static_cast<std::size_t>(index)];
   const Scope scope(ui, material.name);
   std::visit([&](auto& kind) { field_rows(ui, kind); }, material.kind);
@@ -43,7 +43,8 @@ void material_rows(Ui& ui, Scene& scene, int index) {
     row.slider = {0, 20};
     row.help = "radiance, linear RGB; may exceed 1";
   }
-  if (const Vec3d* colour = std::get_if<Vec3d>(&material.colour)) row.meaning = colour_meaning(material, *colour);
+  const Vec3d* colour = std::get_if<Vec3d>(&material.colour);
+  if (colour && !brief) row.meaning = colour_meaning(material, *colour);
   colour_rows(ui, scene, material.colour, row);
 }
 
@@ -94,7 +95,7 @@ void brief_section(Ui& ui, Scene& scene, const ObjectPath& path) {
     return;
   }
   Solid3d& solid = std::get<Solid3d>(object.kind);
-  material_rows(ui, scene, solid.material);
+  material_rows(ui, scene, solid.material, true);
   Sphere<>* sphere = std::get_if<Sphere<>>(&solid.shape);
   if (!sphere || !std::holds_alternative<Metal<>>(material_of(scene, object)->kind)) return;
   const Scope scope(ui, title_of(scene, path));
@@ -105,7 +106,7 @@ void full_section(Ui& ui, Scene& scene, const ObjectPath& path) {
   Object& object = *find_object(scene, path);
   if (!section(ui, title_of(scene, path), kinds_of(scene, object))) return;
   if (Solid3d* solid = std::get_if<Solid3d>(&object.kind)) {
-    material_rows(ui, scene, solid->material);
+    material_rows(ui, scene, solid->material, false);
     const Scope scope(ui, title_of(scene, path));
     std::visit([&](auto& shape) { field_rows(ui, shape); }, solid->shape);
     material_choice(ui, scene, *solid);

@@ -57,6 +57,11 @@ void UiLog::widget(const std::string& name, const Rect& rect, const std::string&
        value);
 }
 
+std::optional<Rect> UiLog::find(const std::string& name) const {
+  const auto found = widgets_.find(name);
+  return found == widgets_.end() ? std::nullopt : std::optional(found->second.rect);
+}
+
 void UiLog::end_of_widgets() {
   for (auto it = widgets_.begin(); it != widgets_.end();) {
     if (it->second.drawing == drawing_) {
@@ -78,12 +83,10 @@ void UiLog::submitted(std::uint64_t edit, double now) {
 
 void UiLog::shown(std::uint64_t edit, unsigned spp, int step, double now) {
   const auto found = submits_.find(edit);
-  double ms = 0;
-  if (found != submits_.end()) {
-    ms = 1e3 * (now - found->second);
-    latencies_.push_back(ms);
-    submits_.erase(submits_.begin(), std::next(found));  // older edits will never be shown
-  }
+  const double ms = found != submits_.end() ? 1e3 * (now - found->second) : 0;
+  if (edit != shown_) latencies_.push_back(ms);
+  shown_ = edit;
+  if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
   line("frame " + std::to_string(edit) + printed(" %u %d %.1f", spp, step, ms));
 }
 

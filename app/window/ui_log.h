@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class UiLog {
 
   void line(const std::string& text);
   void widget(const std::string& name, const Rect& rect, const std::string& value);
+  /// Where a widget is; nothing if it is not on the screen.
+  std::optional<Rect> find(const std::string& name) const;
   /// After all widgets of a drawing: tells which have gone.
   void end_of_widgets();
   void submitted(std::uint64_t edit, double now);
@@ -51,9 +54,9 @@ class UiLog {
   std::FILE* stream_ = nullptr;
   std::map<std::string, Widget> widgets_;
   std::map<std::string, std::string> last_;
-  std::map<std::uint64_t, double> submits_;  ///< edits whose picture was not shown yet
+  std::map<std::uint64_t, double> submits_;  ///< of the edit that is shown and newer ones
   std::vector<double> latencies_, cpu_picture_, cpu_plain_;
-  std::uint64_t drawing_ = 1;
+  std::uint64_t drawing_ = 1, shown_ = 0;
 };
 
 /// The value below which a share q in [0, 1] of the values lies; 0 for none. Sorts.

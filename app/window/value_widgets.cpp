@@ -100,13 +100,13 @@ bool colour_picker(Ui& ui, Vec3d& value) {
 }
 
 /// Three boxes in `width`, named x y z or r g b.
-bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* const names[3]) {
+bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* const names[3], bool fixed_digits) {
   const float space = 4 * ui.scale;
   bool changed = false;
   double* components[3] = {&value.x, &value.y, &value.z};
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, space);
-    changed = value_box(ui, names[k], row, *components[k], (width - 2 * space) / 3, false) || changed;
+    changed = value_box(ui, names[k], row, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
   }
   return changed;
 }
@@ -181,7 +181,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
 bool vector_row(Ui& ui, const Row& row, Vec3d& value) {
   static constexpr const char* names[3] = {"x", "y", "z"};
   begin_row(ui, row);
-  const bool changed = three_boxes(ui, row, value, value_width(ui), names);
+  const bool changed = three_boxes(ui, row, value, value_width(ui), names, false);
   end_row(ui, row);
   return changed;
 }
@@ -190,7 +190,7 @@ bool colour_row(Ui& ui, const Row& row, Vec3d& value) {
   static constexpr const char* names[3] = {"r", "g", "b"};
   begin_row(ui, row);
   const float side = ImGui::GetFrameHeight(), space = 6 * ui.scale;
-  bool changed = three_boxes(ui, row, value, value_width(ui) - side - space, names);
+  bool changed = three_boxes(ui, row, value, value_width(ui) - side - space, names, true);
   ImGui::SameLine(0, space);
   if (ImGui::ColorButton("##swatch", swatch_colour(value), ImGuiColorEditFlags_NoTooltip, {side, side}))
     ImGui::OpenPopup("picker");

@@ -72,9 +72,9 @@ void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
 
 bool section(Ui& ui, const std::string& name, const std::string& note_text) {
   const bool open = !ui.folded.contains(name);
-  ImGui::Dummy({0, 3 * ui.scale});
+  ImGui::Dummy({0, 1 * ui.scale});
   const ImVec2 at = ImGui::GetCursorPos();
-  const float height = ImGui::GetTextLineHeight() + 6 * ui.scale;
+  const float height = ImGui::GetTextLineHeight() + 5 * ui.scale;
   ImGui::PushID(name.c_str());
   if (ImGui::InvisibleButton("section", {std::max(1.0f, right_edge() - at.x), height})) {
     if (open)
@@ -99,7 +99,6 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
   ImGui::PopFont();
   ImGui::SetCursorPos({after.x, after.y - 4 * ui.scale});
   ImGui::Separator();
-  if (open) ImGui::Dummy({0, 1 * ui.scale});
   return open;
 }
 
@@ -114,7 +113,7 @@ void begin_row(Ui& ui, const Row& row) {
 void end_row(Ui& ui, const Row& row) {
   ImGui::PopID();
   if (row.meaning.empty()) return;
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4 * ui.scale);
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
   note(ui, row.meaning);
 }
 

@@ -10,8 +10,8 @@
 namespace tyndall {
 namespace {
 
-constexpr int most_by_brute_force = 16;  // primitives; beyond, the tree is faster
-constexpr double bounds_slack = 0x1p-20;  // relative, per side: covers the rounding of the slab test's products
+constexpr int most_by_brute_force = 16;   // primitives; beyond, the tree is faster
+constexpr double bounds_slack = 0x1p-20;  // relative, per side: covers the rounding of slab tests and primitives' tests
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -29,12 +29,13 @@ Vec3d median_center(const Flattened& flat, const Camera& camera) {
   return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
 }
 
+/// By a share of the largest coordinate, on all axes: a tilted flat that is far away on one axis is met with that
+/// axis's rounding on the others.
 Bounds widen(Vec3d low, Vec3d high) {
-  const auto down = [](double v) { return static_cast<float>(v - bounds_slack * std::abs(v)); };
-  const auto up = [](double v) { return static_cast<float>(v + bounds_slack * std::abs(v)); };
-  const Vec3d slack = bounds_slack * (high - low);
-  return {{down(low.x - slack.x), down(low.y - slack.y), down(low.z - slack.z)},
-          {up(high.x + slack.x), up(high.y + slack.y), up(high.z + slack.z)}};
+  const double reach = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});  // >= every |coordinate|
+  const double slack = bounds_slack * reach;
+  const Vec3d room{slack, slack, slack};
+  return {to_float(low - room), to_float(high + room)};
 }
 
 Bounds bounds_of_points(const std::vector<Vec3d>& points) {
@@ -67,8 +68,8 @@ BvhInput input_of(const Quad<>& q, const Placement& placement, Vec3d origin, con
 BvhInput input_of(const Box<>& b, const Placement& placement, Vec3d origin, const Camera&) {
   std::vector<Vec3d> corners;
   for (int i = 0; i < 8; ++i)
-    corners.push_back(place(placement, {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z}) -
-                      origin);
+    corners.push_back(
+        place(placement, {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z}) - origin);
   return {bounds_of_points(corners), PrimitiveKind::box};
 }
 
@@ -105,7 +106,8 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
   if (flat.shapes.size() <= most_by_brute_force) return order;
   std::vector<BvhInput> input;
   for (const PlacedShape& s : flat.shapes)
-    input.push_back(std::visit([&](const auto& shape) { return input_of(shape, s.placement, out.origin, camera); }, s.shape));
+    input.push_back(
+        std::visit([&](const auto& shape) { return input_of(shape, s.placement, out.origin, camera); }, s.shape));
   const bool kept = before && before->bvh && before->bvh->input == input;
   out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));
   return out.bvh->order;
@@ -229,12 +231,14 @@ int RenderScene::primitives() const {
 }
 
 std::vector<std::string> names_of(const Needs& n) {
-  const std::pair<const char*, bool> all[] = {
-      {"spheres", n.spheres},       {"moving_spheres", n.moving_spheres}, {"quads", n.quads},
-      {"boxes", n.boxes},           {"media", n.media},                   {"phase_functions", n.phase_functions},
-      {"lambertian", n.lambertian}, {"metal", n.metal},                   {"dielectric", n.dielectric},
-      {"lights", n.lights},         {"textures", n.textures},             {"image_textures", n.image_textures},
-      {"background", n.background}, {"lens", n.lens},                     {"shutter", n.shutter}};
+  const std::pair<const char*, bool> all[] = {{"spheres", n.spheres},       {"moving_spheres", n.moving_spheres},
+                                              {"quads", n.quads},           {"boxes", n.boxes},
+                                              {"media", n.media},           {"phase_functions", n.phase_functions},
+                                              {"lambertian", n.lambertian}, {"metal", n.metal},
+                                              {"dielectric", n.dielectric}, {"lights", n.lights},
+                                              {"textures", n.textures},     {"image_textures", n.image_textures},
+                                              {"background", n.background}, {"lens", n.lens},
+                                              {"shutter", n.shutter}};
   std::vector<std::string> names;
   for (const auto& [name, set] : all)
     if (set) names.emplace_back(name);

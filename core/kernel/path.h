@@ -245,6 +245,15 @@ TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
   return mask_and_not(lanes, ended);
 }
 
+/// Lanes whose state is not finite, as `part` of it shows: their radiance becomes one that the film rejects and counts.
+template <class F>
+TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
+  const F sum = F(0.0f) * part.x + F(0.0f) * part.y + F(0.0f) * part.z;  // 0, or not a number
+  const auto lost = mask_and_not(lanes, equal(sum, F(0.0f)));
+  if (any(lost)) p.radiance = select(lost, Vec3<F>{sum, sum, sum}, p.radiance);
+  return lost;
+}
+
 /// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
 /// that max_depth ended.
 template <class F>
@@ -264,14 +273,17 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
   const Vec3<F> unit = on_sphere(u);
   if (any(e.surface)) meet_surfaces(s, p, hit, unit, e);
   if (s.needs.media && any(e.medium)) meet_media(s, p, found, hit.t, e);
-  // A path that carries nothing has ended, not been cut.
+  const auto met = mask_or(e.surface, e.medium);
   const Vec3<F> carried = p.throughput * e.colour;
-  const auto useful = mask_and(mask_or(e.surface, e.medium), less(F(0.0f), max_component(carried)));
+  const auto lost = lose(p, met, carried + e.point);
+  // A path that carries nothing has ended, not been cut.
+  const auto useful = mask_and(mask_and_not(met, lost), less(F(0.0f), max_component(carried)));
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   cut = mask_and(useful, deep);
   const auto scattering = mask_and_not(useful, deep);
   if (s.light_sampling && any(scattering)) p.radiance = p.radiance + direct_light(s, p, e, scattering, shadows);
-  const auto lanes = mask_and(scattering, scatter(s, p, e, unit, u));
+  const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
+  const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(lanes, carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
   const auto survivors = roulette(p, lanes);
@@ -300,6 +312,7 @@ TYNDALL_INLINE void render_unit(const SceneView& s, const Unit& unit, double fil
   list_samples(unit, samples);
   CameraQueue<F> queue;
   Paths<F> p{};
+  p.dice.sobol = s.sobol;
   const double per_unit = 1 / film_unit;
   for (;;) {
     take_samples(p, queue, samples, s, unit);

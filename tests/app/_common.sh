@@ -1,0 +1,64 @@
+# shellcheck shell=bash
+# Sourced by the command tests with their own arguments: the program, a scratch folder, the source root.
+# The tests run in an empty folder below the scratch folder.
+set -u
+tyndall=$1
+source_root=$3
+export source_root
+cd "$2" && rm -rf work && mkdir work && cd work || exit 1
+failures=0
+
+fail() {
+  echo "FAIL: $*"
+  failures=$((failures + 1))
+}
+
+# expect CODE COMMAND...: runs it with its output in the files out and err, and checks the exit code.
+expect() {
+  local code=$1 got=0
+  shift
+  "$@" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || fail "exit code $got instead of $code: ${*/#$tyndall/tyndall}: $(cat err)"
+}
+
+# complains TEXT...: standard error is one line, begins with "tyndall: " and contains each TEXT; nothing on standard output.
+complains() {
+  local text
+  [ "$(wc -l <err)" -eq 1 ] || fail "expected one line on standard error: $(cat err)"
+  grep -q '^tyndall: ' err || fail "expected 'tyndall: ': $(cat err)"
+  [ ! -s out ] || fail "standard output is not empty: $(cat out)"
+  for text in "$@"; do
+    grep -qF -- "$text" err || fail "expected '$text' in: $(cat err)"
+  done
+}
+
+# json FILE KEY: the value of a key of a JSON file, as JSON; fails if the file is not strict JSON.
+json() {
+  python3 -c '
+import json, sys
+def refuse(name): raise ValueError(name + " is not JSON")
+print(json.dumps(json.load(open(sys.argv[1]), parse_constant=refuse)[sys.argv[2]]))' "$1" "$2"
+}
+
+# same NAME A B
+same() {
+  [ "$2" = "$3" ] || fail "$1: '$2' and '$3' differ"
+}
+
+# image_hash RENDER-OPTIONS...: renders and prints the image's hash.
+image_hash() {
+  "$tyndall" render "$@" -q -o hashed.pfm --stats hashed.json && json hashed.json image_hash
+}
+
+# no_leftovers: no half files.
+no_leftovers() {
+  local left
+  left=$(find . -name '*.tmp-*')
+  [ -z "$left" ] || fail "left behind: $left"
+}
+
+finish() {
+  no_leftovers
+  [ "$failures" -eq 0 ] || echo "$failures failures"
+  exit $((failures > 0))
+}

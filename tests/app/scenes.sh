@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# scenes, inspect and convert.
+. "$(dirname "$0")/_common.sh"
+
+expect 0 "$tyndall" scenes
+for scene in showroom metal-spheres glass-spheres hollow-glass hollow-glass-index wide-view tele-view defocus cover \
+  bouncing-spheres checkered-spheres earth perlin-spheres quads simple-light cornell-box cornell-smoke next-week; do
+  grep -q "^$scene  *[A-Z]" out || fail "$scene is not listed"
+done
+same 'a line for each scene' "$(wc -l <out)" "$(find "$source_root/assets/scenes" -name '*.json' | wc -l)"
+
+# inspect
+expect 0 "$tyndall" inspect cornell-smoke
+grep -q 'Volumes' out || fail 'inspect does not show the comments of the file'
+grep -Eq '^media +2' out || fail "inspect: media: $(cat out)"
+expect 0 "$tyndall" inspect showroom --json
+cp out showroom.json
+same 'shapes' "$(json showroom.json shapes)" '{"quad": 1, "sphere": 6}'
+same 'media' "$(json showroom.json media)" 1
+same 'lights' "$(json showroom.json lights)" 1
+same 'background' "$(json showroom.json background)" '"gradient"'
+same 'motion' "$(json showroom.json motion)" false
+expect 0 "$tyndall" inspect bouncing-spheres --json
+cp out bouncing.json
+same 'motion' "$(json bouncing.json motion)" true
+same 'defocus' "$(json bouncing.json defocus)" true
+[ "$(json bouncing.json kernel_features)" != "$(json showroom.json kernel_features)" ] || fail 'the same kernel for all'
+expect 0 "$tyndall" inspect cornell-box --json --set /camera/defocus_angle=1
+cp out box.json
+same '--set' "$(json box.json defocus)" true
+same 'film' "$(json box.json film_bytes)" $((112 * 600 * 600))
+
+# convert: normal form, which is a fixed point, and the same picture.
+for scene in showroom earth next-week cornell-smoke; do
+  mkdir -p "$scene/down"
+  expect 0 "$tyndall" convert "$scene" -o "$scene/a.json"
+  expect 0 "$tyndall" convert "$scene/a.json" -o "$scene/b.json"
+  cmp -s "$scene/a.json" "$scene/b.json" || fail "$scene: normal form changes when it is written again"
+  expect 0 "$tyndall" convert "$scene/a.json" -o "$scene/down/c.json"
+  same "$scene" "$(image_hash "$scene/down/c.json" --size 16x12 --spp 2)" "$(image_hash "$scene" --size 16x12 --spp 2)"
+done
+expect 0 "$tyndall" convert showroom -o -
+cmp -s out showroom/a.json || fail 'convert to standard output'
+expect 0 "$tyndall" convert showroom --set /camera/vfov=20 -o narrow.json
+grep -q '"vfov": 20' narrow.json || fail 'convert --set'
+expect 0 "$tyndall" render showroom --size 16x12 --spp 2 -q -o image.png
+expect 0 "$tyndall" convert image.png -o image.json
+grep -q '"width": 16' image.json || fail 'convert from an image'
+expect 3 "$tyndall" convert showroom -o nowhere/a.json
+complains 'nowhere'
+expect 2 "$tyndall" convert showroom -o a.png
+complains '.json'
+expect 2 "$tyndall" convert hashed.pfm -o a.json
+complains 'hashed.pfm'
+
+finish

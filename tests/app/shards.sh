@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Shards of samples, merged in any order, give the picture of one render; so does a render that goes on.
+. "$(dirname "$0")/_common.sh"
+
+"$tyndall" render cornell-box --size 8x8 --spp 1 -q -o probe.exr 2>err || {
+  grep -q OpenEXR err && echo 'no OpenEXR in this build: nothing to test' && exit 0
+}
+
+scene=(cornell-smoke --size 32x24)
+whole=$(image_hash "${scene[@]}" --spp 13)
+shard() { expect 0 "$tyndall" render "${scene[@]}" --samples "$1" -o "$2" -q; }
+shard 0:4 a.exr
+shard 4:9 b.exr
+shard 9:13 c.exr
+
+expect 0 "$tyndall" merge c.exr a.exr b.exr -o all.exr -o all.pfm -o all.png
+expect 0 "$tyndall" render "${scene[@]}" --spp 13 -q -o one.pfm -o one.exr
+cmp -s all.pfm one.pfm || fail 'merged shards differ from one render'
+expect 0 "$tyndall" render all.png -q -o again.pfm --stats again.json
+same 'a merged image opened again' "$(json again.json image_hash)" "$whole"
+same 'its samples' "$(json again.json spp)" 13
+
+# Parts that do not fit are refused.
+expect 2 "$tyndall" merge a.exr c.exr -o gap.png
+complains 'c.exr' 'missing'
+expect 2 "$tyndall" merge a.exr a.exr -o twice.png
+complains 'overlap'
+expect 0 "$tyndall" render "${scene[@]}" --samples 4:9 --seed 3 -q -o other.exr
+expect 2 "$tyndall" merge a.exr other.exr -o other.png
+complains 'other.exr'
+expect 0 "$tyndall" render cornell-smoke --size 24x24 --samples 4:9 -q -o size.exr
+expect 2 "$tyndall" merge a.exr size.exr -o size.png
+expect 2 "$tyndall" merge a.exr all.png -o png.png
+complains 'all.png' 'film'
+for file in gap.png twice.png other.png size.png png.png; do [ ! -e "$file" ] || fail "$file was written"; done
+
+# Going on.
+expect 0 "$tyndall" render "${scene[@]}" --spp 5 --resume -q -o going.exr # nothing there yet
+expect 0 "$tyndall" render "${scene[@]}" --spp 13 --resume -q -o going.exr --stats going.json
+same 'a render that goes on' "$(json going.json image_hash)" "$whole"
+same 'samples' "$(json going.json samples)" $((13 * 32 * 24))
+python3 -c 'import sys; sys.exit(not 0 < int(sys.argv[1]) < int(sys.argv[2]))' "$(json going.json rays)" \
+  "$(json hashed.json rays)" || fail 'going on traces no fewer rays'
+expect 0 "$tyndall" render "${scene[@]}" --spp 2 --resume -q -o going.exr --stats going.json
+same 'enough samples already' "$(json going.json image_hash)" "$whole"
+expect 2 "$tyndall" render "${scene[@]}" --seed 9 --spp 20 --resume -q -o going.exr
+complains 'going.exr'
+expect 2 "$tyndall" render "${scene[@]}" --samples 4:20 --resume -q -o going.exr
+complains 'going.exr'
+
+finish

@@ -1,0 +1,66 @@
+#include "app/window/convergence.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace tyndall;
+
+namespace {
+
+void run(Convergence& runs, std::uint64_t edit, const std::string& method, double seconds) {
+  for (double s = 0.1; s <= seconds; s *= 1.2) runs.add(edit, method, {s, 0.01 / s});
+}
+
+}  // namespace
+
+TEST_CASE("runs that say something are kept, drags are not") {
+  Convergence runs;
+  run(runs, 1, "path · random", 3);
+  for (std::uint64_t edit = 2; edit < 50; ++edit) run(runs, edit, "mis · sobol", 0.3);
+  run(runs, 50, "mis · sobol", 3);
+  REQUIRE(runs.earlier().size() == 1);
+  CHECK(runs.earlier()[0].method == "path · random");
+  CHECK(runs.current().edit == 50);
+}
+
+TEST_CASE("the newest run of each method stays, and not more than a few") {
+  Convergence runs;
+  for (std::uint64_t edit = 1; edit < 20; ++edit) run(runs, edit, "method " + std::to_string(edit % 7), 2);
+  CHECK(runs.earlier().size() == Convergence::most_earlier);
+  CHECK(runs.earlier().back().edit == 18);
+  for (std::uint64_t edit = 20; edit < 24; ++edit) run(runs, edit, "same", 2);
+  int same = 0;
+  for (const ConvergenceRun& earlier : runs.earlier()) same += earlier.method == "same";
+  CHECK(same == 1);
+}
+
+TEST_CASE("starting over is a run of its own though the edit is the same") {
+  Convergence runs;
+  run(runs, 1, "a", 5);
+  runs.add(1, "a", {0.05, 1});
+  CHECK(runs.current().points.size() == 1);
+  CHECK(runs.earlier().size() == 1);
+}
+
+TEST_CASE("many frames make few points, the last one is always there") {
+  Convergence runs;
+  for (int k = 1; k <= 100000; ++k) runs.add(1, "a", {k * 0.001, 1.0 / k});
+  CHECK(runs.current().points.size() < 300);
+  CHECK(runs.current().points.back().seconds == doctest::Approx(100));
+}
+
+TEST_CASE("errors that are unknown leave no point") {
+  Convergence runs;
+  runs.add(1, "a", {0.1, std::numeric_limits<double>::infinity()});
+  runs.add(1, "a", {0.2, std::numeric_limits<double>::quiet_NaN()});
+  runs.add(1, "a", {0.0, 0.5});
+  CHECK(runs.current().points.empty());
+  CHECK(runs.current().method == "a");
+}
+
+TEST_CASE("time to a target: four times as long for half the error") {
+  CHECK(seconds_to(0.01, 0.02, 10) == doctest::Approx(30));
+  CHECK(seconds_to(0.01, 0.01, 10) == 0);
+  CHECK(seconds_to(0.01, 0.001, 10) == 0);
+}

@@ -1,0 +1,108 @@
+#include "app/window/selection.h"
+#include "app/window/outline.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tyndall;
+
+namespace {
+
+Object ball(Vec3d center, double radius, int material, const std::string& name = "") {
+  return {name, Solid3d{Sphere<>{center, radius, {}}, material}, {}};
+}
+
+/// A matt ball, and a group, turned and moved, of a glass ball and a box of fog.
+Scene example() {
+  Scene scene;
+  scene.width = 200, scene.height = 100;
+  scene.camera.look_from = {0, 0, 10};
+  scene.camera.vfov = 60;
+  scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}, {"glass", {}, Dielectric<>{}}};
+  Object fog{"", Volume{Box<>{{0, 0, 0}, {1, 1, 1}}, {Translate{{10, 0, 0}}}, {}, {}}, {}};
+  scene.objects = {ball({0, 0, 0}, 1, 0, "matt"),
+                   {"pair", Group{{ball({1, 0, 0}, 0.5, 1), fog}}, {RotateY{90}, Translate{{0, 2, 0}}}}};
+  return scene;
+}
+
+struct Extent {
+  double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+};
+Extent extent(const std::vector<ImageLine>& lines) {
+  Extent e;
+  for (const ImageLine& line : lines)
+    for (const ImagePoint& p : {line.a, line.b}) {
+      e.x0 = std::min(e.x0, p.x), e.x1 = std::max(e.x1, p.x);
+      e.y0 = std::min(e.y0, p.y), e.y1 = std::max(e.y1, p.y);
+    }
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("objects by path: through groups, and nothing where there is nothing") {
+  Scene scene = example();
+  CHECK(find_object(scene, {0})->name == "matt");
+  CHECK(std::string(kind_name(*find_object(scene, {1, 1}))) == "medium");
+  for (const ObjectPath& path : {ObjectPath{}, {2}, {-1}, {0, 0}, {1, 2}, {1, 0, 0}})
+    CHECK_FALSE(find_object(scene, path));
+  CHECK(leaves(scene) == std::vector<ObjectPath>{{0}, {1, 0}, {1, 1}});
+  CHECK(title_of(scene, {0}) == "Matt");
+  CHECK(title_of(scene, {1, 0}) == "Sphere 1");
+  CHECK(title_of(scene, {7}).empty());
+  CHECK(users_of(scene, 1) == 1);
+}
+
+TEST_CASE("a ball around an object is where its transforms put it") {
+  const Scene scene = example();
+  const Ball glass = *ball_around(scene, {1, 0});
+  CHECK(length(glass.center - Vec3d{0, 2, -1}) < 1e-12);
+  CHECK(glass.radius == 0.5);
+  const Ball fog = *ball_around(scene, {1, 1});
+  CHECK(length(fog.center - Vec3d{0.5, 2.5, -10.5}) < 1e-12);
+  const Ball both = *ball_around(scene, {1});
+  for (const Ball& part : {glass, fog}) CHECK(length(part.center - both.center) + part.radius <= both.radius + 1e-12);
+  CHECK_FALSE(ball_around(scene, {9}).has_value());
+}
+
+TEST_CASE("what is interesting: metal, glass and fog, else lamp and matt") {
+  Scene scene = example();
+  CHECK(interesting(scene) == std::vector<ObjectPath>{{1, 0}, {1, 1}});
+  scene.objects.resize(1);
+  CHECK(interesting(scene) == std::vector<ObjectPath>{{0}});
+  scene.objects.clear();
+  CHECK(interesting(scene).empty());
+}
+
+TEST_CASE("a sphere's outline is the circle of its tangents") {
+  const Extent e = extent(outline(example(), {0}));
+  const double half = std::tan(std::asin(0.1)) / std::tan(std::acos(-1) / 6) / 2;  // in heights of the picture
+  CHECK(e.y1 - 0.5 == doctest::Approx(half).epsilon(1e-3));
+  CHECK(0.5 - e.y0 == doctest::Approx(half).epsilon(1e-3));
+  CHECK(e.x1 - 0.5 == doctest::Approx(half / 2).epsilon(1e-3));
+}
+
+TEST_CASE("a box seen face on has four edges, from a corner six") {
+  Scene scene = example();
+  scene.objects = {{"box", Solid3d{Box<>{{-1, -1, -1}, {1, 1, 1}}, 0}, {}}};
+  CHECK(outline(scene, {0}).size() == 4);
+  scene.camera.look_from = {8, 7, 9};
+  CHECK(outline(scene, {0}).size() == 6);
+}
+
+TEST_CASE("what is behind the eye is left out, what reaches behind it is cut") {
+  Scene scene = example();
+  scene.objects = {ball({0, 0, 30}, 1, 0),
+                   {"floor", Solid3d{Quad<>{{-5, -1, -50}, {10, 0, 0}, {0, 0, 100}}, 0}, {}},
+                   ball({0, 0, 10}, 5, 0)};
+  CHECK(outline(scene, {0}).empty());
+  const std::vector<ImageLine> floor = outline(scene, {1});
+  CHECK(floor.size() == 3);
+  for (const ImageLine& line : floor)
+    for (const ImagePoint& p : {line.a, line.b}) {
+      CHECK(std::isfinite(p.x));
+      CHECK(p.y > 0.5);
+    }
+  CHECK(outline(scene, {2}).empty());  // the eye is inside
+}

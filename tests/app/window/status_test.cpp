@@ -1,0 +1,73 @@
+#include "app/window/overlays.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace tyndall;
+
+namespace {
+
+Document document() {
+  auto origin = std::make_shared<Origin>();
+  origin->title = "showroom.json";
+  return {Scene(), origin};
+}
+
+std::string text_of(const std::vector<StatusCell>& cells) {
+  std::string text;
+  for (const StatusCell& cell : cells) text += cell.key + "=" + cell.value + ";";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the status line tells what is on the screen") {
+  Frame frame;
+  frame.spp = 1024;
+  frame.relative_error = 0.0111;
+  frame.seconds = 10;
+  frame.mrays_per_s = 148;
+  frame.isa = "avx512";
+  frame.lanes = 32;
+  frame.threads = 2;
+  frame.film_bytes = 103'000'000;
+  const std::string text = text_of(status_cells(&frame, document(), false));
+  for (const char* part :
+       {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;", "avx512 x32=2 threads;",
+        "film=103 MB;", "rejected=0;", "=path · random;", "showroom.json=;"})
+    CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
+}
+
+TEST_CASE("what is not known yet is not made up") {
+  Frame frame;
+  frame.step = 8;
+  frame.relative_error = std::numeric_limits<double>::infinity();
+  const std::string text = text_of(status_cells(&frame, document(), true));
+  for (const char* part : {"=paused;", "spp=1/64;", "error=?;", "to 1 %=?;"})
+    CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
+  CHECK(text_of(status_cells(nullptr, document(), false)).find("=starting;") == 0);
+}
+
+TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
+  Frame frame;
+  frame.finished = true;
+  frame.rejected = 3;
+  Document edited_document = document();
+  edited_document.scene.render.fresnel = FresnelKind::schlick;
+  int warnings = 0;
+  const std::vector<StatusCell> cells = status_cells(&frame, edited_document, false);
+  for (const StatusCell& cell : cells) warnings += cell.warning;
+  CHECK(warnings == 2);
+  CHECK(cells.front().value == "finished");
+  CHECK(cells.back().value == "edited");
+}
+
+TEST_CASE("cells go by rank when there is no room, the state stays") {
+  const std::vector<StatusCell> cells{{"", "state", 0}, {"", "a", 3}, {"", "b", 5}, {"", "c", 3}};
+  const std::vector<float> widths{50, 50, 50, 50};
+  CHECK(fitting_cells(cells, widths, 200) == std::vector<std::size_t>{0, 1, 2, 3});
+  CHECK(fitting_cells(cells, widths, 199) == std::vector<std::size_t>{0, 1, 3});
+  CHECK(fitting_cells(cells, widths, 60).front() == 0);
+  CHECK(fitting_cells(cells, widths, 0) == std::vector<std::size_t>{0});
+}

@@ -1,0 +1,158 @@
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+/// In a white room nothing that absorbs nothing can be seen, and what absorbs a fifth is seen as 0.8: exactly, in every
+/// sample.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// A ball of radius `scale` at the origin fills a good part of the picture.
+Scene ball_room(double scale) {
+  Scene scene = white_room();
+  scene.width = scene.height = 64;
+  scene.camera.look_from = {0.3 * scale, 0.4 * scale, 5 * scale};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vfov = 25;
+  scene.render.max_depth = 1000000;
+  return scene;
+}
+
+/// Samples of a picture are 1 beside the ball and `expected` on it, and a good part are on it.
+void check_all(const Scene& scene, float expected, const std::string& isa) {
+  const Film film = film_of(scene, 1, isa);
+  CHECK(totals(film).rejected == 0);
+  CHECK(totals(film).truncated == 0);
+  int on = 0;
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f value = mean(film, pixel);
+    REQUIRE((value.x == expected || value.x == 1.0f));
+    REQUIRE(value.y == value.x);
+    on += value.x == expected ? 1 : 0;
+  }
+  CHECK(on > static_cast<int>(film.pixels.size()) / 2);
+}
+
+void check_ball(const Material& material, double radius, float expected) {
+  for (const double scale : {1e-3, 1.0, 1e3})
+    for (const char* isa : {"", "scalar"}) {
+      CAPTURE(scale);
+      CAPTURE(isa);
+      Scene scene = ball_room(scale);
+      add(scene, sphere({0, 0, 0}, radius * scale), material);
+      check_all(scene, expected, isa);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("white furnace: lambertian and mirror balls reflect their albedo") {
+  for (const double radius : {1.0, -1.0}) {
+    check_ball(lambertian(0.8), radius, 0.8f);
+    check_ball(metal(0.8, 0), radius, 0.8f);
+  }
+}
+
+TEST_CASE("white furnace: glass of any index is invisible") {
+  for (const double radius : {1.0, -1.0})
+    for (const double index : {1.0, 1.000001, 1.5, 2.417, 1 / 1.5, 100.0}) {
+      CAPTURE(index);
+      check_ball(glass(index), radius, 1.0f);
+    }
+}
+
+TEST_CASE("white furnace: hollow glass is invisible, by negative radius and by relative index") {
+  for (const double scale : {1e-3, 1.0, 1e3})
+    for (const double thickness : {0.1, 1e-3, 1e-6}) {
+      CAPTURE(scale);
+      CAPTURE(thickness);
+      Scene bubble = ball_room(scale), relative = ball_room(scale);
+      add(bubble, sphere({0, 0, 0}, scale), glass(1.5));
+      add(bubble, sphere({0, 0, 0}, -(1 - thickness) * scale), glass(1.5));
+      check_all(bubble, 1.0f, "");
+      add(relative, sphere({0, 0, 0}, scale), glass(1.5));
+      add(relative, sphere({0, 0, 0}, (1 - thickness) * scale), glass(1 / 1.5));
+      check_all(relative, 1.0f, "");
+    }
+}
+
+TEST_CASE("white furnace: boxes and quads of glass, also turned, far away and touching") {
+  Scene scene = ball_room(1);
+  add(scene, Box<>{{-1, -1, -1}, {1, 0, 1}}, glass(1.5));
+  add(scene, Box<>{{-1, 0, -1}, {1, 1, 1}}, glass(1.7));  // shares a face
+  check_all(scene, 1.0f, "");
+  Scene turned = ball_room(1);
+  turned.camera.look_from = turned.camera.look_from + Vec3d{1e6, 0, -1e6};
+  turned.camera.look_at = Vec3d{1e6, 0, -1e6};
+  add(turned, Box<>{{-1, -1, -1}, {1, 1, 1}}, glass(2), {RotateY{37}, Translate{{1e6, 0, -1e6}}});
+  add(turned, Quad<>{{-2, -2, 2}, {4, 0, 0}, {0, 4, 0}}, glass(1.5), {RotateY{10}, Translate{{1e6, 0, -1e6}}});
+  check_all(turned, 1.0f, "");
+}
+
+TEST_CASE("white furnace: a medium that only scatters is invisible at any density") {
+  for (const double scale : {1e-3, 1.0, 1e3})
+    for (const double density : {0.01, 1.0, 10.0, 100.0})
+      for (const double g : {0.0, 0.8, -0.5}) {
+        CAPTURE(scale);
+        CAPTURE(density);
+        CAPTURE(g);
+        Scene fog = ball_room(scale);
+        fog.width = fog.height = 32;
+        add_medium(fog, sphere({0, 0, 0}, scale), {density / scale, g}, 1);
+        check_all(fog, 1.0f, "");
+      }
+  Scene scalar = ball_room(1);
+  add_medium(scalar, sphere({0, 0, 0}, 1), {5, 0.3}, 1);
+  check_all(scalar, 1.0f, "scalar");
+}
+
+TEST_CASE("white furnace: milk in glass, in balls and boxes") {
+  for (const double index : {1.0, 1.5, 1 / 1.5})
+    for (const double density : {0.1, 3.0, 30.0}) {
+      CAPTURE(index);
+      CAPTURE(density);
+      Scene ball = ball_room(1), box = ball_room(1);
+      add(ball, sphere({0, 0, 0}, 1), glass(index));
+      add_medium(ball, sphere({0, 0, 0}, 1), {density, 0.2}, 1);
+      check_all(ball, 1.0f, "");
+      const Transform turned{RotateY{25}, Translate{{0.1, 0, 0}}};
+      add(box, Box<>{{-1, -1, -1}, {1, 1, 1}}, glass(index), turned);
+      add_medium(box, Box<>{{-1, -1, -1}, {1, 1, 1}}, {density, 0}, 1, turned);
+      check_all(box, 1.0f, "");
+    }
+}
+
+TEST_CASE("white furnace: the camera inside glass, fog and milk") {
+  for (const bool shell : {false, true})
+    for (const bool fog : {false, true}) {
+      Scene scene = ball_room(1);
+      scene.camera.look_from = {0.2, -0.3, 0.1};
+      scene.camera.look_at = {0, 5, 0.3};
+      if (shell) add(scene, sphere({0, 0, 0}, 1), glass(1.5));
+      if (fog) add_medium(scene, sphere({0, 0, 0}, 1), {4, 0}, 1);
+      check_all(scene, 1.0f, "");
+    }
+}
+
+TEST_CASE("white furnace: fuzzy metal loses what the blur puts below its surface, and nothing else") {
+  struct Case {
+    double fuzz, impact, expected;
+  };
+  constexpr Case cases[] = {{0.3, 0.0, 0.8},           {0.3, 0.5, 0.8},          {0.3, 0.9, 0.8},
+                            {0.3, 0.99, 0.6613403458}, {1.0, 0.0, 0.8},          {1.0, 0.5, 0.7897114317},
+                            {1.0, 0.9, 0.6449701206},  {1.0, 0.99, 0.4840789678}};
+  ZScores scores;
+  std::uint32_t seed = 0;
+  for (const double scale : {1e-3, 1.0, 1e3})
+    for (const auto& [fuzz, impact, expected] : cases)
+      for (const char* isa : {"", "scalar"}) {
+        if (*isa && scale != 1) continue;
+        Scene scene = white_room();
+        scene.render.seed = ++seed;
+        add(scene, sphere({0, 0, 0}, scale), metal(0.8, fuzz));
+        aim(scene, {impact * scale, 0, 5 * scale}, {impact * scale, 0, 0});
+        scores.add("fuzzy metal", radiance(scene, *isa ? 128 : 512, isa), expected, *isa ? 6e-3 : 3e-3);
+      }
+}
