@@ -178,10 +178,11 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
   if (s.needs.media && any(event.happens)) scatter_in_media(s, p, event, hit.t, unit, u, next);
   // A path whose state is no longer finite ends with a radiance that the film rejects and counts: `sum` is finite only
   // where all its parts are. A path that carries nothing has ended, not been cut.
-  const Vec3<F> carried = p.throughput * next.colour, state = next.origin + next.direction;
-  const F sum = mul_add(F(0.0f), state.x + state.y + state.z, carried.x + carried.y + carried.z);
+  const Vec3<F> carried = p.throughput * next.colour, way = next.direction;
+  const F sum = mul_add(F(0.0f), way.x + way.y + way.z, carried.x + carried.y + carried.z);
   const auto finite = less(sum, F(__builtin_inff()));
-  p.radiance = select(mask_and_not(next.goes_on, finite), {sum, sum, sum}, p.radiance);
+  const auto broken = mask_and_not(next.goes_on, finite);
+  if (any(broken)) p.radiance = select(broken, {sum, sum, sum}, p.radiance);
   const auto useful = mask_and(mask_and(next.goes_on, finite), less(F(0.0f), sum));
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   cut = mask_and(useful, deep);
