@@ -133,8 +133,8 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   // A press on the grab moves nothing until the mouse does.
   const bool moved = ui.drag_offset == 0 || static_cast<double>(mouse) != ui.drag_start;
   if (ImGui::IsItemActive() && moved && way > 0)
-    changed = accept(row, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value),
-                     value);
+    changed =
+        accept(row, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value), value);
   draw_frame(ui);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float at = place_of(value), from = range.low < 0 && !range.logarithmic ? place_of(0) : a.x + pad;

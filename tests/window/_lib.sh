@@ -22,6 +22,7 @@ if [ -z "${IN_XVFB:-}" ]; then
 fi
 
 fail() {
+  exec >&2
   echo "FAILED: $*"
   echo "--- end of the log:"
   grep -v '^drawn' "$scratch/log" | tail -40 || true
@@ -114,8 +115,13 @@ at() {
 # The value that a control had last.
 value() { grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1 | cut -d' ' -f7-; }
 
-# shellcheck disable=SC2046
-point() { xdotool mousemove $(at "$@"); sleep 0.08; }
+point() {
+  local place
+  place=$(at "$@") || exit 1
+  # shellcheck disable=SC2086
+  xdotool mousemove $place
+  sleep 0.08
+}
 click() {
   point "$1" "${2:-50}" "${3:-50}"
   xdotool mousedown 1

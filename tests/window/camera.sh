@@ -7,17 +7,11 @@ start scene.json
 wait_for '^state finished'
 
 drag() { # BUTTON FROM_X FROM_Y TO_X TO_Y, in percent of the picture
-  # shellcheck disable=SC2046
-  xdotool mousemove $(at picture "$2" "$3")
-  sleep 0.08
+  point picture "$2" "$3"
   xdotool mousedown "$1"
   sleep 0.08
-  # shellcheck disable=SC2046
-  xdotool mousemove $(at picture $((($2 + $4) / 2)) $((($3 + $5) / 2)))
-  sleep 0.08
-  # shellcheck disable=SC2046
-  xdotool mousemove $(at picture "$4" "$5")
-  sleep 0.08
+  point picture $((($2 + $4) / 2)) $((($3 + $5) / 2))
+  point picture "$4" "$5"
   xdotool mouseup "$1"
   sleep 0.3
 }
@@ -29,8 +23,9 @@ x=$(value camera.look_from.x)
 drag 1 40 50 60 50
 changed camera.look_from.x "$x"
 [ "$(value camera.look_at.x)" = 0 ] || fail "orbit moved the target"
+lines=$(here)
 chord ctrl z
-wait_for '^widget camera.look_from.x .* 0$' "$(here)"
+wait_for '^widget camera.look_from.x .* 0$' "$lines"
 drag 2 40 50 60 60
 changed camera.look_at.x 0
 chord ctrl z
@@ -81,8 +76,9 @@ python3 -c "import sys; d = $(value camera.focus_distance); z = $(value camera.l
 
 key Tab
 wait_for '^gone camera.vfov$'
+lines=$(here)
 key Tab
-wait_for '^widget camera.vfov' "$(here)"
+wait_for '^widget camera.vfov' "$lines"
 key F1
 wait_for '^help open'
 key Escape
@@ -93,6 +89,6 @@ lines=$(here)
 key r
 wait_for '^frame [0-9]+ 16 ' "$lines"
 lines=$(here)
-click scenes.metal-spheres 20
-wait_for '^message opened metal-spheres' "$lines"
+click scenes.cover 20
+wait_for '^message opened cover' "$lines"
 finish

@@ -22,8 +22,9 @@ edits=$(submits)
 before=$(brightness picture)
 sed -i 's/"fuzz": 0.6/"fuzz": 7/' scene.json
 wait_for '^message scene.json: /materials/gold/fuzz: found 7' "$lines"
+lines=$(here)
 echo '{ "tyndall": 1, ' >scene.json
-wait_for '^message scene.json: ' "$(here)"
+wait_for '^message scene.json: ' "$lines"
 settle
 [ "$(submits)" = "$edits" ] || fail "a broken file was submitted"
 [ "$(value gold.fuzz)" = 0.6 ] || fail "the last good scene is gone: $(value gold.fuzz)"

@@ -28,3 +28,21 @@ status=0
 env -u DISPLAY -u WAYLAND_DISPLAY "$tyndall" view scene.json 2>errors || status=$?
 [ "$status" = 3 ] || fail "exit code $status without a display"
 [ "$(wc -l <errors)" = 1 ] || fail "not one line: $(cat errors)"
+
+# A server that goes away.
+exec 3> >(cat >server)
+Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 2>/dev/null &
+server=$!
+exec 3>&-
+for _ in $(seq 100); do
+  [ -s server ] && break
+  sleep 0.1
+done
+DISPLAY=:$(cat server) "$tyndall" view scene.json --ui-log log 2>errors &
+pid=$!
+wait_for '^frame 1 '
+kill "$server"
+status=0
+wait "$pid" || status=$?
+[ "$status" = 3 ] || fail "exit code $status when the display went away"
+[ "$(wc -l <errors)" = 1 ] || fail "not one line: $(cat errors)"
