@@ -112,7 +112,8 @@ TEST_CASE("refusals name the option, what was found and what is expected") {
 }
 
 TEST_CASE("unknown options and commands get a suggestion") {
-  CHECK(has(refusal({"render", "b", "-o", "a.png", "--sede=3"}), R"(unknown option "--sede" (did you mean "--seed"?))"));
+  CHECK(
+      has(refusal({"render", "b", "-o", "a.png", "--sede=3"}), R"(unknown option "--sede" (did you mean "--seed"?))"));
   CHECK(has(refusal({"rendr", "box", "-o", "a.png"}), R"(unknown command "rendr" (did you mean "render"?))"));
   CHECK(has(refusal({"scene"}), R"(did you mean "scenes"?)"));
   CHECK(has(refusal({"--spp", "3"}), "--spp"));
