@@ -111,7 +111,7 @@ void render_panel(Ui& ui, PanelState& state) {
   named_row(ui, {"fresnel", "Fresnel", {}, {}, "", "how much glass reflects", ""}, fresnel_rules, render.fresnel);
   if (render.fresnel == FresnelKind::schlick) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4 * ui.scale);
-    note(ui, "an approximation: wrong by up to 0.93 in glass", true, palette::amber);
+    note(ui, "approximation: wrong by up to 0.93", true, palette::amber);
   }
   limit_rows(ui, state);
   ui.scope.clear();

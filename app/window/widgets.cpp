@@ -175,6 +175,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   }
   ImGui::PopStyleVar(2);
   ImGui::PopFont();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
   end_row(ui, row);
   return changed;
 }
