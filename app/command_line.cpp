@@ -10,9 +10,19 @@ namespace tyndall {
 
 struct CommandLine::State {
   CLI::App app;
+  std::string usage;
   std::string group = "Options";
 
   std::string see_help() const { return " (see " + app.get_name() + " --help)"; }
+
+  /// CLI11's help, with our own usage line and without double empty lines.
+  std::string help() const {
+    std::string text = app.help();
+    const std::size_t line = text.find("Usage: "), end = text.find('\n', line);
+    text.replace(line, end - line, "\nUsage: tyndall " + usage);
+    for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n")) text.erase(at, 1);
+    return text;
+  }
 
   /// Throws for the first word that is neither option nor argument.
   void refuse_extras() const {
@@ -47,15 +57,14 @@ std::string on_one_line(std::string text) {
 
 }  // namespace
 
-CommandLine::CommandLine(const std::string& command, const std::string& about, const std::string& examples)
-    : state_(new State{CLI::App(about, "tyndall " + command)}) {
+CommandLine::CommandLine(const std::string& usage, const std::string& about, const std::string& examples)
+    : state_(new State{CLI::App(about, "tyndall " + usage.substr(0, usage.find(' '))), usage}) {
   CLI::App& app = state_->app;
   app.set_help_flag("-h,--help", "show this text");
   app.allow_extras();
   app.footer(examples);
   app.get_formatter()->column_width(30);
   app.get_formatter()->label("Positionals", "Arguments");
-  app.get_formatter()->label("OPTIONS", "options");
 }
 
 CommandLine::~CommandLine() = default;
@@ -95,7 +104,7 @@ std::optional<std::string> CommandLine::read(std::vector<std::string> words) {
   try {
     state_->app.parse(words);
   } catch (const CLI::CallForHelp&) {
-    return state_->app.help();
+    return state_->help();
   } catch (const CLI::ParseError& error) {
     throw UsageError(on_one_line(error.what()) + state_->see_help());
   }

@@ -15,8 +15,9 @@ class CommandLine {
  public:
   using Reader = std::function<void(const std::string&)>;
 
-  /// about, examples: text before and after the options in the help.
-  CommandLine(const std::string& command, const std::string& about, const std::string& examples);
+  /// usage: the command, then what follows it, as the help shows it; about, examples: text before and after the
+  /// options.
+  CommandLine(const std::string& usage, const std::string& about, const std::string& examples);
   ~CommandLine();
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;

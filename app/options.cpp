@@ -14,13 +14,13 @@ using Words = const std::vector<std::string>&;
 
 Command read_compare(Words words) {
   CompareCommand command;
-  CommandLine line(
-      "compare",
-      "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the mean of each channel.\n\n"
-      "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
-      "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same pictures with all\n"
-      "lights ten times as bright give another number. PSNR and FLIP are of the sRGB images clipped to [0,1].",
-      "Exit code 1: an error is above its --max-..., or not a number.");
+  CommandLine line("compare IMAGE REFERENCE [options]",
+                   "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
+                   "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+                   "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
+                   "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
+                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].",
+                   "Exit code 1: an error is above its --max-..., or not a number.");
   std::string image, reference;
   line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
   line.argument("REFERENCE", "what it should be; of the same size", reference);
@@ -44,14 +44,13 @@ Command read_compare(Words words) {
 
 Command read_merge(Words words) {
   MergeCommand command;
-  CommandLine line(
-      "merge",
-      "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for bit,\n"
-      "the film of one render of all the samples.",
-      "Example:\n"
-      "  tyndall render fog.json --samples 0:64 -o a.exr\n"
-      "  tyndall render fog.json --samples 64:128 -o b.exr\n"
-      "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
+  CommandLine line("merge PART... -o FILE [options]",
+                   "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for\n"
+                   "bit, the film of one render of all the samples.",
+                   "Example:\n"
+                   "  tyndall render fog.json --samples 0:64 -o a.exr\n"
+                   "  tyndall render fog.json --samples 64:128 -o b.exr\n"
+                   "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
   std::vector<std::string> parts;
   line.arguments("PART", "EXR files that hold films of the same scene, in any order", parts);
   line.values("-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
@@ -66,7 +65,7 @@ Command read_merge(Words words) {
 Command read_inspect(Words words) {
   InspectCommand command;
   command.scene.what.clear();
-  CommandLine line("inspect", "Says what a scene contains and which models its kernel needs.", "");
+  CommandLine line("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.", "");
   add_scene(line, command.scene);
   line.flag("--json", "print JSON", command.json);
   bool measure = false;
@@ -86,7 +85,7 @@ Command read_scenes(Words words) {
 Command read_convert(Words words) {
   ConvertCommand command;
   command.scene.what.clear();
-  CommandLine line("convert",
+  CommandLine line("convert SCENE -o FILE.json [options]",
                    "Writes a scene in normal form: every value that is not its default, keys in the format's order,\n"
                    "without comments. Also gets the scene out of an image that Tyndall made.",
                    "Example:\n  tyndall convert snapshot.png -o snapshot.json");

@@ -32,6 +32,7 @@ struct ViewCommand {
   std::vector<std::string> words;  ///< as they were given, to say what does the same without a window
   int threads = 0;                 ///< 0: all cores
   std::string isa;                 ///< "": the best
+  std::filesystem::path ui_log;    ///< diagnostic of the window, for tests; empty: none
 };
 
 struct RenderCommand {

@@ -121,12 +121,15 @@ void add_scene(CommandLine& line, SceneRequest& scene, const std::string& note) 
 Command read_view(const std::vector<std::string>& words) {
   ViewCommand command;
   command.words = words;
-  CommandLine line("view", "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.",
-                   "");
+  CommandLine line("view [SCENE] [options]",
+                   "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.", "");
   add_scene(line, command.scene, " [showroom]");
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
   add_machine_options(line, command);
+  line.value("--ui-log", "FILE",
+             "for tests: write what is on the screen and how long things took;\n- for standard output",
+             [&](Text t) { command.ui_log = t; });
   if (auto help = line.read(words)) return PrintCommand{*help};
   return command;
 }
@@ -134,7 +137,7 @@ Command read_view(const std::vector<std::string>& words) {
 Command read_render(const std::vector<std::string>& words) {
   RenderCommand command;
   command.scene.what.clear();
-  CommandLine line("render", "Renders a scene without a window and writes the image.",
+  CommandLine line("render SCENE -o FILE [options]", "Renders a scene without a window and writes the image.",
                    "Examples:\n"
                    "  tyndall render cornell-box -o box.png\n"
                    "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"

@@ -1,6 +1,11 @@
 #include "app/commands/commands.h"
 #include "app/open_scene.h"
+#include "app/render_setup.h"
 #include "core/scene/error.h"
+
+#ifdef TYNDALL_WINDOW
+#include "app/window/window.h"
+#endif
 
 #include <cstdlib>
 
@@ -34,11 +39,24 @@ bool is_set(const char* variable) {
 }  // namespace
 
 int run(const ViewCommand& command) {
-  const LoadedScene loaded = open_scene(command.scene);
-  check_available(loaded.scene.render);
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
-    throw IoError("no display for a window; the same picture without one: " + headless_command(command));
-  throw IoError("this build has no window; the same picture without one: " + headless_command(command));
+  const auto open = [request = command.scene] {
+    LoadedScene loaded = open_scene(request);
+    check_available(loaded.scene.render);
+    return loaded;
+  };
+  const LoadedScene loaded = open();
+  find_kernels(command.isa);
+  const std::string instead = "; the same picture without a window: " + headless_command(command);
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
+#ifdef TYNDALL_WINDOW
+  try {
+    return run_window({loaded, open, command.threads, command.isa, command.ui_log});
+  } catch (const IoError& error) {
+    throw IoError(error.what() + instead);
+  }
+#else
+  throw IoError("this build has no window" + instead);
+#endif
 }
 
 }  // namespace tyndall

@@ -37,8 +37,10 @@ void camera_panel(Ui& ui, PanelState& state) {
   field_rows(ui, camera,
              [](const auto& value, std::string_view) { return std::is_same_v<std::decay_t<decltype(value)>, double>; });
   focus_row(ui, state.scene);
-  field_rows(ui, camera,
-             [](const auto& value, std::string_view) { return std::is_same_v<std::decay_t<decltype(value)>, Vec3d>; });
+  const bool plain_up = camera.vup == Vec3d{0, 1, 0};
+  field_rows(ui, camera, [&](const auto& value, std::string_view name) {
+    return std::is_same_v<std::decay_t<decltype(value)>, Vec3d> && !(plain_up && name == "vup");
+  });
   ui.scope.clear();
 }
 

@@ -110,19 +110,19 @@ void draw_curve(const Plot& plot, const ConvergenceRun& run, ImU32 colour, float
   if (points.size() > 1) plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
 }
 
-/// A curve's name at its end, kept inside the frame and off the names before it.
+/// A curve's name beneath its end, where a falling curve leaves room, off the names before it.
 void draw_name(const Plot& plot, const ConvergenceRun& run, const std::string& name, ImU32 colour,
                std::vector<float>& used) {
   if (run.points.empty()) return;
-  const float line = ImGui::GetFontSize();
-  const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+  const float line = ImGui::GetFontSize(), s = plot.ui.scale;
   const ConvergencePoint& last = run.points.back();
-  const float x = std::clamp(plot.x(last.seconds) - size.x / 2, plot.frame.x0 + 2, plot.frame.x1 - size.x);
-  float y = std::max(plot.y(last.rel_mse) - line - 6 * plot.ui.scale, plot.frame.y0);
+  const float width = ImGui::CalcTextSize(name.c_str()).x;
+  const float x = std::clamp(plot.x(last.seconds) - width - 2 * s, plot.frame.x0 + 4 * s, plot.frame.x1 - width);
+  float y = plot.y(last.rel_mse) + 5 * s;
   for (int tries = 0; tries < 4; ++tries)
     for (const float other : used)
-      if (std::abs(other - y) < line) y = other - line;
-  if (y < plot.frame.y0) return;
+      if (std::abs(other - y) < line) y = other + line;
+  if (y + line > plot.frame.y1) return;
   used.push_back(y);
   plot.text({x, y}, colour, name);
 }
@@ -130,19 +130,19 @@ void draw_name(const Plot& plot, const ConvergenceRun& run, const std::string& n
 void draw_runs(const Plot& plot, const Convergence& runs) {
   const Rect& f = plot.frame;
   const float s = plot.ui.scale;
-  plot.draw->PushClipRect({f.x0, f.y0}, {f.x1 + 5 * s, f.y1 + 5 * s}, true);
+  plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
   draw_guides(plot, runs.current());
-  std::vector<float> used{plot.y(target) - ImGui::GetFontSize()};
+  std::vector<float> used;
   for (const ConvergenceRun& run : runs.earlier()) draw_curve(plot, run, shade(palette::dim, 0.7f), 1.5f * s);
   draw_curve(plot, runs.current(), shade(palette::blue), 2.5f * s);
   draw_name(plot, runs.current(), runs.current().method, shade(palette::blue), used);
   for (const ConvergenceRun& run : runs.earlier())
     if (run.method != runs.current().method) draw_name(plot, run, run.method, shade(palette::dim), used);
+  plot.draw->PopClipRect();
   if (!runs.current().points.empty()) {
     const ConvergencePoint last = runs.current().points.back();
     plot.draw->AddCircleFilled({plot.x(last.seconds), plot.y(last.rel_mse)}, 4 * s, shade(palette::blue));
   }
-  plot.draw->PopClipRect();
 }
 
 /// What is under the mouse, in numbers.

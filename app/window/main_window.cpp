@@ -2,6 +2,7 @@
 
 #include "app/window/camera_control.h"
 #include "app/window/clock.h"
+#include "app/window/display_lost.h"
 #include "core/scene/error.h"
 
 #include <time.h>
@@ -184,7 +185,9 @@ int run_window(const WindowOptions& options) {
   // GLFW is not touched without a display: its error would say less.
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
     throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
-  MainWindow(options).run();
+  MainWindow window(options);
+  end_when_display_is_lost();
+  window.run();
   return 0;
 }
 

@@ -26,7 +26,7 @@ std::string format_count(unsigned long long n);
 
 /// The number in a text that a user typed; a decimal comma, spaces and the unit are allowed. Nothing: not a number.
 bool parse_number(const std::string& text, const std::string& unit, double& value);
-/// "a number in [0, 1]", "a number > 0".
-std::string describe(const Valid& valid);
+/// "a number in [0, 1]", "a whole number > 0".
+std::string describe(const Valid& valid, bool whole = false);
 
 }  // namespace tyndall

@@ -49,13 +49,12 @@ std::string share_cut_off(const Frame* frame) {
 }
 
 /// A slider over whole numbers.
-bool whole_row(Ui& ui, const Row& row, int& value) {
+bool whole_row(Ui& ui, Row row, int& value) {
   double number = value;
+  row.whole = true;
   if (!slider_row(ui, row, number)) return false;
-  const int rounded = static_cast<int>(std::lround(number));
-  const bool changed = rounded != value;
-  value = rounded;
-  return changed;
+  value = static_cast<int>(std::lround(number));
+  return true;
 }
 
 void limit_rows(Ui& ui, PanelState& state) {
@@ -112,7 +111,7 @@ void render_panel(Ui& ui, PanelState& state) {
   named_row(ui, {"fresnel", "Fresnel", {}, {}, "", "how much glass reflects", ""}, fresnel_rules, render.fresnel);
   if (render.fresnel == FresnelKind::schlick) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4 * ui.scale);
-    note(ui, "an approximation: wrong by up to 0.93 in glass", true, palette::amber);
+    note(ui, "approximation: wrong by up to 0.93", true, palette::amber);
   }
   limit_rows(ui, state);
   ui.scope.clear();

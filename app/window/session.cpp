@@ -136,6 +136,7 @@ void Session::snapshot() {
   Snapshot snapshot{document(), snapshot_base(fs::current_path(), stem_of(document().origin->title), snapshots_ + 1),
                     frame->isa, frame->lanes, frame->threads};
   snapshots_ = snapshot_number(snapshot.base);
+  say("saving " + snapshot.base.filename().string() + " …");
   saving_.run([this, snapshot = std::move(snapshot), edit = edit_number()]() -> JobQueue::Result {
     std::string text;
     bool failed = false;

@@ -21,14 +21,15 @@ void draw_frame(const Ui& ui) {
 }
 
 /// Sets value to `wanted`, kept within what is valid; open ends cannot be reached.
-bool accept(const Valid& valid, double wanted, double& value) {
-  wanted = std::clamp(wanted, valid.low, valid.high);
-  if (wanted == value || !valid.contains(wanted)) return false;
+bool accept(const Row& row, double wanted, double& value) {
+  wanted = std::clamp(row.whole ? std::round(wanted) : wanted, row.valid.low, row.valid.high);
+  if (wanted == value || !row.valid.contains(wanted)) return false;
   value = wanted;
   return true;
 }
 
 std::string shown_text(const Row& row, double value, bool fixed_digits) {
+  if (row.whole) return std::to_string(std::llround(value)) + row.unit;
   return (fixed_digits ? format_value(row.slider, value) : format_short(value)) + row.unit;
 }
 
@@ -46,8 +47,9 @@ bool finish_edit(Ui& ui, const Row& row, double& value) {
   ui.edit = {};
   double typed = 0;
   if (!touched) return false;
-  if (!parse_number(text, row.unit, typed) || !row.valid.contains(typed)) {
-    ui.problem = row.name + ": found " + text + ", expected " + describe(row.valid);
+  const bool number = parse_number(text, row.unit, typed) && (!row.whole || typed == std::round(typed));
+  if (!number || !row.valid.contains(typed)) {
+    ui.problem = row.name + ": found " + text + ", expected " + describe(row.valid, row.whole);
     return false;
   }
   const bool changed = typed != value;
@@ -131,8 +133,8 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   // A press on the grab moves nothing until the mouse does.
   const bool moved = ui.drag_offset == 0 || static_cast<double>(mouse) != ui.drag_start;
   if (ImGui::IsItemActive() && moved && way > 0)
-    changed = accept(row.valid, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value),
-                     value);
+    changed =
+        accept(row, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value), value);
   draw_frame(ui);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float at = place_of(value), from = range.low < 0 && !range.logarithmic ? place_of(0) : a.x + pad;
@@ -163,7 +165,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
     ui.drag_moved = true;
     const double steps =
         static_cast<double>((io.MousePos.x - io.MouseClickedPos[0].x) / ui.scale) * (io.KeyShift ? 0.1 : 1.0);
-    changed = accept(row.valid, dragged(row.slider, ui.drag_start, steps), value);
+    changed = accept(row, dragged(row.slider, ui.drag_start, steps), value);
   }
   if (ImGui::IsItemDeactivated() && !ui.drag_moved) begin_edit(ui, item, text);
   draw_frame(ui);

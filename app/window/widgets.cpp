@@ -34,7 +34,12 @@ void clipped_text(const std::string& text, float width) {
 float value_width(const Ui& ui) { return right_edge() - label_column * ui.scale; }
 
 void log_item(Ui& ui, const std::string& name, const std::string& value) {
-  if (ui.log) ui.log->widget(ui.scope + name, item_rect(), value);
+  if (!ui.log) return;
+  const ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 low = draw->GetClipRectMin(), high = draw->GetClipRectMax();
+  Rect rect = item_rect();
+  rect = {std::max(rect.x0, low.x), std::max(rect.y0, low.y), std::min(rect.x1, high.x), std::min(rect.y1, high.y)};
+  if (rect.width() > 0 && rect.height() > 0) ui.log->widget(ui.scope + name, rect, value);
 }
 
 void tooltip(Ui& ui, const std::string& text) {
@@ -170,6 +175,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   }
   ImGui::PopStyleVar(2);
   ImGui::PopFont();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
   end_row(ui, row);
   return changed;
 }

@@ -51,6 +51,7 @@ struct Row {
   const char* unit = "";
   std::string help;     ///< tooltip
   std::string meaning;  ///< grey line beneath; "": none
+  bool whole = false;   ///< whole numbers only
 };
 
 /// A heading with a note on the right; a click folds the section. Returns whether it is open.
@@ -88,7 +89,7 @@ void begin_row(Ui& ui, const Row& row);
 void end_row(Ui& ui, const Row& row);
 /// Shows a tooltip over the last item after a moment.
 void tooltip(Ui& ui, const std::string& text);
-/// Tells the log about the last item.
+/// Tells the log about the last item, if any of it is on the screen.
 void log_item(Ui& ui, const std::string& name, const std::string& value);
 
 /// Width of what lies right of the label.

@@ -1,6 +1,7 @@
 #include "core/render/render.h"
 
 #include "core/film/error.h"
+#include "core/render/level.h"
 #include "core/render/pass.h"
 
 #include <algorithm>
@@ -14,11 +15,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Samples of the next pass. Where only a count limits the render, passes are long; where time or error decide, they
-/// grow with what is there, so that a look between them costs little and comes in time.
+/// Samples of the next pass. They grow, so that a render which is interrupted has covered the whole image; where time or
+/// error decide, they grow with what is there, so that a look between them costs little and comes in time.
 std::uint32_t next_samples(const RenderOptions& options, std::uint32_t taken) {
   const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
-  const std::uint32_t wish = looks ? std::clamp(taken / 4, 1u, 32u) : 32u;
+  const std::uint32_t wish = std::clamp(looks ? taken / 4 : taken, 1u, 32u);
   return options.spp ? std::min(wish, *options.spp - taken) : wish;
 }
 
@@ -32,12 +33,12 @@ class BlockingRender {
     const Region region = options.region.value_or(Region{0, 0, scene.width, scene.height});
     result_.film = film.pixels.empty() ? make_film(scene.width, scene.height, region, options.first_sample, scene.film_unit)
                                        : std::move(film);
-    taken_ = result_.film.pixels.empty() ? 0 : totals(result_.film).least_taken;
   }
 
   RenderResult run() {
     start_ = Clock::now();
     Crew crew(options_.threads);
+    level_film(crew);
     while (!stop_ && !reached_limit()) {
       const std::uint32_t count = next_samples(options_, taken_), first = result_.film.first_sample + taken_;
       Pass pass(result_.film.region, first, first + count, 1, 0, options_.tile);
@@ -58,6 +59,17 @@ class BlockingRender {
   }
 
  private:
+  /// A film that an interrupted pass left is made even before it is continued.
+  void level_film(Crew& crew) {
+    UnitCounts counts;
+    level(crew, kernels_, view_.view(), result_.film, stop_, counts, [&] {
+      if (progress_ && !progress_({taken_, seconds_since(start_), 0, error_})) stop_ = true;
+    });
+    result_.rays += counts.rays;
+    result_.shadow_rays += counts.shadow_rays;
+    result_.seconds = seconds_since(start_);
+    taken_ = totals(result_.film).least_taken;
+  }
   bool reached_limit() const {
     if (options_.spp && taken_ >= *options_.spp) return true;
     if (taken_ == 0) return false;

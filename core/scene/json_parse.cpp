@@ -12,8 +12,8 @@
 namespace tyndall {
 namespace {
 
-constexpr std::size_t max_values = std::size_t(1)
-                                   << 25;  // more than 256 MiB of real scene hold; about 1.5 GB as a tree
+/// More than 256 MiB of a real scene hold; about 2 GB as a tree.
+constexpr std::size_t max_values = std::size_t(1) << 25;
 
 /// Receives the parser's events, builds the tree and refuses what the format refuses, before it is built.
 class TreeBuilder {
@@ -54,7 +54,8 @@ class TreeBuilder {
   }
 
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) {
-    if (error.id == 406) return refuse({where(open_.size()), token, "a number within the range of a double"});
+    if (error.id == 406)
+      return refuse({open_.empty() ? "/" : where(open_.size()), token, "a number within the range of a double"});
     return refuse(syntax_error(text_, position, error.what()));
   }
 
@@ -77,10 +78,8 @@ class TreeBuilder {
 
   template <class T>
   bool put(T value) {
-    if (++values_ > max_values)
-      return refuse({"/", "more than " + std::to_string(max_values) + " values", "a smaller scene"});
     slot().value = std::move(value);
-    return true;
+    return count();
   }
 
   template <class T>
@@ -91,8 +90,12 @@ class TreeBuilder {
     JsonValue& at = slot();
     at.value = std::move(container);
     open_.push_back(&at);
-    return ++values_ <= max_values ||
-           refuse({"/", "more than " + std::to_string(max_values) + " values", "a smaller scene"});
+    return count();
+  }
+
+  bool count() {
+    if (++values_ <= max_values) return true;
+    return refuse({"/", "more than " + std::to_string(max_values) + " values", "a smaller scene"});
   }
 
   bool close() {

@@ -85,19 +85,17 @@ fs::path built_in_file(const std::string& what) {
   throw SceneError(what, "no such file", expected_scene + hint);
 }
 
-std::string title_of(const fs::path& file) {
-  const std::string text = read_file(file.string());
-  const auto comments = leading_comments(text);
-  const std::string comment = comments.empty() ? "" : comments[0];
+/// The scene's name, else its first comment. A broken file is reported when it is opened, not here.
+std::string title_of(const std::string& text) {
   try {
     const JsonValue json = parse_json(text);
     const auto* root = std::get_if<JsonObject>(&json.value);
     const JsonValue* name = root ? find(*root, "name") : nullptr;
-    const auto* title = name ? std::get_if<std::string>(&name->value) : nullptr;
-    return title ? printable(*title) : comment;
+    if (const auto* title = name ? std::get_if<std::string>(&name->value) : nullptr) return printable(*title);
   } catch (const Broken&) {
-    return comment;  // a broken file is reported when it is opened
   }
+  const auto comments = leading_comments(text);
+  return comments.empty() ? "" : comments[0];
 }
 
 }  // namespace
@@ -118,7 +116,7 @@ std::vector<BuiltIn> built_in_scenes() {
   std::vector<BuiltIn> scenes;
   for (const std::string& name : built_in_names()) {
     const fs::path path = scenes_folder() / (name + ".json");
-    scenes.push_back({name, title_of(path), path});
+    scenes.push_back({name, title_of(read_file(path.string())), path});
   }
   return scenes;
 }

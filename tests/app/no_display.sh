@@ -14,7 +14,7 @@ complains "tyndall render 'my quads.json' -o 'my quads.png'"
 # The command works as it stands.
 mkdir bin
 ln -s "$tyndall" bin/tyndall
-command=$(sed 's/.*: tyndall render/tyndall render/' err)
+command=$(sed "s/.*: tyndall render/tyndall render/" err)
 (PATH=$PWD/bin:$PATH && eval "$command --size 8x8 --spp 1 -q") || fail "does not work: $command"
 [ -s 'my quads.png' ] || fail 'no image'
 

@@ -91,7 +91,7 @@ TEST_CASE("overrides keep their order; the last of a repeated option wins; an ou
   CHECK(c.scene.overrides[1].value == "[1,2,3]");
   CHECK(c.spp == 2u);
   CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
-  CHECK(std::get<RenderCommand>(read_command({"render", "render", "-o=[a].png"})).outputs.front() == "[a].png");
+  CHECK(std::get<RenderCommand>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
 }
 
 TEST_CASE("refusals name the option, what was found and what is expected") {
@@ -112,7 +112,8 @@ TEST_CASE("refusals name the option, what was found and what is expected") {
 }
 
 TEST_CASE("unknown options and commands get a suggestion") {
-  CHECK(has(refusal({"render", "b", "-o", "a.png", "--sed=3"}), R"(unknown option "--sed" (did you mean "--seed"?))"));
+  CHECK(
+      has(refusal({"render", "b", "-o", "a.png", "--sede=3"}), R"(unknown option "--sede" (did you mean "--seed"?))"));
   CHECK(has(refusal({"rendr", "box", "-o", "a.png"}), R"(unknown command "rendr" (did you mean "render"?))"));
   CHECK(has(refusal({"scene"}), R"(did you mean "scenes"?)"));
   CHECK(has(refusal({"--spp", "3"}), "--spp"));

@@ -133,6 +133,7 @@ TEST_CASE("image error: means run over all pixels, channel by channel") {
   CHECK(error.mean_reference == Vec3d{2, 3, 4});
   CHECK(error.mse == doctest::Approx(4.0 / 6));
   CHECK(error.psnr == std::numeric_limits<double>::infinity());  // the same when clipped to [0, 1]
+  CHECK(image_error({-3, 0, 0}, {0, -1, 0}).psnr == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("image error: equal images, and what is not a number") {

@@ -125,9 +125,9 @@ TEST_CASE("pfm: grey, big endian and other scales") {
 
 TEST_CASE("pfm: damaged ones are refused") {
   const fs::path file = scratch_folder("pfm_damaged") / "a.pfm";
-  for (const std::string text :
-       {"PF\n", "PF\n2 2\n", "PF\n2 2\n0\n", "PF\n2 2\nnan\n", "PF\n2 x\n-1\n", "PF\n2 2\n-1.0\n1234",
-        "PF\n0 2\n-1.0\n", "PF\n-1 -1\n-1.0\n", "PF\n999999999 999999999\n-1.0\n", "PF\n2147483647 1\n-1.0\n"}) {
+  for (const std::string text : {"PF\n", "PF\n2 2\n", "Pf\n1 1\n0\n1234", "Pf\n1 1\nnan\n1234", "Pf\n1 1\n-inf\n1234",
+                                 "PF\n2 x\n-1\n", "PF\n2 2\n-1.0\n1234", "PF\n0 2\n-1.0\n", "PF\n-1 -1\n-1.0\n",
+                                 "PF\n999999999 999999999\n-1.0\n", "PF\n2147483647 1\n-1.0\n"}) {
     CAPTURE(text);
     write_text(file, text);
     CHECK_THROWS_AS(read_image(file), ImageFileError);
@@ -150,6 +150,30 @@ TEST_CASE("hdr: keeps 8 bits of the brightest channel, rounded to nearest") {
     read_sum += static_cast<double>(back.rgb[i]);
   }
   CHECK(read_sum / sum == doctest::Approx(1).epsilon(5e-4));
+}
+
+TEST_CASE("hdr: plain rows, and headers that are something else") {
+  const fs::path file = scratch_folder("hdr_kinds") / "a.hdr";
+  const std::string start = "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\n\n";
+  // 4 pixels: the first looks like the start of a row in runs, but so short a row is plain.
+  const std::string pixels(
+      "\2\2\0\4"
+      "\x80\0\0\x81"
+      "\0\x40\0\x82"
+      "\1\2\3\0",
+      16);
+  write_text(file, start + "-Y 1 +X 4\n" + pixels);
+  CHECK(read_image(file).rgb == std::vector<float>{0x1p-131f, 0x1p-131f, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0});
+  const auto refused = [&](const std::string& text) {
+    write_text(file, text);
+    CHECK_THROWS_AS(read_image(file), ImageFileError);
+  };
+  refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 4\n" + pixels);
+  refused(start + "+X 4 -Y 1\n" + pixels);
+  refused(start + "-Y 2 +X 4\n" + pixels);
+  refused(start + "-Y 0 +X 4\n" + pixels);
+  refused(start + "-Y -1 +X 4\n" + pixels);
+  refused(start + "-Y 99999999 +X 99999999\n" + pixels);
 }
 
 TEST_CASE("hdr: what the format cannot hold becomes the nearest that it can") {

@@ -1,0 +1,28 @@
+#include "app/window/display_lost.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+namespace tyndall {
+namespace {
+
+using Handler = int (*)(void* display);
+
+/// Must not return. No destructors: they would talk to the server.
+int on_lost(void*) {
+  constexpr char text[] = "tyndall: the display went away\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
+  _exit(3);
+}
+
+}  // namespace
+
+void end_when_display_is_lost() {
+  // The window library loads X by itself; linking it here would tie the program to it.
+  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+  if (!library) return;
+  const auto set_handler = reinterpret_cast<Handler (*)(Handler)>(dlsym(library, "XSetIOErrorHandler"));
+  if (set_handler) set_handler(on_lost);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace tyndall {
+
+/// From now on the program says so in one line and ends with exit code 3 when the X server goes away, instead of the X
+/// library's words and exit code 1. Nothing happens where no X library is loaded. Call after the window was opened.
+void end_when_display_is_lost();
+
+}  // namespace tyndall

@@ -1,0 +1,95 @@
+#include "core/shapes/quad.h"
+
+#include "core/compile/columns.h"
+#include "tests/support/mixed_scene.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+QuadHit<float> meet(const Quad<>& quad, Vec3f origin, Vec3f direction, float limit = infinity) {
+  return hit_quad(quad_map(quad, {}, {}), origin, direction, limit);
+}
+
+}  // namespace
+
+TEST_CASE("quad: rays from in front and behind meet it at the right distance") {
+  const Quad<> quad{{-1, -1, 2}, {2, 0, 0}, {0, 2, 0}};
+  CHECK(meet(quad, {0, 0, 0}, {0, 0, 1}).hit);
+  CHECK(meet(quad, {0, 0, 0}, {0, 0, 1}).t == 2);
+  CHECK(meet(quad, {0.5f, -0.5f, 7}, {0, 0, -1}).t == 5);
+  CHECK_FALSE(meet(quad, {0, 0, 0}, {0, 0, -1}).hit);       // behind
+  CHECK_FALSE(meet(quad, {0, 0, 0}, {0, 0, 1}, 1.9f).hit);  // beyond the limit
+  CHECK(meet(quad, {0, 0, 0}, {0, 0, 1}, 2.0f).hit);        // ties are for the caller to judge
+  CHECK_FALSE(meet(quad, {0, 0, 2}, {0, 0, 1}).hit);        // starts on it
+}
+
+TEST_CASE("quad: its edges and corners belong to it, and nothing beyond") {
+  const Quad<> quad{{-1, -1, 2}, {2, 0, 0}, {0, 2, 0}};
+  for (const float x : {-1.0f, 0.0f, 1.0f})
+    for (const float y : {-1.0f, 0.0f, 1.0f}) CHECK(meet(quad, {x, y, 0}, {0, 0, 1}).hit);
+  const float beyond = std::nextafter(1.0f, 2.0f);
+  for (const float side : {-beyond, beyond}) {
+    CHECK_FALSE(meet(quad, {side, 0, 0}, {0, 0, 1}).hit);
+    CHECK_FALSE(meet(quad, {0, side, 0}, {0, 0, 1}).hit);
+  }
+}
+
+TEST_CASE("quad: a ray in its plane misses, whatever its direction, and limits nothing") {
+  for (const Vec3d corner : {Vec3d{-1, -1, 2}, Vec3d{-1, -1, 0}})
+    for (const Vec3f direction : {Vec3f{1, 0, 0}, Vec3f{0, -1, 0}, Vec3f{0.6f, 0.8f, 0}, Vec3f{1, 0, -0.0f}})
+      for (const Vec3f origin : {Vec3f{-3, 0, 2}, Vec3f{0, 0, 2}, Vec3f{0, 0, 0}, Vec3f{-3, 0, 1}})
+        CHECK_FALSE(meet({corner, {2, 0, 0}, {0, 2, 0}}, origin, direction).hit);
+}
+
+TEST_CASE("quad: of a parallelogram the right share is met, at every size and shape") {
+  // Aimed at the bounding rectangle of corner, corner + u, corner + v, corner + u + v in the plane z = 0.
+  struct Shape {
+    Vec3d u, v;
+  };
+  const Shape shapes[] = {
+      {{1, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {0.9, 0.2, 0}}, {{1, 0.5, 0}, {-0.7, 1, 0}}, {{1, 0, 0}, {0, 1e-3, 0}}};
+  for (const Shape& shape : shapes)
+    for (const double size : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+      Engine engine(4);
+      const Vec3d u = size * shape.u, v = size * shape.v;
+      const Affine map = quad_map({{0, 0, 0}, u, v}, {}, {});
+      const double area = std::abs(u.x * v.y - u.y * v.x);
+      const double wide = std::abs(u.x) + std::abs(v.x), high = std::abs(u.y) + std::abs(v.y);
+      constexpr int count = 40000;
+      int met = 0, wrong = 0;
+      for (int i = 0; i < count; ++i) {
+        const Vec3d target{std::min(u.x, 0.0) + std::min(v.x, 0.0) + wide * uniform(engine, 0, 1),
+                           std::min(u.y, 0.0) + std::min(v.y, 0.0) + high * uniform(engine, 0, 1), 0};
+        const Vec3d from{target.x + size * uniform(engine, -1, 1), target.y + size * uniform(engine, -1, 1), size};
+        const QuadHit<float> hit = hit_quad(map, rounded(from), unit(target - from), infinity);
+        met += hit.hit;
+        const double a = (target.x * v.y - target.y * v.x) / (u.x * v.y - u.y * v.x);
+        const double b = (u.x * target.y - u.y * target.x) / (u.x * v.y - u.y * v.x);
+        const double inside = std::min({a, 1 - a, b, 1 - b});
+        if (std::abs(inside) > 1e-3) wrong += hit.hit == (inside > 0) ? 0 : 1;  // the edges have the size of a rounding
+      }
+      CAPTURE(size);
+      const double share = area / (wide * high);
+      CHECK(std::abs(met - share * count) <= 4 * std::sqrt(share * (1 - share) * count));
+      CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("quad: a grazing ray meets it where it should, down to a ten-thousandth of a radian") {
+  const Quad<> floor{{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}};
+  for (const double slope : {0.1, 1e-2, 1e-3, 1e-4}) {
+    const Vec3d from{-3, 3 * slope, 0.2};
+    const QuadHit<float> hit = meet(floor, rounded(from), unit({1, -slope, 0}));
+    CHECK(hit.hit);
+    CHECK(static_cast<double>(hit.t) == doctest::Approx(3 * std::sqrt(1 + slope * slope)).epsilon(1e-5));
+  }
+}

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Drags the fuzz slider, sees the picture change, saves a snapshot that opens as the edited scene, closes cleanly.
+. "$(dirname "$0")/_lib.sh"
+
+write_scene scene.json 0.05
+start scene.json
+wait_for '^state finished'
+settle
+before=$(screen_hash)
+
+point gold.fuzz 20
+xdotool mousedown 1
+wait_for '^submit 2'
+for across in 25 40 55 70 85; do point gold.fuzz $across; done
+xdotool mouseup 1
+wait_for '^frame [0-9]+ 16 '
+fuzz=$(value gold.fuzz)
+python3 -c "import sys; sys.exit(not 0.8 < $fuzz < 0.9)" || fail "fuzz is $fuzz"
+settle
+[ "$(screen_hash)" != "$before" ] || fail "the picture did not change"
+
+# One drag is one step back.
+lines=$(here)
+chord ctrl z
+wait_for '^widget gold.fuzz .* 0.05$' "$lines"
+chord ctrl shift z
+wait_for "^widget gold.fuzz .* $fuzz\$" "$lines"
+settle
+
+chord ctrl p
+wait_for '^saved .*scene-001'
+chord ctrl p
+wait_for '^saved .*scene-002'
+for number in 001 002; do [ -s scene-$number.png ] || fail "no snapshot $number"; done
+"$tyndall" convert scene-001.png -o back.json
+grep -q "\"fuzz\": *$fuzz" back.json || fail "the snapshot holds another scene: $(grep fuzz back.json)"
+finish
