@@ -1,0 +1,74 @@
+#include "core/base/random.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+using namespace tyndall;
+
+namespace {
+
+Dice<float> point(std::uint32_t x, std::uint32_t y, std::uint32_t sample) { return Dice<float>::of(3, x, y, sample, true); }
+
+}  // namespace
+
+TEST_CASE("sobol: the second dimension from reversed bits is that of the direction numbers") {
+  // v[0] = 2^31, v[k+1] = v[k] xor v[k] / 2: the polynomial x + 1.
+  std::uint32_t v[32] = {0x80000000u};
+  for (int k = 1; k < 32; ++k) v[k] = v[k - 1] ^ (v[k - 1] >> 1);
+  for (std::uint32_t i = 1; i < 100000; i = i * 3 + 1) {
+    std::uint32_t expected = 0;
+    for (int k = 0; k < 32; ++k)
+      if (i >> k & 1) expected ^= v[k];
+    CHECK(sobol_second(reverse_bits(i)) == expected);
+  }
+}
+
+TEST_CASE("sobol: the points of each half fill every elementary interval of 2^k points") {
+  for (const std::uint32_t half : {0u, 1u})
+    for (const std::uint32_t dims : {dimension::pixel, dimension::direction, dimension::light_point})
+      for (int log = 1; log <= 8; ++log)
+        for (int split = 0; split <= log; ++split) {
+          std::set<int> cells;
+          for (std::uint32_t i = 0; i < 1u << log; ++i) {
+            const Pair<float> p = point(17, 5, 2 * i + half).pair(dims);
+            const int across = static_cast<int>(p.x * static_cast<float>(1 << split));
+            const int up = static_cast<int>(p.y * static_cast<float>(1 << (log - split)));
+            cells.insert(across + (up << split));
+          }
+          CHECK(cells.size() == std::size_t{1} << log);
+        }
+}
+
+TEST_CASE("sobol: single dimensions are stratified, and halves, pixels and dimensions are independent") {
+  const int n = 64;
+  std::set<int> strata;
+  for (std::uint32_t i = 0; i < n; ++i) strata.insert(static_cast<int>(point(1, 2, 2 * i).one(dimension::lobe) * n));
+  CHECK(strata.size() == n);
+  // Products of centred numbers, averaged over many pixels: variance 1/144.
+  const int pixels = 20000;
+  double halves = 0, neighbours = 0, dimensions = 0, pairs = 0;
+  for (std::uint32_t k = 0; k < pixels; ++k) {
+    const Dice<float> a = point(k, 9, 6), b = point(k, 9, 7), c = point(k + 1, 9, 6);
+    const auto centred = [](float u) { return static_cast<double>(u) - 0.5; };
+    halves += centred(a.one(1)) * centred(b.one(1));
+    neighbours += centred(a.one(1)) * centred(c.one(1));
+    dimensions += centred(a.one(1)) * centred(a.one(4));
+    pairs += centred(a.pair(2).x) * centred(a.pair(6).y);
+  }
+  const double limit = 4 * std::sqrt(pixels / 144.0);
+  for (const double sum : {halves, neighbours, dimensions, pairs}) CHECK(std::abs(sum) < limit);
+}
+
+TEST_CASE("sobol: numbers are uniform over pixels for any one sample") {
+  const int pixels = 100000, bins = 64;
+  for (const std::uint32_t sample : {0u, 1u, 37u}) {
+    std::vector<int> count(bins);
+    for (std::uint32_t k = 0; k < pixels; ++k) ++count[static_cast<std::size_t>(point(k % 317, k / 317, sample).pair(2).y * bins)];
+    double chi2 = 0;
+    for (const int c : count) chi2 += std::pow(c - pixels / bins, 2) / (pixels / bins);
+    CHECK(chi2 < bins - 1 + 4 * std::sqrt(2.0 * (bins - 1)));
+  }
+}

@@ -1,0 +1,153 @@
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+/// Light sampling finds what chance finds, and the closed forms.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr Integrator all_integrators[] = {Integrator::path, Integrator::nee, Integrator::mis};
+
+/// A matt floor of albedo 0.5 at y = 0, seen straight down where it meets the y axis; one scattering only.
+Scene floor_room(Vec3d seen = {0, 0, 0}) {
+  Scene scene = dark_room();
+  scene.render.max_depth = 1;
+  add(scene, Quad<>{{-3000, 0, -3000}, {6000, 0, 0}, {0, 0, 6000}}, lambertian(0.5));
+  aim(scene, seen + Vec3d{0.3, 0.4, 0}, seen);
+  return scene;
+}
+
+Estimate measure(Scene scene, Integrator integrator, SamplerKind sampler, int spp) {
+  scene.render.integrator = integrator;
+  scene.render.sampler = sampler;
+  return radiance(scene, spp);
+}
+
+}  // namespace
+
+TEST_CASE("rectangular lights: Lambert's formula, by light sampling, with and without its weights") {
+  struct Case {
+    double height, offset, irradiance;
+  };
+  ZScores z;
+  for (const Case& c : {Case{0.1, -0.5, 3.042128}, Case{1, -0.5, 0.7522747}, Case{5, -0.5, 0.03947403},
+                        Case{1, 0, 0.4352099}, Case{5, 0, 0.03797952}})
+    for (const Integrator integrator : {Integrator::nee, Integrator::mis})
+      for (const SamplerKind sampler : {SamplerKind::random, SamplerKind::sobol}) {
+        Scene scene = floor_room();
+        aim(scene, {0.04, 0.05, 0.03}, {0, 0, 0});
+        add(scene, Quad<>{{c.offset, c.height, c.offset}, {1, 0, 0}, {0, 0, 1}}, lamp(1));
+        z.add("rectangle", measure(scene, integrator, sampler, 64), 0.5 * c.irradiance / pi, 2e-3);
+      }
+}
+
+TEST_CASE("spherical lights: from nearly touching to a hundred radii, and cut by the horizon") {
+  struct Case {
+    Vec3d center;
+    double irradiance;
+  };
+  ZScores z;
+  for (const Case& c : {Case{{0, 1.01, 0}, 3.079691}, Case{{0, 2, 0}, 0.7853982}, Case{{2 * std::sin(pi / 3), 1, 0}, 0.3926991},
+                        Case{{50, 100 * std::cos(pi / 6), 0}, 2.720699e-4}})
+    for (const Integrator integrator : {Integrator::nee, Integrator::mis}) {
+      Scene scene = floor_room();
+      aim(scene, {0.004, 0.005, 0.003}, {0, 0, 0});
+      add(scene, sphere(c.center, 1), lamp(1));
+      z.add("sphere", measure(scene, integrator, SamplerKind::random, 64), 0.5 * c.irradiance / pi, 3e-3);
+    }
+}
+
+TEST_CASE("all integrators and samplers agree: matt, fuzzy metal, glass, fog, four kinds of lights") {
+  Scene scene = dark_room();
+  scene.width = scene.height = 48;
+  scene.camera.look_from = {0, 2, 9};
+  scene.camera.look_at = {0, 1, 0};
+  scene.camera.vfov = 40;
+  scene.camera.shutter_close = 1;
+  scene.render.max_depth = 8;
+  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(0.7));
+  add(scene, sphere({-1.5, 0.7, 0}, 0.7), metal(0.9, 0.3));
+  add(scene, sphere({1.5, 0.7, 1}, 0.7), glass(1.5));
+  add(scene, sphere({0, 0.5, -1}, 0.5), metal(0.8, 1.0));
+  add(scene, Quad<>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, lamp(2));
+  add(scene, Quad<>{{-4, 0.5, -2}, {0.2, 1.5, 0}, {0, 1.5, 0.8}}, lamp(3));
+  add(scene, sphere({3, 2, -1}, 0.5), lamp(4));
+  add(scene, Sphere<>{{-3, 2, 1}, 0.4, Vec3d{-2, 2.5, 1}}, lamp(3));
+  add(scene, Box<>{{2.2, 0, 2}, {2.8, 0.6, 2.6}}, lamp(1), {RotateY{20}});
+  add_medium(scene, Box<>{{-0.5, 0.1, 1}, {1, 1.5, 2.5}}, {1.2, 0.4}, 0.9, {RotateY{15}});
+  add_medium(scene, Sphere<>{{0, 3, 0}, 1.5, {}}, {0.5, 0}, 0.8);
+  const auto mean_of = [&](Integrator integrator, SamplerKind sampler) {
+    scene.render.integrator = integrator;
+    scene.render.sampler = sampler;
+    const Film film = film_of(scene, integrator == Integrator::path ? 4096 : 512);
+    CHECK(totals(film).rejected == 0);
+    // 64 blocks of 6 by 6 pixels.
+    std::vector<double> halves[2];
+    double sum = 0, variance = 0;
+    for (const FilmPixel& pixel : film.pixels) {
+      const auto a = static_cast<double>(half_mean(film, pixel, 0).x), b = static_cast<double>(half_mean(film, pixel, 1).x);
+      sum += (a + b) / 2;
+      variance += (a - b) * (a - b) / 4;
+    }
+    const auto n = static_cast<double>(film.pixels.size());
+    return Estimate{sum / n, std::sqrt(variance) / n};
+  };
+  const Estimate reference = mean_of(Integrator::path, SamplerKind::random);
+  for (const Integrator integrator : all_integrators)
+    for (const SamplerKind sampler : {SamplerKind::random, SamplerKind::sobol}) {
+      const Estimate e = mean_of(integrator, sampler);
+      CAPTURE(static_cast<int>(integrator));
+      CAPTURE(static_cast<int>(sampler));
+      CAPTURE(e.mean);
+      CAPTURE(reference.mean);
+      const double error = std::hypot(e.error, reference.error);
+      CHECK(error < 2e-3 * reference.mean);
+      CHECK(std::abs(e.mean - reference.mean) <= 4 * error);
+    }
+}
+
+TEST_CASE("a thousand small lights, and a light around the eye") {
+  Scene scene = floor_room();
+  for (int i = 0; i < 1000; ++i) add(scene, sphere({0.1 * (i % 40) - 2, 1 + 0.1 * (i / 40), 0.5}, 0.02), lamp(5));
+  ZScores z;
+  const Estimate path = measure(scene, Integrator::path, SamplerKind::random, 4000);
+  const Estimate mis = measure(scene, Integrator::mis, SamplerKind::sobol, 400);
+  const double error = std::hypot(path.error, mis.error);
+  CHECK(error < 0.02 * path.mean);
+  CHECK(std::abs(path.mean - mis.mean) <= 4 * error);
+  Scene inside = floor_room();
+  add(inside, sphere({0, 1, 0}, 50), lamp(1));  // the floor within it sees it everywhere above: E = π
+  z.add("inside", measure(inside, Integrator::mis, SamplerKind::random, 64), 0.5, 3e-3);
+  z.add("inside", measure(inside, Integrator::nee, SamplerKind::random, 64), 0.5, 3e-3);
+}
+
+TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on every instruction set") {
+  Scene scene = floor_room();
+  scene.width = 61, scene.height = 47;
+  scene.camera = {};
+  scene.camera.look_from = {0, 2, 6};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vfov = 60;
+  scene.render.max_depth = 20;
+  scene.render.integrator = Integrator::mis;
+  scene.render.sampler = SamplerKind::sobol;
+  add(scene, Quad<>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, lamp(2));
+  add(scene, sphere({1, 1, 0}, 1), metal(0.9, 0.4));
+  add_medium(scene, Sphere<>{{-1, 1, 0}, 1.0, {}}, {1, 0}, 0.9);
+  const RenderScene compiled = compile(scene);
+  for (const Kernels& kernels : available_kernels()) {
+    const auto hash = [&](int threads, int tile) {
+      RenderOptions options;
+      options.isa = kernels.isa;
+      options.threads = threads;
+      options.tile = tile;
+      options.spp = 9;
+      return image_hash(61, 47, resolve(render(compiled, options).film));
+    };
+    const std::uint64_t first = hash(1, 0);
+    CHECK(hash(2, 8) == first);
+    CHECK(hash(7, 13) == first);
+  }
+}
