@@ -17,12 +17,11 @@ void push(std::vector<float> (&columns)[3], Vec3d v) {
 
 struct Emitter {
   double brightness;  // largest component of the radiance
-  std::int32_t element, primitive;
+  std::int32_t element;
 };
 
 void push_common(Lights& out, const Emitter& e, double area, Vec3d center, double reach) {
   out.element.push_back(e.element);
-  out.primitive.push_back(e.primitive);
   out.area.push_back(static_cast<float>(area));
   push(out.center, center);
   out.power.push_back(static_cast<float>(area * e.brightness));
@@ -68,7 +67,7 @@ struct Collector {
   void operator()(const Box<>& b) const {
     for (std::int32_t i = 0; i < 6; ++i) {
       const BoxFace face = box_face_edges(b, i);
-      add_flat(out, {emitter.brightness, emitter.element + i, emitter.primitive}, place(placement, face.corner) - origin,
+      add_flat(out, {emitter.brightness, emitter.element + i}, place(placement, face.corner) - origin,
                turn(placement, face.u), turn(placement, face.v));
     }
   }
@@ -115,7 +114,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
     const PlacedShape& shape = flat.shapes[i];
     const double brightness = brightness_of(scene.materials[static_cast<std::size_t>(shape.material)]);
     if (!(brightness > 0)) continue;
-    std::visit(Collector{out, shape.placement, origin, {brightness, first_element[i], first_element[i]}}, shape.shape);
+    std::visit(Collector{out, shape.placement, origin, {brightness, first_element[i]}}, shape.shape);
   }
   elements.light.assign(elements.material.size(), -1);
   for (int k = 0; k < out.count(); ++k)

@@ -102,7 +102,7 @@ struct MediumColumns {
 /// Emitting primitives: spheres, quads, faces of boxes. Columns by light.
 struct Lights {
   enum Kind : std::int32_t { rectangle, parallelogram, sphere };  ///< rectangle: edges at right angles
-  std::vector<std::int32_t> kind, element, primitive;  ///< primitive: its first element (of a box, all six are skipped)
+  std::vector<std::int32_t> kind, element;
   /// Flats: a corner, and unit edges; spheres: the centre, and its way over the shutter in edge_u.
   std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
   std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u

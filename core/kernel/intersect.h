@@ -19,14 +19,14 @@ struct Hit {
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
 /// How a primitive test is asked for: by a leaf of the tree, whose box a lane must have met at `near`, or for all.
-/// shadow: only whether something is in the way counts, and each lane leaves out the primitive it aims at.
+/// shadow: only whether something is in the way counts, and each lane leaves out the element it aims at.
 template <class F, bool is_shadow = false>
 struct Asked {
   static constexpr bool shadow = is_shadow;
   MaskOf<F> lanes;
   F near;
   bool by_tree;
-  IntOf<F> aim;  ///< shadow rays: first element of the primitive that is left out
+  IntOf<F> aim;  ///< shadow rays: the element that is left out
 };
 
 /// Where candidate hits beat the best so far.
@@ -34,8 +34,7 @@ template <class F, class Q>
 TYNDALL_INLINE MaskOf<F> beats(F t, std::int32_t element, MaskOf<F> hit, const Hit<F>& best, const Q& asked) {
   using I = IntOf<F>;
   if constexpr (Q::shadow) {
-    const auto between = mask_and(mask_and(less(F(0.0f), t), less(t, best.t)), asked.lanes);
-    return mask_and_not(mask_and(hit, between), equal(asked.aim, I(element)));
+    return mask_and(mask_and(hit, asked.lanes), mask_and(less(F(0.0f), t), less(t, best.t)));
   }
   const auto closer = mask_or(less(t, best.t), mask_and(equal(t, best.t), less(I(element), best.element)));
   const auto ok = mask_and(mask_and(hit, closer), mask_and(less(F(0.0f), t), asked.lanes));
@@ -49,6 +48,7 @@ TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t eleme
   Interval<F> line = sphere_interval(to_center, splat<F>(radius), ray.direction);
   const Start<F> start = start_on<F>(ray.from, element, 1);
   if (any(start.here)) line = leave_sphere(line, to_center, ray.direction, ray.from, start);
+  if constexpr (Q::shadow) line.hit = mask_and_not(line.hit, equal(asked.aim, IntOf<F>(element)));
   if (!any(line.hit)) return;
   const F t = select(less(F(0.0f), line.near), line.near, line.far);
   const auto better = beats(t, element, line.hit, best, asked);
@@ -77,7 +77,8 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
                                Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const std::int32_t element = q.element[i];
-    const QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
+    QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
+    if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(asked.aim, IntOf<F>(element)));
     if (!any(h.hit)) continue;
     const Start<F> start = start_on<F>(ray.from, element, 1);
     const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, asked);
@@ -98,6 +99,11 @@ TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray
     if (!any(line.hit)) continue;
     const auto entering = less(F(0.0f), line.near);
     const F t = select(entering, line.near, line.far);
+    if constexpr (Q::shadow) {
+      const IntOf<F> face = asked.aim - IntOf<F>(element);  // one of its own faces?
+      const auto aimed = mask_and(less(IntOf<F>(-1), face), less(face, IntOf<F>(6)));
+      if (any(aimed)) line.hit = mask_and_not(line.hit, mask_and(aimed, equal(face, box_face(slabs, entering))));
+    }
     const auto better = beats(t, element, line.hit, best, asked);
     if (!any(better)) continue;
     best.t = select(better, t, best.t);
@@ -213,7 +219,7 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
   return best;
 }
 
-/// Lanes whose way to `distance` is blocked by something else than the primitive whose first element is `aim`.
+/// Lanes whose way to `distance` is blocked by something else than element `aim`; the other faces of a box are in its way.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};

@@ -173,7 +173,8 @@ TYNDALL_INLINE SphericalCap<F> cap_from(Vec3<F> to_center, F radius) {
   const F narrow = sine2 / (F(1.0f) + sqrt(max(F(1.0f) - sine2, F(0.0f))));
   const F part = select(inside, F(2.0f), narrow);
   const F scale = F(1.0f) / sqrt(max(d2, F(1e-37f)));
-  return {scale * to_center, part, F(static_cast<float>(0.5 / pi)) / part};
+  const Vec3<F> anywhere{F(0.0f), F(0.0f), F(1.0f)};
+  return {select(less(F(0.0f), d2), scale * to_center, anywhere), part, F(static_cast<float>(0.5 / pi)) / part};
 }
 
 template <class F>

@@ -148,8 +148,7 @@ TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const
   shadows = bits(useful);
   const Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
   const IntOf<F> element = s.lights.count == 1 ? IntOf<F>(s.lights.element[0]) : gather_int<F>(s.lights.element, choice.light);
-  const IntOf<F> aim = s.lights.count == 1 ? IntOf<F>(s.lights.primitive[0]) : gather_int<F>(s.lights.primitive, choice.light);
-  const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, aim, useful));
+  const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();
   const F ratio = scattered / select(useful, chosen, F(1.0f));
   F weight = s.multiple_importance ? ratio / mul_add(ratio, ratio, F(1.0f)) : ratio;

@@ -18,7 +18,7 @@ TextureView view_of(const TextureColumns& t) {
 LightView view_of(const Lights& l) {
   LightView v{};
   v.count = l.count();
-  v.kind = l.kind.data(), v.element = l.element.data(), v.primitive = l.primitive.data(), v.alias = l.alias.data();
+  v.kind = l.kind.data(), v.element = l.element.data(), v.alias = l.alias.data();
   for (int i = 0; i < 3; ++i) {
     v.corner[i] = l.corner[i].data(), v.edge_u[i] = l.edge_u[i].data(), v.edge_v[i] = l.edge_v[i].data();
     v.normal[i] = l.normal[i].data(), v.center[i] = l.center[i].data();

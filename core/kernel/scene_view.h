@@ -26,7 +26,7 @@ struct TextureView {
 
 struct LightView {
   int count = 0;
-  const std::int32_t *kind, *element, *primitive, *alias;
+  const std::int32_t *kind, *element, *alias;
   const float *corner[3], *edge_u[3], *edge_v[3], *normal[3], *center[3];
   const float *length_u, *length_v, *area, *power, *reach2, *probability, *keep;
 };

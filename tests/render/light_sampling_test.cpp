@@ -119,8 +119,8 @@ TEST_CASE("a thousand small lights, and a light around the eye") {
   CHECK(std::abs(path.mean - mis.mean) <= 4 * error);
   Scene inside = floor_room();
   add(inside, sphere({0, 1, 0}, 50), lamp(1));  // the floor within it sees it everywhere above: E = π
-  z.add("inside", measure(inside, Integrator::mis, SamplerKind::random, 64), 0.5, 3e-3);
-  z.add("inside", measure(inside, Integrator::nee, SamplerKind::random, 64), 0.5, 3e-3);
+  z.add("inside", measure(inside, Integrator::mis, SamplerKind::random, 512), 0.5, 3e-3);
+  z.add("inside", measure(inside, Integrator::nee, SamplerKind::random, 512), 0.5, 3e-3);
 }
 
 TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on every instruction set") {
