@@ -43,7 +43,6 @@ void prepare(Job& job) {
     throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
   find_kernels(command.isa);
   job.loaded = open_scene(command.scene);
-  check_available(job.loaded.scene.render);
   job.options = render_options(command, job.loaded);
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
