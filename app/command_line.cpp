@@ -30,6 +30,7 @@ struct CommandLine::State {
     for (const CLI::Option* option : app.get_options())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& word : app.remaining()) {
+      if (word == "--") continue;  // ends the options
       if (word.size() < 2 || word[0] != '-') throw UsageError("unexpected argument " + in_quotes(word) + see_help());
       const std::string name = word.substr(0, word.find('='));
       throw UsageError("unknown option " + in_quotes(name) + suggestion(name, names) + see_help());
@@ -105,6 +106,9 @@ std::optional<std::string> CommandLine::read(std::vector<std::string> words) {
     state_->app.parse(words);
   } catch (const CLI::CallForHelp&) {
     return state_->help();
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    throw UsageError(text.substr(0, text.find(':')) + ": a value is missing" + state_->see_help());
   } catch (const CLI::ParseError& error) {
     throw UsageError(on_one_line(error.what()) + state_->see_help());
   }

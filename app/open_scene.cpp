@@ -30,12 +30,4 @@ LoadedScene open_scene(const SceneRequest& request) {
   return loaded;
 }
 
-void check_available(const RenderSettings& settings) {
-  if (settings.integrator != Integrator::path)
-    throw UsageError(std::string("the integrator ") + (settings.integrator == Integrator::nee ? "nee" : "mis") +
-                     " is not in this version yet; use --integrator path");
-  if (settings.sampler != SamplerKind::random)
-    throw UsageError("the sampler sobol is not in this version yet; use --sampler random");
-}
-
 }  // namespace tyndall

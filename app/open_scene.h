@@ -8,7 +8,4 @@ namespace tyndall {
 /// again. Throws SceneError.
 LoadedScene open_scene(const SceneRequest& request);
 
-/// Throws UsageError for a method that this version does not have yet.
-void check_available(const RenderSettings& settings);
-
 }  // namespace tyndall

@@ -131,6 +131,7 @@ Command read_view(const std::vector<std::string>& words) {
              "for tests: write what is on the screen and how long things took;\n- for standard output",
              [&](Text t) { command.ui_log = t; });
   if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!command.scene.what.empty(), "SCENE");
   return command;
 }
 

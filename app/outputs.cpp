@@ -30,8 +30,8 @@ void check_image_names(const std::vector<std::filesystem::path>& files) {
     if (!is_image_output(files[i])) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
     if (is_exr(files[i]) && !has_openexr())
       throw UsageError(name + ", expected .png, .pfm or .hdr: this build has no OpenEXR");
-    if (std::find(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), files[i]) !=
-        files.begin() + static_cast<std::ptrdiff_t>(i))
+    const auto same = [&](const auto& other) { return other.lexically_normal() == files[i].lexically_normal(); };
+    if (std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), same))
       throw UsageError(name + " twice");
   }
 }

@@ -91,8 +91,9 @@ void ProgressReport::show(const RenderProgress& now) {
 
 void ProgressReport::draw_bar(const RenderProgress& now) {
   const std::string text = progress_text(now, goal_);
+  constexpr int text_columns = 60;  // kept free, so that the bar keeps its length
   const int columns = terminal_columns() - 1;
-  const int cells = std::clamp(columns - static_cast<int>(text.size()) - 3, 0, 40);
+  const int cells = std::clamp(columns - text_columns, 0, 40);
   std::string bar;
   if (cells >= 8) {
     const auto full = static_cast<std::size_t>(std::lround(progress_fraction(now, goal_) * cells));

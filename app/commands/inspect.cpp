@@ -61,9 +61,16 @@ std::string json_text(const Report& report) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string listed(const std::map<std::string, int>& counts) {
+/// "1 box", "2 boxes".
+std::string count_of(int count, const std::string& noun) {
+  const char* plural = count == 1 ? "" : noun.back() == 'x' ? "es" : "s";
+  return std::to_string(count) + " " + noun + plural;
+}
+
+std::string listed(const std::map<std::string, int>& counts, bool nouns) {
   std::string text;
-  for (const auto& [type, count] : counts) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + type;
+  for (const auto& [type, count] : counts)
+    text += (text.empty() ? "" : ", ") + (nouns ? count_of(count, type) : std::to_string(count) + " " + type);
   return text.empty() ? "none" : text;
 }
 
@@ -93,13 +100,12 @@ std::string table(const Report& report) {
   const auto spp = scene.render.spp ? std::to_string(*scene.render.spp) + " spp, " : std::string();
   row("image", std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + spp + "max depth " +
                    std::to_string(scene.render.max_depth));
-  row("shapes", listed(c.shapes));
-  row("materials", listed(c.materials));
-  row("textures", listed(c.textures));
-  row("media", c.media == 0
-                   ? "none"
-                   : std::to_string(c.media) + ", " + std::to_string(c.phase_functions) + " of them not isotropic");
-  row("lights", c.lights == 0 ? "none" : std::to_string(c.lights) + " emitting primitives");
+  row("shapes", listed(c.shapes, true));
+  row("materials", listed(c.materials, false));
+  row("textures", listed(c.textures, false));
+  const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
+  row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
+  row("lights", c.lights == 0 ? "none" : count_of(c.lights, "emitting primitive"));
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");

@@ -9,6 +9,7 @@
 #include "app/stats.h"
 #include "core/compile/compile.h"
 #include "core/film/error.h"
+#include "core/scene/text.h"
 
 #include <chrono>
 #include <cstdio>
@@ -38,9 +39,10 @@ struct Job {
 void prepare(Job& job) {
   const RenderCommand& command = job.command;
   check_image_names(command.outputs);
+  if (is_image_output(command.stats))
+    throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
   find_kernels(command.isa);
   job.loaded = open_scene(command.scene);
-  check_available(job.loaded.scene.render);
   job.options = render_options(command, job.loaded);
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
@@ -71,8 +73,10 @@ void render(Job& job, const SignalWatch& signals) {
     job.result = render(job.compiled, job.options, progress, std::move(job.film));
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
-    throw IoError("not enough memory: the film of " + std::to_string(r.width()) + "x" + std::to_string(r.height()) +
-                  " pixels takes " + std::to_string(sizeof(FilmPixel)) + " bytes a pixel");
+    char text[120];
+    std::snprintf(text, sizeof text, "not enough memory: a film of %dx%d pixels takes %.3g GB", r.width(), r.height(),
+                  1e-9 * sizeof(FilmPixel) * r.width() * r.height());
+    throw IoError(text);
   }
   report.finish(outcome(job));
 }

@@ -39,11 +39,7 @@ bool is_set(const char* variable) {
 }  // namespace
 
 int run(const ViewCommand& command) {
-  const auto open = [request = command.scene] {
-    LoadedScene loaded = open_scene(request);
-    check_available(loaded.scene.render);
-    return loaded;
-  };
+  const auto open = [request = command.scene] { return open_scene(request); };
   const LoadedScene loaded = open();
   find_kernels(command.isa);
   const std::string instead = "; the same picture without a window: " + headless_command(command);

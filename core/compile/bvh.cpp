@@ -36,8 +36,8 @@ Vec3f centroid(const Bounds& b) {
 /// A node of the binary tree that is then widened.
 struct Binary {
   Bounds bounds;
-  int left = -1, right = -1;   // children, or
-  int first = 0, count = 0;    // a leaf's range in the order
+  int left = -1, right = -1;  // children, or
+  int first = 0, count = 0;   // a leaf's range in the order
 };
 
 struct Split {
@@ -71,7 +71,8 @@ class Builder {
       const int self = static_cast<int>(nodes_.size());
       nodes_.push_back({});
       if (task.parent >= 0)
-        (task.right ? nodes_[static_cast<std::size_t>(task.parent)].right : nodes_[static_cast<std::size_t>(task.parent)].left) = self;
+        (task.right ? nodes_[static_cast<std::size_t>(task.parent)].right
+                    : nodes_[static_cast<std::size_t>(task.parent)].left) = self;
       Binary node;
       node.bounds = nothing;
       for (int k = task.begin; k < task.end; ++k) node.bounds = join(node.bounds, at(k).bounds);
@@ -214,7 +215,8 @@ class Widener {
       int largest = -1;
       for (std::size_t c = 0; c < children.size(); ++c)
         if (binary(children[c]).left >= 0 &&
-            (largest < 0 || half_area(binary(children[c]).bounds) > half_area(binary(children[static_cast<std::size_t>(largest)]).bounds)))
+            (largest < 0 || half_area(binary(children[c]).bounds) >
+                                half_area(binary(children[static_cast<std::size_t>(largest)]).bounds)))
           largest = static_cast<int>(c);
       if (largest < 0) break;
       const int opened = children[static_cast<std::size_t>(largest)];
@@ -225,11 +227,13 @@ class Widener {
   }
 
   int make_leaf(const Binary& leaf) {
-    const PrimitiveKind kind = out_.input[static_cast<std::size_t>(builder_.order()[static_cast<std::size_t>(leaf.first)])].kind;
+    const PrimitiveKind kind =
+        out_.input[static_cast<std::size_t>(builder_.order()[static_cast<std::size_t>(leaf.first)])].kind;
     auto& slots = slots_[static_cast<std::size_t>(kind)];
     out_.leaves.push_back({slots, static_cast<std::int16_t>(leaf.count), kind});
     slots += leaf.count;
-    for (int k = leaf.first; k < leaf.first + leaf.count; ++k) out_.order.push_back(builder_.order()[static_cast<std::size_t>(k)]);
+    for (int k = leaf.first; k < leaf.first + leaf.count; ++k)
+      out_.order.push_back(builder_.order()[static_cast<std::size_t>(k)]);
     return static_cast<int>(out_.leaves.size()) - 1;
   }
 
@@ -246,7 +250,7 @@ class Widener {
 }  // namespace
 
 Bvh build_bvh(std::vector<BvhInput> input) {
-  assert(!input.empty());
+  assert(!input.empty() && input.size() <= bvh_most_primitives);
   Bvh bvh;
   bvh.input = std::move(input);
   const Builder builder(bvh.input);

@@ -32,6 +32,13 @@ complains() {
   done
 }
 
+# has_exr: whether this build reads and writes EXR.
+has_exr() {
+  "$tyndall" render cornell-box --size 8x8 --spp 1 -q -o probe.exr 2>probe.err && return 0
+  grep -q OpenEXR probe.err || fail "probing for EXR: $(cat probe.err)"
+  return 1
+}
+
 # json FILE KEY: the value of a key of a JSON file, as JSON; fails if the file is not strict JSON.
 json() {
   python3 -c '

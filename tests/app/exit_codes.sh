@@ -42,6 +42,10 @@ expect 2 "$tyndall" render cornell-box -o a.png -o noending
 complains 'noending'
 expect 2 "$tyndall" render cornell-box -o a.png -o a.png
 complains 'twice'
+expect 2 "$tyndall" render cornell-box -o a.png -o ./a.png
+complains 'twice'
+expect 2 "$tyndall" render cornell-box -o a.png --stats a.png
+complains '--stats' '.json'
 expect 2 "$tyndall" chart cornell-box -o a.svg
 complains 'not in this version yet'
 expect 2 "$tyndall" verify
@@ -67,6 +71,8 @@ complains '/camera/vfov' 'fast'
 # Input and output: 3.
 expect 3 "$tyndall" render cornell-box -o folder/a.png --spp 100000
 complains 'folder/a.png' 'folder'
+expect 3 "$tyndall" render cornell-box -o /proc/tyndall.png --spp 100000
+complains '/proc/tyndall.png'
 mkdir taken.png
 expect 3 "$tyndall" render cornell-box -o taken.png --spp 100000
 complains 'taken.png'

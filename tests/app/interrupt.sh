@@ -2,16 +2,19 @@
 # Ctrl-C and SIGTERM: the image so far is written, with its sample count, and can be resumed to the same picture.
 . "$(dirname "$0")/_common.sh"
 
+files=(long.png)
+if has_exr; then files+=(long.exr); fi
+
 # interrupted SIGNAL CODE: a long render that gets the signal after a second.
 interrupted() {
-  rm -f long.exr long.png long.json
-  "$tyndall" render cornell-box --size 64x64 --spp 10000000 -o long.exr -o long.png --stats long.json -q &
+  rm -f long.*
+  "$tyndall" render cornell-box --size 64x64 --spp 10000000 "${files[@]/#/--output=}" --stats long.json -q &
   local render=$! code=0
   sleep 1.5
   kill -"$1" "$render"
   wait "$render" || code=$?
   [ "$code" -eq "$2" ] || fail "SIG$1: exit code $code instead of $2"
-  for file in long.exr long.png long.json; do [ -s "$file" ] || fail "SIG$1: no $file"; done
+  for file in "${files[@]}" long.json; do [ -s "$file" ] || fail "SIG$1: no $file"; done
   local spp
   spp=$(json long.json spp)
   [ "$spp" -ge 1 ] && [ "$spp" -lt 10000000 ] || fail "SIG$1: $spp samples"
@@ -21,10 +24,12 @@ interrupted TERM 143
 interrupted INT 130
 
 # Resumed to a round number, it is the picture of one render.
-spp=$(($(json long.json spp) / 64 * 64 + 128))
-expect 0 "$tyndall" render cornell-box --size 64x64 --spp "$spp" --resume -o long.exr --stats long.json
-same 'samples of a resumed render' "$(json long.json samples)" $((64 * 64 * spp))
-same 'hash of a resumed render' "$(json long.json image_hash)" "$(image_hash cornell-box --size 64x64 --spp "$spp")"
+if [ -s long.exr ]; then
+  spp=$(($(json long.json spp) / 64 * 64 + 128))
+  expect 0 "$tyndall" render cornell-box --size 64x64 --spp "$spp" --resume -o long.exr --stats long.json
+  same 'samples of a resumed render' "$(json long.json samples)" $((64 * 64 * spp))
+  same 'hash of a resumed render' "$(json long.json image_hash)" "$(image_hash cornell-box --size 64x64 --spp "$spp")"
+fi
 
 # The second signal ends at once, even where the first one cannot be heeded.
 "$tyndall" render cornell-box --size 64x64 --spp 10000000 -o twice.png -q &

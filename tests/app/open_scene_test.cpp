@@ -32,8 +32,14 @@ TEST_CASE("what options change is checked too") {
   CHECK_THROWS_AS(open_scene(request), SceneError);
 }
 
-TEST_CASE("methods that are not there are refused") {
-  CHECK_NOTHROW(check_available({}));
-  CHECK_THROWS_AS(check_available({.integrator = Integrator::nee}), UsageError);
-  CHECK_THROWS_AS(check_available({.sampler = SamplerKind::sobol}), UsageError);
+TEST_CASE("methods that are not there are refused, by the scene and by options alike") {
+  SceneRequest request;
+  request.what = "cornell-box";
+  request.integrator = Integrator::mis;
+  CHECK_THROWS_AS(open_scene(request), SceneError);
+  request.integrator = Integrator::path;
+  request.sampler = SamplerKind::sobol;
+  CHECK_THROWS_AS(open_scene(request), SceneError);
+  request.sampler = SamplerKind::random;
+  CHECK_NOTHROW(open_scene(request));
 }

@@ -91,6 +91,7 @@ TEST_CASE("overrides keep their order; the last of a repeated option wins; an ou
   CHECK(c.scene.overrides[1].value == "[1,2,3]");
   CHECK(c.spp == 2u);
   CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
+  CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "--", "-a.json"})).scene.what == "-a.json");
   CHECK(std::get<RenderCommand>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
 }
 
@@ -100,7 +101,8 @@ TEST_CASE("refusals name the option, what was found and what is expected") {
   CHECK(has(refusal({"render", "b", "-o", "a.png", "--spp", "0"}), R"(--spp: found "0")"));
   CHECK(has(refusal({"render", "b", "-o", "a.png", "-t", "0"}), R"(--threads: found "0")"));
   CHECK(has(refusal({"render", "b", "-o", "a.png", "--time", "0"}), "--time"));
-  CHECK(has(refusal({"render", "b", "-o", "a.png", "--spp"}), "--spp"));
+  CHECK(has(refusal({"render", "b", "-o", "a.png", "--spp"}), "--spp: a value is missing"));
+  CHECK(has(refusal({""}), "SCENE is missing"));
   CHECK(has(refusal({"render", "b"}), "an output (-o FILE) is missing"));
   CHECK(has(refusal({"render", "-o", "a.png"}), "SCENE is missing"));
   CHECK(has(refusal({"render", "a", "b", "-o", "a.png"}), R"(unexpected argument "b")"));

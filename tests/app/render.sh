@@ -7,15 +7,20 @@ reference=$(image_hash cornell-box "${small[@]}")
 [ "${#reference}" -eq 18 ] || fail "no hash of 16 digits: $reference" # with quotes
 
 # All formats; standard output stays empty, and so does standard error for a short render.
-expect 0 "$tyndall" render cornell-box "${small[@]}" -o a.png -o a.pfm -o a.hdr -o A.EXR --stats a.json
+files=(a.png a.pfm a.hdr)
+reopened=(again.png)
+if has_exr; then
+  files+=(A.EXR)
+  reopened+=(again.exr)
+fi
+expect 0 "$tyndall" render cornell-box "${small[@]}" "${files[@]/#/--output=}" --stats a.json
 [ ! -s out ] || fail "standard output: $(cat out)"
 [ ! -s err ] || fail "standard error: $(cat err)"
-for file in a.png a.pfm a.hdr A.EXR; do [ -s "$file" ] || fail "no $file"; done
+for file in "${files[@]}"; do [ -s "$file" ] || fail "no $file"; done
 head -c 8 a.png | grep -q PNG || fail 'a.png is no PNG'
 [ "$(head -n 2 a.pfm | tr '\n' ' ')" = 'PF 40 30 ' ] || fail "a.pfm: $(head -n 2 a.pfm | tr '\n' ' ')"
-for other in A.EXR a.pfm; do
-  expect 0 "$tyndall" compare "$other" a.pfm --max-rmse 0
-done
+expect 0 "$tyndall" compare a.pfm a.pfm --max-rmse 0
+if has_exr; then expect 0 "$tyndall" compare A.EXR a.pfm --max-rmse 0; fi
 expect 0 "$tyndall" compare a.hdr a.pfm --max-relmse 0.001
 expect 0 "$tyndall" compare a.png a.pfm --max-flip 0.1
 
@@ -57,7 +62,7 @@ same 'from standard input' "$piped" "$reference"
 # An image can be opened again as the scene that made it, with the settings that were used.
 options=(--size 24x18 --spp 3 --seed 5 --max-depth 4 --exposure 1 --fresnel schlick
   --set '/camera/look_from=[278,278,-700]' --set /materials/white/albedo=[0.5,0.6,0.7])
-for image in again.png again.exr; do
+for image in "${reopened[@]}"; do
   expect 0 "$tyndall" render cornell-box "${options[@]}" -o "$image" --stats first.json
   expect 0 "$tyndall" render "$image" -o second.png --stats second.json
   same "$image opened again" "$(json second.json image_hash)" "$(json first.json image_hash)"
@@ -73,7 +78,7 @@ sed 's/"vfov": 40/"vfov": 30/' "$source_root/assets/scenes/cornell-box.json" >ed
 same '--set' "$(image_hash cornell-box "${small[@]}" --set /camera/vfov=30)" "$(image_hash edited.json "${small[@]}")"
 
 # A region holds the same pixels as the whole image.
-expect 0 "$tyndall" render cornell-box "${small[@]}" --region 8,4,24,20 -o part.pfm -o part.exr --stats part.json
+expect 0 "$tyndall" render cornell-box "${small[@]}" --region 8,4,24,20 -o part.pfm --stats part.json
 same 'width of a region' "$(json part.json width)" 16
 python3 - a.pfm part.pfm <<'CHECK' || fail 'the region differs from the whole image'
 import sys

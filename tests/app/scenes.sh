@@ -5,7 +5,7 @@
 expect 0 "$tyndall" scenes
 for scene in showroom metal-spheres glass-spheres hollow-glass hollow-glass-index wide-view tele-view defocus cover \
   bouncing-spheres checkered-spheres earth perlin-spheres quads simple-light cornell-box cornell-smoke next-week; do
-  grep -q "^$scene  *[A-Z]" out || fail "$scene is not listed"
+  grep -q "^$scene  *[A-Z].* " out || fail "$scene is not listed"
 done
 same 'a line for each scene' "$(wc -l <out)" "$(find "$source_root/assets/scenes" -name '*.json' | wc -l)"
 

@@ -165,6 +165,38 @@ TEST_CASE("trace: of equal distances the lower element wins, in the tree and wit
   }
 }
 
+TEST_CASE("trace: outward a shape is never met again, inward it is always left, at every scale") {
+  for (const double scale : {1e-4, 1.0, 1e3, 1e6}) {
+    Engine engine(13);
+    const Mixture mix{.count = 200, .half_width = 5 * scale, .middle = {}, .smallest = 0.02 * scale, .largest = scale};
+    const RenderScene scene = compile(mixed_scene(engine, mix));
+    const Elements& all = scene.elements;
+    for (const Kernels& kernels : available_kernels()) {
+      const auto rays = rays_from_surfaces(engine, scene, kernels, random_rays(engine, 100000, 8 * scale));
+      const std::vector<TraceHit> hits = traced(kernels, scene, rays);
+      int met_again = 0, lost = 0, closed = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto start = static_cast<std::size_t>(rays[i].from / 4);
+        const bool outward = rays[i].from % 4 == static_cast<std::int32_t>(Side::outward);
+        const bool quad = std::find(scene.quads.element.begin(), scene.quads.element.end(), rays[i].from / 4) !=
+                          scene.quads.element.end();
+        const bool itself =
+            hits[i].element >= 0 && all.object[static_cast<std::size_t>(hits[i].element)] == all.object[start];
+        if (outward || quad) {
+          met_again += itself ? 1 : 0;
+        } else {
+          ++closed;
+          lost += hits[i].element < 0 || !(hits[i].t > 0) ? 1 : 0;
+        }
+      }
+      CAPTURE(scale);
+      CHECK(met_again == 0);
+      CHECK(lost == 0);
+      CHECK(closed > 1000);
+    }
+  }
+}
+
 TEST_CASE("trace: no rays, no primitives") {
   const RenderScene empty = compile(Scene{});
   for (const Kernels& kernels : available_kernels()) {

@@ -169,14 +169,21 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
     }
     log.submitted(1, 10);
     log.submitted(2, 10.5);
-    log.shown(1, 0, 8, 10.02);
-    log.shown(1, 1, 1, 10.05);
-    log.shown(2, 1, 1, 10.6);
+    Frame frame;
+    frame.edit = 1;
+    frame.step = 8;
+    frame.first_picture_ms = 15;
+    log.shown(frame, 10.02);
+    frame.step = 1;
+    frame.spp = 1;
+    log.shown(frame, 10.05);
+    frame.edit = 2;
+    log.shown(frame, 10.6);
     log.drawn(0.002, true);
   }
   CHECK(read(file) ==
         "widget gold.fuzz 1 2 3 4 0.1\nwidget a_name 0 0 1 1 x\ngone a_name\nwidget gold.fuzz 1 2 3 4 0.2\n"
-        "submit 1\nsubmit 2\nframe 1 0 8 20.0\nframe 1 1 1 50.0\nframe 2 1 1 100.0\ndrawn 2.00 1\n"
+        "submit 1\nsubmit 2\nframe 1 0 8 20.0 15.0\nframe 1 1 1 50.0 15.0\nframe 2 1 1 100.0 15.0\ndrawn 2.00 1\n"
         "latency n 2 p50 20.0 p95 100.0 p99 100.0 max 100.0 ms\n"
         "cpu picture n 1 p50 2.0 p95 2.0 p99 2.0 max 2.0 ms\ncpu plain n 0 p50 0.0 p95 0.0 p99 0.0 max 0.0 ms\n");
   CHECK_THROWS_AS(UiLog("/no/such/folder/log"), std::exception);

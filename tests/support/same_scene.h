@@ -1,0 +1,54 @@
+#pragma once
+#include "core/compile/render_scene.h"
+
+#include <algorithm>
+#include <vector>
+
+/// Whether two compiled scenes are the same to the last bit.
+namespace tyndall::test {
+
+inline bool same(const Affine& a, const Affine& b) {
+  return std::equal(a.row, a.row + 3, b.row) && std::equal(a.offset, a.offset + 3, b.offset);
+}
+inline bool same(const Flats& a, const Flats& b) {
+  return a.element == b.element && std::equal(a.map.begin(), a.map.end(), b.map.begin(), b.map.end(),
+                                              [](const Affine& x, const Affine& y) { return same(x, y); });
+}
+inline bool same(const Spheres& a, const Spheres& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.radius == b.radius && a.move_x == b.move_x &&
+         a.move_y == b.move_y && a.move_z == b.move_z && a.element == b.element;
+}
+inline bool same(const Elements& a, const Elements& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.inverse_radius == b.inverse_radius && a.move_x == b.move_x &&
+         a.material == b.material && a.uv == b.uv && a.object == b.object;
+}
+inline bool same(const CameraColumns& a, const CameraColumns& b) {
+  return a.center == b.center && a.corner == b.corner && a.du == b.du && a.dv == b.dv && a.lens_u == b.lens_u &&
+         a.lens_v == b.lens_v && a.axis == b.axis && a.shutter_open == b.shutter_open &&
+         a.shutter_length == b.shutter_length;
+}
+inline bool same(const Materials& a, const Materials& b) {
+  return a.kind == b.kind && a.red == b.red && a.green == b.green && a.blue == b.blue && a.texture == b.texture &&
+         a.parameter == b.parameter;
+}
+inline bool same(const std::vector<MediumColumns>& a, const std::vector<MediumColumns>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const MediumColumns& x, const MediumColumns& y) {
+    return x.box == y.box && x.center == y.center && x.radius == y.radius && same(x.map, y.map) && x.first == y.first &&
+           x.count == y.count && x.density == y.density && x.g == y.g && x.albedo == y.albedo && x.texture == y.texture;
+  });
+}
+inline bool same_geometry(const RenderScene& a, const RenderScene& b) {
+  return same(a.spheres, b.spheres) && same(a.moving_spheres, b.moving_spheres) && same(a.quads, b.quads) &&
+         same(a.boxes, b.boxes) && same(a.elements, b.elements) && same(a.media, b.media);
+}
+inline bool same_tree(const RenderScene& a, const RenderScene& b) {
+  if (!a.bvh || !b.bvh) return a.bvh == b.bvh;
+  return a.bvh->input == b.bvh->input && a.bvh->order == b.bvh->order && a.bvh->nodes.size() == b.bvh->nodes.size();
+}
+inline bool same(const RenderScene& a, const RenderScene& b) {
+  return same_geometry(a, b) && same_tree(a, b) && same(a.camera, b.camera) && same(a.materials, b.materials) &&
+         a.origin == b.origin && a.needs == b.needs && a.film_unit == b.film_unit && a.max_depth == b.max_depth &&
+         a.seed == b.seed && a.schlick == b.schlick && a.width == b.width && a.height == b.height;
+}
+
+}  // namespace tyndall::test
