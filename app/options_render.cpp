@@ -1,13 +1,16 @@
 #include "app/options_render.h"
 
+#include "core/scene/names.h"
+
 namespace tyndall {
 namespace {
 
 using Text = const std::string&;
 
-template <class Enum>
-Enum read_enum(Text text, const std::vector<std::string>& names) {
-  return static_cast<Enum>(read_name(text, names));
+template <class E, std::size_t n>
+E read_named(Text text, const Named<E> (&table)[n]) {
+  const std::vector<std::string_view> names = names_in(table);
+  return table[static_cast<std::size_t>(read_name(text, {names.begin(), names.end()}))].value;
 }
 
 void add_image_options(CommandLine& line, SceneRequest& scene) {
@@ -17,31 +20,22 @@ void add_image_options(CommandLine& line, SceneRequest& scene) {
              "stops, of PNG and window only: light times 2^EV\n"
              "[from the scene, else 0]",
              [&](Text t) { scene.exposure = read_number(t, between(-100, 100), "a number of stops, -100 to 100"); });
-  line.value("--tone-map", "NAME", "of PNG and window only: srgb or aces [from the scene, else srgb]", [&](Text t) {
-    scene.tone_map = read_enum<ToneMap>(t, {"srgb", "aces"});
-  });
+  line.value("--tone-map", "NAME", "of PNG and window only: srgb or aces [from the scene, else srgb]",
+             [&](Text t) { scene.tone_map = read_named(t, tone_maps); });
 }
 
 void add_method_options(CommandLine& line, SceneRequest& scene) {
   line.group("Method");
   line.value("--integrator", "NAME",
-             "path: no light sampling [from the scene, else path];\n"
-             "nee and mis are not in this version yet",
-             [&](Text t) {
-               scene.integrator = read_enum<Integrator>(t, {"path", "nee", "mis"});
-             });
-  line.value("--sampler", "NAME",
-             "random [from the scene, else random];\n"
-             "sobol is not in this version yet",
-             [&](Text t) {
-               scene.sampler = read_enum<SamplerKind>(t, {"random", "sobol"});
-             });
+             "mis: light sampling, weighted; nee: without the weights;\n"
+             "path: no light sampling [from the scene, else mis]",
+             [&](Text t) { scene.integrator = read_named(t, integrators); });
+  line.value("--sampler", "NAME", "sobol (scrambled) or random [from the scene, else sobol]",
+             [&](Text t) { scene.sampler = read_named(t, samplers); });
   line.value("--fresnel", "NAME",
              "exact, or schlick: the books' rule, wrong by up to 0.93 inside\n"
              "glass, for comparison [from the scene, else exact]",
-             [&](Text t) {
-               scene.fresnel = read_enum<FresnelKind>(t, {"exact", "schlick"});
-             });
+             [&](Text t) { scene.fresnel = read_named(t, fresnel_rules); });
   line.value("--max-depth", "N",
              "longest path in scattering events; 0: lights and background\n"
              "only [from the scene, else 1000]",
@@ -88,7 +82,7 @@ void add_output(CommandLine& line, RenderCommand& command) {
   line.value("--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
   line.flag("--resume", "go on from the film in the .exr output, if there is one", command.resume);
   line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
-    command.progress = read_enum<ProgressStyle>(t, {"auto", "plain", "none"});
+    command.progress = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
   });
 }
 

@@ -1,6 +1,7 @@
 #include "app/stats.h"
 
 #include "core/film/error.h"
+#include "core/scene/names.h"
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -28,18 +29,14 @@ double per_second(std::uint64_t count, double seconds) {
   return seconds > 0 ? static_cast<double>(count) / seconds / 1e6 : 0;
 }
 
-const char* name(Integrator i) { return i == Integrator::path ? "path" : i == Integrator::nee ? "nee" : "mis"; }
-const char* name(SamplerKind s) { return s == SamplerKind::random ? "random" : "sobol"; }
-const char* name(FresnelKind f) { return f == FresnelKind::exact ? "exact" : "schlick"; }
-
 void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
   const RenderSettings& settings = run.settings.render;
   json["isa"] = run.result.isa;
   json["lanes"] = run.result.lanes;
   json["kernel_features"] = names_of(run.compiled.needs);
-  json["integrator"] = name(settings.integrator);
-  json["sampler"] = name(settings.sampler);
-  json["fresnel"] = name(settings.fresnel);
+  json["integrator"] = name_of(integrators, settings.integrator);
+  json["sampler"] = name_of(samplers, settings.sampler);
+  json["fresnel"] = name_of(fresnel_rules, settings.fresnel);
   json["relative_error_estimate"] = number(estimated_relative_error(run.result.film));
   json["rejected_samples"] = sum.rejected;
   json["truncated_paths"] = sum.truncated;

@@ -1,15 +1,15 @@
 #include "app/window/convergence.h"
 
+#include "core/scene/names.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace tyndall {
 
 std::string method_of(const RenderSettings& settings) {
-  static constexpr const char* integrators[] = {"path", "nee", "mis"};
-  static constexpr const char* samplers[] = {"random", "sobol"};
-  std::string method = std::string(integrators[static_cast<int>(settings.integrator)]) + " · " +
-                       samplers[static_cast<int>(settings.sampler)];
+  std::string method =
+      std::string(name_of(integrators, settings.integrator)) + " · " + name_of(samplers, settings.sampler);
   if (settings.fresnel == FresnelKind::schlick) method += " · schlick";
   return method;
 }

@@ -135,7 +135,7 @@ void texture_rows(Ui& ui, Texture& texture) {
   Noise<>& noise = std::get<Noise<>>(texture.kind);
   field_rows(ui, noise);
   std::vector<Choice> choices;
-  for (const auto& style : noise_styles) choices.push_back({style.name, style.missing});
+  for (const auto& style : noise_styles) choices.push_back({style.name});
   int chosen = static_cast<int>(noise.style);
   if (choice_row(ui, {"style", "Style", {}, {}, "", "", ""}, choices, chosen))
     noise.style = noise_styles[static_cast<std::size_t>(chosen)].value;

@@ -18,7 +18,7 @@ bool named_row(Ui& ui, const Row& row, const Named<E> (&table)[n], E& value) {
   Choice choices[n];
   int chosen = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    choices[k] = {table[k].name, table[k].missing};
+    choices[k] = {table[k].name};
     if (table[k].value == value) chosen = static_cast<int>(k);
   }
   if (!choice_row(ui, row, choices, chosen)) return false;

@@ -193,7 +193,8 @@ TYNDALL_INLINE std::uint32_t bits(Mask<n> a) {
   for (int i = 0; i < n; ++i) {
     alignas(8) std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(TagF(), a.v[i], bytes);
-    all_bits |= (static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8) << (i * native_lanes);
+    all_bits |= (static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8)
+                << (i * native_lanes);
   }
   return all_bits;
 }
@@ -339,53 +340,44 @@ inline constexpr int vectors_of = LaneTypes<F>::vectors;
 
 // What is asked with F given by name: from_int<F>, gather<F>, load<F>, mask_from_bits<F>.
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE F from_int(IntOf<F> v) {
-  return float_from_int(v);
-}
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE F from_int(IntOf<F> v) { return float_from_int(v); }
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
   F r;
   for (int i = 0; i < detail::vectors_of<F>; ++i)
     r.v[i] = HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagF(), table, index.v[i]);
   return r;
 }
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
   IntOf<F> r;
   for (int i = 0; i < detail::vectors_of<F>; ++i)
     r.v[i] = HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagI(), table, index.v[i]);
   return r;
 }
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE F load(const float* from) {
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE F load(const float* from) {
   F r;
   for (int i = 0; i < detail::vectors_of<F>; ++i)
     r.v[i] = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagF(), from + i * HWY_NAMESPACE::native_lanes);
   return r;
 }
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
   IntOf<F> r;
   for (int i = 0; i < detail::vectors_of<F>; ++i)
     r.v[i] = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagI(), from + i * HWY_NAMESPACE::native_lanes);
   return r;
 }
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   UintOf<F> r;
   for (int i = 0; i < detail::vectors_of<F>; ++i)
     r.v[i] = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from + i * HWY_NAMESPACE::native_lanes);
   return r;
 }
 template <class F>
-  requires(LaneTypes<F>::vectors > 0)
-TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
+requires(LaneTypes<F>::vectors > 0) TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
   MaskOf<F> m;
   for (int i = 0; i < detail::vectors_of<F>; ++i) {
     const std::uint32_t part = b >> (i * HWY_NAMESPACE::native_lanes);

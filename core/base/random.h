@@ -86,14 +86,15 @@ TYNDALL_INLINE U sobol_second(U x) {
 }
 
 /// The numbers of one sample.
-/// `random`: independent, counter-based. `sobol`: each dimension or pair of dimensions is its own (0,2)-sequence over the
-/// samples of a pixel, shuffled and digitally shifted (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020,
-/// section 4, with a digital shift in place of the scrambling); sample i is point i/2 of randomisation i mod 2.
+/// `random`: independent, counter-based. `sobol`: each dimension or pair of dimensions is its own (0,2)-sequence over
+/// the samples of a pixel, shuffled and digitally shifted (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4),
+/// 2020, section 4, with a digital shift in place of the scrambling); sample i is point i/2 of randomisation i mod 2.
 template <class F>
 struct Dice {
   using U = UintOf<F>;
-  U low, high;  ///< random: 64 bits that name (seed, x, y, sample); sobol: pixel and half, and the point's reversed index
-  U event;      ///< golden_ratio · the first dimension of the current event
+  U low,
+      high;  ///< random: 64 bits that name (seed, x, y, sample); sobol: pixel and half, and the point's reversed index
+  U event;   ///< golden_ratio · the first dimension of the current event
   bool sobol;
 
   /// Key of one sample; x, y: pixel in full-image coordinates. `random`: two chains of hashes in different orders, so

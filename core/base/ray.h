@@ -12,7 +12,8 @@ enum class Side : std::int32_t {
   within = 2,   ///< somewhere inside: meets the far side
 };
 
-inline constexpr std::int32_t from_nowhere = -4;  ///< a free start: the camera, or a scattering outside all that is tracked
+inline constexpr std::int32_t from_nowhere =
+    -4;  ///< a free start: the camera, or a scattering outside all that is tracked
 
 /// A group of rays. direction: unit length. from: 4·element + side, or from_nowhere.
 template <class F>
@@ -47,13 +48,13 @@ TYNDALL_INLINE Start<F> start_on(IntOf<F> from, std::int32_t first, std::int32_t
 /// What meets a surface, for one scattering event.
 template <class F>
 struct Incident {
-  Vec3<F> direction;   ///< unit, towards the surface
-  Vec3<F> normal;      ///< unit, the surface's own (reversed for a negative radius)
-  Vec3<F> facing;      ///< the normal, turned against the direction
-  F cosine;            ///< between facing and the reversed direction, in [0, 1]
-  MaskOf<F> along;     ///< the direction goes along the normal: leaving what the surface encloses
-  Vec3<F> unit;        ///< uniform on the unit sphere, from the event's direction dimensions
-  bool schlick;        ///< the books' approximation of Fresnel's equations
+  Vec3<F> direction;  ///< unit, towards the surface
+  Vec3<F> normal;     ///< unit, the surface's own (reversed for a negative radius)
+  Vec3<F> facing;     ///< the normal, turned against the direction
+  F cosine;           ///< between facing and the reversed direction, in [0, 1]
+  MaskOf<F> along;    ///< the direction goes along the normal: leaving what the surface encloses
+  Vec3<F> unit;       ///< uniform on the unit sphere, from the event's direction dimensions
+  bool schlick;       ///< the books' approximation of Fresnel's equations
   const Dice<F>* dice;
 };
 

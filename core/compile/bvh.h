@@ -16,7 +16,7 @@ enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box };
 
 /// A primitive as the builder sees it.
 struct BvhInput {
-  Bounds bounds;        ///< finite; exact or wider
+  Bounds bounds;  ///< finite; exact or wider
   PrimitiveKind kind;
   bool operator==(const BvhInput&) const = default;
 };
@@ -44,9 +44,10 @@ struct BvhLeaf {
 struct Bvh {
   std::vector<BvhNode> nodes;  ///< node 0 is the root; never empty
   std::vector<BvhLeaf> leaves;
-  std::vector<std::int32_t> order;  ///< order[k]: input whose place in its kind's slots is k-th of that kind, in tree order
-  std::vector<BvhInput> input;      ///< what it was built from: equal input, equal tree
-  int depth = 0;                    ///< of the deepest node, root 1: bounds the traversal's stack
+  std::vector<std::int32_t>
+      order;                    ///< order[k]: input whose place in its kind's slots is k-th of that kind, in tree order
+  std::vector<BvhInput> input;  ///< what it was built from: equal input, equal tree
+  int depth = 0;                ///< of the deepest node, root 1: bounds the traversal's stack
 };
 
 /// Builds with the surface area heuristic (binned). A pure function of the input. Identical centroids are split in the

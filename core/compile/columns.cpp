@@ -25,7 +25,9 @@ std::shared_ptr<const std::vector<float>> linear_texels(const Image::Pixels& pix
   return texels;
 }
 
-Vec3d modulo(Vec3d v, double period) { return {std::fmod(v.x, period), std::fmod(v.y, period), std::fmod(v.z, period)}; }
+Vec3d modulo(Vec3d v, double period) {
+  return {std::fmod(v.x, period), std::fmod(v.y, period), std::fmod(v.z, period)};
+}
 
 void fill(TextureColumns& out, const Solid<>& solid, Vec3d) { out.a = to_float(solid.color); }
 
@@ -122,7 +124,8 @@ std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures
 std::shared_ptr<const std::vector<float>> gradient_table() {
   auto table = std::make_shared<std::vector<float>>();
   for (std::uint32_t i = 0; i < 256; ++i) {
-    const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)), turn = 2 * pi * unit_interval<double>(hash(2 * i + 2));
+    const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)),
+                 turn = 2 * pi * unit_interval<double>(hash(2 * i + 2));
     const double r = std::sqrt(1 - z * z);
     for (const double c : {r * std::cos(turn), r * std::sin(turn), z}) table->push_back(static_cast<float>(c));
   }

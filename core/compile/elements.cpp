@@ -65,12 +65,18 @@ void append_shape(const Box<>& b, const PlacedShape& shape, Vec3d origin, bool u
 BoxFace box_face_edges(const Box<>& b, std::int32_t face) {
   const Vec3d d = b.max - b.min, dx{d.x, 0, 0}, dy{0, d.y, 0}, dz{0, 0, d.z};
   switch (face) {
-    case 0: return {{-1, 0, 0}, b.min, dz, dy};
-    case 1: return {{1, 0, 0}, {b.max.x, b.min.y, b.max.z}, -dz, dy};
-    case 2: return {{0, -1, 0}, b.min, dx, dz};
-    case 3: return {{0, 1, 0}, {b.min.x, b.max.y, b.max.z}, dx, -dz};
-    case 4: return {{0, 0, -1}, {b.max.x, b.min.y, b.min.z}, -dx, dy};
-    default: return {{0, 0, 1}, {b.min.x, b.min.y, b.max.z}, dx, dy};
+    case 0:
+      return {{-1, 0, 0}, b.min, dz, dy};
+    case 1:
+      return {{1, 0, 0}, {b.max.x, b.min.y, b.max.z}, -dz, dy};
+    case 2:
+      return {{0, -1, 0}, b.min, dx, dz};
+    case 3:
+      return {{0, 1, 0}, {b.min.x, b.max.y, b.max.z}, dx, -dz};
+    case 4:
+      return {{0, 0, -1}, {b.max.x, b.min.y, b.min.z}, -dx, dy};
+    default:
+      return {{0, 0, 1}, {b.min.x, b.min.y, b.max.z}, dx, dy};
   }
 }
 

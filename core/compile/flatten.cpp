@@ -32,14 +32,17 @@ void flatten_list(const std::vector<Object>& objects, const Placement& outer, st
     const Object& object = objects[i];
     const Placement here = compose(outer, placement_of(object.transform));
     path.push_back(static_cast<int>(i));
-    std::visit(Overloaded{[&](const Solid3d& s) { out.shapes.push_back({s.shape, here, s.material, path}); },
-                          [&](const Volume& v) {
-                            if (v.medium.density > 0)
-                              out.volumes.push_back(
-                                  {v.boundary, compose(here, placement_of(v.boundary_transform)), v.medium, v.albedo, {}});
-                          },
-                          [&](const Group& g) { flatten_list(g.objects, here, path, out); }},
-               object.kind);
+    std::visit(
+        Overloaded{[&](const Solid3d& s) {
+                     out.shapes.push_back({s.shape, here, s.material, path});
+                   },
+                   [&](const Volume& v) {
+                     if (v.medium.density > 0)
+                       out.volumes.push_back(
+                           {v.boundary, compose(here, placement_of(v.boundary_transform)), v.medium, v.albedo, {}});
+                   },
+                   [&](const Group& g) { flatten_list(g.objects, here, path, out); }},
+        object.kind);
     path.pop_back();
   }
 }
@@ -70,8 +73,12 @@ Placement compose(const Placement& outer, const Placement& inner) {
 Placement placement_of(const Transform& list) {
   Placement result;
   for (const auto& step : list)
-    result = compose(std::visit(Overloaded{[](const RotateY& r) { return Placement{r.degrees, {}}; },
-                                           [](const Translate& t) { return Placement{0, t.offset}; }},
+    result = compose(std::visit(Overloaded{[](const RotateY& r) {
+                                             return Placement{r.degrees, {}};
+                                           },
+                                           [](const Translate& t) {
+                                             return Placement{0, t.offset};
+                                           }},
                                 step),
                      result);
   return result;

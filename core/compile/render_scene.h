@@ -28,10 +28,10 @@ std::vector<std::string> names_of(const Needs& needs);
 
 /// Camera in the form of Ray Tracing in One Weekend, section 13.2: rays start in the lens and pass the plane in focus.
 struct CameraColumns {
-  Vec3f center;             ///< of the lens
-  Vec3f corner, du, dv;     ///< from the centre to the upper left corner of the focus plane; steps of one pixel
-  Vec3f lens_u, lens_v;     ///< half axes of the lens; zero without defocus
-  Vec3f axis;               ///< unit, into the scene
+  Vec3f center;          ///< of the lens
+  Vec3f corner, du, dv;  ///< from the centre to the upper left corner of the focus plane; steps of one pixel
+  Vec3f lens_u, lens_v;  ///< half axes of the lens; zero without defocus
+  Vec3f axis;            ///< unit, into the scene
   float shutter_open = 0, shutter_length = 0;
 };
 
@@ -43,7 +43,7 @@ struct BackgroundColumns {
 
 /// Primitives of one kind, in slots that follow the tree. `element` is a primitive's first element: what a hit names.
 struct Spheres {
-  std::vector<float> x, y, z, radius;  ///< radius > 0
+  std::vector<float> x, y, z, radius;         ///< radius > 0
   std::vector<float> move_x, move_y, move_z;  ///< only for moving spheres: way from time 0 to 1
   std::vector<std::int32_t> element;
 };
@@ -77,9 +77,9 @@ struct Materials {
 struct TextureColumns {
   enum Kind : std::int32_t { solid, checker, noise, image };  ///< in the order of TextureKinds
   std::int32_t kind = solid;
-  Vec3f a, b;             ///< solid: a; checker: even, odd
-  float scale = 1;        ///< checker: 1 / edge; noise: cells per unit
-  Vec3f offset;           ///< added after scaling: the scene's origin, modulo the pattern's period
+  Vec3f a, b;                       ///< solid: a; checker: even, odd
+  float scale = 1;                  ///< checker: 1 / edge; noise: cells per unit
+  Vec3f offset;                     ///< added after scaling: the scene's origin, modulo the pattern's period
   float z_scale = 0, z_offset = 0;  ///< marble: turns per unit of z, and the origin's
   Noise<double>::Style style = Noise<double>::Style::marble;
   int width = 0, height = 0;
@@ -89,11 +89,11 @@ struct TextureColumns {
 
 struct MediumColumns {
   bool box = false;
-  Vec3f center;      ///< sphere
+  Vec3f center;  ///< sphere
   float radius = 0;
-  Affine map;        ///< box
+  Affine map;                         ///< box
   std::int32_t first = 0, count = 1;  ///< the boundary's elements: those of the surface it equals, or its own
-  float density = 0;  ///< > 0
+  float density = 0;                  ///< > 0
   float g = 0;
   Vec3f albedo;
   std::int32_t texture = -1;
@@ -107,9 +107,9 @@ struct Lights {
   std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
   std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
   std::vector<float> area;
-  std::vector<float> center[3];           ///< for choosing
-  std::vector<float> power;               ///< area times the largest component of the radiance
-  std::vector<float> reach2;              ///< squared radius of a ball around center that holds the light
+  std::vector<float> center[3];  ///< for choosing
+  std::vector<float> power;      ///< area times the largest component of the radiance
+  std::vector<float> reach2;     ///< squared radius of a ball around center that holds the light
   /// Choice by power alone, for many lights: Vose's alias table.
   std::vector<float> probability, keep;
   std::vector<std::int32_t> alias;
@@ -135,7 +135,7 @@ struct RenderScene {
   std::uint32_t seed = 0;
   bool schlick = false;
   bool sobol = false;
-  bool light_sampling = false;  ///< integrators nee and mis
+  bool light_sampling = false;       ///< integrators nee and mis
   bool multiple_importance = false;  ///< mis
   double film_unit = 1;
   Needs needs;

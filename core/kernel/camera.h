@@ -66,7 +66,7 @@ struct CameraQueue {
   static constexpr int lanes = lanes_of<F>;
   alignas(64) float ox[lanes], oy[lanes], oz[lanes], dx[lanes], dy[lanes], dz[lanes], time[lanes];
   alignas(64) std::int32_t low[lanes], high[lanes];
-  std::int32_t slot[lanes];    ///< pixel within the tile
+  std::int32_t slot[lanes];  ///< pixel within the tile
   std::uint32_t half[lanes];
   int next = 0, end = 0;
 };

@@ -17,7 +17,9 @@ bool runs_avx2() {
 }
 #endif
 #if defined(TYNDALL_HAVE_AVX512)
-bool runs_avx512() { return __builtin_cpu_supports("x86-64-v4") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul"); }
+bool runs_avx512() {
+  return __builtin_cpu_supports("x86-64-v4") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
+}
 #endif
 
 }  // namespace

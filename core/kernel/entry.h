@@ -40,7 +40,8 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
       alignas(64) float column[7][lanes] = {};
       alignas(64) std::int32_t element[lanes];
       for (int k = 0; k < lanes; ++k) column[0][k] = static_cast<float>(x + k) + 0.5f;
-      const Ray<F> ray = camera_ray(s.camera, load<F>(column[0]), splat<F>(static_cast<float>(y) + 0.5f), middle_of_lens, time);
+      const Ray<F> ray =
+          camera_ray(s.camera, load<F>(column[0]), splat<F>(static_cast<float>(y) + 0.5f), middle_of_lens, time);
       const auto everywhere = less(F(0.0f), F(1.0f));
       const Hit<F> hit = closest(s, ray, everywhere);
       const auto met = less_equal(IntOf<F>(0), hit.element);

@@ -42,8 +42,8 @@ TYNDALL_INLINE MaskOf<F> beats(F t, std::int32_t element, MaskOf<F> hit, const H
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t element, const Ray<F>& ray,
-                                const Q& asked, Hit<F>& best) {
+TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t element, const Ray<F>& ray, const Q& asked,
+                                Hit<F>& best) {
   const Vec3<F> to_center = center - ray.origin;
   Interval<F> line = sphere_interval(to_center, splat<F>(radius), ray.direction);
   const Start<F> start = start_on<F>(ray.from, element, 1);
@@ -64,11 +64,12 @@ TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray,
-                                        const Q& asked, Hit<F>& best) {
+TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& asked,
+                                        Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const Vec3<F> way = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
-    test_sphere(along(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, way), s.radius[i], s.element[i], ray, asked, best);
+    test_sphere(along(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, way), s.radius[i], s.element[i], ray, asked,
+                best);
   }
 }
 
@@ -133,7 +134,8 @@ struct Slopes {
 };
 template <class F>
 TYNDALL_INLINE Slopes<F> slopes_of(const Ray<F>& ray) {
-  const Vec3<F> slope{safe_reciprocal(ray.direction.x), safe_reciprocal(ray.direction.y), safe_reciprocal(ray.direction.z)};
+  const Vec3<F> slope{safe_reciprocal(ray.direction.x), safe_reciprocal(ray.direction.y),
+                      safe_reciprocal(ray.direction.z)};
   return {slope, -(ray.origin * slope)};
 }
 
@@ -175,10 +177,18 @@ TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray
                               Hit<F>& best) {
   const int last = leaf.first + leaf.count;
   switch (leaf.kind) {
-    case PrimitiveKind::sphere: test_spheres(s.spheres, leaf.first, last, ray, asked, best); break;
-    case PrimitiveKind::moving_sphere: test_moving_spheres(s.moving_spheres, leaf.first, last, ray, asked, best); break;
-    case PrimitiveKind::quad: test_quads(s.quads, leaf.first, last, ray, asked, best); break;
-    case PrimitiveKind::box: test_boxes(s.boxes, leaf.first, last, ray, asked, best); break;
+    case PrimitiveKind::sphere:
+      test_spheres(s.spheres, leaf.first, last, ray, asked, best);
+      break;
+    case PrimitiveKind::moving_sphere:
+      test_moving_spheres(s.moving_spheres, leaf.first, last, ray, asked, best);
+      break;
+    case PrimitiveKind::quad:
+      test_quads(s.quads, leaf.first, last, ray, asked, best);
+      break;
+    case PrimitiveKind::box:
+      test_boxes(s.boxes, leaf.first, last, ray, asked, best);
+      break;
   }
 }
 
@@ -219,7 +229,8 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
   return best;
 }
 
-/// Lanes whose way to `distance` is blocked by something else than element `aim`; the other faces of a box are in its way.
+/// Lanes whose way to `distance` is blocked by something else than element `aim`; the other faces of a box are in its
+/// way.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};

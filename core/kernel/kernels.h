@@ -12,9 +12,9 @@ namespace tyndall {
 
 /// A unit of work: samples [first, last) of the pixels of a tile.
 struct Unit {
-  Region tile;                       ///< full-image coordinates
-  int step = 1;                      ///< only pixels whose x and y are multiples of step; step 1: all
-  int skip_step = 0;                 ///< > 0: pixels whose x and y are both multiples of it are left out (done before)
+  Region tile;                        ///< full-image coordinates
+  int step = 1;                       ///< only pixels whose x and y are multiples of step; step 1: all
+  int skip_step = 0;                  ///< > 0: pixels whose x and y are both multiples of it are left out (done before)
   std::uint32_t first = 0, last = 0;  ///< sample indices
 };
 
@@ -34,7 +34,7 @@ struct TraceRay {
   std::int32_t from = -4;  ///< see Ray::from
 };
 struct TraceHit {
-  float t = 0;               ///< distance; meaningless without a hit
+  float t = 0;                ///< distance; meaningless without a hit
   std::int32_t element = -1;  ///< -1: nothing hit
   bool operator==(const TraceHit&) const = default;
 };

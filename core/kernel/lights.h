@@ -22,8 +22,13 @@ TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
   const auto value = [&](const float* column) { return l.count == 1 ? splat<F>(column[0]) : gather<F>(column, k); };
   const auto vector = [&](const float* const* c) { return Vec3<F>{value(c[0]), value(c[1]), value(c[2])}; };
   return {l.count == 1 ? IntOf<F>(l.kind[0]) : gather_int<F>(l.kind, k),
-          vector(l.corner), vector(l.edge_u), vector(l.edge_v), vector(l.normal),
-          value(l.length_u), value(l.length_v), value(l.area)};
+          vector(l.corner),
+          vector(l.edge_u),
+          vector(l.edge_v),
+          vector(l.normal),
+          value(l.length_u),
+          value(l.length_v),
+          value(l.area)};
 }
 
 /// What light k is worth at a point: its power over the squared distance, which stays finite within its reach.
@@ -88,14 +93,14 @@ TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> 
 }
 
 /// A rectangle seen from a point: its edges in its own frame with the point at the origin, and its solid angle.
-/// The corners as complex numbers, z r + i x y: the angle of their product is the solid angle; so one arc tangent serves
-/// for Ureña, Fajardo, King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+/// The corners as complex numbers, z r + i x y: the angle of their product is the solid angle; so one arc tangent
+/// serves for Ureña, Fajardo, King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
 template <class F>
 struct SphericalRectangle {
-  F x0, y0, x1, y1, z;      ///< z >= 0; in units of `scale`
+  F x0, y0, x1, y1, z;  ///< z >= 0; in units of `scale`
   F scale;
-  F solid_angle;            ///< 0: too small, too flat or too wide for these formulas; sample the area instead
-  F turn_cos, turn_sin;     ///< of the angle of conj(c01) c00
+  F solid_angle;         ///< 0: too small, too flat or too wide for these formulas; sample the area instead
+  F turn_cos, turn_sin;  ///< of the angle of conj(c01) c00
 };
 
 template <class F>
@@ -116,7 +121,8 @@ TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light
   const Vec3<F> way = light.corner - point;
   SphericalRectangle<F> r;
   const F x = dot(way, light.edge_u), y = dot(way, light.edge_v), z = abs(dot(way, light.normal));
-  const F largest = max(max(max(abs(x), abs(x + light.length_u)), max(abs(y), abs(y + light.length_v))), max(z, F(1e-30f)));
+  const F largest =
+      max(max(max(abs(x), abs(x + light.length_u)), max(abs(y), abs(y + light.length_v))), max(z, F(1e-30f)));
   r.scale = largest;
   const F down = F(1.0f) / largest;
   r.x0 = x * down, r.y0 = y * down, r.z = z * down;
@@ -159,8 +165,8 @@ TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pa
 /// A sphere seen from a point.
 template <class F>
 struct SphericalCap {
-  Vec3<F> axis;      ///< unit, towards the centre
-  F one_minus_cos;   ///< of the half angle; 2: the point is inside, every direction meets it
+  Vec3<F> axis;     ///< unit, towards the centre
+  F one_minus_cos;  ///< of the half angle; 2: the point is inside, every direction meets it
   F density;
 };
 
@@ -196,14 +202,15 @@ template <class F>
 struct LightSample {
   Vec3<F> direction;  ///< unit
   F distance;
-  F density;          ///< per steradian, the choice of the light not included; 0: nothing can come from there
+  F density;  ///< per steradian, the choice of the light not included; 0: nothing can come from there
 };
 
 template <class F>
 TYNDALL_INLINE LightSample<F> sample_flat(const LightColumns<F>& light, Vec3<F> point, Pair<F> u) {
   const SphericalRectangle<F> r = rectangle_from(light, point);
   const auto by_area = equal(r.solid_angle, F(0.0f));
-  Vec3<F> way = along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
+  Vec3<F> way =
+      along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
   if (!all(by_area)) {
     const Pair<F> at = on_spherical_rectangle(r, u);
     const F side = copy_sign(F(1.0f), dot(light.corner - point, light.normal));
@@ -247,7 +254,8 @@ TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, V
 /// Density per steradian with which a direction from `point`, which meets `light` at `distance`, would be sampled; the
 /// choice of the light included.
 template <class F>
-TYNDALL_INLINE F light_density(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction, F distance) {
+TYNDALL_INLINE F light_density(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction,
+                               F distance) {
   const LightColumns<F> columns = load_light<F>(l, light);
   const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
   F density = F(0.0f);

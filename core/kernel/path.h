@@ -22,7 +22,8 @@ struct Paths {
 
 /// Gives free lanes a camera ray each, as long as there are samples.
 template <class F>
-TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s, const Unit& unit) {
+TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s,
+                                 const Unit& unit) {
   constexpr std::uint32_t full = lanes_of<F> == 32 ? 0xffffffffu : (1u << (lanes_of<F> % 32)) - 1u;
   while (p.alive != full) {
     if (queue.next == queue.end) {
@@ -42,7 +43,8 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     const IntOf<F> at = load_int<F>(from);
     const auto take = [&](const float* column, F old) { return select(m, gather<F>(column, at), old); };
     p.ray.origin = {take(queue.ox, p.ray.origin.x), take(queue.oy, p.ray.origin.y), take(queue.oz, p.ray.origin.z)};
-    p.ray.direction = {take(queue.dx, p.ray.direction.x), take(queue.dy, p.ray.direction.y), take(queue.dz, p.ray.direction.z)};
+    p.ray.direction = {take(queue.dx, p.ray.direction.x), take(queue.dy, p.ray.direction.y),
+                       take(queue.dz, p.ray.direction.z)};
     p.ray.time = take(queue.time, p.ray.time);
     p.ray.from = select(m, IntOf<F>(from_nowhere), p.ray.from);
     p.dice.low = select(m, as_uint(gather_int<F>(queue.low, at)), p.dice.low);
@@ -92,7 +94,8 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>
     const F begin = max(inside.near, F(0.0f)), end = min(inside.far, nearest);
     const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
     if (!any(crosses)) continue;
-    const F t = begin + free_flight(splat<F>(m.density), dice.open(dimension::free_flight, static_cast<std::uint32_t>(k)));
+    const F t =
+        begin + free_flight(splat<F>(m.density), dice.open(dimension::free_flight, static_cast<std::uint32_t>(k)));
     const auto here = mask_and(mask_and(crosses, less(t, end)), less(t, infinity));
     nearest = select(here, t, nearest);
     event.happens = mask_or(event.happens, here);
@@ -122,11 +125,11 @@ template <class F>
 struct Event {
   MaskOf<F> surface, medium;  ///< lanes; never both
   Vec3<F> point;
-  Vec3<F> colour;             ///< albedo
-  IntOf<F> from;              ///< Ray::from on the side that the ray came from, or within the medium
+  Vec3<F> colour;  ///< albedo
+  IntOf<F> from;   ///< Ray::from on the side that the ray came from, or within the medium
   Incident<F> incident;
   SurfacePoint<F> at;
-  IntOf<F> kind;              ///< of the material
+  IntOf<F> kind;  ///< of the material
   F g;
 };
 
@@ -134,7 +137,8 @@ struct Event {
 /// found by itself. E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2: the power
 /// heuristic, written in the ratio r of the two densities: r² / (1 + r²) and 1 / (1 + r²).
 template <class F>
-TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, std::uint32_t& shadows) {
+TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                                    std::uint32_t& shadows) {
   const LightChoice<F> choice = choose_light(s.lights, e.point, p.dice.one(dimension::light_choice));
   const LightSample<F> sample =
       sample_light(s.lights, choice.light, e.point, p.ray.time, p.dice.pair(dimension::light_point));
@@ -147,7 +151,8 @@ TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const
   if (!any(useful)) return zero3<F>();
   shadows = bits(useful);
   const Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
-  const IntOf<F> element = s.lights.count == 1 ? IntOf<F>(s.lights.element[0]) : gather_int<F>(s.lights.element, choice.light);
+  const IntOf<F> element =
+      s.lights.count == 1 ? IntOf<F>(s.lights.element[0]) : gather_int<F>(s.lights.element, choice.light);
   const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();
   const F ratio = scattered / select(useful, chosen, F(1.0f));
@@ -159,7 +164,8 @@ TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const
 
 /// Weight of a light that a ray met by itself.
 template <class F>
-TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
+TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf<F> element, F distance,
+                                    MaskOf<F> lit) {
   const auto could = mask_and(lit, less(F(0.0f), p.density));
   if (!s.light_sampling || !any(could)) return F(1.0f);
   if (!s.multiple_importance) return select(could, F(0.0f), F(1.0f));
@@ -186,7 +192,8 @@ TYNDALL_INLINE void meet_surfaces(const SceneView& s, Paths<F>& p, const Hit<F>&
   const F towards = dot(p.ray.direction, e.at.normal);
   const auto along_normal = less(F(0.0f), towards);
   const Vec3<F> facing = select(along_normal, -e.at.normal, e.at.normal);
-  e.incident = {p.ray.direction, e.at.normal, facing, min(abs(towards), F(1.0f)), along_normal, unit, s.schlick, &p.dice};
+  e.incident = {p.ray.direction, e.at.normal, facing,    min(abs(towards), F(1.0f)),
+                along_normal,    unit,        s.schlick, &p.dice};
   const IntOf<F> one = IntOf<F>(1), zero = IntOf<F>(0);
   const IntOf<F> inside = select(along_normal, select(e.at.inverted, zero, one), select(e.at.inverted, one, zero));
   e.point = select(e.surface, e.at.point, e.point);
@@ -256,7 +263,8 @@ TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
 /// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
 /// that max_depth ended.
 template <class F>
-TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut, std::uint32_t& shadows) {
+TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut,
+                              std::uint32_t& shadows) {
   const MaskOf<F> none = less(F(1.0f), F(0.0f));
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found{none, IntOf<F>(0), zero3<F>(), IntOf<F>(-1), F(0.0f)};
@@ -267,7 +275,8 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
   e.point = p.ray.origin, e.colour = zero3<F>(), e.from = p.ray.from;
   const auto escaped = mask_and_not(mask_and_not(active, e.surface), e.medium);
   if (s.needs.background && any(escaped))
-    p.radiance = select(escaped, p.radiance + p.throughput * background_radiance(s.background, p.ray.direction), p.radiance);
+    p.radiance =
+        select(escaped, p.radiance + p.throughput * background_radiance(s.background, p.ray.direction), p.radiance);
   const Pair<F> u = p.dice.pair(dimension::direction);
   const Vec3<F> unit = on_sphere(u);
   if (any(e.surface)) meet_surfaces(s, p, hit, unit, e);
@@ -292,7 +301,8 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
 
 /// Adds the samples of finished lanes to the unit's pixels.
 template <class F>
-TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, double per_unit, FilmPixel* pixels) {
+TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, double per_unit,
+                           FilmPixel* pixels) {
   if (!finished) return;
   alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>];
   store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z);
@@ -306,7 +316,8 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
 }
 
 template <class F>
-TYNDALL_INLINE void render_unit(const SceneView& s, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts) {
+TYNDALL_INLINE void render_unit(const SceneView& s, const Unit& unit, double film_unit, FilmPixel* pixels,
+                                UnitCounts& counts) {
   UnitSamples samples;
   list_samples(unit, samples);
   CameraQueue<F> queue;

@@ -4,15 +4,31 @@ namespace tyndall {
 namespace {
 
 SphereView view_of(const Spheres& s) {
-  return {static_cast<int>(s.x.size()), s.x.data(),      s.y.data(),      s.z.data(),      s.radius.data(),
-          s.move_x.data(),              s.move_y.data(), s.move_z.data(), s.element.data()};
+  return {static_cast<int>(s.x.size()),
+          s.x.data(),
+          s.y.data(),
+          s.z.data(),
+          s.radius.data(),
+          s.move_x.data(),
+          s.move_y.data(),
+          s.move_z.data(),
+          s.element.data()};
 }
 
 FlatView view_of(const Flats& f) { return {static_cast<int>(f.map.size()), f.map.data(), f.element.data()}; }
 
 TextureView view_of(const TextureColumns& t) {
-  return {static_cast<TextureColumns::Kind>(t.kind), t.a, t.b, t.offset, t.scale, t.z_scale, t.z_offset, t.style,
-          t.width, t.height, t.texels ? t.texels->data() : nullptr};
+  return {static_cast<TextureColumns::Kind>(t.kind),
+          t.a,
+          t.b,
+          t.offset,
+          t.scale,
+          t.z_scale,
+          t.z_offset,
+          t.style,
+          t.width,
+          t.height,
+          t.texels ? t.texels->data() : nullptr};
 }
 
 LightView view_of(const Lights& l) {

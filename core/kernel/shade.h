@@ -75,10 +75,12 @@ TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& 
 
 /// Colour of texture k of a point; surface: for uv, null in a medium.
 template <class F>
-TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, const SurfacePoint<F>* surface) {
+TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point,
+                                      const SurfacePoint<F>* surface) {
   const Vec3<F> p = along(splat<F>(t.offset), splat<F>(t.scale), point);
   switch (t.kind) {
-    case TextureColumns::checker: return select(checker_odd(p), splat<F>(t.b), splat<F>(t.a));
+    case TextureColumns::checker:
+      return select(checker_odd(p), splat<F>(t.b), splat<F>(t.a));
     case TextureColumns::noise: {
       const F turn = mul_add(splat<F>(t.z_scale), point.z, splat<F>(t.z_offset));
       const F grey = noise_grey(t.style, p, turn, s.gradients);
@@ -89,7 +91,8 @@ TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, 
       surface_uv(s, *surface, u, v);
       return image_colour(t.texels, t.width, t.height, u, v);
     }
-    case TextureColumns::solid: break;
+    case TextureColumns::solid:
+      break;
   }
   return splat<F>(t.a);
 }
@@ -137,8 +140,10 @@ TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
     (([&]() __attribute__((always_inline)) {
        constexpr auto member = std::get<i>(list).value;
        m.*member = gather<F>(s.parameter[i], material);
-     }()), ...);
-  }(std::make_index_sequence<std::tuple_size_v<decltype(fields(static_cast<const M*>(nullptr)))>>{});
+     }()),
+     ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(fields(static_cast<const M*>(nullptr)))>>{});
   return m;
 }
 
@@ -167,15 +172,17 @@ TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, I
        out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
        out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
        out.density = select(here, one.density, out.density);
-     }()), ...);
-  }(std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
+     }()),
+     ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
   return out;
 }
 
 /// Density per steradian with which the material each lane is at scatters into `direction`.
 template <class F>
-TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes, const Incident<F>& in,
-                             Vec3<F> direction) {
+TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                             const Incident<F>& in, Vec3<F> direction) {
   F out = F(0.0f);
   [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
     (([&]() __attribute__((always_inline)) {
@@ -184,8 +191,10 @@ TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kin
          const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(i))));
          if (any(here)) out = select(here, density(load_material<M, F>(s, material), in, direction), out);
        }
-     }()), ...);
-  }(std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
+     }()),
+     ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
   return out;
 }
 

@@ -6,7 +6,9 @@ namespace tyndall {
 namespace {
 using F = HWY_NAMESPACE::Floats<1>;
 static_assert(lanes_of<F> == 4, "the SIMD library fell back to a narrower set: a flag is missing");
-void render(const SceneView& s, const Unit& u, double unit, FilmPixel* p, UnitCounts& c) { render_unit<F>(s, u, unit, p, c); }
+void render(const SceneView& s, const Unit& u, double unit, FilmPixel* p, UnitCounts& c) {
+  render_unit<F>(s, u, unit, p, c);
+}
 void trace(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool all) { trace_rays<F>(s, r, h, n, all); }
 void first(const SceneView& s, const Region& r, FirstHit* h) { first_hits<F>(s, r, h); }
 }  // namespace

@@ -6,7 +6,8 @@
 
 namespace tyndall {
 
-/// A lamp: sends its radiance (W/(m² sr), linear Rec.709) from both sides, the same in all directions; reflects nothing.
+/// A lamp: sends its radiance (W/(m² sr), linear Rec.709) from both sides, the same in all directions; reflects
+/// nothing.
 template <class F = double>
 struct Light {
   static constexpr const char* type = "light";

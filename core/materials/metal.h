@@ -23,11 +23,12 @@ constexpr auto fields(const Metal<F>*) {
                           "radius of the blur around the mirror direction; 0 is a mirror"}};
 }
 
-/// Up to this fuzz a metal counts as a mirror for light sampling: its lobe is narrower than float directions resolve well.
+/// Up to this fuzz a metal counts as a mirror for light sampling: its lobe is narrower than float directions resolve
+/// well.
 inline constexpr float least_sampled_fuzz = 1e-3f;
 
-/// Probability density per steradian of scattering into a unit direction above the surface; 0 below it and for a mirror.
-/// A ray from the centre of the mirror direction's unit sphere crosses the ball between s- and s+ = cos β ± h,
+/// Probability density per steradian of scattering into a unit direction above the surface; 0 below it and for a
+/// mirror. A ray from the centre of the mirror direction's unit sphere crosses the ball between s- and s+ = cos β ± h,
 /// h² = fuzz² - sin² β: the ball's uniform density 3 / (4π fuzz³), integrated with r² dr.
 template <class F>
 TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direction) {

@@ -15,7 +15,9 @@ namespace {
 
 constexpr double pass_budget = 0.15;  // seconds: how often a new picture should come while it sharpens
 
-double seconds_between(Clock::time_point from, Clock::time_point to) { return std::chrono::duration<double>(to - from).count(); }
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
 
 /// Samples a pixel at which to stop: a paused renderer still shows what it was given.
 std::uint32_t limit_of(const Mailbox& mail) { return mail.paused ? std::min(mail.limit, 1u) : mail.limit; }
@@ -53,8 +55,7 @@ bool Director::wait_for_work(const std::stop_token& stop) {
   std::unique_lock lock(mail_.mutex);
   return mail_.wake.wait(lock, stop, [&] {
     return mail_.scene || mail_.restart || mail_.view_changed || !mail_.films.empty() ||
-           (compiled_ && taken_ < limit_of(mail_)) ||
-           (mail_.threads > 0 && mail_.threads != crew_->size());
+           (compiled_ && taken_ < limit_of(mail_)) || (mail_.threads > 0 && mail_.threads != crew_->size());
   }) && !stop.stop_requested();
 }
 
@@ -112,7 +113,8 @@ void Director::start_over() {
       std::fill(film_.pixels.begin() + static_cast<std::ptrdiff_t>(count * k / 64),
                 film_.pixels.begin() + static_cast<std::ptrdiff_t>(count * (k + 1) / 64), FilmPixel{});
     });
-    film_.width = compiled_->width, film_.height = compiled_->height, film_.region = all, film_.unit = compiled_->film_unit;
+    film_.width = compiled_->width, film_.height = compiled_->height, film_.region = all,
+    film_.unit = compiled_->film_unit;
   } else {
     film_ = make_film(compiled_->width, compiled_->height, all, 0, compiled_->film_unit);
   }
@@ -167,12 +169,16 @@ void Director::finish_pass(double seconds) {
 
 std::vector<float> Director::picture() {
   switch (view_) {
-    case View::beauty: return beauty_rgba(film_, taken_ == 0 ? step_ : 1, *crew_);
-    case View::noise: return noise_rgba(film_, *crew_);
-    case View::samples: return samples_rgba(film_);
+    case View::beauty:
+      return beauty_rgba(film_, taken_ == 0 ? step_ : 1, *crew_);
+    case View::noise:
+      return noise_rgba(film_, *crew_);
+    case View::samples:
+      return samples_rgba(film_);
     case View::albedo:
     case View::normal:
-    case View::depth: break;
+    case View::depth:
+      break;
   }
   if (first_hits_.empty()) first_hits_ = find_first_hits(kernels_, scene_view_->view(), *crew_);
   return first_hit_rgba(first_hits_, view_);

@@ -23,14 +23,14 @@ struct Mailbox {
   std::atomic<bool> give_up = false;  ///< asks the crew to leave the current pass
 
   // in
-  std::unique_ptr<Scene> scene;        ///< not yet taken
-  Scene newest;                        ///< last submitted
-  std::uint64_t edit = 0;              ///< of the newest scene; 0: none yet
+  std::unique_ptr<Scene> scene;  ///< not yet taken
+  Scene newest;                  ///< last submitted
+  std::uint64_t edit = 0;        ///< of the newest scene; 0: none yet
   Clock::time_point submitted;
   bool restart = false, paused = false, view_changed = false;
   View view = View::beauty;
-  std::uint32_t limit = 0;             ///< samples a pixel at which to stop
-  int threads = 0;                     ///< wanted
+  std::uint32_t limit = 0;                ///< samples a pixel at which to stop
+  int threads = 0;                        ///< wanted
   std::vector<std::promise<Film>> films;  ///< asked for, not yet answered
 
   // out
@@ -80,8 +80,8 @@ class Director {
   Film film_;
   std::unique_ptr<Pass> pass_;  ///< null between passes
   bool pass_is_coarse_ = false;
-  int step_ = 1;                ///< of the coarse pass
-  std::uint32_t taken_ = 0;     ///< samples that every pixel has
+  int step_ = 1;             ///< of the coarse pass
+  std::uint32_t taken_ = 0;  ///< samples that every pixel has
   bool coarse_done_ = false;
   double seconds_ = 0, mrays_per_s_ = 0, error_ = 0, first_picture_ms_ = 0;
   double paths_per_second_ = 0;  ///< of the last full pass: sets the next edit's coarseness

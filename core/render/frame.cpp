@@ -75,7 +75,8 @@ std::vector<float> noise_rgba(const Film& film, Crew& crew) {
       float sum = 0;
       int count = 0;
       for (int j = std::max(y - 3, 0); j <= std::min(y + 3, height - 1); ++j)
-        for (int i = std::max(x - 3, 0); i <= std::min(x + 3, width - 1); ++i, ++count) sum += squared[offset(width, i, j)];
+        for (int i = std::max(x - 3, 0); i <= std::min(x + 3, width - 1); ++i, ++count)
+          sum += squared[offset(width, i, j)];
       const float error = std::sqrt(sum / static_cast<float>(count));
       put(rgba, offset(width, x, y), {error, error, error});
     }
@@ -102,7 +103,8 @@ std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view) 
     const float depth = hit.depth / farthest;
     const Vec3f normal = 0.5f * (hit.normal + Vec3f{1, 1, 1});
     Vec3f colour{};
-    if (hit.element >= 0) colour = view == View::albedo ? hit.albedo : view == View::normal ? normal : Vec3f{depth, depth, depth};
+    if (hit.element >= 0)
+      colour = view == View::albedo ? hit.albedo : view == View::normal ? normal : Vec3f{depth, depth, depth};
     put(rgba, i, colour);
   }
   return rgba;

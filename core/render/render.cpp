@@ -15,8 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Samples of the next pass. They grow, so that a render which is interrupted has covered the whole image; where time or
-/// error decide, they grow with what is there, so that a look between them costs little and comes in time.
+/// Samples of the next pass. They grow, so that a render which is interrupted has covered the whole image; where time
+/// or error decide, they grow with what is there, so that a look between them costs little and comes in time.
 std::uint32_t next_samples(const RenderOptions& options, std::uint32_t taken) {
   const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
   const std::uint32_t wish = std::clamp(looks ? taken / 4 : taken, 1u, 32u);
@@ -31,8 +31,9 @@ class BlockingRender {
     if (!kernels) throw std::invalid_argument("no kernel for instruction set \"" + options.isa + "\"");
     kernels_ = *kernels;
     const Region region = options.region.value_or(Region{0, 0, scene.width, scene.height});
-    result_.film = film.pixels.empty() ? make_film(scene.width, scene.height, region, options.first_sample, scene.film_unit)
-                                       : std::move(film);
+    result_.film = film.pixels.empty()
+                       ? make_film(scene.width, scene.height, region, options.first_sample, scene.film_unit)
+                       : std::move(film);
   }
 
   RenderResult run() {
@@ -88,7 +89,8 @@ class BlockingRender {
       error_ = estimated_relative_error(result_.film);
       next_estimate_ = 1.5 * seconds_since(start_) + 0.5;
     }
-    if (!progress_({taken_, result_.seconds, static_cast<double>(result_.rays) / result_.seconds * 1e-6, error_})) stop_ = true;
+    if (!progress_({taken_, result_.seconds, static_cast<double>(result_.rays) / result_.seconds * 1e-6, error_}))
+      stop_ = true;
   }
 
   SceneViewOf view_;
@@ -104,7 +106,8 @@ class BlockingRender {
 
 }  // namespace
 
-RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film) {
+RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress,
+                    Film film) {
   return BlockingRender(scene, options, progress, std::move(film)).run();
 }
 

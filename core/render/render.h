@@ -19,13 +19,13 @@ struct RenderOptions {
   std::uint32_t first_sample = 0;    ///< index of the first sample
   std::optional<std::uint32_t> spp;  ///< samples a pixel in all, those of a continued film included; absent: no limit
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
-  double target_error = 0;           ///< estimated relative error at which to stop; 0: none
-  int tile = 0;                      ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
+  double target_error = 0;                                      ///< estimated relative error at which to stop; 0: none
+  int tile = 0;  ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
 };
 
 struct RenderProgress {
-  std::uint32_t spp = 0;   ///< samples a pixel so far
-  double seconds = 0;      ///< rendering so far
+  std::uint32_t spp = 0;  ///< samples a pixel so far
+  double seconds = 0;     ///< rendering so far
   double mrays_per_s = 0;
   double relative_error = 0;  ///< estimated; infinite before two samples
 };
@@ -40,7 +40,8 @@ struct RenderResult {
   bool interrupted = false;  ///< the callback said stop
 };
 
-/// Called between passes (and at least every 50 ms or so within long ones, from the calling thread); returns false to stop.
+/// Called between passes (and at least every 50 ms or so within long ones, from the calling thread); returns false to
+/// stop.
 using ProgressCallback = std::function<bool(const RenderProgress&)>;
 
 /// Renders until the first of the limits. Continues `film` if it is not empty (it must be of this scene and region).

@@ -77,20 +77,6 @@ void check_camera(const Place& at, const Camera& camera) {
          "two times, the first not after the second");
 }
 
-/// A choice that this build can make.
-template <class E, std::size_t n>
-void check_choice(const Place& at, const Named<E> (&table)[n], E value) {
-  const std::string name = name_of(table, value);
-  const Named<E>* entry = find_name(table, name);
-  if (entry && entry->missing) fail(at, in_quotes(name), one_of(available_names(table)) + " (" + entry->missing + ")");
-}
-
-void check_render(const Place& at, const RenderSettings& render) {
-  check_fields(at, render);
-  check_choice({at, "integrator"}, integrators, render.integrator);
-  check_choice({at, "sampler"}, samplers, render.sampler);
-}
-
 void check_background(const Place& at, const Background& background) {
   if (const auto* radiance = std::get_if<Vec3d>(&background)) check_value(at, colour_meaning("radiance"), *radiance);
   if (const auto* sky = std::get_if<Gradient>(&background)) check_fields(at, *sky);
@@ -194,7 +180,7 @@ void check_all(const Scene& scene) {
   check_fields({at, "image"}, image_fields(), scene);
   check_camera({at, "camera"}, scene.camera);
   check_background({at, "background"}, scene.background);
-  check_render({at, "render"}, scene.render);
+  check_fields({at, "render"}, scene.render);
   check_fields({at, "display"}, scene.display);
   const Place textures{at, "textures"}, materials{at, "materials"};
   check_names(textures, scene.textures);

@@ -85,13 +85,13 @@ bool read_kind(std::string_view type, std::variant<Kinds...>& out, const Read& r
   return ((type == Kinds::type && (read(out.template emplace<Kinds>()), true)) || ...);
 }
 
-/// One of the names of a table, if the key is there; check() refuses those that this build lacks.
+/// One of the names of a table, if the key is there.
 template <class E, std::size_t n>
 void read_name(const JsonObject& object, const Place& at, const char* key, const Named<E> (&table)[n], E& out) {
   const JsonValue* json = find(object, key);
   if (!json) return;
   const Place here{at, key};
-  const std::vector<std::string_view> names = available_names(table);
+  const std::vector<std::string_view> names = names_in(table);
   const std::string& name = string_at(*json, here, one_of(names));
   const Named<E>* entry = find_name(table, name);
   if (!entry) fail(here, describe(*json), one_of(names) + did_you_mean(name, names));

@@ -11,21 +11,20 @@ template <class E>
 struct Named {
   E value;
   const char* name;
-  const char* missing = nullptr;  ///< not null: this build cannot do it, and why
 };
 
 inline constexpr Named<Integrator> integrators[] = {{Integrator::path, "path"},
-                                                    {Integrator::nee, "nee", "light sampling is not built yet"},
-                                                    {Integrator::mis, "mis", "light sampling is not built yet"}};
+                                                    {Integrator::nee, "nee"},
+                                                    {Integrator::mis, "mis"}};
 inline constexpr Named<SamplerKind> samplers[] = {{SamplerKind::random, "random"},
-                                                  {SamplerKind::sobol, "sobol", "Sobol' sampling is not built yet"}};
+                                                  {SamplerKind::sobol, "sobol"}};
 inline constexpr Named<FresnelKind> fresnel_rules[] = {{FresnelKind::exact, "exact"},
                                                        {FresnelKind::schlick, "schlick"}};
 inline constexpr Named<ToneMap> tone_maps[] = {{ToneMap::srgb, "srgb"}, {ToneMap::aces, "aces"}};
 inline constexpr Named<Noise<>::Style> noise_styles[] = {
     {Noise<>::Style::perlin, "perlin"}, {Noise<>::Style::turbulence, "turbulence"}, {Noise<>::Style::marble, "marble"}};
 
-/// The entry of a name; null if there is none. The entry may be `missing`.
+/// The entry of a name; null if there is none.
 template <class E, std::size_t n>
 constexpr const Named<E>* find_name(const Named<E> (&table)[n], std::string_view name) {
   for (const auto& entry : table)
@@ -40,12 +39,10 @@ constexpr const char* name_of(const Named<E> (&table)[n], E value) {
   return "";
 }
 
-/// The names that this build can do.
 template <class E, std::size_t n>
-std::vector<std::string_view> available_names(const Named<E> (&table)[n]) {
+std::vector<std::string_view> names_in(const Named<E> (&table)[n]) {
   std::vector<std::string_view> names;
-  for (const auto& entry : table)
-    if (!entry.missing) names.emplace_back(entry.name);
+  for (const auto& entry : table) names.emplace_back(entry.name);
   return names;
 }
 

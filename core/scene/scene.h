@@ -137,8 +137,8 @@ enum class ToneMap { srgb, aces };
 struct RenderSettings {
   int max_depth = 1000;  ///< longest path, in scattering events
   std::optional<int> spp{};
-  Integrator integrator = Integrator::path;
-  SamplerKind sampler = SamplerKind::random;
+  Integrator integrator = Integrator::mis;
+  SamplerKind sampler = SamplerKind::sobol;
   FresnelKind fresnel = FresnelKind::exact;
   std::uint32_t seed = 0;
   bool operator==(const RenderSettings&) const = default;

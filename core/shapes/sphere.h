@@ -36,7 +36,8 @@ template <class F>
 TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> direction) {
   const F middle = dot(to_center, direction);
   const Vec3<F> across = along(to_center, -middle, direction);
-  const F discriminant = neg_mul_add(across.x, across.x, neg_mul_add(across.y, across.y, neg_mul_add(across.z, across.z, radius * radius)));
+  const F discriminant = neg_mul_add(across.x, across.x,
+                                     neg_mul_add(across.y, across.y, neg_mul_add(across.z, across.z, radius * radius)));
   const F half = sqrt(max(discriminant, F(0.0f)));
   return {middle - half, middle + half, less(F(0.0f), discriminant)};
 }
@@ -44,7 +45,8 @@ TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> 
 /// The same for a ray that starts on or in the sphere. On it, the roots are 0 and 2 d·(c - o): no rounding of the
 /// origin can make it meet itself or miss the far side.
 template <class F>
-TYNDALL_INLINE Interval<F> leave_sphere(Interval<F> line, Vec3<F> to_center, Vec3<F> direction, IntOf<F> from, Start<F> start) {
+TYNDALL_INLINE Interval<F> leave_sphere(Interval<F> line, Vec3<F> to_center, Vec3<F> direction, IntOf<F> from,
+                                        Start<F> start) {
   const F middle = dot(to_center, direction);
   const F chord = select(equal(from & IntOf<F>(3), IntOf<F>(1)), middle + middle, line.far);
   return {select(start.here, F(-1.0f), line.near), select(start.here, max(chord, F(1e-37f)), line.far),

@@ -19,8 +19,7 @@ struct Image {
   std::string file;                      ///< as written in the scene file
   std::shared_ptr<const Pixels> pixels;  ///< shared by copies of the scene; never null after reading
   bool operator==(const Image& other) const {
-    return file == other.file &&
-           (pixels == other.pixels || (pixels && other.pixels && *pixels == *other.pixels));
+    return file == other.file && (pixels == other.pixels || (pixels && other.pixels && *pixels == *other.pixels));
   }
 };
 

@@ -27,7 +27,8 @@ constexpr auto fields(const Noise<F>*) {
 template <class F>
 TYNDALL_INLINE F lattice_gradient(IntOf<F> x, IntOf<F> y, IntOf<F> z, Vec3<F> offset, const float* gradients) {
   using U = UintOf<F>;
-  const U mixed = hash((as_uint(x) & U(255u)) | shift_left<8>(as_uint(y) & U(255u)) | shift_left<16>(as_uint(z) & U(255u)));
+  const U mixed =
+      hash((as_uint(x) & U(255u)) | shift_left<8>(as_uint(y) & U(255u)) | shift_left<16>(as_uint(z) & U(255u)));
   const IntOf<F> at = as_int(shift_right<24>(mixed)) * IntOf<F>(3);
   return dot(Vec3<F>{gather<F>(gradients, at), gather<F>(gradients + 1, at), gather<F>(gradients + 2, at)}, offset);
 }
@@ -45,7 +46,8 @@ TYNDALL_INLINE F gradient_noise(Vec3<F> p, const float* gradients) {
   F sum = F(0.0f);
   for (int corner = 0; corner < 8; ++corner) {
     const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-    const Vec3<F> offset{f.x - F(static_cast<float>(i)), f.y - F(static_cast<float>(j)), f.z - F(static_cast<float>(k))};
+    const Vec3<F> offset{f.x - F(static_cast<float>(i)), f.y - F(static_cast<float>(j)),
+                         f.z - F(static_cast<float>(k))};
     const F weight = (i ? wx : F(1.0f) - wx) * (j ? wy : F(1.0f) - wy) * (k ? wz : F(1.0f) - wz);
     sum = mul_add(weight, lattice_gradient(x + I(i), y + I(j), z + I(k), offset, gradients), sum);
   }
@@ -62,7 +64,8 @@ TYNDALL_INLINE F turbulence(Vec3<F> p, const float* gradients) {
   return abs(sum);
 }
 
-/// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_turn: scale · z / 2π.
+/// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_turn: scale · z
+/// / 2π.
 template <class F>
 TYNDALL_INLINE F noise_grey(typename Noise<double>::Style style, Vec3<F> p, F z_turn, const float* gradients) {
   if (style == Noise<double>::Style::perlin) return F(0.5f) * (F(1.0f) + gradient_noise(p, gradients));

@@ -39,7 +39,7 @@ assert abs(stats["mrays_per_s"] * stats["seconds_render"] * 1e6 / stats["rays"] 
 assert stats["threads"] >= 1 and stats["lanes"] >= 1 and stats["isa"]
 assert {"boxes", "quads", "lambertian", "lights"} <= set(stats["kernel_features"])
 assert not {"media", "metal", "dielectric"} & set(stats["kernel_features"])
-assert (stats["integrator"], stats["sampler"], stats["fresnel"]) == ("path", "random", "exact")
+assert (stats["integrator"], stats["sampler"], stats["fresnel"]) == ("mis", "sobol", "exact")
 assert 0 < stats["relative_error_estimate"] < 10 and stats["rejected_samples"] == 0
 assert 1e6 < stats["peak_memory_bytes"] < 1e9
 CHECK

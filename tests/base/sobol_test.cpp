@@ -10,7 +10,9 @@ using namespace tyndall;
 
 namespace {
 
-Dice<float> point(std::uint32_t x, std::uint32_t y, std::uint32_t sample) { return Dice<float>::of(3, x, y, sample, true); }
+Dice<float> point(std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+  return Dice<float>::of(3, x, y, sample, true);
+}
 
 }  // namespace
 
@@ -66,7 +68,8 @@ TEST_CASE("sobol: numbers are uniform over pixels for any one sample") {
   const int pixels = 100000, bins = 64;
   for (const std::uint32_t sample : {0u, 1u, 37u}) {
     std::vector<int> count(bins);
-    for (std::uint32_t k = 0; k < pixels; ++k) ++count[static_cast<std::size_t>(point(k % 317, k / 317, sample).pair(2).y * bins)];
+    for (std::uint32_t k = 0; k < pixels; ++k)
+      ++count[static_cast<std::size_t>(point(k % 317, k / 317, sample).pair(2).y * bins)];
     double chi2 = 0;
     for (const int c : count) chi2 += std::pow(c - pixels / bins, 2) / (pixels / bins);
     CHECK(chi2 < bins - 1 + 4 * std::sqrt(2.0 * (bins - 1)));

@@ -120,7 +120,8 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
     double sum = 0;
     for (std::uint32_t i = 0; i < draws; ++i) {
       const LightChoice<float> choice = choose_light<float>(lights, point, dice_of(i).one(5));
-      REQUIRE(choice.probability == doctest::Approx(choice_probability<float>(lights, point, choice.light)).epsilon(1e-5));
+      REQUIRE(choice.probability ==
+              doctest::Approx(choice_probability<float>(lights, point, choice.light)).epsilon(1e-5));
       ++taken[static_cast<std::size_t>(choice.light)];
     }
     double chi2 = 0;

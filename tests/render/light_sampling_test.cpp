@@ -49,8 +49,9 @@ TEST_CASE("spherical lights: from nearly touching to a hundred radii, and cut by
     double irradiance;
   };
   ZScores z;
-  for (const Case& c : {Case{{0, 1.01, 0}, 3.079691}, Case{{0, 2, 0}, 0.7853982}, Case{{2 * std::sin(pi / 3), 1, 0}, 0.3926991},
-                        Case{{50, 100 * std::cos(pi / 6), 0}, 2.720699e-4}})
+  for (const Case& c :
+       {Case{{0, 1.01, 0}, 3.079691}, Case{{0, 2, 0}, 0.7853982}, Case{{2 * std::sin(pi / 3), 1, 0}, 0.3926991},
+        Case{{50, 100 * std::cos(pi / 6), 0}, 2.720699e-4}})
     for (const Integrator integrator : {Integrator::nee, Integrator::mis}) {
       Scene scene = floor_room();
       aim(scene, {0.004, 0.005, 0.003}, {0, 0, 0});
@@ -87,7 +88,8 @@ TEST_CASE("all integrators and samplers agree: matt, fuzzy metal, glass, fog, fo
     std::vector<double> halves[2];
     double sum = 0, variance = 0;
     for (const FilmPixel& pixel : film.pixels) {
-      const auto a = static_cast<double>(half_mean(film, pixel, 0).x), b = static_cast<double>(half_mean(film, pixel, 1).x);
+      const auto a = static_cast<double>(half_mean(film, pixel, 0).x),
+                 b = static_cast<double>(half_mean(film, pixel, 1).x);
       sum += (a + b) / 2;
       variance += (a - b) * (a - b) / 4;
     }
