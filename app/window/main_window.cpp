@@ -54,6 +54,7 @@ void MainWindow::run() {
     if (events.any || session_.collect()) pacing_.on_event();
     take_input(events);
     const double now = clock_seconds();
+    session_.send(now);
     if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
   }
@@ -77,7 +78,7 @@ double MainWindow::waiting_time(double now) {
     wait = std::min(wait, std::max(0.0, (latest->finished ? pacing_.next_drawing() : due) - now));
   else if (more && due > now)
     wait = std::min(wait, due - now);
-  return wait;
+  return std::min(wait, std::max(0.0, session_.send_time() - now));
 }
 
 void MainWindow::update_scale() {
@@ -141,6 +142,7 @@ void MainWindow::apply_panels(double now) {
   if (panels_.wishes.open) session_.open(*panels_.wishes.open);
   if (panels_.wishes.threads) session_.set_threads(*panels_.wishes.threads);
   select_view(panels_.view);
+  session_.send(now);
   if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
   const Message& message = session_.message();
   if (!message.text.empty() && !message.error) {
@@ -177,7 +179,7 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   const double after = clock_seconds();
   if (fresh) pacing_.on_picture(shown_->edit, after);
   if (!log_) return;
-  if (fresh) log_->shown(shown_->edit, shown_->spp, shown_->step, after);
+  if (fresh) log_->shown(*shown_, after);
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }
 

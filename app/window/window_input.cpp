@@ -1,5 +1,7 @@
 #include "app/window/camera_control.h"
+#include "app/window/clock.h"
 #include "app/window/main_window.h"
+#include "app/window/medium_pick.h"
 #include "app/window/open_document.h"
 #include "core/base/math.h"
 
@@ -7,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyndall {
 
@@ -42,6 +45,7 @@ void MainWindow::act(Action action) {
       break;
     case Action::restart:
       session_.restart();
+      pacing_.on_new_start(clock_seconds());
       break;
     case Action::undo:
       session_.undo();
@@ -91,8 +95,11 @@ void MainWindow::save() {
 void MainWindow::select_view(int view) {
   constexpr int of_renderer = view_count - 1;
   if (view >= of_renderer) return session_.say("the cost view is not built yet");
-  if (view != shown_view_) session_.set_view(static_cast<View>(view));
-  panels_.view = shown_view_ = view;
+  panels_.view = view;
+  if (view == shown_view_) return;
+  shown_view_ = view;
+  session_.set_view(static_cast<View>(view));
+  pacing_.on_new_start(clock_seconds());
 }
 
 void MainWindow::frame_selection() {
@@ -163,7 +170,13 @@ void MainWindow::click(const Layout& layout) {
   const Renderer::Pick pick = session_.pick(pixel(io.MousePos.x, image.x0, image.width(), panels_.scene.width),
                                             pixel(io.MousePos.y, image.y0, image.height(), panels_.scene.height));
   if (!io.KeyShift) {
-    panels_.selected = pick.object;
+    // Fog is seen through: it is selected where nothing else is, or by a second click.
+    const bool again = !pick.object.empty() && pick.object == panels_.selected;
+    const double behind = pick.object.empty() ? std::numeric_limits<double>::infinity() : pick.depth;
+    const ImagePoint at{static_cast<double>((io.MousePos.x - image.x0) / image.width()),
+                        static_cast<double>((io.MousePos.y - image.y0) / image.height())};
+    const ObjectPath medium = medium_at(panels_.scene, at, behind);
+    panels_.selected = (again || pick.object.empty()) && !medium.empty() ? medium : pick.object;
     pacing_.on_event();
   } else if (pick.object.empty() || !(pick.depth > 0)) {
     session_.say("nothing to focus on there");
