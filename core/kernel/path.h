@@ -1,7 +1,7 @@
 #pragma once
 #include "core/kernel/camera.h"
+#include "core/kernel/flight.h"
 #include "core/kernel/shade.h"
-#include "core/media/medium.h"
 
 /// The path loop: a group of lanes, each following its own path; a lane whose path has ended takes the next camera ray.
 namespace tyndall {
@@ -53,50 +53,6 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
   }
 }
 
-/// Where a path scatters within a medium, if it does.
-template <class F>
-struct MediumEvent {
-  MaskOf<F> happens;
-  IntOf<F> from;  ///< Ray::from of a start within the medium
-  Vec3<F> albedo;
-  IntOf<F> texture;
-  F g;
-};
-
-/// The nearest of the media's independent exponential flights, if it ends before the surface: right for media that
-/// overlap, whose densities add. Shortens best.t to it.
-template <class F>
-TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>& ray, const Dice<F>& dice,
-                                                MaskOf<F> active, F& nearest) {
-  const F infinity = F(__builtin_inff());
-  MediumEvent<F> event{less(F(1.0f), F(0.0f)), IntOf<F>(from_nowhere), zero3<F>(), IntOf<F>(-1), F(0.0f)};
-  for (int k = 0; k < s.medium_count; ++k) {
-    const MediumColumns& m = s.media[k];
-    Interval<F> inside;
-    const Start<F> start = start_on<F>(ray.from, m.first, m.count);
-    if (m.box) {
-      inside = box_slabs(m.map, ray.origin, ray.direction).inside;
-      if (any(start.here)) inside = leave_box(inside, start);
-    } else {
-      const Vec3<F> to_center = splat<F>(m.center) - ray.origin;
-      inside = sphere_interval(to_center, splat<F>(m.radius), ray.direction);
-      if (any(start.here)) inside = leave_sphere(inside, to_center, ray.direction, ray.from, start);
-    }
-    const F begin = max(inside.near, F(0.0f)), end = min(inside.far, nearest);
-    const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
-    if (!any(crosses)) continue;
-    const F t = begin + free_flight(splat<F>(m.density), dice.open(dimension::free_flight, static_cast<std::uint32_t>(k)));
-    const auto here = mask_and(mask_and(crosses, less(t, end)), less(t, infinity));
-    nearest = select(here, t, nearest);
-    event.happens = mask_or(event.happens, here);
-    event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
-    event.albedo = select(here, splat<F>(m.albedo), event.albedo);
-    event.texture = select(here, IntOf<F>(m.texture), event.texture);
-    event.g = select(here, splat<F>(m.g), event.g);
-  }
-  return event;
-}
-
 /// What a group does at its next event: where it goes on, and which lanes stop.
 template <class F>
 struct Next {
@@ -132,15 +88,14 @@ TYNDALL_INLINE void scatter_on_surfaces(const SceneView& s, Paths<F>& p, const H
 }
 
 template <class F>
-TYNDALL_INLINE void scatter_in_media(const SceneView& s, Paths<F>& p, const MediumEvent<F>& event, F t, Vec3<F> unit,
+TYNDALL_INLINE void scatter_in_media(const SceneView& s, Paths<F>& p, const MediumEvent<F>& event, Vec3<F> unit,
                                      Pair<F> u, Next<F>& next) {
   const auto here = event.happens;
-  const Vec3<F> point = along(p.ray.origin, select(here, t, F(0.0f)), p.ray.direction);
   Vec3<F> albedo = event.albedo;
-  if (s.needs.textures) albedo = textured<F>(s, albedo, event.texture, here, point, nullptr);
+  if (s.needs.textures) albedo = textured<F>(s, albedo, event.texture, here, event.point, nullptr);
   Vec3<F> direction = unit;
   if (s.needs.phase_functions) direction = scatter_in_medium(event.g, p.ray.direction, unit, u);
-  next.origin = select(here, point, next.origin);
+  next.origin = select(here, event.point, next.origin);
   next.direction = select(here, direction, next.direction);
   next.colour = select(here, albedo, next.colour);
   next.from = select(here, event.from, next.from);
@@ -165,7 +120,7 @@ TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
 template <class F>
 TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut) {
   Hit<F> hit = closest(s, p.ray, active);
-  MediumEvent<F> event{less(F(1.0f), F(0.0f)), IntOf<F>(0), zero3<F>(), IntOf<F>(-1), F(0.0f)};
+  MediumEvent<F> event{less(F(1.0f), F(0.0f)), p.ray.origin, IntOf<F>(0), zero3<F>(), IntOf<F>(-1), F(0.0f)};
   if (s.needs.media) event = fly_through_media(s, p.ray, p.dice, active, hit.t);
   const auto met = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), event.happens));
   const auto escaped = mask_and_not(mask_and_not(active, met), event.happens);
@@ -175,7 +130,7 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
   const Vec3<F> unit = on_sphere(u);
   Next<F> next{p.ray.origin, p.ray.direction, zero3<F>(), p.ray.from, less(F(1.0f), F(0.0f))};
   if (any(met)) scatter_on_surfaces(s, p, hit, met, unit, next);
-  if (s.needs.media && any(event.happens)) scatter_in_media(s, p, event, hit.t, unit, u, next);
+  if (s.needs.media && any(event.happens)) scatter_in_media(s, p, event, unit, u, next);
   // A path whose state is no longer finite ends with a radiance that the film rejects and counts: `sum` is finite only
   // where all its parts are. A path that carries nothing has ended, not been cut.
   const Vec3<F> carried = p.throughput * next.colour, way = next.direction;
