@@ -99,14 +99,16 @@ void MainWindow::draw(double now) {
   ui_.wake_in = 1e300;
   ui_.problem.clear();
   count_gestures(now);
-  const Scene& scene = session_.scene();
-  const Layout layout = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
-                                    scene.width, scene.height, ui_.scale, columns_);
   const bool fresh = picture_due(now);
   if (fresh) {
     shown_ = session_.latest();
     session_.shown(*shown_);
   }
+  // The old picture keeps its shape until the new one is there.
+  const Scene& scene = session_.scene();
+  const Layout layout =
+      make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
+                  shown_ ? shown_->width : scene.width, shown_ ? shown_->height : scene.height, ui_.scale, columns_);
   draw_interface(layout);
   pointer(layout, now);
   fly(now);

@@ -31,41 +31,12 @@ void MainWindow::act(Action action) {
     case Action::deselect:
       escape();
       break;
-    case Action::frame:
-      frame_selection();
-      break;
-    case Action::reset_camera: {
-      Scene scene = session_.scene();
-      scene.camera = session_.document().origin->saved.camera;
-      session_.edit(std::move(scene), ++gesture_);
-      break;
-    }
     case Action::pause:
       session_.pause(!session_.paused());
       break;
     case Action::restart:
       session_.restart();
       pacing_.on_new_start(clock_seconds());
-      break;
-    case Action::undo:
-      session_.undo();
-      break;
-    case Action::redo:
-      session_.redo();
-      break;
-    case Action::save:
-      save();
-      break;
-    case Action::save_as: {
-      const std::filesystem::path& file = session_.document().origin->file;
-      if (file.empty())
-        ask_name(dialog_, stem_of(session_.document().origin->title) + ".json");
-      else
-        ask_name(dialog_, file);
-      break;
-    }
-    case Action::snapshot:
-      session_.snapshot();
       break;
     case Action::panels:
       columns_ = !columns_;
@@ -77,15 +48,49 @@ void MainWindow::act(Action action) {
       platform_.close();
       break;
     default:
-      select_view(static_cast<int>(action) - static_cast<int>(Action::view_beauty));
-      break;
+      act_on_document(action);
   }
+}
+
+void MainWindow::act_on_document(Action action) {
+  switch (action) {
+    case Action::frame:
+      return frame_selection();
+    case Action::reset_camera:
+      return reset_camera();
+    case Action::undo:
+      return session_.undo();
+    case Action::redo:
+      return session_.redo();
+    case Action::save:
+      return save();
+    case Action::save_as:
+      return save_as();
+    case Action::snapshot:
+      return session_.snapshot();
+    default:
+      return select_view(static_cast<int>(action) - static_cast<int>(Action::view_beauty));
+  }
+}
+
+void MainWindow::reset_camera() {
+  Scene scene = session_.scene();
+  scene.camera = session_.document().origin->saved.camera;
+  session_.edit(std::move(scene), ++gesture_);
+}
+
+void MainWindow::save_as() {
+  const Origin& origin = *session_.document().origin;
+  if (origin.file.empty())
+    ask_name(dialog_, stem_of(origin.title) + ".json");
+  else
+    ask_name(dialog_, origin.file);
 }
 
 void MainWindow::save() {
   const Origin& origin = *session_.document().origin;
   if (origin.file.empty())
-    act(Action::save_as);
+    save_as();
   else if (origin.comments)
     ask_comments(dialog_);
   else

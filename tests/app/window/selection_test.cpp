@@ -129,4 +129,7 @@ TEST_CASE("fog is found where the ray enters it, nearest first, and not behind w
   CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{1});
   scene.objects[1] = fog(Sphere<>{{0, 0, 10}, 1, {}}, {});
   CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{0});
+  scene.objects = {fog(Box<>{{2, -1, -1}, {4, 1, 1}}, {RotateY{90}})};  // now from z = -4 to -2
+  CHECK(medium_at(scene, {0.5, 0.5}, 12.01) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 11.99).empty());
 }

@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 using namespace tyndall;
@@ -25,7 +27,12 @@ class Opened {
     options.scene = load_scene("scene.json");
     options.threads = 1;
     session = std::make_unique<Session>(
-        options, [] {}, [] {}, nullptr);
+        options, [] {},
+        [this] {
+          ++frames;
+          const std::lock_guard wait(gate);
+        },
+        nullptr);
   }
   ~Opened() {
     session.reset();
@@ -61,6 +68,8 @@ class Opened {
     });
   }
 
+  std::mutex gate;  ///< holds the renderer after its next frame
+  std::atomic<int> frames = 0;
   std::unique_ptr<Session> session;
 
  private:
@@ -101,14 +110,22 @@ TEST_CASE("exposure, tone map and name start nothing over, but can be undone") {
 
 TEST_CASE("while a picture is awaited the newest scene waits, and none between is begun") {
   Opened opened("waiting");
-  REQUIRE(opened.finishes());
-  opened.set_fuzz(0.3, 7);
-  CHECK(opened.session->send(0));  // the picture before was seen
-  const std::uint64_t first = opened.session->edit_number();
-  opened.set_fuzz(0.4, 7);
-  opened.set_fuzz(0.5, 7);
-  CHECK(opened.session->send(1e9));  // out of patience
-  CHECK(opened.session->edit_number() == first + 1);
+  {
+    const std::lock_guard hold(opened.gate);
+    const int before = opened.frames;
+    opened.session->restart();
+    while (opened.frames == before) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // The renderer has shown the first edit and stands still.
+    opened.set_fuzz(0.3, 7);
+    CHECK(opened.session->send(0));
+    opened.set_fuzz(0.4, 7);
+    CHECK_FALSE(opened.session->send(0));
+    opened.set_fuzz(0.5, 7);
+    CHECK_FALSE(opened.session->send(0));
+    CHECK(opened.session->edit_number() == 2);
+    CHECK(opened.session->send(1e9));  // out of patience
+    CHECK(opened.session->edit_number() == 3);
+  }
   REQUIRE(opened.finishes());
   CHECK(opened.fuzz() == 0.5);
   opened.session->undo();
