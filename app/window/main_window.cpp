@@ -128,7 +128,8 @@ void MainWindow::draw_interface(const Layout& layout) {
   if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
   draw_column(ui_, panels_, layout.column);
   draw_outline(ui_, layout.image, outline(panels_.scene, panels_.selected));
-  draw_status(ui_, layout.status, status_cells(shown_.get(), session_.document(), session_.paused()));
+  draw_status(ui_, layout.status,
+              status_cells(shown_.get(), session_.convergence().current(), session_.document(), session_.paused()));
   draw_message(ui_, layout.area, session_.message());
   if (help_) draw_help(ui_, layout.area, help_);
   if (const auto file = draw_dialog(ui_, layout.area, dialog_, session_.document())) session_.save(*file);
