@@ -22,6 +22,7 @@ void Convergence::add(std::uint64_t edit, const std::string& method, Convergence
   const bool good = point.seconds > 0 && point.rel_mse > 0 && std::isfinite(point.rel_mse);
   if (!good) return;
   std::vector<ConvergencePoint>& points = current_.points;
+  if (!points.empty() && point.rel_mse == points.back().rel_mse) return;  // not estimated anew
   if (points.size() > 1 && point.seconds < 1.04 * points[points.size() - 2].seconds) points.pop_back();
   points.push_back(point);
 }
@@ -38,10 +39,8 @@ void Convergence::keep_current() {
   if (earlier_.size() > most_earlier) earlier_.erase(earlier_.begin());
 }
 
-double seconds_to(double target, double relative_error, double seconds) {
-  if (relative_error <= target) return 0;
-  const double ratio = relative_error / target;
-  return seconds * (ratio * ratio - 1);
+double seconds_to(double target, const ConvergencePoint& known, double seconds) {
+  return std::max(0.0, known.seconds * known.rel_mse / (target * target) - seconds);
 }
 
 }  // namespace tyndall

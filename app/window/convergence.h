@@ -25,7 +25,8 @@ std::string method_of(const RenderSettings& settings);
 class Convergence {
  public:
   /// Adds a point to the current run. A new edit begins a new one; the old one is kept if it was long enough to say
-  /// something. Points closer than 4 % in time to the last one replace it. Errors that are not finite are left out.
+  /// something. Points closer than 4 % in time to the last one replace it. Errors that are not finite, or that are the
+  /// last one's because they were not estimated anew, are left out.
   void add(std::uint64_t edit, const std::string& method, ConvergencePoint point);
   /// Forgets all runs: another scene.
   void clear();
@@ -44,7 +45,8 @@ class Convergence {
   std::vector<ConvergenceRun> earlier_;
 };
 
-/// Seconds of rendering until the relative error is `target`, if it falls as 1/sqrt(time); 0 when it is reached.
-double seconds_to(double target, double relative_error, double seconds);
+/// Seconds of rendering from `seconds` on until the relative error is `target`, if its square falls as 1/time from
+/// what is known; 0 when it is reached.
+double seconds_to(double target, const ConvergencePoint& known, double seconds);
 
 }  // namespace tyndall

@@ -15,14 +15,6 @@ inline void push_font(ImFont* font) {
 #endif
 }
 
-inline float size_of(const ImFont* font) {
-#if IMGUI_VERSION_NUM >= 19200
-  return font->LegacySize;
-#else
-  return font->FontSize;
-#endif
-}
-
 inline bool tab_pressed() {
 #if IMGUI_VERSION_NUM >= 18700
   return ImGui::IsKeyPressed(ImGuiKey_Tab);

@@ -28,22 +28,15 @@ void JobQueue::collect() {
     if (result) result();
 }
 
-bool JobQueue::busy() const {
-  const std::lock_guard lock(mutex_);
-  return working_ || !jobs_.empty() || !results_.empty();
-}
-
 void JobQueue::work(const std::stop_token& stop) {
   for (;;) {
     Job job;
     {
       std::unique_lock lock(mutex_);
-      working_ = false;
       wake_.wait(lock, stop, [&] { return !jobs_.empty(); });
       if (jobs_.empty()) return;  // asked to stop, and nothing is left to do
       job = std::move(jobs_.front());
       jobs_.pop_front();
-      working_ = true;
     }
     Result result = job();
     {

@@ -25,17 +25,15 @@ class JobQueue {
   void run(Job job);
   /// Calls the results that have come. For the main thread.
   void collect();
-  bool busy() const;
 
  private:
   void work(const std::stop_token& stop);
 
   std::function<void()> on_result_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable_any wake_;
   std::deque<Job> jobs_;
   std::vector<Result> results_;
-  bool working_ = false;
   std::jthread thread_;  // last: it uses the others
 };
 

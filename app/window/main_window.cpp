@@ -54,6 +54,7 @@ void MainWindow::run() {
     if (events.any || session_.collect()) pacing_.on_event();
     take_input(events);
     const double now = clock_seconds();
+    session_.send(now);
     if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
   }
@@ -77,7 +78,7 @@ double MainWindow::waiting_time(double now) {
     wait = std::min(wait, std::max(0.0, (latest->finished ? pacing_.next_drawing() : due) - now));
   else if (more && due > now)
     wait = std::min(wait, due - now);
-  return wait;
+  return std::min(wait, std::max(0.0, session_.send_time() - now));
 }
 
 void MainWindow::update_scale() {
@@ -98,14 +99,16 @@ void MainWindow::draw(double now) {
   ui_.wake_in = 1e300;
   ui_.problem.clear();
   count_gestures(now);
-  const Scene& scene = session_.scene();
-  const Layout layout = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
-                                    scene.width, scene.height, ui_.scale, columns_);
   const bool fresh = picture_due(now);
   if (fresh) {
     shown_ = session_.latest();
     session_.shown(*shown_);
   }
+  // The old picture keeps its shape until the new one is there.
+  const Scene& scene = session_.scene();
+  const Layout layout =
+      make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
+                  shown_ ? shown_->width : scene.width, shown_ ? shown_->height : scene.height, ui_.scale, columns_);
   draw_interface(layout);
   pointer(layout, now);
   fly(now);
@@ -125,7 +128,8 @@ void MainWindow::draw_interface(const Layout& layout) {
   if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
   draw_column(ui_, panels_, layout.column);
   draw_outline(ui_, layout.image, outline(panels_.scene, panels_.selected));
-  draw_status(ui_, layout.status, status_cells(shown_.get(), session_.document(), session_.paused()));
+  draw_status(ui_, layout.status,
+              status_cells(shown_.get(), session_.convergence().current(), session_.document(), session_.paused()));
   draw_message(ui_, layout.area, session_.message());
   if (help_) draw_help(ui_, layout.area, help_);
   if (const auto file = draw_dialog(ui_, layout.area, dialog_, session_.document())) session_.save(*file);
@@ -141,6 +145,7 @@ void MainWindow::apply_panels(double now) {
   if (panels_.wishes.open) session_.open(*panels_.wishes.open);
   if (panels_.wishes.threads) session_.set_threads(*panels_.wishes.threads);
   select_view(panels_.view);
+  session_.send(now);
   if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
   const Message& message = session_.message();
   if (!message.text.empty() && !message.error) {
@@ -177,7 +182,7 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   const double after = clock_seconds();
   if (fresh) pacing_.on_picture(shown_->edit, after);
   if (!log_) return;
-  if (fresh) log_->shown(shown_->edit, shown_->spp, shown_->step, after);
+  if (fresh) log_->shown(*shown_, after);
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }
 

@@ -38,7 +38,10 @@ class MainWindow {
   // window_input.cpp
   void take_input(const InputEvents& events);
   void act(Action action);
+  void act_on_document(Action action);
+  void reset_camera();
   void save();
+  void save_as();
   void select_view(int view);
   void frame_selection();
   void escape();

@@ -19,8 +19,9 @@ struct StatusCell {
   bool warning = false;
 };
 
-/// The parts for a state of things. frame: what is on the screen, may be null.
-std::vector<StatusCell> status_cells(const Frame* frame, const Document& document, bool paused);
+/// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.
+std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
+                                     bool paused);
 
 /// Which cells fit: drops those of the highest rank, last ones first, until the rest is at most `room` wide.
 std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,

@@ -10,6 +10,10 @@ double picture_interval(double age, int shown) { return shown < 3 ? 0.0 : std::c
 void Pacing::on_edit(unsigned long long edit, double now) {
   if (edit == edit_) return;
   edit_ = edit;
+  on_new_start(now);
+}
+
+void Pacing::on_new_start(double now) {
   edit_time_ = now;
   shown_ = 0;
   due_ = now;

@@ -19,6 +19,8 @@ class Pacing {
   void on_picture(unsigned long long edit, double now);
   /// An edit was made: its pictures are due at once.
   void on_edit(unsigned long long edit, double now);
+  /// Other pictures of the same edit are due at once: another view, a new start.
+  void on_new_start(double now);
   /// The window was drawn.
   void on_drawn(double now);
   /// The window should be drawn again at that time at the latest (a message goes, a key is held).

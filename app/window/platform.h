@@ -45,7 +45,7 @@ class Platform {
   int width() const, height() const, framebuffer_width() const, framebuffer_height() const;
   /// Window units, and font pixels, per unit of the design.
   float scale() const, pixels() const;
-  /// Keys that are held down and no control wants.
+  /// Keys that are held down, were pressed without Ctrl or Alt, and no control wants.
   const std::set<int>& held() const;
   bool shift_held() const;
 

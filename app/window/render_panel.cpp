@@ -1,3 +1,4 @@
+#include "app/contents.h"
 #include "app/window/panels.h"
 #include "core/scene/names.h"
 
@@ -79,6 +80,21 @@ void limit_rows(Ui& ui, PanelState& state) {
     state.wishes.threads = threads;
 }
 
+/// "7 spheres, 1 quad, 1 medium, 1 light".
+std::string contents_text(const Scene& scene) {
+  const Contents contents = contents_of(scene);
+  std::string text;
+  const auto add = [&](int count, const std::string& one, const std::string& many) {
+    if (count > 0)
+      text += (text.empty() ? "" : ", ") + format_count(static_cast<unsigned>(count)) + " " + (count == 1 ? one : many);
+  };
+  for (const auto& [kind, count] : contents.shapes) add(count, kind, kind == "box" ? "boxes" : kind + "s");
+  add(contents.media, "medium", "media");
+  add(contents.lights, "light", "lights");
+  for (const auto& [kind, count] : contents.textures) add(count, kind + " texture", kind + " textures");
+  return text;
+}
+
 std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × " + std::to_string(frame->lanes) : ""; }
 
 }  // namespace
@@ -114,6 +130,7 @@ void render_panel(Ui& ui, PanelState& state) {
     note(ui, "approximation: wrong by up to 0.93", true, palette::amber);
   }
   limit_rows(ui, state);
+  note(ui, contents_text(state.scene), false);
   ui.scope.clear();
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -33,15 +34,35 @@ Session::Session(const WindowOptions& options, std::function<void()> wake, std::
       renderer_({options.threads, options.isa}, std::move(on_frame)),
       loading_([this] { came_ = true, wake_(); }),
       saving_([this] { came_ = true, wake_(); }) {
-  submit();
+  picture_changed();
+  submit(clock_seconds());
   watch();
 }
 
-void Session::submit() {
-  const double now = clock_seconds();
+void Session::picture_changed() {
+  if (changed_at_ < 0) changed_at_ = clock_seconds();
+}
+
+double Session::send_time() const {
+  constexpr double patience = 0.4;  // seconds; longer, and what is shown is too far behind
+  return changed_at_ < 0 ? std::numeric_limits<double>::infinity() : sent_at_ + patience;
+}
+
+bool Session::send(double now) {
+  if (changed_at_ < 0) return false;
+  const auto frame = latest();
+  const bool seen = edit_ == 0 || (frame && frame->edit >= edit_);
+  if (!seen && now < send_time()) return false;
+  submit(now);
+  return true;
+}
+
+void Session::submit(double now) {
   const std::uint64_t before = edit_;
   edit_ = renderer_.submit(scene());
-  if (log_ && edit_ != before) log_->submitted(edit_, now);
+  if (log_ && edit_ != before) log_->submitted(edit_, changed_at_);
+  changed_at_ = -1;
+  sent_at_ = now;
 }
 
 void Session::edit(Scene next, std::uint64_t gesture) {
@@ -53,20 +74,20 @@ void Session::edit(Scene next, std::uint64_t gesture) {
   const bool same = same_picture(next, scene());
   history_.record({std::move(next), document().origin}, gesture);
   if (message_.error) dismiss();
-  if (!same) submit();
+  if (!same) picture_changed();
 }
 
 void Session::undo() {
   const Scene before = scene();
   if (!history_.undo()) return say("nothing to undo");
-  if (!same_picture(before, scene())) submit();
+  if (!same_picture(before, scene())) picture_changed();
   watch();
 }
 
 void Session::redo() {
   const Scene before = scene();
   if (!history_.redo()) return say("nothing to redo");
-  if (!same_picture(before, scene())) submit();
+  if (!same_picture(before, scene())) picture_changed();
   watch();
 }
 
@@ -79,7 +100,7 @@ void Session::show(Document next, bool own_file) {
   history_.record(std::move(next), 0);
   if (!same) {
     if (!own_file) convergence_.clear();
-    submit();
+    picture_changed();
   }
   watch();
   say((own_file ? "read again: " : "opened ") + document().origin->title);
@@ -133,6 +154,7 @@ void Session::save(const fs::path& file) {
 void Session::snapshot() {
   const auto frame = latest();
   if (!frame) return say("there is no picture yet");
+  if (changed_at_ >= 0) submit(clock_seconds());  // what is saved is what is edited
   Snapshot snapshot{document(), snapshot_base(fs::current_path(), stem_of(document().origin->title), snapshots_ + 1),
                     frame->isa, frame->lanes, frame->threads};
   snapshots_ = snapshot_number(snapshot.base);

@@ -62,8 +62,13 @@ class Session {
   std::shared_ptr<const Frame> latest() const { return renderer_.latest(); }
   /// A frame is on the screen: for the chart.
   void shown(const Frame& frame);
-  /// Number of the newest edit.
+  /// Number of the newest edit that went to the renderer.
   std::uint64_t edit_number() const { return edit_; }
+  /// Hands the newest scene to the renderer once the one before it has been seen: while something is dragged, each
+  /// scene that is begun is shown, instead of all being given up for the next. Whether it did.
+  bool send(double now);
+  /// When send() will not wait any longer for a picture; infinite: nothing is to be sent.
+  double send_time() const;
   const Convergence& convergence() const { return convergence_; }
 
   /// Takes what the background has done, a changed file, a problem of the renderer. Whether anything came.
@@ -75,7 +80,8 @@ class Session {
 
  private:
   void show(Document document, bool own_file);
-  void submit();
+  void picture_changed();
+  void submit(double now);
   void watch();
   void reload();
 
@@ -89,6 +95,8 @@ class Session {
   int threads_ = 1, snapshots_ = 0;
   std::atomic<std::uint64_t> edit_ = 0;
   std::uint64_t problem_edit_ = 0;
+  double changed_at_ = -1;  ///< since when the picture differs from what was sent; < 0: it does not
+  double sent_at_ = 0;
   std::atomic<bool> file_changed_ = false, came_ = false, closing_ = false;
   std::filesystem::path watched_;
   Renderer renderer_;

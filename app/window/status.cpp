@@ -27,21 +27,22 @@ std::string state_of(const Frame* frame, bool paused) {
   return frame->finished ? "finished" : "rendering";
 }
 
-std::string time_left(const Frame& frame) {
-  if (!std::isfinite(frame.relative_error)) return "?";
-  const double seconds = seconds_to(0.01, frame.relative_error, frame.seconds);
+std::string time_left(const Frame& frame, const ConvergenceRun& run) {
+  if (run.edit != frame.edit || run.points.empty()) return "?";
+  const double seconds = seconds_to(0.01, run.points.back(), frame.seconds);
   return seconds > 0 ? duration(seconds) : "reached";
 }
 
 }  // namespace
 
-std::vector<StatusCell> status_cells(const Frame* frame, const Document& document, bool paused) {
+std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
+                                     bool paused) {
   std::vector<StatusCell> cells{{"", state_of(frame, paused), 0}};
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : printed("1/%d", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
     cells.push_back({"error", percent(frame->relative_error), 1});
-    cells.push_back({"to 1 %", time_left(*frame), 2});
+    cells.push_back({"to 1 %", time_left(*frame, run), 2});
     cells.push_back({"", printed(frame->mrays_per_s < 10 ? "%.1f Mrays/s" : "%.0f Mrays/s", frame->mrays_per_s), 3});
     cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),
                      std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});

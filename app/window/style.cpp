@@ -67,7 +67,7 @@ void set_style(float scale) {
   style.WindowRounding = 0;
   style.FrameRounding = style.GrabRounding = style.PopupRounding = 4;
   style.ChildRounding = 6;
-  style.WindowBorderSize = style.FrameBorderSize = style.PopupBorderSize = 0;
+  style.WindowBorderSize = style.PopupBorderSize = 0;
   style.WindowPadding = {16, 12};
   style.FramePadding = {8, 4};
   style.ItemSpacing = {8, 6};

@@ -81,13 +81,15 @@ void UiLog::submitted(std::uint64_t edit, double now) {
   line("submit " + std::to_string(edit));
 }
 
-void UiLog::shown(std::uint64_t edit, unsigned spp, int step, double now) {
+void UiLog::shown(const Frame& frame, double now) {
+  const std::uint64_t edit = frame.edit;
   const auto found = submits_.find(edit);
   const double ms = found != submits_.end() ? 1e3 * (now - found->second) : 0;
   if (edit != shown_) latencies_.push_back(ms);
   shown_ = edit;
   if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
-  line("frame " + std::to_string(edit) + printed(" %u %d %.1f", spp, step, ms));
+  line("frame " + std::to_string(edit) +
+       printed(" %u %d %.1f %.1f", frame.spp, frame.step, ms, frame.first_picture_ms));
 }
 
 void UiLog::drawn(double cpu_seconds, bool picture) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/layout.h"
+#include "core/render/renderer.h"
 
 #include <cstdint>
 #include <cstdio>
@@ -16,7 +17,8 @@ namespace tyndall {
 ///   widget NAME X0 Y0 X1 Y1 VALUE    a control appeared, moved or has a new value; window coordinates
 ///   gone NAME                        it is no longer there
 ///   submit EDIT                      the scene went to the renderer
-///   frame EDIT SPP STEP MS           a picture of that edit is on the screen, MS after its submit
+///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the edit; FIRST_MS: what the
+///                                    renderer took for the edit's first picture
 ///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
 ///   state rendering|paused|finished
 ///   message TEXT                     what the user is told
@@ -38,7 +40,7 @@ class UiLog {
   void end_of_widgets();
   void submitted(std::uint64_t edit, double now);
   /// now: seconds, after the picture was put on the screen.
-  void shown(std::uint64_t edit, unsigned spp, int step, double now);
+  void shown(const Frame& frame, double now);
   void drawn(double cpu_seconds, bool picture);
   /// A line that is written only when it differs from the last one of the same kind.
   void changed(const std::string& kind, const std::string& value);

@@ -71,8 +71,7 @@ bool edit_box(Ui& ui, const Row& row, double& value, float width) {
                                       4 * ui.scale);
   ui.edit.started = ui.edit.started || active;
   ++ui.edit.waited;
-  ui.wake_in = 0;  // the keyboard reaches it a frame later
-  if (active) ui.wake_in = 1e300;
+  if (!active) ui.wake_in = 0;  // the keyboard reaches it a frame later
   if (active && !tab) return false;
   if (!ui.edit.started && ui.edit.waited < 6) return false;
   const bool changed = finish_edit(ui, row, value);

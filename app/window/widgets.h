@@ -29,7 +29,7 @@ struct Ui {
   float scale = 1;       ///< window units per unit of the design
   UiLog* log = nullptr;  ///< null: none
   std::string scope;     ///< prefix of names in the log: "gold." or ""
-  double size = 10;      ///< scene units that dragging a coordinate across 400 units of the screen is worth, halved
+  double size = 10;      ///< of the scene: dragging a coordinate by 200 units of the design changes it by this much
   TextEdit edit;
   double drag_start = 0;  ///< value when the drag of the active control began
   Slider drag_range;      ///< range of the slider that is dragged

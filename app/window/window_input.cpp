@@ -1,5 +1,7 @@
 #include "app/window/camera_control.h"
+#include "app/window/clock.h"
 #include "app/window/main_window.h"
+#include "app/window/medium_pick.h"
 #include "app/window/open_document.h"
 #include "core/base/math.h"
 
@@ -7,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyndall {
 
@@ -28,40 +31,12 @@ void MainWindow::act(Action action) {
     case Action::deselect:
       escape();
       break;
-    case Action::frame:
-      frame_selection();
-      break;
-    case Action::reset_camera: {
-      Scene scene = session_.scene();
-      scene.camera = session_.document().origin->saved.camera;
-      session_.edit(std::move(scene), ++gesture_);
-      break;
-    }
     case Action::pause:
       session_.pause(!session_.paused());
       break;
     case Action::restart:
       session_.restart();
-      break;
-    case Action::undo:
-      session_.undo();
-      break;
-    case Action::redo:
-      session_.redo();
-      break;
-    case Action::save:
-      save();
-      break;
-    case Action::save_as: {
-      const std::filesystem::path& file = session_.document().origin->file;
-      if (file.empty())
-        ask_name(dialog_, stem_of(session_.document().origin->title) + ".json");
-      else
-        ask_name(dialog_, file);
-      break;
-    }
-    case Action::snapshot:
-      session_.snapshot();
+      pacing_.on_new_start(clock_seconds());
       break;
     case Action::panels:
       columns_ = !columns_;
@@ -73,15 +48,49 @@ void MainWindow::act(Action action) {
       platform_.close();
       break;
     default:
-      select_view(static_cast<int>(action) - static_cast<int>(Action::view_beauty));
-      break;
+      act_on_document(action);
   }
+}
+
+void MainWindow::act_on_document(Action action) {
+  switch (action) {
+    case Action::frame:
+      return frame_selection();
+    case Action::reset_camera:
+      return reset_camera();
+    case Action::undo:
+      return session_.undo();
+    case Action::redo:
+      return session_.redo();
+    case Action::save:
+      return save();
+    case Action::save_as:
+      return save_as();
+    case Action::snapshot:
+      return session_.snapshot();
+    default:
+      return select_view(static_cast<int>(action) - static_cast<int>(Action::view_beauty));
+  }
+}
+
+void MainWindow::reset_camera() {
+  Scene scene = session_.scene();
+  scene.camera = session_.document().origin->saved.camera;
+  session_.edit(std::move(scene), ++gesture_);
+}
+
+void MainWindow::save_as() {
+  const Origin& origin = *session_.document().origin;
+  if (origin.file.empty())
+    ask_name(dialog_, stem_of(origin.title) + ".json");
+  else
+    ask_name(dialog_, origin.file);
 }
 
 void MainWindow::save() {
   const Origin& origin = *session_.document().origin;
   if (origin.file.empty())
-    act(Action::save_as);
+    save_as();
   else if (origin.comments)
     ask_comments(dialog_);
   else
@@ -91,8 +100,11 @@ void MainWindow::save() {
 void MainWindow::select_view(int view) {
   constexpr int of_renderer = view_count - 1;
   if (view >= of_renderer) return session_.say("the cost view is not built yet");
-  if (view != shown_view_) session_.set_view(static_cast<View>(view));
-  panels_.view = shown_view_ = view;
+  panels_.view = view;
+  if (view == shown_view_) return;
+  shown_view_ = view;
+  session_.set_view(static_cast<View>(view));
+  pacing_.on_new_start(clock_seconds());
 }
 
 void MainWindow::frame_selection() {
@@ -163,7 +175,13 @@ void MainWindow::click(const Layout& layout) {
   const Renderer::Pick pick = session_.pick(pixel(io.MousePos.x, image.x0, image.width(), panels_.scene.width),
                                             pixel(io.MousePos.y, image.y0, image.height(), panels_.scene.height));
   if (!io.KeyShift) {
-    panels_.selected = pick.object;
+    // Fog is seen through: it is selected where nothing else is, or by a second click.
+    const bool again = !pick.object.empty() && pick.object == panels_.selected;
+    const double behind = pick.object.empty() ? std::numeric_limits<double>::infinity() : pick.depth;
+    const ImagePoint at{static_cast<double>((io.MousePos.x - image.x0) / image.width()),
+                        static_cast<double>((io.MousePos.y - image.y0) / image.height())};
+    const ObjectPath medium = medium_at(panels_.scene, at, behind);
+    panels_.selected = (again || pick.object.empty()) && !medium.empty() ? medium : pick.object;
     pacing_.on_event();
   } else if (pick.object.empty() || !(pick.depth > 0)) {
     session_.say("nothing to focus on there");

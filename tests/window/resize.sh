@@ -11,6 +11,10 @@ for size in "1 1" "160 120" "40 700" "1200 30" "373 31" "1280 800" "900 600"; do
   sleep 0.3
   kill -0 "$pid" || fail "size $size"
 done
+for _ in 1 2; do
+  key F11
+  sleep 0.3
+done
 xdotool windowunmap "$window"
 sleep 0.5
 xdotool windowmap "$window"

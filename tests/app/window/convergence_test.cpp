@@ -59,8 +59,16 @@ TEST_CASE("errors that are unknown leave no point") {
   CHECK(runs.current().method == "a");
 }
 
-TEST_CASE("time to a target: four times as long for half the error") {
-  CHECK(seconds_to(0.01, 0.02, 10) == doctest::Approx(30));
-  CHECK(seconds_to(0.01, 0.01, 10) == 0);
-  CHECK(seconds_to(0.01, 0.001, 10) == 0);
+TEST_CASE("time to a target: four times as long for half the error, less what has passed since the estimate") {
+  CHECK(seconds_to(0.01, {10, 0.0004}, 10) == doctest::Approx(30));
+  CHECK(seconds_to(0.01, {10, 0.0004}, 25) == doctest::Approx(15));
+  CHECK(seconds_to(0.01, {10, 0.0001}, 10) == 0);
+  CHECK(seconds_to(0.01, {10, 0.00001}, 10) == 0);
+}
+
+TEST_CASE("an error that was not estimated anew is no point") {
+  Convergence runs;
+  for (int k = 1; k < 100; ++k) runs.add(1, "a", {0.1 * k, k < 50 ? 0.5 : 0.25});
+  REQUIRE(runs.current().points.size() == 2);
+  CHECK(runs.current().points[1].seconds == doctest::Approx(5));
 }

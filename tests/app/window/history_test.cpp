@@ -61,7 +61,7 @@ TEST_CASE("an edit after undo forgets what was undone, and does not join the dra
   history.record(numbered(2), 5);
   history.record(numbered(3), 6);
   history.undo();
-  history.record(numbered(4), 5);
+  history.record(numbered(4), 6);
   CHECK_FALSE(history.can_redo());
   CHECK(number(history) == 4);
   history.undo();

@@ -1,9 +1,11 @@
 #include "app/window/selection.h"
+#include "app/window/medium_pick.h"
 #include "app/window/outline.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace tyndall;
 
@@ -105,4 +107,29 @@ TEST_CASE("what is behind the eye is left out, what reaches behind it is cut") {
       CHECK(p.y > 0.5);
     }
   CHECK(outline(scene, {2}).empty());  // the eye is inside
+}
+
+TEST_CASE("fog is found where the ray enters it, nearest first, and not behind what hides it") {
+  Scene scene = example();
+  const auto fog = [](std::variant<Sphere<>, Box<>> boundary, Transform transform) {
+    return Object{"", Volume{boundary, std::move(transform), {}, {}}, {}};
+  };
+  scene.objects = {fog(Sphere<>{{0, 0, 0}, 1, {}}, {}),
+                   fog(Box<>{{-1, -1, -1}, {1, 1, 1}}, {RotateY{45}, Translate{{4, 0, 0}}})};
+  const double infinite = std::numeric_limits<double>::infinity();
+  CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 9.01) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 8.99).empty());
+  CHECK(medium_at(scene, {0.5, 0.05}, infinite).empty());
+  // The box is 1.41 wide when turned: its corner is at x = 4 - 1.41.
+  const double edge = 0.5 + (4 - 1.40) / (2 * 2 * 10 * std::tan(std::acos(-1) / 6)), beyond = edge - 0.01;
+  CHECK(medium_at(scene, {edge + 0.005, 0.5}, infinite) == ObjectPath{1});
+  CHECK(medium_at(scene, {beyond, 0.5}, infinite).empty());
+  scene.objects[1] = fog(Sphere<>{{0, 0, 5}, 1, {}}, {});
+  CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{1});
+  scene.objects[1] = fog(Sphere<>{{0, 0, 10}, 1, {}}, {});
+  CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{0});
+  scene.objects = {fog(Box<>{{2, -1, -1}, {4, 1, 1}}, {RotateY{90}})};  // now from z = -4 to -2
+  CHECK(medium_at(scene, {0.5, 0.5}, 12.01) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 11.99).empty());
 }

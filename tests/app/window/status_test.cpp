@@ -32,7 +32,7 @@ TEST_CASE("the status line tells what is on the screen") {
   frame.lanes = 32;
   frame.threads = 2;
   frame.film_bytes = 103'000'000;
-  const std::string text = text_of(status_cells(&frame, document(), false));
+  const std::string text = text_of(status_cells(&frame, {0, "", {{10, 1.23e-4}}}, document(), false));
   for (const char* part :
        {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;", "avx512 x32=2 threads;",
         "film=103 MB;", "rejected=0;", "=path · random;", "showroom.json=;"})
@@ -43,10 +43,10 @@ TEST_CASE("what is not known yet is not made up") {
   Frame frame;
   frame.step = 8;
   frame.relative_error = std::numeric_limits<double>::infinity();
-  const std::string text = text_of(status_cells(&frame, document(), true));
+  const std::string text = text_of(status_cells(&frame, {}, document(), true));
   for (const char* part : {"=paused;", "spp=1/64;", "error=?;", "to 1 %=?;"})
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
-  CHECK(text_of(status_cells(nullptr, document(), false)).find("=starting;") == 0);
+  CHECK(text_of(status_cells(nullptr, {}, document(), false)).find("=starting;") == 0);
 }
 
 TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
@@ -56,7 +56,7 @@ TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
   Document edited_document = document();
   edited_document.scene.render.fresnel = FresnelKind::schlick;
   int warnings = 0;
-  const std::vector<StatusCell> cells = status_cells(&frame, edited_document, false);
+  const std::vector<StatusCell> cells = status_cells(&frame, {}, edited_document, false);
   for (const StatusCell& cell : cells) warnings += cell.warning;
   CHECK(warnings == 2);
   CHECK(cells.front().value == "finished");

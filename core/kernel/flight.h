@@ -1,0 +1,92 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/kernel/scene_view.h"
+#include "core/media/medium.h"
+#include "core/shapes/box.h"
+#include "core/shapes/sphere.h"
+
+/// Flights through media: where along its ray a path scatters before it meets a surface.
+namespace tyndall {
+
+/// Where a path scatters within a medium, if it does.
+template <class F>
+struct MediumEvent {
+  MaskOf<F> happens;
+  Vec3<F> point;  ///< the ray's origin where nothing happens
+  IntOf<F> from;  ///< Ray::from of a start within the medium
+  Vec3<F> albedo;
+  IntOf<F> texture;
+  F g;
+};
+
+/// Where a line is inside a medium's boundary. from: see Ray.
+template <class F>
+TYNDALL_INLINE Interval<F> medium_interval(const MediumColumns& m, Vec3<F> origin, Vec3<F> direction, IntOf<F> from) {
+  const Start<F> start = start_on<F>(from, m.first, m.count);
+  if (m.box) {
+    const Interval<F> line = box_slabs(m.map, origin, direction).inside;
+    return any(start.here) ? leave_box(line, start) : line;
+  }
+  const Vec3<F> to_center = splat<F>(m.center) - origin;
+  const Interval<F> line = sphere_interval(to_center, splat<F>(m.radius), direction);
+  return any(start.here) ? leave_sphere(line, to_center, direction, from, start) : line;
+}
+
+/// Where a ray starts its way in a medium. Its point of entry is found again from close by where the rounding of a long
+/// way would be felt: above a thousandth of a mean free path.
+template <class F>
+TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, const Interval<F>& inside,
+                                    MaskOf<F> lanes) {
+  const F begin = max(inside.near, F(0.0f));
+  const Start<F> start = start_on<F>(ray.from, m.first, m.count);
+  const auto on_surface = mask_and(start.here, equal(ray.from & IntOf<F>(3), IntOf<F>(1)));
+  const auto dense = less(F(0x1p14f), splat<F>(m.density) * inside.far);
+  const auto inexact = mask_and(mask_and(lanes, dense), mask_or(on_surface, less(F(0.0f), begin)));
+  const Vec3<F> point = along(ray.origin, select(lanes, begin, F(0.0f)), ray.direction);
+  if (!any(inexact)) return point;
+  const Interval<F> again = medium_interval(m, point, ray.direction, IntOf<F>(from_nowhere));
+  return along(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
+}
+
+/// The nearest of the media's independent exponential flights, if it ends before the surface: right for media that
+/// overlap, whose densities add. Shortens `nearest` to it.
+template <class F>
+TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>& ray, const Dice<F>& dice,
+                                                MaskOf<F> active, F& nearest) {
+  const F infinity = F(__builtin_inff());
+  MediumEvent<F> event{less(F(1.0f), F(0.0f)), ray.origin, IntOf<F>(from_nowhere), zero3<F>(), IntOf<F>(-1), F(0.0f)};
+  for (int k = 0; k < s.medium_count; ++k) {
+    const MediumColumns& m = s.media[k];
+    const Interval<F> inside = medium_interval(m, ray.origin, ray.direction, ray.from);
+    const F begin = max(inside.near, F(0.0f)), end = min(inside.far, nearest);
+    const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
+    if (!any(crosses)) continue;
+    const F flight = free_flight(splat<F>(m.density), dice.open(dimension::free_flight, static_cast<std::uint32_t>(k)));
+    const F t = begin + flight;
+    const auto here = mask_and(mask_and(crosses, less(t, end)), less(t, infinity));
+    nearest = select(here, t, nearest);
+    event.happens = mask_or(event.happens, here);
+    const Vec3<F> entry = enter_medium(m, ray, inside, here);
+    event.point = select(here, along(entry, flight, ray.direction), event.point);
+    event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
+    event.albedo = select(here, splat<F>(m.albedo), event.albedo);
+    event.texture = select(here, IntOf<F>(m.texture), event.texture);
+    event.g = select(here, splat<F>(m.g), event.g);
+  }
+  return event;
+}
+
+/// Share of light that passes all media on the way to `distance`.
+template <class F>
+TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, MaskOf<F> active) {
+  F depth = F(0.0f);
+  for (int k = 0; k < s.medium_count; ++k) {
+    const Interval<F> inside = medium_interval(s.media[k], ray.origin, ray.direction, ray.from);
+    const F begin = max(inside.near, F(0.0f)), end = min(inside.far, distance);
+    const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
+    if (any(crosses)) depth = select(crosses, mul_add(end - begin, splat<F>(s.media[k].density), depth), depth);
+  }
+  return any(less(F(0.0f), depth)) ? transmittance(depth) : F(1.0f);
+}
+
+}  // namespace tyndall

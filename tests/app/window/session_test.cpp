@@ -1,0 +1,209 @@
+#include "app/window/session.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A session over a small scene file of its own, and a clock that waits for it.
+class Opened {
+ public:
+  explicit Opened(const std::string& name) : folder_(fs::path(TYNDALL_SCRATCH_DIR) / ("session_" + name)) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    before_ = fs::current_path();
+    fs::current_path(folder_);
+    write(0.25);
+    WindowOptions options;
+    options.scene = load_scene("scene.json");
+    options.threads = 1;
+    session = std::make_unique<Session>(
+        options, [] {},
+        [this] {
+          ++frames;
+          const std::lock_guard wait(gate);
+        },
+        nullptr);
+  }
+  ~Opened() {
+    session.reset();
+    fs::current_path(before_);
+  }
+
+  static void write(double fuzz, const std::string& file = "scene.json") {
+    std::ofstream(file) << R"({ "tyndall": 1, "image": { "width": 8, "height": 8 }, "background": [1, 1, 1],
+      "render": { "spp": 4, "integrator": "path", "sampler": "random" },
+      "materials": { "gold": { "type": "metal", "albedo": [1, 1, 1], "fuzz": )"
+                        << fuzz << R"( } },
+      "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "gold" }] })";
+  }
+  double fuzz() const { return std::get<Metal<>>(session->scene().materials[0].kind).fuzz; }
+  void set_fuzz(double fuzz, std::uint64_t gesture = 0) {
+    Scene scene = session->scene();
+    std::get<Metal<>>(scene.materials[0].kind).fuzz = fuzz;
+    session->edit(scene, gesture);
+  }
+  template <class Condition>
+  bool comes_true(const Condition& condition) {
+    for (int k = 0; k < 1000 && !condition(); ++k) {
+      session->collect();
+      session->send(1e9);  // out of patience
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return condition();
+  }
+  bool finishes() {
+    return comes_true([&] {
+      const auto frame = session->latest();
+      return frame && frame->finished && frame->edit == session->edit_number() && session->send_time() > 1e100;
+    });
+  }
+
+  std::mutex gate;  ///< holds the renderer after its next frame
+  std::atomic<int> frames = 0;
+  std::unique_ptr<Session> session;
+
+ private:
+  fs::path folder_, before_;
+};
+
+}  // namespace
+
+TEST_CASE("an edit goes to the renderer, the same value again does not") {
+  Opened opened("edit");
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->edit_number() == 1);
+  opened.set_fuzz(0.25);
+  CHECK_FALSE(opened.session->send(1e9));
+  opened.set_fuzz(0.5);
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->edit_number() == 2);
+  opened.session->undo();
+  CHECK(opened.fuzz() == 0.25);
+  CHECK_FALSE(edited(opened.session->document()));
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->edit_number() == 3);
+}
+
+TEST_CASE("exposure, tone map and name start nothing over, but can be undone") {
+  Opened opened("display");
+  REQUIRE(opened.finishes());
+  Scene scene = opened.session->scene();
+  scene.display.exposure = 2;
+  scene.display.tone_map = ToneMap::aces;
+  opened.session->edit(scene, 0);
+  CHECK_FALSE(opened.session->send(1e9));
+  CHECK(edited(opened.session->document()));
+  opened.session->undo();
+  CHECK(opened.session->scene().display.exposure == 0);
+  CHECK(opened.session->edit_number() == 1);
+}
+
+TEST_CASE("while a picture is awaited the newest scene waits, and none between is begun") {
+  Opened opened("waiting");
+  {
+    const std::lock_guard hold(opened.gate);
+    const int before = opened.frames;
+    opened.session->restart();
+    while (opened.frames == before) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // The renderer has shown the first edit and stands still.
+    opened.set_fuzz(0.3, 7);
+    CHECK(opened.session->send(0));
+    opened.set_fuzz(0.4, 7);
+    CHECK_FALSE(opened.session->send(0));
+    opened.set_fuzz(0.5, 7);
+    CHECK_FALSE(opened.session->send(0));
+    CHECK(opened.session->edit_number() == 2);
+    CHECK(opened.session->send(1e9));  // out of patience
+    CHECK(opened.session->edit_number() == 3);
+  }
+  REQUIRE(opened.finishes());
+  CHECK(opened.fuzz() == 0.5);
+  opened.session->undo();
+  CHECK(opened.fuzz() == 0.25);
+}
+
+TEST_CASE("what is broken is refused with a reason, and goes away with the next good edit") {
+  Opened opened("broken");
+  Scene scene = opened.session->scene();
+  scene.camera.look_at = scene.camera.look_from;
+  opened.session->edit(scene, 0);
+  CHECK(opened.session->message().error);
+  CHECK(opened.session->message().text.find("/camera") == 0);
+  CHECK_FALSE(edited(opened.session->document()));
+  opened.set_fuzz(0.75);
+  CHECK(opened.session->message().text.empty());
+}
+
+TEST_CASE("opening another scene can be undone, with where it came from") {
+  Opened opened("open");
+  opened.set_fuzz(0.5);
+  Opened::write(0.125, "other.json");
+  opened.session->open(fs::absolute("other.json").string());
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  CHECK(opened.session->document().origin->title == "other.json");
+  opened.session->undo();
+  CHECK(opened.fuzz() == 0.5);
+  CHECK(opened.session->document().origin->title == "scene.json");
+  opened.session->open("no such file");
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  CHECK(opened.fuzz() == 0.5);
+}
+
+TEST_CASE("the file is read again when it changes, and what was edited is one undo away") {
+  Opened opened("reload");
+  opened.set_fuzz(0.5);
+  Opened::write(0.75);
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.75; }));
+  CHECK_FALSE(edited(opened.session->document()));
+  opened.session->undo();
+  CHECK(opened.fuzz() == 0.5);
+  std::ofstream("scene.json") << "{";
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  CHECK(opened.fuzz() == 0.5);
+}
+
+TEST_CASE("saving is no edit, and is not read again as one") {
+  Opened opened("save");
+  opened.set_fuzz(0.5);
+  REQUIRE(opened.finishes());
+  const std::uint64_t edits = opened.session->edit_number();
+  opened.session->save(opened.session->document().origin->file);
+  CHECK_FALSE(edited(opened.session->document()));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->edit_number() == edits);
+  CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[0].kind).fuzz == 0.5);
+  opened.session->save("no/such/folder/a.json");
+  CHECK(opened.session->message().error);
+}
+
+TEST_CASE("a snapshot holds the newest edit, also when it was not sent yet, and is finished when the window closes") {
+  Opened opened("snapshot");
+  REQUIRE(opened.finishes());
+  opened.set_fuzz(0.875);
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return fs::exists("scene-001.png"); }));
+  CHECK(std::get<Metal<>>(load_scene("scene-001.png").scene.materials[0].kind).fuzz == 0.875);
+  opened.session->snapshot();
+  opened.session.reset();
+  CHECK(fs::exists("scene-002.png"));
+}
+
+TEST_CASE("two scenes give the same picture if they differ in name and display only") {
+  Scene a, b;
+  b.name = "b";
+  b.display.exposure = 1;
+  CHECK(same_picture(a, b));
+  b.camera.vfov = 50;
+  CHECK_FALSE(same_picture(a, b));
+}

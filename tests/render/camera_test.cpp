@@ -1,0 +1,198 @@
+#include "core/kernel/camera.h"
+
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+/// The camera: which ray belongs to which pixel, the thin lens, focus.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+Vec3d widen(Vec3f v) { return {v.x, v.y, v.z}; }
+
+Ray<double> ray_through(const Scene& scene, double x, double y, Pair<double> lens = {0, 0}) {
+  return camera_ray(compile(scene).camera, x, y, lens, 0.0);
+}
+
+/// Where a ray meets the plane at `depth` along the axis, in the camera's right and up directions.
+Pair<double> at_depth(const Scene& scene, Vec3d origin, Vec3d direction, double depth) {
+  const Camera& c = scene.camera;
+  const Vec3d w = normalize(c.look_at - c.look_from), right = normalize(cross(w, c.vup)),
+              up_in_picture = cross(right, w);
+  const Vec3d from = origin - (c.look_from - compile(scene).origin);
+  const Vec3d at = along(from, (depth - dot(from, w)) / dot(direction, w), direction);
+  return {dot(at, right), dot(at, up_in_picture)};
+}
+
+Scene slanted_camera() {
+  Scene scene = white_room();
+  scene.width = 64, scene.height = 48;
+  scene.camera.look_from = {1, 2, 3};
+  scene.camera.look_at = {-2, 0.5, 1};
+  scene.camera.vup = {0.2, 1, -0.1};
+  scene.camera.vfov = 50;
+  return scene;
+}
+
+/// A small lamp on the axis of a thin lens; the picture is `view` high in the plane of focus.
+Scene lamp_before_lens(double focus, double angle, double depth, double radius, double view) {
+  Scene scene = dark_room();
+  scene.camera.look_from = {0, 0, 0};
+  scene.camera.look_at = {0, 0, -1};
+  scene.camera.focus_distance = focus;
+  scene.camera.defocus_angle = angle;
+  scene.camera.vfov = 2 * std::atan(0.5 * view / focus) * (180 / pi);
+  add(scene, sphere({0, 0, -depth}, radius), lamp(1));
+  return scene;
+}
+
+/// What is seen of the picture as sums over pixels: brightness, middle and mean square distance from it, in pixels.
+struct Spot {
+  double light = 0, x = 0, y = 0, square = 0;
+};
+Spot spot_of(const Film& film) {
+  Spot s;
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x) {
+      const auto light = static_cast<double>(mean(film, film.at(x, y)).x);
+      const double dx = x + 0.5 - 0.5 * film.width, dy = y + 0.5 - 0.5 * film.height;
+      s.light += light, s.x += light * dx, s.y += light * dy, s.square += light * (dx * dx + dy * dy);
+    }
+  s.x /= s.light, s.y /= s.light, s.square /= s.light;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("camera: the picture's edges lie where vfov says, its upper left corner is pixel (0, 0)") {
+  const Scene scene = slanted_camera();
+  const double top = std::tan(25 * (pi / 180)), side = top * 64 / 48;
+  const auto check = [&](double x, double y, double across, double upward) {
+    const Ray<double> ray = ray_through(scene, x, y);
+    CHECK(length(ray.direction) == doctest::Approx(1).epsilon(1e-12));
+    const Pair<double> p = at_depth(scene, ray.origin, ray.direction, 1);
+    CHECK(p.x == doctest::Approx(across).epsilon(1e-6));
+    CHECK(p.y == doctest::Approx(upward).epsilon(1e-6));
+  };
+  check(0, 0, -side, top);
+  check(64, 0, side, top);
+  check(0, 48, -side, -top);
+  check(32, 24, 0, 0);
+  check(48, 12, side / 2, top / 2);
+}
+
+TEST_CASE("camera: pixel (0, 0) of the rendered picture is the top left one") {
+  Scene scene = dark_room();
+  scene.camera.look_from = {0, 0, 5};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vfov = 40;
+  add(scene, sphere({-1.6, 1.6, 0}, 0.2), lamp(1));  // up and to the left
+  const Film film = film_of(scene, 16);
+  const Spot spot = spot_of(film);
+  CHECK(spot.x < -10);
+  CHECK(spot.y < -10);  // y counts down
+  CHECK(mean(film, film.at(2, 2)).x > 0.5f);
+  CHECK(mean(film, film.at(29, 29)).x == 0.0f);
+}
+
+TEST_CASE("camera: samples fill their pixel evenly and nothing else") {
+  Scene scene = white_room();
+  scene.width = 3, scene.height = 2;
+  scene.camera.look_from = {0, 0, 1};
+  scene.camera.look_at = {0, 0, 0};
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  std::vector<double> xs, ys;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Ray<float> ray = sample_ray(view.view(), 2.0f, 1.0f, Dice<float>::of(0, 2, 1, i));
+    const Pair<double> p = at_depth(scene, widen(ray.origin), widen(ray.direction), 1);
+    const double x = p.x + 1.5, y = 1 - p.y;  // the picture is 2 units high: a pixel is one
+    REQUIRE(std::abs(x - 2.5) < 0.500001);
+    REQUIRE(std::abs(y - 1.5) < 0.500001);
+    xs.push_back(x - 2), ys.push_back(y - 1);
+  }
+  CHECK(kolmogorov_smirnov(xs, [](double v) { return v; }) < 2.23);
+  CHECK(kolmogorov_smirnov(ys, [](double v) { return v; }) < 2.23);
+}
+
+TEST_CASE("lens: rays start evenly on a disc and meet in the plane of focus") {
+  Scene scene = slanted_camera();
+  scene.camera.defocus_angle = 10;
+  scene.camera.focus_distance = 3.4;
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  const double radius = 0.2974614559881416;
+  const Vec3d middle = scene.camera.look_from - compiled.origin;
+  std::vector<double> squares, turns;
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const Ray<float> ray = sample_ray(view.view(), 20.0f, 11.0f, Dice<float>::of(0, 20, 11, i));
+    const Vec3d start = widen(ray.origin) - middle;
+    const Pair<double> on_lens = at_depth(scene, widen(ray.origin), widen(ray.direction), 0);
+    REQUIRE(length(start) <= radius * 1.000001);
+    REQUIRE(std::abs(length(start) - std::hypot(on_lens.x, on_lens.y)) < 1e-6);  // in the lens' plane
+    squares.push_back(dot(start, start) / (radius * radius));
+    turns.push_back(std::atan2(on_lens.y, on_lens.x) / (2 * pi) + 0.5);
+  }
+  CHECK(kolmogorov_smirnov(squares, [](double v) { return v; }) < 2.23);
+  CHECK(kolmogorov_smirnov(turns, [](double v) { return v; }) < 2.23);
+  const Pair<double> sharp =
+      at_depth(scene, ray_through(scene, 20, 11).origin, ray_through(scene, 20, 11).direction, 3.4);
+  for (const Pair<double> lens : {Pair<double>{1, 0}, Pair<double>{-0.6, 0.8}, Pair<double>{0, -0.5}}) {
+    const Ray<double> ray = ray_through(scene, 20, 11, lens);
+    const Pair<double> p = at_depth(scene, ray.origin, ray.direction, 3.4);
+    CHECK(p.x == doctest::Approx(sharp.x).epsilon(1e-6));
+    CHECK(p.y == doctest::Approx(sharp.y).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right size") {
+  struct Case {
+    double focus, angle, depth, rms;  ///< rms: radius of the blur in the plane of focus
+  };
+  constexpr Case cases[] = {
+      {10, 0.6, 5, 0.03702436283324772}, {10, 0.6, 20, 0.01851218141662386}, {3.4, 10, 1, 0.5048088304100128}};
+  ZScores scores;
+  for (const Case& c : cases) {
+    const double view = 4 * c.rms * std::sqrt(2.0), pixel = view / 32, lamp_radius = 0.0125 * view * c.depth / c.focus;
+    Scene scene = lamp_before_lens(c.focus, c.angle, c.depth, lamp_radius, view);
+    std::vector<double> squares, xs, ys;
+    for (int run = 0; run < 24; ++run) {
+      scene.render.seed = static_cast<std::uint32_t>(run);
+      const Spot spot = spot_of(film_of(scene, 256));
+      squares.push_back(spot.square * pixel * pixel);
+      xs.push_back(spot.x), ys.push_back(spot.y);
+    }
+    // The picture of a ball is its own disc, blurred, and summed over pixels.
+    const double seen = lamp_radius * c.focus / c.depth, disc = seen * seen / 2, box = pixel * pixel / 6;
+    const Estimate square = estimate(squares);
+    scores.add("mean square", {square.mean - box - disc, square.error}, c.rms * c.rms, 0.02);
+    CHECK(std::abs(estimate(xs).mean) <= 4 * estimate(xs).error);
+    CHECK(std::abs(estimate(ys).mean) <= 4 * estimate(ys).error);
+  }
+}
+
+TEST_CASE("lens: a lamp in focus is as sharp as without a lens") {
+  const Spot spot = spot_of(film_of(lamp_before_lens(10, 5, 10, 0.01, 1), 64));
+  CHECK(spot.light > 0);
+  CHECK(spot.square == doctest::Approx(0.5));  // all of it in the four pixels in the middle
+  CHECK(spot_of(film_of(lamp_before_lens(10, 5, 9, 0.01, 1), 64)).square > 0.6);
+}
+
+TEST_CASE("lens: without defocus the focus distance changes nothing; absent, it is the distance looked at") {
+  Scene scene = white_room();
+  scene.background = Gradient{};
+  scene.camera.look_from = {0, 0.5, 4};
+  scene.camera.look_at = {0, 0, 0};
+  add(scene, sphere({0, 0, 0}, 1), lambertian(0.5));
+  const std::vector<float> sharp = resolve(film_of(scene, 4));
+  scene.camera.focus_distance = 8 * length(scene.camera.look_from);
+  CHECK(resolve(film_of(scene, 4)) == sharp);
+  scene.camera.defocus_angle = 2;
+  scene.camera.focus_distance = length(scene.camera.look_from);
+  const std::vector<float> blurred = resolve(film_of(scene, 4));
+  scene.camera.focus_distance.reset();
+  CHECK(resolve(film_of(scene, 4)) == blurred);
+  CHECK(blurred != sharp);
+}

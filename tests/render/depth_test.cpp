@@ -1,0 +1,155 @@
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+/// max_depth, and paths that end by chance.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// A lamp of radius `light` in the middle of a matt ball of radius 1, seen from between them towards the wall.
+Scene integrating_sphere(double rho, double light) {
+  Scene scene = dark_room();
+  add(scene, sphere({0, 0, 0}, 1), lambertian(rho));
+  add(scene, sphere({0, 0, 0}, light), lamp(1));
+  aim(scene, {0, 0.2, 0.95 * light + 0.05}, {0, 0.5, 1});
+  return scene;
+}
+
+/// A wall point sees the lamp under the share f of its cosine-weighted sky, and the wall itself under the rest.
+double wall_radiance(double rho, double light) {
+  const double f = light * light;
+  return rho * f / (1 - rho * (1 - f));
+}
+
+FilmTotals totals_of(const Scene& scene, int spp) { return totals(film_of(scene, spp)); }
+
+}  // namespace
+
+TEST_CASE("roulette: takes from paths what it gives to others") {
+  ZScores scores;
+  std::uint32_t seed = 0;
+  for (const double rho : {0.1, 0.3, 0.5, 0.8, 0.95})
+    for (const double light : {0.7, 0.3}) {
+      CAPTURE(rho);
+      CAPTURE(light);
+      Scene scene = integrating_sphere(rho, light);
+      scene.render.seed = ++seed;
+      scores.add("wall", radiance(scene, 2048), wall_radiance(rho, light), 5e-3);
+      if (rho == 0.5) scores.add("scalar", radiance(scene, 128, "scalar"), wall_radiance(rho, light), 0.02);
+    }
+}
+
+TEST_CASE("roulette: coloured paths live by their brightest channel") {
+  Scene scene = integrating_sphere(0.5, 0.5);
+  scene.materials[0].colour = Vec3d{0.9, 0.2, 0.02};
+  const Film film = film_of(scene, 4096);
+  std::vector<double> red, green, blue;
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f m = mean(film, pixel);
+    red.push_back(static_cast<double>(m.x)), green.push_back(static_cast<double>(m.y));
+    blue.push_back(static_cast<double>(m.z));
+  }
+  ZScores scores;
+  scores.add("red", estimate(red), wall_radiance(0.9, 0.5), 3e-3);
+  scores.add("green", estimate(green), wall_radiance(0.2, 0.5), 3e-3);
+  scores.add("blue", estimate(blue), wall_radiance(0.02, 0.5), 3e-3);
+}
+
+TEST_CASE("depth: light counts after at most max_depth events; the rest is cut and counted") {
+  ZScores scores;
+  for (const double rho : {0.5, 0.95})
+    for (const int depth : {1, 2, 5, 10, 50}) {
+      CAPTURE(rho);
+      CAPTURE(depth);
+      const double light = 0.4, f = light * light;
+      Scene scene = integrating_sphere(rho, light);
+      scene.render.max_depth = depth;
+      scene.render.seed = static_cast<std::uint32_t>(depth);
+      const Film film = film_of(scene, 1024);
+      std::vector<double> batches, cut;
+      for (const FilmPixel& pixel : film.pixels) {
+        batches.push_back(static_cast<double>(mean(film, pixel).x));
+        cut.push_back(pixel.truncated / 1024.0);
+      }
+      double expected = 0;
+      for (int k = 0; k < depth; ++k) expected += rho * f * std::pow(rho * (1 - f), k);
+      scores.add("truncated sum", estimate(batches), expected, 0.01);
+      // Roulette starts below a sixth of the full throughput: until then a path is cut if it never met the lamp.
+      if (std::pow(rho, depth - 1) * 6 >= 1) scores.add("cut", estimate(cut), std::pow(1 - f, depth), 0.02);
+    }
+}
+
+TEST_CASE("depth 0: lamps and background alone") {
+  Scene scene = white_room();
+  scene.background = Vec3d{0.25, 0.5, 1};
+  scene.camera.look_from = {0, 0, 5};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vfov = 40;
+  add(scene, sphere({-1, 0, 0}, 0.5), lamp(3));
+  add(scene, sphere({1, 0, 0}, 0.5), lambertian(1));
+  scene.render.max_depth = 0;
+  const Film film = film_of(scene, 1);
+  int bright = 0, black = 0, sky = 0;
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f m = mean(film, pixel);
+    bright += m == Vec3f{3, 3, 3} ? 1 : 0;
+    sky += m == Vec3f{0.25f, 0.5f, 1} ? 1 : 0;
+    black += m == Vec3f{} ? 1 : 0;
+    CHECK(pixel.truncated == (m == Vec3f{} ? 1 : 0));
+  }
+  CHECK(bright > 30);
+  CHECK(black > 30);
+  CHECK(bright + black + sky == 32 * 32);
+}
+
+TEST_CASE("depth 1: a matt plane under the sky; what would go on is cut") {
+  // The sky is linear in y, so one bounce sees it at the mean cosine, 2/3 for density cos/π.
+  Scene scene = white_room();
+  scene.background = Gradient{};
+  scene.render.max_depth = 1;
+  add(scene, Quad<>{{-100, 0, -100}, {0, 0, 200}, {200, 0, 0}}, lambertian(1));
+  aim(scene, {0, 3, 1}, {0, 0, 0});
+  const Film film = film_of(scene, 256);
+  std::vector<double> red, green;
+  for (const FilmPixel& pixel : film.pixels) {
+    red.push_back(static_cast<double>(mean(film, pixel).x));
+    green.push_back(static_cast<double>(mean(film, pixel).y));
+    REQUIRE(mean(film, pixel).z == doctest::Approx(1).epsilon(1e-6));
+  }
+  ZScores scores;
+  scores.add("red", estimate(red), 0.5833333333333333, 1e-3);
+  scores.add("green", estimate(green), 0.75, 1e-3);
+  CHECK(totals(film).truncated == 0);
+}
+
+TEST_CASE("depth: glass, fog and metal are events; a medium's boundary is none") {
+  Scene scene = white_room();
+  aim(scene, {0, 0, 5}, {0, 0, 0});
+  const auto seen_with = [&](int depth) {
+    scene.render.max_depth = depth;
+    return totals_of(scene, 1);
+  };
+  add_medium(scene, sphere({0, 0, 0}, 1), {1e-20, 0}, 1);
+  CHECK(seen_with(0).truncated == 0);
+  add(scene, Quad<>{{-9, -9, 2}, {18, 0, 0}, {0, 18, 0}}, glass(1));
+  CHECK(seen_with(0).truncated == 1024);
+  CHECK(seen_with(1).truncated == 0);
+  add(scene, sphere({0, 0, 0}, 0.5), glass(1));
+  CHECK(seen_with(2).truncated == 1024);
+  CHECK(seen_with(3).truncated == 0);
+  add(scene, Quad<>{{-9, -9, -2}, {18, 0, 0}, {0, 18, 0}}, metal(1, 0));
+  CHECK(seen_with(6).truncated == 1024);
+  CHECK(seen_with(7).truncated == 0);
+}
+
+TEST_CASE("depth: a path that carries nothing has ended and is not cut") {
+  Scene scene = dark_room();
+  add(scene, sphere({0, 0, 0}, 1), lambertian(0));
+  aim(scene, {0, 0, 5}, {0, 0, 0});
+  scene.render.max_depth = 0;
+  CHECK(totals_of(scene, 4).truncated == 0);
+  scene.materials[0] = lambertian(0.001);
+  CHECK(totals_of(scene, 4).truncated == 4 * 1024);
+}
