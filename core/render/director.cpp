@@ -74,10 +74,12 @@ void Director::take_orders() {
     mail_.give_up = false;
   }
   if (threads > 0 && threads != crew_->size()) crew_ = std::make_unique<Crew>(threads);
-  if (scene)
+  if (scene) {
     take_scene(std::move(*scene));
-  else if (restart && compiled_)
-    submitted_ = Clock::now(), start_over();
+  } else if (restart && compiled_) {
+    submitted_ = Clock::now();
+    start_over();
+  }
   answer_films();
   if (frame_outdated && compiled_ && (taken_ > 0 || coarse_done_)) publish();
 }
