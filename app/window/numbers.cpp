@@ -38,7 +38,7 @@ int step_exponent(const Slider& slider) {
 Slider widened(const Slider& slider, const Valid& valid, double value) {
   Slider wide = slider;
   const double size = slider.logarithmic ? std::abs(value) : value;
-  if (size > slider.high && !(valid.high <= slider.high)) wide.high = std::pow(10.0, std::ceil(std::log10(size)));
+  if (size > slider.high) wide.high = std::min(std::pow(10.0, std::ceil(std::log10(size))), valid.high);
   if (slider.logarithmic && size > 0 && size < slider.low) wide.low = std::pow(10.0, std::floor(std::log10(size)));
   return wide;
 }

@@ -6,7 +6,7 @@
 /// How numbers are shown, typed and put on sliders. Pure.
 namespace tyndall {
 
-/// The slider's range with room for a value beyond it, where the value's own range has it: the next powers of ten.
+/// The slider's range with room for a value beyond it: up to the next power of ten, or what is valid.
 Slider widened(const Slider& slider, const Valid& valid, double value);
 
 /// Where a value is on a slider, in [0, 1]. Logarithmic sliders show the size and keep the sign.

@@ -54,20 +54,20 @@ bool Director::has_work() const { return compiled_ && compiled_->width > 0 && ta
 bool Director::wait_for_work(const std::stop_token& stop) {
   std::unique_lock lock(mail_.mutex);
   return mail_.wake.wait(lock, stop, [&] {
-    return mail_.scene || mail_.restart || mail_.view_changed || !mail_.films.empty() ||
+    return mail_.scene || mail_.restart || mail_.frame_outdated || !mail_.films.empty() ||
            (compiled_ && taken_ < limit_of(mail_)) || (mail_.threads > 0 && mail_.threads != crew_->size());
   }) && !stop.stop_requested();
 }
 
 void Director::take_orders() {
   std::unique_ptr<Scene> scene;
-  bool restart = false, view_changed = false;
+  bool restart = false, frame_outdated = false;
   int threads = 0;
   {
     const std::lock_guard lock(mail_.mutex);
     scene = std::move(mail_.scene);
     restart = std::exchange(mail_.restart, false);
-    view_changed = std::exchange(mail_.view_changed, false);
+    frame_outdated = std::exchange(mail_.frame_outdated, false);
     view_ = mail_.view;
     threads = mail_.threads;
     limit_ = limit_of(mail_);
@@ -75,12 +75,14 @@ void Director::take_orders() {
     mail_.give_up = false;
   }
   if (threads > 0 && threads != crew_->size()) crew_ = std::make_unique<Crew>(threads);
-  if (scene)
+  if (scene) {
     take_scene(std::move(*scene));
-  else if (restart && compiled_)
+  } else if (restart && compiled_) {
+    submitted_ = Clock::now();
     start_over();
+  }
   answer_films();
-  if (view_changed && compiled_ && (taken_ > 0 || coarse_done_)) publish();
+  if (frame_outdated && compiled_ && (taken_ > 0 || coarse_done_)) publish();
 }
 
 void Director::take_scene(Scene scene) {

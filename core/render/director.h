@@ -27,7 +27,8 @@ struct Mailbox {
   Scene newest;                  ///< last submitted
   std::uint64_t edit = 0;        ///< of the newest scene; 0: none yet
   Clock::time_point submitted;
-  bool restart = false, paused = false, view_changed = false;
+  bool restart = false, paused = false;
+  bool frame_outdated = false;         ///< view or limit changed: the same samples are to be published anew
   View view = View::beauty;
   std::uint32_t limit = 0;                ///< samples a pixel at which to stop
   int threads = 0;                        ///< wanted

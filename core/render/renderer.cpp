@@ -48,7 +48,9 @@ Renderer::~Renderer() {
 std::uint64_t Renderer::submit(Scene scene) {
   Mailbox& mail = state_->mail;
   const std::lock_guard lock(mail.mutex);
-  mail.limit = static_cast<std::uint32_t>(scene.render.spp.value_or(static_cast<int>(default_limit)));
+  const auto limit = static_cast<std::uint32_t>(scene.render.spp.value_or(static_cast<int>(default_limit)));
+  mail.frame_outdated |= mail.limit != limit;  // finished or not is told by the frame
+  mail.limit = limit;
   const bool same = mail.edit > 0 && same_picture(mail.newest, scene);
   mail.newest = scene;
   if (!same) {
@@ -93,7 +95,7 @@ void Renderer::set_view(View view) {
   const std::lock_guard lock(state_->mail.mutex);
   if (state_->mail.view == view) return;
   state_->mail.view = view;
-  state_->mail.view_changed = true;
+  state_->mail.frame_outdated = true;
   state_->mail.give_up = true;
   state_->mail.wake.notify_one();
 }

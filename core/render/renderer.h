@@ -25,7 +25,7 @@ struct Frame {
   double relative_error = 0;    ///< estimated; infinite before two samples
   double seconds = 0;           ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;       ///< of the last pass
-  double first_picture_ms = 0;  ///< from submit() to the first frame of this edit
+  double first_picture_ms = 0;  ///< from submit() or restart() to the first frame after it
   std::uint64_t rejected = 0, truncated = 0;
   std::size_t film_bytes = 0;
   std::string isa;

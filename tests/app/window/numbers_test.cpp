@@ -44,6 +44,7 @@ TEST_CASE("sliders make room for values beyond them, where those are valid") {
   CHECK(widened({0.001, 100, true}, at_least(0), 1e-5).low == doctest::Approx(1e-5));
   CHECK(widened({0.001, 100, true}, at_least(0), 0).low == 0.001);
   CHECK(widened({0, 1}, between(0, 1), 1).high == 1);
+  CHECK(widened({1, 120}, inside(0, 180), 150).high == 180);
   CHECK(widened({0.5, 3}, above(0), 1.5).high == 3);
 }
 

@@ -1,0 +1,64 @@
+#include "core/render/preview.h"
+
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr std::int64_t full_hd = 1920 * 1080;
+
+/// Speed at which a full HD picture within a second would sample every `step`-th pixel, exactly.
+double speed_for(double step) { return static_cast<double>(full_hd) / (step * step); }
+
+}  // namespace
+
+TEST_CASE("preview: the step that fits the time, coarse while nothing is known") {
+  CHECK(preview_step(full_hd, 0, 0.1, 1) == 8);
+  CHECK(preview_step(full_hd, -1, 0.1, 0) == 8);
+  CHECK(preview_step(full_hd, 1e12, 0.033, 0) == 1);
+  CHECK(preview_step(full_hd, 1, 0.033, 0) == 8);
+  for (const int step : {1, 2, 4, 8}) {
+    CHECK(preview_step(full_hd, speed_for(0.99 * step), 1, 0) == step);
+    CHECK(preview_step(full_hd, speed_for(0.51 * step), 1, 0) == step);
+  }
+  CHECK(preview_step(full_hd, speed_for(2) / camera_budget, camera_budget, 0) == 2);
+  CHECK(preview_step(1, 1e3, 0.033, 0) == 1);
+}
+
+TEST_CASE("preview: a step once chosen is kept while it is off by less than 1.4") {
+  for (const int step : {1, 2, 4, 8}) {
+    CHECK(preview_step(full_hd, speed_for(1.39 * step), 1, step) == step);
+    if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.39), 1, step) == step);
+    if (step < 8) CHECK(preview_step(full_hd, speed_for(1.41 * step), 1, step) == 2 * step);
+    if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.41), 1, step) < step);
+  }
+  CHECK(preview_step(full_hd, speed_for(0.01), 1, 1) == 1);
+  CHECK(preview_step(full_hd, speed_for(1000), 1, 8) == 8);
+}
+
+TEST_CASE("preview: speeds that flicker by a fifth never make the step flicker") {
+  for (double wanted = 0.3; wanted < 12; wanted *= 1.07) {
+    int step = preview_step(full_hd, speed_for(wanted), 1, 0);
+    int changes = 0;
+    for (int i = 0; i < 20; ++i) {
+      const int next = preview_step(full_hd, speed_for(wanted * (i % 2 ? 1.1 : 0.9)), 1, step);
+      changes += next != step ? 1 : 0;
+      step = next;
+    }
+    CHECK(changes <= 1);
+  }
+}
+
+TEST_CASE("pass: doubles what is there, within the time and 64 samples") {
+  CHECK(pass_samples(1, full_hd, 1e12, 0.15) == 1);
+  CHECK(pass_samples(2, full_hd, 1e12, 0.15) == 2);
+  CHECK(pass_samples(40, full_hd, 1e12, 0.15) == 40);
+  CHECK(pass_samples(1000, full_hd, 1e12, 0.15) == 64);
+  CHECK(pass_samples(1000, full_hd, static_cast<double>(full_hd) * 10, 0.5) == 5);
+  CHECK(pass_samples(1000, full_hd, static_cast<double>(full_hd), 0.15) == 1);
+  CHECK(pass_samples(1000, full_hd, 0, 0.15) == 1);
+  CHECK(pass_samples(3, 0, 1e6, 0.15) == 3);
+}

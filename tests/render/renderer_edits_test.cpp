@@ -1,0 +1,177 @@
+#include "core/render/renderer.h"
+
+#include "tests/support/watched_renderer.h"
+
+#include <doctest/doctest.h>
+
+/// Edits: the newest wins, nothing is shown that was not asked for, nothing restarts without need.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// An empty room whose walls all shine alike: each picture is one colour, whatever its samples.
+Scene plain(double brightness, int spp = 3) {
+  Scene scene;
+  scene.width = 120, scene.height = 90;
+  scene.background = Vec3d{brightness, brightness, brightness};
+  scene.render.spp = spp;
+  return scene;
+}
+
+bool is_plain(const Frame& frame, float brightness) {
+  for (const float v : rgb_of(frame))
+    if (v != brightness) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("edits: of 300 quick ones the newest is shown, each frame whole and of its own edit, in order") {
+  WatchedRenderer renderer;
+  std::uint64_t edit = 0;
+  for (int i = 1; i <= 300; ++i) {
+    edit = renderer->submit(plain(i));
+    CHECK(edit == static_cast<std::uint64_t>(i));
+    if (i % 20 == 0) sleep_ms(3);
+  }
+  renderer.wait_finished(edit);
+  std::uint64_t before = 0;
+  for (const FramePointer& frame : renderer.frames()) {
+    REQUIRE(frame->edit >= before);
+    before = frame->edit;
+    REQUIRE(is_plain(*frame, static_cast<float>(frame->edit)));  // never black, torn or of another edit
+  }
+  CHECK(before == 300);
+}
+
+TEST_CASE("edits: a coarse first picture fills the image between samples of the final one") {
+  Scene scene = small_scene("showroom", 200, 150, 1);
+  WatchedRenderer renderer(1);
+  const std::uint64_t edit = renderer->submit(scene);
+  renderer.wait_finished(edit);
+  const FramePointer first = renderer.frames().front(), last = renderer->latest();
+  CHECK(first->step == 8);  // nothing is known about the machine's speed yet
+  CHECK(first->spp == 0);
+  CHECK_FALSE(first->finished);
+  const std::vector<float> coarse = rgb_of(*first), fine = rgb_of(*last);
+  const auto pixel = [&](const std::vector<float>& rgb, int x, int y) {
+    const std::size_t at = static_cast<std::size_t>(y * 200 + x) * 3;
+    return Vec3f{rgb[at], rgb[at + 1], rgb[at + 2]};
+  };
+  for (int y = 0; y < 150; y += 8)
+    for (int x = 0; x < 200; x += 8) {
+      REQUIRE(pixel(coarse, x, y) == pixel(fine, x, y));
+      if (x + 8 >= 200 || y + 8 >= 150) continue;
+      const Vec3f a = pixel(fine, x, y), b = pixel(fine, x + 8, y), c = pixel(fine, x, y + 8),
+                  d = pixel(fine, x + 8, y + 8);
+      const Vec3f middle = 0.25f * (a + b + c + d), seen = pixel(coarse, x + 4, y + 4);
+      REQUIRE(length(middle - seen) < 1e-5f * (1 + length(middle)));
+    }
+  for (int x = 193; x < 200; ++x) REQUIRE(pixel(coarse, x, 0) == pixel(coarse, 192, 0));  // past the last column
+}
+
+TEST_CASE("edits: what is equal, or differs in name and display only, restarts nothing") {
+  WatchedRenderer renderer;
+  Scene scene = plain(2);
+  const std::uint64_t edit = renderer->submit(scene);
+  renderer.wait_finished(edit);
+  const std::uint64_t pass = renderer->latest()->pass;
+  CHECK(renderer->submit(scene) == edit);
+  scene.name = "another name";
+  CHECK(renderer->submit(scene) == edit);
+  scene.display.exposure = 2;
+  scene.display.tone_map = ToneMap::aces;
+  CHECK(renderer->submit(scene) == edit);
+  renderer->set_view(View::beauty);
+  renderer->set_threads(2);
+  sleep_ms(50);
+  CHECK(renderer->latest()->pass == pass);
+  scene.render.seed = 1;
+  CHECK(renderer->submit(scene) == edit + 1);
+  renderer.wait_finished(edit + 1);
+}
+
+TEST_CASE("edits: a restart throws the samples away and renders the same again") {
+  WatchedRenderer renderer;
+  const Scene scene = small_scene("cornell-box", 80, 80, 6);
+  const std::uint64_t edit = renderer->submit(scene);
+  const FramePointer once = renderer.wait_finished(edit);
+  const std::size_t before = renderer.frames().size();
+  renderer->restart();
+  const FramePointer again = renderer.wait_finished(edit, before);
+  CHECK(again->rgba == once->rgba);
+  CHECK(renderer.frames()[before]->spp <= 1);
+}
+
+TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene") {
+  WatchedRenderer renderer;
+  Scene scene = small_scene("cornell-box", 80, 80, 1000000);
+  renderer->submit(scene);
+  renderer.wait_for([](const Frame& f) { return f.spp >= 2; });
+  CHECK_FALSE(renderer->paused());
+  renderer->pause(true);
+  CHECK(renderer->paused());
+  sleep_ms(400);  // the pass that is under way ends
+  const std::uint64_t pass = renderer->latest()->pass;
+  const double seconds = renderer->latest()->seconds;
+  sleep_ms(100);
+  CHECK(renderer->latest()->pass == pass);
+  scene.camera.look_from.x += 50;
+  const std::uint64_t edit = renderer->submit(scene);
+  const FramePointer shown = renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.spp == 1; });
+  CHECK_FALSE(shown->finished);
+  sleep_ms(50);
+  CHECK(renderer->latest()->spp == 1);
+  const std::size_t before = renderer.frames().size();
+  renderer->pause(false);
+  const FramePointer next = renderer.wait_for([](const Frame& f) { return f.spp > 1; }, before);
+  CHECK(next->seconds < seconds + 0.3);  // pauses are no rendering time
+}
+
+TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and says what is wrong") {
+  WatchedRenderer renderer;
+  const Scene good = plain(2);
+  const std::uint64_t first = renderer->submit(good);
+  const FramePointer last = renderer.wait_finished(first);
+  Scene gigantic = good;
+  gigantic.width = gigantic.height = 2000000000;  // no machine has the memory
+  for (int round = 0; round < 2; ++round) {
+    const std::uint64_t bad = renderer->submit(gigantic);
+    for (int i = 0; i < 10000 && !(renderer->problem() && renderer->problem()->edit == bad); ++i) sleep_ms(1);
+    REQUIRE(renderer->problem());
+    CHECK(renderer->problem()->edit == bad);
+    CHECK(renderer->problem()->what.size() > 0);
+    CHECK(is_plain(*renderer->latest(), 2));
+    CHECK(renderer->latest()->edit < bad);
+    CHECK(renderer->latest()->width == 120);
+    renderer->set_view(round == 0 ? View::albedo : View::beauty);
+    renderer->restart();
+    CHECK(renderer->pick(5, 5).object.empty());
+    CHECK(renderer->film().pixels.size() == 120 * 90);
+    const std::size_t before = renderer.frames().size();
+    renderer->set_view(View::beauty);
+    const std::uint64_t undone = renderer->submit(good);
+    CHECK(undone == bad + 1);
+    CHECK(is_plain(*renderer.wait_finished(undone, before), 2));
+    CHECK(renderer->problem() == nullptr);
+  }
+  CHECK(last->edit == first);
+}
+
+TEST_CASE("edits: the renderer may go while it renders, at once") {
+  for (int round = 0; round < 20; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    {
+      Renderer renderer({2, ""});
+      renderer.submit(small_scene(round % 2 ? "next-week" : "showroom", 300, 200, 100000));
+      sleep_ms(round);
+    }
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
+  }
+  Renderer idle({1, ""});  // never used
+  CHECK(idle.latest() == nullptr);
+  CHECK(idle.problem() == nullptr);
+  CHECK(idle.film().pixels.empty());
+  CHECK(idle.pick(0, 0).object.empty());
+}

@@ -1,0 +1,180 @@
+#include "core/film/merge.h"
+#include "core/render/pass.h"
+#include "tests/support/pictures.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <random>
+#include <thread>
+
+/// The picture depends on scene, seed and samples alone: not on threads, tiles, passes, shards or interruptions.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr int width = 61, height = 43;  // neither a multiple of any tile
+
+const std::vector<RenderScene>& scenes() {
+  static const std::vector<RenderScene> all = [] {
+    std::vector<RenderScene> list;
+    for (const char* name : {"showroom", "cornell-smoke", "bouncing-spheres", "next-week"})
+      list.push_back(compile(small_scene(name, width, height, 1)));
+    return list;
+  }();
+  return all;
+}
+
+RenderOptions options_of(const Kernels& kernels, std::uint32_t spp) {
+  RenderOptions options;
+  options.threads = 2;
+  options.isa = kernels.isa;
+  options.spp = spp;
+  return options;
+}
+
+/// Samples first … last - 1 of the whole picture.
+Film shard(const RenderScene& scene, const Kernels& kernels, std::uint32_t first, std::uint32_t last, int tile = 0) {
+  RenderOptions options = options_of(kernels, last - first);
+  options.first_sample = first;
+  options.tile = tile;
+  return render(scene, options).film;
+}
+
+}  // namespace
+
+TEST_CASE("same picture: for any number of threads and any tiles, on every instruction set") {
+  for (const Kernels& kernels : available_kernels())
+    for (const RenderScene& scene : scenes()) {
+      CAPTURE(kernels.isa);
+      RenderOptions options = options_of(kernels, 5);
+      options.threads = 1;
+      const Film reference = render(scene, options).film;
+      CHECK(totals(reference).rejected == 0);
+      for (const int threads : {2, 7})
+        for (const int tile : {0, 1, 5, 8, 64, 1000}) {
+          if (tile == 1 && threads == 2) continue;
+          options.threads = threads;
+          options.tile = tile;
+          const Film film = render(scene, options).film;
+          REQUIRE(film == reference);
+          REQUIRE(hash_of(film) == hash_of(reference));
+        }
+    }
+}
+
+TEST_CASE("same picture: shards added in any order, whatever their sizes and tiles") {
+  std::mt19937 engine(1);
+  for (const Kernels& kernels : available_kernels())
+    for (const RenderScene& scene : scenes()) {
+      CAPTURE(kernels.isa);
+      const Film whole = shard(scene, kernels, 0, 13);
+      for (int round = 0; round < 3; ++round) {
+        std::vector<FilmPart> parts;
+        for (std::uint32_t first = 0; first < 13;) {
+          const std::uint32_t last = std::min(13u, first + 1 + static_cast<std::uint32_t>(engine() % 6));
+          parts.push_back({"part", shard(scene, kernels, first, last, static_cast<int>(engine() % 40))});
+          first = last;
+        }
+        std::shuffle(parts.begin(), parts.end(), engine);
+        REQUIRE(merge(parts) == whole);
+      }
+    }
+}
+
+TEST_CASE("same picture: by long and short passes, and continued from a film") {
+  for (const RenderScene& scene : scenes()) {
+    const Kernels best = available_kernels().back();
+    const Film whole = shard(scene, best, 0, 40);
+    Film film = shard(scene, best, 0, 1);
+    for (const std::uint32_t spp : {2u, 5u, 33u, 40u}) film = render(scene, options_of(best, spp), {}, film).film;
+    CHECK(film == whole);
+    RenderOptions timed = options_of(best, 40);
+    timed.target_error = 1e-9;  // looks between passes, which makes them short
+    CHECK(render(scene, timed).film == whole);
+  }
+}
+
+TEST_CASE("same picture: a region is cut from the whole") {
+  for (const RenderScene& scene : scenes()) {
+    RenderOptions options = options_of(available_kernels().back(), 3);
+    const Film whole = render(scene, options).film;
+    for (const Region& region :
+         {Region{0, 0, 1, 1}, Region{7, 11, 40, 30}, Region{60, 42, 61, 43}, Region{13, 0, 14, 43}}) {
+      options.region = region;
+      const Film part = render(scene, options).film;
+      CHECK(part.region == region);
+      for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x) REQUIRE(part.at(x, y) == whole.at(x, y));
+    }
+  }
+}
+
+TEST_CASE("same picture: passes given up any number of times; every pixel's samples stay a prefix") {
+  Crew crew(2);
+  const Kernels kernels = available_kernels().back();
+  int abandoned = 0;
+  for (const RenderScene& scene : scenes()) {
+    const SceneViewOf view(scene);
+    const Film whole = shard(scene, kernels, 0, 24);
+    Film film = make_film(width, height, whole.region, 0, scene.film_unit);
+    for (const auto& [first, last] : {std::pair{0u, 1u}, {1u, 3u}, {3u, 24u}}) {
+      Pass pass(whole.region, first, last, 1, 0, 8);
+      for (bool done = false; !done;) {
+        std::atomic<bool> give_up = false, over = false;
+        std::jthread interrupter([&, enough = pass.paths() + 500] {
+          while (pass.paths() < enough && !over) std::this_thread::yield();
+          give_up = true;
+        });
+        done = pass.run(crew, kernels, view.view(), film, give_up);
+        over = true;
+        interrupter.join();
+        abandoned += done ? 0 : 1;
+        for (const FilmPixel& pixel : film.pixels) REQUIRE((pixel.taken == first || pixel.taken == last));
+      }
+    }
+    CHECK(film == whole);
+  }
+  CHECK(abandoned > 4);
+}
+
+TEST_CASE("same picture: coarse passes and the rest of the first sample are the first sample") {
+  Crew crew(2);
+  const Kernels kernels = available_kernels().back();
+  for (const RenderScene& scene : scenes()) {
+    const SceneViewOf view(scene);
+    const Film whole = shard(scene, kernels, 0, 1);
+    for (const int step : {8, 4, 2}) {
+      Film film = make_film(width, height, whole.region, 0, scene.film_unit);
+      const std::atomic<bool> give_up = false;
+      Pass coarse(whole.region, 0, 1, step), rest(whole.region, 0, 1, 1, step);
+      CHECK(coarse.run(crew, kernels, view.view(), film, give_up));
+      CHECK(coarse.paths() == static_cast<std::uint64_t>(((width + step - 1) / step) * ((height + step - 1) / step)));
+      CHECK(rest.run(crew, kernels, view.view(), film, give_up));
+      CHECK(coarse.paths() + rest.paths() == width * height);
+      CHECK(film == whole);
+    }
+  }
+}
+
+TEST_CASE("render: stops where it is told to and says so") {
+  const RenderScene& scene = scenes()[0];
+  RenderOptions options = options_of(available_kernels().back(), 1000000);
+  int calls = 0;
+  const RenderResult stopped = render(scene, options, [&](const RenderProgress& p) {
+    CHECK(p.seconds >= 0);
+    return ++calls < 3;
+  });
+  CHECK(stopped.interrupted);
+  CHECK(totals(stopped.film).most_taken < 1000000);
+  options.spp.reset();
+  options.time_limit = 0.05;
+  const RenderResult timed = render(scene, options);
+  CHECK_FALSE(timed.interrupted);
+  CHECK(timed.seconds >= 0.05);
+  CHECK(totals(timed.film).least_taken == totals(timed.film).most_taken);
+  CHECK(timed.rays > totals(timed.film).samples);
+  options.isa = "no such set";
+  CHECK_THROWS_AS(render(scene, options), std::invalid_argument);
+}

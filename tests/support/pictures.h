@@ -1,0 +1,35 @@
+#pragma once
+#include "core/compile/compile.h"
+#include "core/film/film.h"
+#include "core/render/render.h"
+#include "core/scene/load.h"
+
+#include <string>
+#include <vector>
+
+/// Built-in scenes, small, and the pictures that blocking renders make of them.
+namespace tyndall::test {
+
+/// A built-in scene, `width` by `height` pixels, spp samples.
+inline Scene small_scene(const std::string& name, int width, int height, int spp) {
+  Scene scene = load_scene(name).scene;
+  scene.width = width;
+  scene.height = height;
+  scene.render.spp = spp;
+  return scene;
+}
+
+/// The picture that every other way of rendering must reproduce: one thread, one go.
+inline std::vector<float> reference_picture(const Scene& scene, const std::string& isa = "") {
+  RenderOptions options;
+  options.threads = 1;
+  options.isa = isa;
+  options.spp = static_cast<std::uint32_t>(scene.render.spp.value());
+  return resolve(render(compile(scene), options).film);
+}
+
+inline std::uint64_t hash_of(const Film& film) {
+  return image_hash(film.region.width(), film.region.height(), resolve(film));
+}
+
+}  // namespace tyndall::test

@@ -1,0 +1,79 @@
+#pragma once
+#include "core/render/renderer.h"
+#include "tests/support/pictures.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+/// A Renderer that remembers every frame it has published.
+namespace tyndall::test {
+
+using FramePointer = std::shared_ptr<const Frame>;
+
+class WatchedRenderer {
+ public:
+  explicit WatchedRenderer(int threads = 2, const std::string& isa = "")
+      : renderer_({threads, isa}, [this] { note(); }) {}
+
+  Renderer& operator*() { return renderer_; }
+  Renderer* operator->() { return &renderer_; }
+
+  /// The first frame, from the `skip`-th on, that the condition holds for; waits for it. Null after 60 s.
+  template <class Condition>
+  FramePointer wait_for(Condition condition, std::size_t skip = 0) {
+    std::unique_lock lock(mutex_);
+    FramePointer found;
+    const auto look = [&] {
+      for (std::size_t i = skip; i < frames_.size() && !found; ++i)
+        if (condition(*frames_[i])) found = frames_[i];
+      return found != nullptr;
+    };
+    if (!news_.wait_for(lock, std::chrono::seconds(60), look)) FAIL("no such frame within a minute");
+    return found;
+  }
+  FramePointer wait_finished(std::uint64_t edit, std::size_t skip = 0) {
+    return wait_for([&](const Frame& f) { return f.edit == edit && f.finished; }, skip);
+  }
+  std::vector<FramePointer> frames() const {
+    const std::lock_guard lock(mutex_);
+    return frames_;
+  }
+  /// Calls to on_frame, which also tells of problems.
+  std::size_t calls() const {
+    const std::lock_guard lock(mutex_);
+    return calls_;
+  }
+
+ private:
+  void note() {
+    const FramePointer frame = renderer_.latest();
+    const std::lock_guard lock(mutex_);
+    ++calls_;
+    if (frame && (frames_.empty() || frames_.back() != frame)) frames_.push_back(frame);
+    news_.notify_all();
+  }
+
+  mutable std::mutex mutex_;
+  std::condition_variable news_;
+  std::vector<FramePointer> frames_;
+  std::size_t calls_ = 0;
+  Renderer renderer_;  // last: stopped first
+};
+
+/// The red, green and blue of a frame, without alpha, which must be 1.
+inline std::vector<float> rgb_of(const Frame& frame) {
+  std::vector<float> rgb;
+  for (std::size_t i = 0; i < frame.rgba.size(); i += 4) {
+    rgb.insert(rgb.end(), frame.rgba.begin() + static_cast<std::ptrdiff_t>(i),
+               frame.rgba.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    REQUIRE(frame.rgba[i + 3] == 1.0f);
+  }
+  return rgb;
+}
+
+inline void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+
+}  // namespace tyndall::test
