@@ -74,16 +74,16 @@ double MainWindow::waiting_time(double now) {
     due_ = std::numeric_limits<double>::infinity();
     return sends;
   }
-  // The order matters: from here on a frame that comes after its time wakes the window, one that came is seen below.
+  // The order matters: from here on a frame that comes after its time wakes the window, one that came is seen below,
+  // and one that comes between is seen when its time has come.
   const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
   due_ = due;
   const auto latest = session_.latest();
   double wait = pacing_.wait(now);
   const bool waits = latest && latest != shown_;
-  const bool more = latest && !latest->finished && !session_.paused();
   if (waits)
     wait = std::min(wait, std::max(0.0, (latest->finished ? pacing_.next_drawing() : due) - now));
-  else if (more && due > now)
+  else if (due > now)
     wait = std::min(wait, due - now);
   return std::min(wait, sends);
 }
