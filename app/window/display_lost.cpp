@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <csignal>
+
 namespace tyndall {
 namespace {
 
@@ -18,6 +20,7 @@ int on_lost(void*) {
 }  // namespace
 
 void end_when_display_is_lost() {
+  std::signal(SIGPIPE, SIG_IGN);  // the connection breaks with it first
   // The window library loads X by itself; linking it here would tie the program to it.
   void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
   if (!library) return;

@@ -66,19 +66,26 @@ bool MainWindow::picture_due(double now) const {
   return now >= pacing_.picture_due() || latest->finished;
 }
 
+bool MainWindow::hidden() const { return platform_.framebuffer_width() <= 0 || platform_.framebuffer_height() <= 0; }
+
 double MainWindow::waiting_time(double now) {
-  // The order matters: from here on a frame that comes after its time wakes the window, one that came is seen below.
+  const double sends = std::max(0.0, session_.send_time() - now);
+  if (hidden()) {  // nothing to draw until an event shows the window again
+    due_ = std::numeric_limits<double>::infinity();
+    return sends;
+  }
+  // The order matters: from here on a frame that comes after its time wakes the window, one that came is seen below,
+  // and one that comes between is seen when its time has come.
   const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
   due_ = due;
   const auto latest = session_.latest();
   double wait = pacing_.wait(now);
   const bool waits = latest && latest != shown_;
-  const bool more = latest && !latest->finished && !session_.paused();
   if (waits)
     wait = std::min(wait, std::max(0.0, (latest->finished ? pacing_.next_drawing() : due) - now));
-  else if (more && due > now)
+  else if (due > now)
     wait = std::min(wait, due - now);
-  return std::min(wait, std::max(0.0, session_.send_time() - now));
+  return std::min(wait, sends);
 }
 
 void MainWindow::update_scale() {
@@ -93,7 +100,8 @@ void MainWindow::update_scale() {
 
 void MainWindow::draw(double now) {
   const double cpu_before = thread_cpu_seconds();
-  if (platform_.framebuffer_width() <= 0 || platform_.framebuffer_height() <= 0) return pacing_.on_drawn(now);
+  pacing_.on_drawing();
+  if (hidden()) return pacing_.on_drawn(now);
   update_scale();
   platform_.begin_frame();
   ui_.wake_in = 1e300;
@@ -149,10 +157,12 @@ void MainWindow::apply_panels(double now) {
   if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
   const Message& message = session_.message();
   if (!message.text.empty() && !message.error) {
-    if (now >= message.until)
+    if (now >= message.until) {
       session_.dismiss();
-    else
+      pacing_.on_event();  // this drawing still has it
+    } else {
       pacing_.wake_at(message.until);
+    }
   }
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.document();

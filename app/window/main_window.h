@@ -26,6 +26,7 @@ class MainWindow {
 
  private:
   // main_window.cpp
+  bool hidden() const;
   double waiting_time(double now);
   bool picture_due(double now) const;
   void draw(double now);

@@ -27,7 +27,6 @@ void Pacing::on_picture(unsigned long long edit, double now) {
 void Pacing::on_drawn(double now) {
   drawn_ = now;
   if (frames_ > 0) --frames_;
-  if (now >= wake_) wake_ = 1e300;
 }
 
 void Pacing::wake_at(double time) { wake_ = std::min(wake_, time); }

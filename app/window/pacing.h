@@ -21,9 +21,12 @@ class Pacing {
   void on_edit(unsigned long long edit, double now);
   /// Other pictures of the same edit are due at once: another view, a new start.
   void on_new_start(double now);
+  /// The window is about to be drawn: forgets wake_at.
+  void on_drawing() { wake_ = 1e300; }
   /// The window was drawn.
   void on_drawn(double now);
-  /// The window should be drawn again at that time at the latest (a message goes, a key is held).
+  /// The window should be drawn again at that time at the latest (a message goes, a key is held). Asked for anew in each
+  /// drawing.
   void wake_at(double time);
 
   /// When a newer picture may be shown; a finished one always may.

@@ -113,6 +113,20 @@ TEST_CASE("render_unit: every pixel of the tile gets exactly the samples asked f
       }
 }
 
+TEST_CASE("render_unit: even samples go to one half, odd ones to the other") {
+  const RenderScene scene = compile(wall_and_lamp());
+  for (const Kernels& kernels : available_kernels())
+    for (std::uint32_t first = 0; first < 4; ++first)
+      for (std::uint32_t count = 1; count < 4; ++count) {
+        const Result result = run(kernels, scene, {{40, 8, 48, 16}, 1, 0, first, first + count});  // the lamp
+        const std::uint32_t odd = (first % 2 + count) / 2, even = count - odd;
+        for (const FilmPixel& pixel : result.pixels) {
+          CHECK(pixel.sum[0][0].value() * scene.film_unit == 3.0 * even);
+          CHECK(pixel.sum[1][1].value() * scene.film_unit == 2.0 * odd);
+        }
+      }
+}
+
 TEST_CASE("render_unit: no samples, and the largest tile") {
   Scene big = wall_and_lamp();
   const RenderScene scene = compile(big);

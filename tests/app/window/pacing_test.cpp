@@ -56,14 +56,19 @@ TEST_CASE("pictures: at once after an edit, then every 0.1 s, then ever slower")
   CHECK(pacing.picture_due() == doctest::Approx(119.3));
 }
 
-TEST_CASE("a message wakes the window once") {
+TEST_CASE("what goes by itself wakes the window, once for each drawing that asks for it") {
   Pacing pacing;
   for (double now = 0; now < 0.2; now += 0.02) pacing.on_drawn(now);
   pacing.wake_at(6);
   CHECK(pacing.wait(1) == doctest::Approx(5));
   CHECK(pacing.wait(7) == 0);
+  pacing.on_drawing();
+  pacing.wake_at(9);  // another message came meanwhile
   pacing.on_drawn(7);
-  CHECK(std::isinf(pacing.wait(8)));
+  CHECK(pacing.wait(8) == doctest::Approx(1));
+  pacing.on_drawing();
+  pacing.on_drawn(9);
+  CHECK(std::isinf(pacing.wait(10)));
 }
 
 TEST_CASE("the picture keeps its aspect in the middle of what the column leaves") {
