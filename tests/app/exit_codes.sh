@@ -30,10 +30,10 @@ complains '--spp' '--samples'
 expect 2 "$tyndall" render cornell-box -o a.png --region 0,0,601,10
 complains '--region' '600'
 expect 2 "$tyndall" render cornell-box -o a.png --isa sse5
-expect 2 "$tyndall" render cornell-box -o a.png --integrator mis
-complains 'mis' 'not'
-expect 2 "$tyndall" render cornell-box -o a.png --sampler sobol
-complains 'sobol' 'not'
+expect 2 "$tyndall" render cornell-box -o a.png --integrator miss
+complains 'miss' 'mis'
+expect 2 "$tyndall" render cornell-box -o a.png --sampler halton
+complains 'halton' 'sobol'
 expect 2 "$tyndall" render cornell-box -o a.png --resume
 complains '--resume' '.exr'
 expect 2 "$tyndall" render cornell-box -o a.jpg

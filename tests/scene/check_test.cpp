@@ -91,12 +91,6 @@ TEST_CASE("check: ranges hold for edits as they do for files") {
   CHECK(where_after([](Scene& s) { fog(s).medium.g = -1; }) == "/objects/1/g");
 }
 
-TEST_CASE("check: what this build cannot do") {
-  CHECK(where_after([](Scene& s) { s.render.integrator = Integrator::nee; }) == "/render/integrator");
-  CHECK(where_after([](Scene& s) { s.render.sampler = SamplerKind::sobol; }) == "/render/sampler");
-  CHECK(where_after([](Scene& s) { s.render.fresnel = FresnelKind::schlick; }) == "");
-}
-
 TEST_CASE("check: indices in range, names once, pictures there") {
   CHECK(where_after([](Scene& s) { solid(s).material = 2; }) == "/objects/0/material");
   CHECK(where_after([](Scene& s) { solid(s).material = -1; }) == "/objects/0/material");

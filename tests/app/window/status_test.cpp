@@ -35,7 +35,7 @@ TEST_CASE("the status line tells what is on the screen") {
   const std::string text = text_of(status_cells(&frame, {0, "", {{10, 1.23e-4}}}, document(), false));
   for (const char* part :
        {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;", "avx512 x32=2 threads;",
-        "film=103 MB;", "rejected=0;", "=path · random;", "showroom.json=;"})
+        "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
 }
 
