@@ -21,7 +21,7 @@ bool History::record(Document next, std::uint64_t gesture) {
   return true;
 }
 
-void History::set_origin(std::shared_ptr<const Origin> origin) {
+void History::set_origin(const std::shared_ptr<const Origin>& origin) {
   // Every step of the same file is now compared with what was saved.
   const auto before = current().origin;
   for (Document& step : steps_)

@@ -17,7 +17,7 @@ class History {
   /// whether it differs.
   bool record(Document next, std::uint64_t gesture);
   /// The file was written: all steps that came from it are from now on compared with what it holds. No step.
-  void set_origin(std::shared_ptr<const Origin> origin);
+  void set_origin(const std::shared_ptr<const Origin>& origin);
   /// False at the end of the list.
   bool undo();
   bool redo();

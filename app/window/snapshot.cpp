@@ -20,7 +20,7 @@ fs::path snapshot_base(const fs::path& folder, const std::string& stem, int leas
   for (int number = least;; ++number) {
     char text[16];
     std::snprintf(text, sizeof text, "-%03d", number);
-    const fs::path base = folder / (stem + text);
+    fs::path base = folder / (stem + text);
     std::error_code ignored;
     const auto taken = [&](const char* ending) {
       return fs::symlink_status(base.string() + ending, ignored).type() != fs::file_type::not_found;

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# The README's picture of the window: the showroom at 256 samples a pixel, its ball selected.
+# Arguments: the tyndall binary, the picture.
+set -euo pipefail
+tyndall=$(realpath "$1")
+picture=$(realpath -m "$2")
+if [ -z "${IN_XVFB:-}" ]; then
+  IN_XVFB=1 exec xvfb-run -a -s '-screen 0 1600x900x24 -nolisten tcp' "$0" "$tyndall" "$picture"
+fi
+log=$(mktemp)
+"$tyndall" view showroom --ui-log "$log" &
+pid=$!
+trap 'kill $pid 2>/dev/null || true; rm -f "$log"' EXIT
+window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
+xdotool windowsize --sync "$window" 1600 900
+for _ in $(seq 1200); do grep -qE '^state finished' "$log" && break; sleep 0.1; done
+sleep 1
+import -window "$window" "$picture"
