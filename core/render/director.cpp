@@ -174,7 +174,7 @@ std::vector<float> Director::picture() {
     case View::beauty:
       return beauty_rgba(film_, taken_ == 0 ? step_ : 1, *crew_);
     case View::noise:
-      return noise_rgba(film_, *crew_);
+      return noise_rgba(film_);
     case View::samples:
       return samples_rgba(film_);
     case View::albedo:

@@ -1,5 +1,7 @@
 #include "core/render/frame.h"
 
+#include "core/film/error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,17 +38,6 @@ void fill_row(std::vector<float>& rgba, int width, int height, int y, int step) 
   }
 }
 
-/// Squared estimated relative error of a pixel, mean over channels.
-float squared_error(const Film& film, const FilmPixel& pixel) {
-  if (!counted(film, pixel, 0) || !counted(film, pixel, 1)) return 1;
-  const Vec3f a = half_mean(film, pixel, 0), b = half_mean(film, pixel, 1), m = mean(film, pixel);
-  const auto part = [](float x, float y, float centre) {
-    const float half = 0.5f * (x - y);
-    return half * half / (centre * centre + 0.01f);
-  };
-  return (part(a.x, b.x, m.x) + part(a.y, b.y, m.y) + part(a.z, b.z, m.z)) / 3;
-}
-
 }  // namespace
 
 std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew) {
@@ -62,25 +53,13 @@ std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew) {
   return rgba;
 }
 
-std::vector<float> noise_rgba(const Film& film, Crew& crew) {
-  const int width = film.region.width(), height = film.region.height();
-  std::vector<float> squared(film.pixels.size());
-  crew.for_each(height, [&](int y) {
-    for (int x = 0; x < width; ++x)
-      squared[offset(width, x, y)] = squared_error(film, film.pixels[offset(width, x, y)]);
-  });
-  std::vector<float> rgba(4 * film.pixels.size());
-  crew.for_each(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      float sum = 0;
-      int count = 0;
-      for (int j = std::max(y - 3, 0); j <= std::min(y + 3, height - 1); ++j)
-        for (int i = std::max(x - 3, 0); i <= std::min(x + 3, width - 1); ++i, ++count)
-          sum += squared[offset(width, i, j)];
-      const float error = std::sqrt(sum / static_cast<float>(count));
-      put(rgba, offset(width, x, y), {error, error, error});
-    }
-  });
+std::vector<float> noise_rgba(const Film& film) {
+  const std::vector<float> errors = pixel_relative_error(film);
+  std::vector<float> rgba(4 * errors.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const float error = std::min(errors[i], 1.0f);  // infinite before two samples
+    put(rgba, i, {error, error, error});
+  }
   return rgba;
 }
 

@@ -13,8 +13,8 @@ namespace tyndall {
 /// in the picture only.
 std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew);
 
-/// Estimated relative error of each pixel from its halves, averaged over 7×7 pixels, as grey: 1 is 100 %.
-std::vector<float> noise_rgba(const Film& film, Crew& crew);
+/// Estimated relative error of each pixel (see pixel_relative_error) as grey: 1 is 100 % and more.
+std::vector<float> noise_rgba(const Film& film);
 
 /// Samples of each pixel over the most any pixel has, as grey.
 std::vector<float> samples_rgba(const Film& film);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The README's picture of the window: the showroom at 256 samples a pixel, its ball selected.
+# The README's picture of the window: the showroom when it is finished.
 # Arguments: the tyndall binary, the picture.
 set -euo pipefail
 tyndall=$(realpath "$1")
