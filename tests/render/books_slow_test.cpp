@@ -49,4 +49,11 @@ TEST_CASE("books: the mean of the Cornell box") { check(box, Integrator::path, "
 
 TEST_CASE("books: the mean of the Cornell box of smoke") { check(smoke, Integrator::path, "", 16, 16); }
 
+TEST_CASE("books: the same by light sampling") {
+  for (const Integrator integrator : {Integrator::nee, Integrator::mis}) {
+    check(box, integrator, "", 16, 16);
+    check(smoke, integrator, "", 16, 16);
+  }
+}
+
 TEST_CASE("books: the same by one path at a time") { check(smoke, Integrator::path, "scalar", 16, 16); }

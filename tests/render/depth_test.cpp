@@ -81,6 +81,32 @@ TEST_CASE("depth: light counts after at most max_depth events; the rest is cut a
     }
 }
 
+TEST_CASE("depth and roulette: the same in every integrator, with every sampler") {
+  ZScores scores;
+  std::uint32_t seed = 0;
+  const double light = 0.3, f = light * light;
+  for (const double rho : {0.3, 0.9})
+    for (const int depth : {1, 3, 1000})
+      for (const Integrator integrator : {Integrator::path, Integrator::nee, Integrator::mis})
+        for (const SamplerKind sampler : {SamplerKind::random, SamplerKind::sobol}) {
+          CAPTURE(rho);
+          CAPTURE(depth);
+          CAPTURE(static_cast<int>(integrator));
+          CAPTURE(static_cast<int>(sampler));
+          Scene scene = integrating_sphere(rho, light);
+          scene.render.max_depth = depth;
+          scene.render.integrator = integrator;
+          scene.render.sampler = sampler;
+          scene.render.seed = ++seed;
+          const Film film = film_of(scene, integrator == Integrator::path ? 1024 : 256);
+          std::vector<double> batches;
+          for (const FilmPixel& pixel : film.pixels) batches.push_back(static_cast<double>(mean(film, pixel).x));
+          double expected = 0;
+          for (int k = 0; k < depth; ++k) expected += rho * f * std::pow(rho * (1 - f), k);
+          scores.add("wall", estimate(batches), expected, 0.01);
+        }
+}
+
 TEST_CASE("depth 0: lamps and background alone") {
   Scene scene = white_room();
   scene.background = Vec3d{0.25, 0.5, 1};
