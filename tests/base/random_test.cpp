@@ -20,21 +20,29 @@ using FloatDice = Dice<float>;
 struct Key {
   std::uint32_t seed, x, y, sample;
 };
-FloatDice dice_of(Key k) { return FloatDice::of(k.seed, k.x, k.y, k.sample); }
+FloatDice dice_of(Key k, bool sobol = false) { return FloatDice::of(k.seed, k.x, k.y, k.sample, sobol); }
 
 constexpr std::uint32_t edge = 256;
 constexpr int dimensions = 8;
 
+/// What differs between two sets of samples that should not know of each other.
+struct Shift {
+  std::uint32_t seed = 0, sample = 0, dx = 0, dy = 0;
+  int events = 0;
+};
+
 /// The first dimensions of a sample of every pixel of a square, those of the event `events` steps later.
-std::vector<std::array<double, dimensions>> numbers(std::uint32_t seed, std::uint32_t sample, int dx, int dy,
-                                                    int events) {
+std::vector<std::array<double, dimensions>> numbers(const Shift& by, bool sobol) {
   std::vector<std::array<double, dimensions>> all;
   for (std::uint32_t y = 0; y < edge; ++y)
     for (std::uint32_t x = 0; x < edge; ++x) {
-      FloatDice dice = dice_of({seed, x + static_cast<std::uint32_t>(dx), y + static_cast<std::uint32_t>(dy), sample});
-      for (int e = 0; e < events; ++e) dice.next_event();
+      FloatDice dice = dice_of({5 + by.seed, x + by.dx, y + by.dy, by.sample}, sobol);
+      for (int e = 0; e < by.events; ++e) dice.next_event();
       auto& row = all.emplace_back();
-      for (std::uint32_t d = 0; d < dimensions; ++d) row[d] = static_cast<double>(dice.one(d)) - 0.5;
+      for (std::uint32_t d = 0; d < dimensions; d += 2) {
+        const Pair<float> pair = dice.pair(d);
+        row[d] = static_cast<double>(pair.x) - 0.5, row[d + 1] = static_cast<double>(pair.y) - 0.5;
+      }
     }
   return all;
 }
@@ -64,16 +72,17 @@ double chi_square_deviate(const std::vector<int>& counts, double expected) {
 }  // namespace
 
 TEST_CASE("dice: dimensions, neighbouring pixels, samples, events and seeds are uncorrelated") {
-  const auto base = numbers(5, 0, 0, 0, 0);
-  const double limit = 4 / std::sqrt(static_cast<double>(base.size()));
-  CHECK(largest_correlation(base, base, true) < limit);
-  CHECK(largest_correlation(base, numbers(5, 0, 1, 0, 0)) < limit);
-  CHECK(largest_correlation(base, numbers(5, 0, 0, 1, 0)) < limit);
-  CHECK(largest_correlation(base, numbers(5, 0, 1, 1, 0)) < limit);
-  CHECK(largest_correlation(base, numbers(5, 1, 0, 0, 0)) < limit);
-  CHECK(largest_correlation(base, numbers(5, 2, 0, 0, 0)) < limit);
-  CHECK(largest_correlation(base, numbers(6, 0, 0, 0, 0)) < limit);
-  CHECK(largest_correlation(base, numbers(5, 0, 0, 0, 1)) < limit);
+  for (const bool sobol : {false, true}) {
+    const auto base = numbers({}, sobol);
+    const double limit = 4 / std::sqrt(static_cast<double>(base.size()));
+    CAPTURE(sobol);
+    CHECK(largest_correlation(base, base, true) < limit);
+    // Sample 1 is of the other half; of one half, points are stratified together.
+    const Shift shifts[] = {{.dx = 1},   {.dy = 1},     {.dx = 1, .dy = 1},   {.sample = 1},
+                            {.seed = 1}, {.events = 1}, {.seed = 1, .dx = 1}, {.sample = 1, .dx = 1}};
+    for (const Shift& by : shifts) CHECK(largest_correlation(base, numbers(by, sobol)) < limit);
+    if (!sobol) CHECK(largest_correlation(base, numbers({.sample = 2}, sobol)) < limit);
+  }
 }
 
 TEST_CASE("dice: no two samples share a stream, whatever the pixel, sample index or seed") {
@@ -104,16 +113,17 @@ TEST_CASE("dice: the mean over a picture scatters from seed to seed as independe
   CHECK(std::abs(sum / runs - 0.5) < 4 * std::sqrt(expected / runs));
 }
 
-TEST_CASE("dice: every dimension is uniform, alone and in pairs") {
-  for (std::uint32_t d = 0; d < 2 * dimension::per_event; ++d) {
+TEST_CASE("dice: every dimension is uniform over a picture, alone and in pairs") {
+  for (std::uint32_t k = 0; k < 4 * dimension::per_event; ++k) {
+    const std::uint32_t d = k / 2;
     std::vector<int> bins(256), squares(256);
     for (std::uint32_t i = 0; i < 65536; ++i) {
-      FloatDice dice = dice_of({9, i % 256, i / 256, d % 5});
+      FloatDice dice = dice_of({9, i % 256, i / 256, d % 5}, k % 2 == 1);
       const Pair<float> u = dice.pair(d);
       ++bins[static_cast<std::size_t>(u.x * 256)];
       ++squares[static_cast<std::size_t>(u.x * 16) * 16 + static_cast<std::size_t>(u.y * 16)];
     }
-    CAPTURE(d);
+    CAPTURE(k);
     CHECK(std::abs(chi_square_deviate(bins, 256)) < 4);
     CHECK(std::abs(chi_square_deviate(squares, 256)) < 4);
   }
