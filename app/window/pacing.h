@@ -6,15 +6,20 @@ namespace tyndall {
 /// Least time between two drawings.
 inline constexpr double least_frame_interval = 0.016;
 
+/// Time between the drawings after an event: they show what appears one drawing later and must not keep pictures
+/// waiting where drawing is slow.
+inline constexpr double echo_interval = 0.04;
+
 /// How long a new picture of an edit waits after the one before it: the first three of an edit not at all, then 0.1 s,
 /// growing with the age of the edit to 0.5 s. age: seconds since the edit; shown: pictures of it shown so far.
 double picture_interval(double age, int shown);
 
-/// Decides when the window is drawn: after an event at once and twice more, for a picture when it is due, else never.
+/// Decides when the window is drawn: after an event at once and twice more a little later, for a picture when it is
+/// due, else never.
 class Pacing {
  public:
   /// Something was pressed, moved, resized: draw, and draw further frames for what appears one frame later.
-  void on_event() { frames_ = 3; }
+  void on_event() { frames_ = event_frames; }
   /// A picture of `edit` was shown.
   void on_picture(unsigned long long edit, double now);
   /// An edit was made: its pictures are due at once.
@@ -25,8 +30,8 @@ class Pacing {
   void on_drawing() { wake_ = 1e300; }
   /// The window was drawn.
   void on_drawn(double now);
-  /// The window should be drawn again at that time at the latest (a message goes, a key is held). Asked for anew in each
-  /// drawing.
+  /// The window should be drawn again at that time at the latest (a message goes, a key is held). Asked for anew in
+  /// each drawing.
   void wake_at(double time);
 
   /// When a newer picture may be shown; a finished one always may.
@@ -37,7 +42,9 @@ class Pacing {
   double wait(double now) const;
 
  private:
-  int frames_ = 3, shown_ = 0;
+  static constexpr int event_frames = 3;
+
+  int frames_ = event_frames, shown_ = 0;
   unsigned long long edit_ = 0;
   double edit_time_ = 0, due_ = 0, drawn_ = -1, wake_ = 1e300;
 };

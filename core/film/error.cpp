@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace tyndall {
 
@@ -27,13 +28,19 @@ double squared_error(const Film& film, const FilmPixel& pixel) {
 
 }  // namespace
 
-double estimated_relative_error(const Film& film) {
-  double sum = 0;
-  for (const FilmPixel& pixel : film.pixels) {
-    sum += squared_error(film, pixel);
-    if (sum == infinity) return infinity;
-  }
-  return film.pixels.empty() ? infinity : std::sqrt(sum / static_cast<double>(film.pixels.size()));
+double estimated_relative_error(const Film& film, Crew* crew) {
+  const std::size_t width = static_cast<std::size_t>(film.region.width());
+  std::vector<double> rows(static_cast<std::size_t>(film.region.height()));
+  const auto add_row = [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t x = 0; x < width; ++x) rows[row] += squared_error(film, film.pixels[row * width + x]);
+  };
+  if (crew)
+    crew->for_each(film.region.height(), add_row);
+  else
+    for (int y = 0; y < film.region.height(); ++y) add_row(y);
+  if (film.pixels.empty()) return infinity;
+  return std::sqrt(std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(film.pixels.size()));
 }
 
 namespace {

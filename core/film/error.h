@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/crew.h"
 #include "core/film/film.h"
 
 #include <vector>
@@ -7,8 +8,9 @@
 namespace tyndall {
 
 /// Estimated relative error of a film from its two halves: sqrt(mean over pixels and channels of
-/// ((A-B)/2)² / (mean² + 0.01)). Its square estimates relMSE. Infinite while a half is empty.
-double estimated_relative_error(const Film& film);
+/// ((A-B)/2)² / (mean² + 0.01)). Its square estimates relMSE. Infinite while a half is empty. crew: shares the work,
+/// null: the caller's thread does it; the answer is the same.
+double estimated_relative_error(const Film& film, Crew* crew = nullptr);
 /// The same for each pixel of the region from the 7 x 7 pixels around it, less those with an empty half; infinite where
 /// none is left.
 std::vector<float> pixel_relative_error(const Film& film);

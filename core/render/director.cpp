@@ -63,6 +63,7 @@ void Director::take_orders() {
   std::unique_ptr<Scene> scene;
   bool restart = false, frame_outdated = false;
   int threads = 0;
+  const Clock::time_point before = submitted_;
   {
     const std::lock_guard lock(mail_.mutex);
     scene = std::move(mail_.scene);
@@ -76,7 +77,7 @@ void Director::take_orders() {
   }
   if (threads > 0 && threads != crew_->size()) crew_ = std::make_unique<Crew>(threads);
   if (scene) {
-    take_scene(std::move(*scene));
+    take_scene(std::move(*scene), before);
   } else if (restart && compiled_) {
     submitted_ = Clock::now();
     start_over();
@@ -85,10 +86,12 @@ void Director::take_orders() {
   if (frame_outdated && compiled_ && (taken_ > 0 || coarse_done_)) publish();
 }
 
-void Director::take_scene(Scene scene) {
+void Director::take_scene(Scene scene, Clock::time_point before) {
   try {
     auto compiled = std::make_shared<const RenderScene>(compile(scene, compiled_.get()));
-    budget_ = compiled_ && only_camera_differs(scene_, scene) ? camera_budget : material_budget;
+    const bool moving =
+        compiled_ && (only_camera_differs(scene_, scene) || seconds_between(before, submitted_) < movement_gap);
+    budget_ = moving ? moving_budget : single_budget;
     compiled_ = std::move(compiled);
     scene_view_ = std::make_unique<SceneViewOf>(*compiled_);
     scene_ = std::move(scene);
@@ -109,12 +112,7 @@ void Director::take_scene(Scene scene) {
 
 void Director::start_over() {
   const Region all{0, 0, compiled_->width, compiled_->height};
-  if (film_.pixels.size() == static_cast<std::size_t>(pixels())) {  // no new memory for a film of the same size
-    crew_->for_each(64, [&](int part) {
-      const std::size_t count = film_.pixels.size(), k = static_cast<std::size_t>(part);
-      std::fill(film_.pixels.begin() + static_cast<std::ptrdiff_t>(count * k / 64),
-                film_.pixels.begin() + static_cast<std::ptrdiff_t>(count * (k + 1) / 64), FilmPixel{});
-    });
+  if (film_.pixels.size() == static_cast<std::size_t>(pixels())) {  // the first pass replaces what the pixels hold
     film_.width = compiled_->width, film_.height = compiled_->height, film_.region = all,
     film_.unit = compiled_->film_unit;
   } else {
@@ -150,7 +148,8 @@ Pass& Director::current_pass() {
 void Director::finish_pass(double seconds) {
   seconds_ += seconds;
   mrays_per_s_ = static_cast<double>(pass_->rays()) / seconds * 1e-6;
-  paths_per_second_ = static_cast<double>(pass_->paths()) / seconds;
+  const double speed = static_cast<double>(pass_->paths()) / seconds;
+  paths_per_second_ = paths_per_second_ > 0 ? std::sqrt(paths_per_second_ * speed) : speed;
   if (pass_is_coarse_)
     coarse_done_ = true;
   else
@@ -159,7 +158,7 @@ void Director::finish_pass(double seconds) {
   truncated_ += pass_->truncated();
   pass_.reset();
   if (taken_ >= 2 && (taken_ < 16 || Clock::now() >= next_estimate_ || taken_ >= limit_)) {
-    error_ = estimated_relative_error(film_);
+    error_ = estimated_relative_error(film_, crew_.get());
     next_estimate_ = Clock::now() + std::chrono::milliseconds(400);
   }
   if (pass_is_coarse_ || taken_ == 1) {
@@ -174,9 +173,9 @@ std::vector<float> Director::picture() {
     case View::beauty:
       return beauty_rgba(film_, taken_ == 0 ? step_ : 1, *crew_);
     case View::noise:
-      return noise_rgba(film_);
+      return taken_ == 0 ? grey_rgba(film_.pixels.size(), 1) : noise_rgba(film_);
     case View::samples:
-      return samples_rgba(film_);
+      return taken_ == 0 ? grey_rgba(film_.pixels.size(), 0) : samples_rgba(film_);
     case View::albedo:
     case View::normal:
     case View::depth:

@@ -28,7 +28,7 @@ struct Mailbox {
   std::uint64_t edit = 0;        ///< of the newest scene; 0: none yet
   Clock::time_point submitted;
   bool restart = false, paused = false;
-  bool frame_outdated = false;         ///< view or limit changed: the same samples are to be published anew
+  bool frame_outdated = false;  ///< view or limit changed: the same samples are to be published anew
   View view = View::beauty;
   std::uint32_t limit = 0;                ///< samples a pixel at which to stop
   int threads = 0;                        ///< wanted
@@ -51,7 +51,7 @@ class Director {
  private:
   bool wait_for_work(const std::stop_token& stop);
   void take_orders();
-  void take_scene(Scene scene);
+  void take_scene(Scene scene, Clock::time_point before);
   void start_over();
   void answer_films();
   Pass& current_pass();
@@ -85,7 +85,7 @@ class Director {
   std::uint32_t taken_ = 0;  ///< samples that every pixel has
   bool coarse_done_ = false;
   double seconds_ = 0, mrays_per_s_ = 0, error_ = 0, first_picture_ms_ = 0;
-  double paths_per_second_ = 0;  ///< of the last full pass: sets the next edit's coarseness
+  double paths_per_second_ = 0;  ///< of the last passes: sets the next edit's coarseness
   double pass_seconds_ = 0;
   std::uint64_t frames_ = 0, rejected_ = 0, truncated_ = 0;
   Clock::time_point next_estimate_;

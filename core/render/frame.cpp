@@ -53,6 +53,12 @@ std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew) {
   return rgba;
 }
 
+std::vector<float> grey_rgba(std::size_t pixels, float grey) {
+  std::vector<float> rgba(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) put(rgba, i, {grey, grey, grey});
+  return rgba;
+}
+
 std::vector<float> noise_rgba(const Film& film) {
   const std::vector<float> errors = pixel_relative_error(film);
   std::vector<float> rgba(4 * errors.size());

@@ -13,6 +13,9 @@ namespace tyndall {
 /// in the picture only.
 std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew);
 
+/// A picture of one grey.
+std::vector<float> grey_rgba(std::size_t pixels, float grey);
+
 /// Estimated relative error of each pixel (see pixel_relative_error) as grey: 1 is 100 % and more.
 std::vector<float> noise_rgba(const Film& film);
 

@@ -57,6 +57,7 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
   pixels.assign(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()), {});
   UnitCounts counts;
   kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, pixels.data(), counts);
+  const bool first = first_ == film.first_sample;
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
   auto from = pixels.begin();
   for (int y = where.y0; y < where.y1; ++y)
@@ -65,7 +66,10 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
       paths += from->taken;
       rejected += from->rejected[0] + from->rejected[1];
       truncated += from->truncated;
-      add_pixel(film.at(x, y), *from);
+      if (first)
+        film.at(x, y) = *from;
+      else
+        add_pixel(film.at(x, y), *from);
     }
   rays_.fetch_add(counts.rays, std::memory_order_relaxed);
   shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);

@@ -18,8 +18,8 @@ class Pass {
   /// Samples first … last - 1 of the region's pixels. step, skip_step: see Unit. tile: edge in pixels, 0: chosen.
   Pass(Region region, std::uint32_t first, std::uint32_t last, int step = 1, int skip_step = 0, int tile = 0);
 
-  /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then within one
-  /// unit. Answers whether all are done. poll: see Crew::for_each.
+  /// Runs the units that are left and adds them to `film` (the film's first sample replaces what the pixel held), until
+  /// all are done or `give_up` is set: then within one unit. Answers whether all are done. poll: see Crew::for_each.
   bool run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& film, const std::atomic<bool>& give_up,
            const std::function<void()>& poll = {});
 

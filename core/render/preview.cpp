@@ -8,8 +8,8 @@ namespace tyndall {
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before) {
   if (!(paths_per_second > 0)) return 8;
   const double wanted = std::sqrt(static_cast<double>(pixels) / (paths_per_second * budget));
-  // `before` serves wanted steps from before/2 to before; beyond, room on both sides.
-  const bool fits = wanted <= 1.4 * before && (before == 1 || wanted > before / 2.0 / 1.4);
+  // `before` serves wanted steps from before/2 to before; beyond, room on both sides, less on the one that costs time.
+  const bool fits = wanted <= 1.1 * before && (before == 1 || wanted > before / 2.0 / 1.4);
   if (before > 0 && fits) return before;
   int step = 1;
   while (step < 8 && step < wanted) step *= 2;

@@ -49,8 +49,8 @@ class BlockingRender {
       result_.shadow_rays += pass.shadow_rays();
       if (stop_) break;
       taken_ += count;
-      if (options_.target_error > 0) error_ = estimated_relative_error(result_.film);
-      report_between();
+      if (options_.target_error > 0) error_ = estimated_relative_error(result_.film, &crew);
+      report_between(crew);
     }
     result_.threads = crew.size();
     result_.isa = kernels_.isa;
@@ -83,10 +83,10 @@ class BlockingRender {
     if (!progress_({spp, seconds, rays / seconds * 1e-6, error_})) stop_ = true;
   }
   /// The error is estimated now and then only: it reads the whole film.
-  void report_between() {
+  void report_between(Crew& crew) {
     if (!progress_) return;
     if (options_.target_error <= 0 && result_.seconds >= next_estimate_) {
-      error_ = estimated_relative_error(result_.film);
+      error_ = estimated_relative_error(result_.film, &crew);
       next_estimate_ = 1.5 * seconds_since(start_) + 0.5;
     }
     if (!progress_({taken_, result_.seconds, static_cast<double>(result_.rays) / result_.seconds * 1e-6, error_}))

@@ -24,15 +24,15 @@ TEST_CASE("preview: the step that fits the time, coarse while nothing is known")
     CHECK(preview_step(full_hd, speed_for(0.99 * step), 1, 0) == step);
     CHECK(preview_step(full_hd, speed_for(0.51 * step), 1, 0) == step);
   }
-  CHECK(preview_step(full_hd, speed_for(2) / camera_budget, camera_budget, 0) == 2);
+  CHECK(preview_step(full_hd, speed_for(2) / moving_budget, moving_budget, 0) == 2);
   CHECK(preview_step(1, 1e3, 0.033, 0) == 1);
 }
 
-TEST_CASE("preview: a step once chosen is kept while it is off by less than 1.4") {
+TEST_CASE("preview: a step once chosen is kept while little speaks for another") {
   for (const int step : {1, 2, 4, 8}) {
-    CHECK(preview_step(full_hd, speed_for(1.39 * step), 1, step) == step);
+    CHECK(preview_step(full_hd, speed_for(1.09 * step), 1, step) == step);
     if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.39), 1, step) == step);
-    if (step < 8) CHECK(preview_step(full_hd, speed_for(1.41 * step), 1, step) == 2 * step);
+    if (step < 8) CHECK(preview_step(full_hd, speed_for(1.11 * step), 1, step) == 2 * step);
     if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.41), 1, step) < step);
   }
   CHECK(preview_step(full_hd, speed_for(0.01), 1, 1) == 1);

@@ -22,6 +22,22 @@ TEST_CASE("nothing happens, nothing is drawn") {
   CHECK(std::isinf(pacing.wait(now + 1000)));
 }
 
+TEST_CASE("an event is answered at once, its echoes leave time for pictures") {
+  Pacing pacing;
+  pacing.on_drawn(1);
+  pacing.on_event();
+  CHECK(pacing.wait(1.02) == 0);
+  pacing.on_drawn(1.02);
+  CHECK(pacing.wait(1.02) == doctest::Approx(echo_interval));
+  pacing.wake_at(1.03);  // what goes by itself comes earlier
+  CHECK(pacing.wait(1.02) == doctest::Approx(least_frame_interval));
+  pacing.on_drawing();
+  pacing.on_drawn(1.06);
+  CHECK(pacing.wait(1.06) == doctest::Approx(echo_interval));
+  pacing.on_event();
+  CHECK(pacing.wait(1.08) == 0);
+}
+
 TEST_CASE("a burst of events is drawn at most every 16 ms") {
   Pacing pacing;
   int drawn = 0;
