@@ -6,7 +6,12 @@
 
 /// Kernels are flattened into one function per instruction set: a call would cost more than what it does, and an
 /// ordinary inline function compiled with wide instructions could be the copy the linker keeps for every caller.
+/// Sanitized builds keep the calls: they would take minutes a file, and run where they were built.
+#if defined(TYNDALL_KEEP_CALLS)
+#define TYNDALL_INLINE inline
+#else
 #define TYNDALL_INLINE [[gnu::always_inline]] inline
+#endif
 
 /// What kernel code asks of a number type F, here for the plain numbers: float (one path, the readable reference) and
 /// double (reference for accuracy). base/lanes_simd.h answers the same questions for groups of lanes.
