@@ -16,7 +16,7 @@ set(level_app 6)
 # Third-party headers, and which files may include them: pairs of regular expressions.
 set(reserved
   "^(GLFW|glad|GL|EGL|X11|CLI)/|^(backends/)?imgui"  "^app/"
-  "^hwy/"                                            "^core/base/lanes_simd\\.h$"
+  "^hwy/"                                            "^core/base/lanes_simd_arithmetic\\.h$"
   "^nlohmann/"                                       "^app/|^core/scene/json[a-z_]*\\.cpp$"
   "^(OpenEXR|Imath)/|^(Imf|Imath)|^(stb/)?stb_"      "^core/film/image_io[a-z_]*\\.cpp$"
   "^iostream$"                                       "^app/")

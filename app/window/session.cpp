@@ -140,7 +140,7 @@ void Session::watch() {
   watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, came_ = true, wake_(); });
 }
 
-void Session::save(const fs::path& file) {
+void Session::save(fs::path file) {  // a copy: it may be that of the origin which is replaced here
   try {
     history_.set_origin(save_document(document(), file));
     watch();

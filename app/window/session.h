@@ -47,7 +47,7 @@ class Session {
   /// Opens what load_scene takes, in the background.
   void open(const std::string& what);
   /// Writes the scene to its own file, or to another one; says how it went. An existing file is replaced.
-  void save(const std::filesystem::path& file);
+  void save(std::filesystem::path file);
   /// Writes the picture as numbered files into the current folder, in the background.
   void snapshot();
 

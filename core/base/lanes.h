@@ -174,6 +174,23 @@ template <Plain F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return *from;
 }
+/// Lanes, a bit each, that are to be filled with consecutive values.
+template <class F>
+struct Expansion;
+template <Plain F>
+struct Expansion<F> {
+  bool here;
+};
+template <Plain F>
+TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {
+  return {(lanes & 1u) != 0};
+}
+/// Lane by lane the next of the values that start at `from` where the expansion has the lane, else `old`. As many
+/// values as a group has lanes are readable.
+template <Plain F, class T>
+TYNDALL_INLINE T expand(const Expansion<F>& e, const T* from, T old) {
+  return e.here ? *from : old;
+}
 TYNDALL_INLINE void store(float* to, float v) { *to = v; }
 TYNDALL_INLINE void store(float* to, double v) { *to = static_cast<float>(v); }
 TYNDALL_INLINE void store(std::int32_t* to, std::int32_t v) { *to = v; }

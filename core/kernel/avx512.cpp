@@ -1,11 +1,11 @@
-// 16 lanes. Compiled with the flags of this instruction set: nothing but the kernels may be in here.
-#include "core/base/lanes_simd.h"
+// Two groups of 16 lanes. Compiled with the flags of this instruction set: nothing but the kernels may be in here.
+#include "core/base/lanes_twice.h"
 #include "core/kernel/entry.h"
 
 namespace tyndall {
 namespace {
-using F = HWY_NAMESPACE::Floats<1>;
-static_assert(lanes_of<F> == 16, "the SIMD library fell back to a narrower set: a flag is missing");
+using F = Twice<HWY_NAMESPACE::Floats>;
+static_assert(lanes_of<F> == 32, "the SIMD library fell back to a narrower set: a flag is missing");
 void render(const SceneView& s, const Unit& u, double unit, FilmPixel* p, UnitCounts& c) {
   render_unit<F>(s, u, unit, p, c);
 }

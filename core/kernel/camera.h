@@ -64,10 +64,10 @@ TYNDALL_INLINE void list_samples(const Unit& unit, UnitSamples& list) {
 template <class F>
 struct CameraQueue {
   static constexpr int lanes = lanes_of<F>;
-  alignas(64) float ox[lanes], oy[lanes], oz[lanes], dx[lanes], dy[lanes], dz[lanes], time[lanes];
-  alignas(64) std::int32_t low[lanes], high[lanes];
-  std::int32_t slot[lanes];  ///< pixel within the tile
-  std::uint32_t half[lanes];
+  alignas(64) float ox[lanes + 1], oy[lanes + 1], oz[lanes + 1], dx[lanes + 1], dy[lanes + 1], dz[lanes + 1];
+  alignas(64) float time[lanes + 1];
+  alignas(64) std::int32_t low[lanes + 1], high[lanes + 1];
+  std::int32_t slot[lanes + 1];  ///< 2 · pixel within the tile + half
   int next = 0, end = 0;
 };
 
@@ -84,8 +84,7 @@ TYNDALL_INLINE void refill(CameraQueue<F>& queue, UnitSamples& samples, const Sc
     x[k] = static_cast<float>(ix[k]);
     y[k] = static_cast<float>(iy[k]);
     index[k] = samples.sample;
-    queue.slot[k] = row * (unit.tile.x1 - unit.tile.x0) + column;
-    queue.half[k] = samples.sample & 1u;
+    queue.slot[k] = 2 * (row * (unit.tile.x1 - unit.tile.x0) + column) + static_cast<std::int32_t>(samples.sample & 1u);
   }
   const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sobol);
   const Ray<F> ray = sample_ray(s, load<F>(x), load<F>(y), dice);

@@ -15,8 +15,7 @@ struct Paths {
   Dice<F> dice;
   IntOf<F> depth;  ///< scattering events so far
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
-  std::int32_t slot[lanes_of<F>];
-  std::uint32_t half[lanes_of<F>];
+  IntOf<F> slot;   ///< 2 · pixel within the tile + half
   std::uint32_t alive = 0;  ///< a bit a lane
 };
 

@@ -15,25 +15,23 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
       if (samples.empty()) return;
       refill(queue, samples, s, unit);
     }
-    alignas(64) std::int32_t from[lanes_of<F>] = {};
-    std::uint32_t fresh = 0;
-    for (std::uint32_t free = full & ~p.alive; free && queue.next < queue.end; free &= free - 1, ++queue.next) {
-      const int lane = __builtin_ctz(free);
-      from[lane] = queue.next;
-      p.slot[lane] = queue.slot[queue.next];
-      p.half[lane] = queue.half[queue.next];
-      fresh |= 1u << lane;
-    }
+    std::uint32_t free = full & ~p.alive, fresh = 0;
+    const int count = min(queue.end - queue.next, __builtin_popcount(free));
+    for (int k = 0; k < count; ++k, free &= free - 1) fresh |= free & (~free + 1u);
+    const Expansion<F> fill = expansion<F>(fresh);
     const auto m = mask_from_bits<F>(fresh);
-    const IntOf<F> at = load_int<F>(from);
-    const auto take = [&](const float* column, F old) { return select(m, gather<F>(column, at), old); };
+    const auto take = [&](const auto* column, auto old) __attribute__((always_inline)) {
+      return expand(fill, column + queue.next, old);
+    };
     p.ray.origin = {take(queue.ox, p.ray.origin.x), take(queue.oy, p.ray.origin.y), take(queue.oz, p.ray.origin.z)};
     p.ray.direction = {take(queue.dx, p.ray.direction.x), take(queue.dy, p.ray.direction.y),
                        take(queue.dz, p.ray.direction.z)};
     p.ray.time = take(queue.time, p.ray.time);
+    p.slot = take(queue.slot, p.slot);
+    p.dice.low = as_uint(take(queue.low, as_int(p.dice.low)));
+    p.dice.high = as_uint(take(queue.high, as_int(p.dice.high)));
+    queue.next += count;
     p.ray.from = select(m, IntOf<F>(from_nowhere), p.ray.from);
-    p.dice.low = select(m, as_uint(gather_int<F>(queue.low, at)), p.dice.low);
-    p.dice.high = select(m, as_uint(gather_int<F>(queue.high, at)), p.dice.high);
     p.dice.event = select(m, UintOf<F>(dimension::camera_count * golden_ratio), p.dice.event);
     p.throughput = select(m, Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.throughput);
     p.radiance = select(m, zero3<F>(), p.radiance);
@@ -110,11 +108,12 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
                            FilmPixel* pixels) {
   if (!finished) return;
   alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>];
-  store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z);
+  alignas(64) std::int32_t slot[lanes_of<F>];
+  store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slot, p.slot);
   for (; finished; finished &= finished - 1) {
     const int lane = __builtin_ctz(finished);
-    FilmPixel& pixel = pixels[p.slot[lane]];
-    add_sample(pixel, p.half[lane], {r[lane], g[lane], b[lane]}, per_unit);
+    FilmPixel& pixel = pixels[slot[lane] >> 1];
+    add_sample(pixel, static_cast<std::uint32_t>(slot[lane]) & 1u, {r[lane], g[lane], b[lane]}, per_unit);
     ++pixel.taken;
     pixel.truncated += cut >> lane & 1u;
   }

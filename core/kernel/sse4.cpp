@@ -4,7 +4,7 @@
 
 namespace tyndall {
 namespace {
-using F = HWY_NAMESPACE::Floats<1>;
+using F = HWY_NAMESPACE::Floats;
 static_assert(lanes_of<F> == 4, "the SIMD library fell back to a narrower set: a flag is missing");
 void render(const SceneView& s, const Unit& u, double unit, FilmPixel* p, UnitCounts& c) {
   render_unit<F>(s, u, unit, p, c);

@@ -1,3 +1,11 @@
+#include "core/base/lanes_twice.h"
+
+namespace tyndall::test {
+namespace {
+using Wide = Twice<HWY_NAMESPACE::Floats>;
+}
+}  // namespace tyndall::test
+
 #include "tests/base/lanes_simd_check.h"
 
 namespace tyndall::test {

@@ -150,6 +150,21 @@ void check_masks(Differences& d, const Inputs& in, F f) {
   return d.count;
 }
 
+TYNDALL_INLINE Wide load_any(const float* from) { return load<Wide>(from); }
+TYNDALL_INLINE IntOf<Wide> load_any(const std::int32_t* from) { return load_int<Wide>(from); }
+
+/// The lanes of in.m, filled from a table, the others as they were.
+template <class T>
+void check_expansion(Differences& d, const Inputs& in, const T* table) {
+  T got[width], expected[width];
+  for (int k = 0; k < width; ++k) expected[k] = static_cast<T>(k + 1000);
+  const T* from = table + 5;
+  store(got, expand(expansion<Wide>(bits_of(in.m)), from, load_any(expected)));
+  for (int k = 0; k < width; ++k)
+    if (in.m[k]) expected[k] = *from++;
+  d.expect(got, expected);
+}
+
 [[maybe_unused]] int differences_in_memory(int rounds) {
   Differences d;
   float table[256];
@@ -164,6 +179,8 @@ void check_masks(Differences& d, const Inputs& in, F f) {
     d.expect(got, expected);
     store(whole, gather_int<Wide>(whole_table, load_int<Wide>(at)));
     d.expect(whole, plain);
+    check_expansion(d, in, table);
+    check_expansion(d, in, whole_table);
     float least = expected[0];
     for (const float e : expected) least = e < least ? e : least;
     d.count += least_lane(load<Wide>(expected)) != least;

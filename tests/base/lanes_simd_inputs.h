@@ -2,11 +2,11 @@
 #include "core/base/lanes_simd.h"
 #include "core/base/random.h"
 
-/// What the checks of lanes_simd_check.h are made of: inputs, and a count of differences.
+/// What the checks of lanes_simd_check.h are made of: inputs, and a count of differences. Wide, the number type that is
+/// checked, is defined before this is included.
 namespace tyndall::test {
 namespace {
 
-using Wide = HWY_NAMESPACE::Floats<1>;
 inline constexpr int width = lanes_of<Wide>;
 
 /// Inputs with every kind of number that a kernel can meet.

@@ -32,9 +32,9 @@ TEST_CASE("lanes: every wide operation does what it does on float, lane by lane"
   check_lanes("sse4", 4, test::lanes_report_sse4);
 #endif
 #if defined(TYNDALL_HAVE_AVX2)
-  check_lanes("avx2", 8, test::lanes_report_avx2);
+  check_lanes("avx2", 16, test::lanes_report_avx2);
 #endif
 #if defined(TYNDALL_HAVE_AVX512)
-  check_lanes("avx512", 16, test::lanes_report_avx512);
+  check_lanes("avx512", 32, test::lanes_report_avx512);
 #endif
 }

@@ -1,3 +1,11 @@
+#include "core/base/lanes_simd.h"
+
+namespace tyndall::test {
+namespace {
+using Wide = HWY_NAMESPACE::Floats;
+}
+}  // namespace tyndall::test
+
 #include "tests/base/lanes_simd_check.h"
 
 namespace tyndall::test {
