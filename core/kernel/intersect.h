@@ -139,10 +139,15 @@ TYNDALL_INLINE Slopes<F> slopes_of(const Ray<F>& ray) {
   return {slope, -(ray.origin * slope)};
 }
 
-/// Enters child c of a node at the answered distance; infinity: does not meet its box before `limit`.
+/// Where lanes enter the box of child c of a node, if they meet it before `limit`.
 /// Products and minima are monotonic in the box's edges, so a box within another is never entered before it.
 template <class F>
-TYNDALL_INLINE F enter_child(const BvhNode& node, int c, const Slopes<F>& s, F limit) {
+struct Entry {
+  MaskOf<F> meets;
+  F near;
+};
+template <class F>
+TYNDALL_INLINE Entry<F> enter_child(const BvhNode& node, int c, const Slopes<F>& s, F limit) {
   const auto low = [&](int axis) { return splat<F>(node.low[axis][c]); };
   const auto high = [&](int axis) { return splat<F>(node.high[axis][c]); };
   const F x0 = mul_add(low(0), s.slope.x, s.start.x), x1 = mul_add(high(0), s.slope.x, s.start.x);
@@ -150,25 +155,30 @@ TYNDALL_INLINE F enter_child(const BvhNode& node, int c, const Slopes<F>& s, F l
   const F z0 = mul_add(low(2), s.slope.z, s.start.z), z1 = mul_add(high(2), s.slope.z, s.start.z);
   const F near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), F(0.0f)));
   const F far = min(min(max(x0, x1), max(y0, y1)), min(max(z0, z1), limit));
-  return select(less_equal(near, far * F(slab_room)), near, F(__builtin_inff()));
+  return {less_equal(near, far * F(slab_room)), near};
 }
 
-/// Nodes still to visit, nearest last.
+/// Nodes still to visit, and where each lane enters them; infinity: it does not.
 template <class F>
 struct Stack {
-  struct Entry {
-    std::int32_t node;
-    float key;
-    F near;
-  };
-  Entry entry[bvh_stack];
+  F near[bvh_stack];
+  std::int32_t node[bvh_stack];
   int size = 0;
 
-  /// Keeps the children pushed since `bottom` sorted by key, nearest on top.
-  TYNDALL_INLINE void push(int bottom, std::int32_t node, float key, F near) {
-    int at = size++;
-    for (; at > bottom && entry[at - 1].key < key; --at) entry[at] = entry[at - 1];
-    entry[at] = {node, key, near};
+  /// Brings what the first lanes enter first among the nodes from `bottom` on to the top.
+  TYNDALL_INLINE void raise_nearest(int bottom) {
+    const int top = size - 1;
+    int nearest = top;
+    float least = least_lane(near[top]);
+    for (int i = bottom; i < top; ++i) {
+      const float key = least_lane(near[i]);
+      nearest = key < least ? i : nearest;
+      least = key < least ? key : least;
+    }
+    const F near_top = near[top];
+    const std::int32_t node_top = node[top];
+    near[top] = near[nearest], node[top] = node[nearest];
+    near[nearest] = near_top, node[nearest] = node_top;
   }
 };
 
@@ -203,11 +213,14 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hi
   for (;;) {
     if (current >= 0) {
       const BvhNode& node = s.nodes[current];
-      F enter[bvh_width];
-      for (int c = 0; c < bvh_width; ++c) enter[c] = enter_child(node, c, slopes, best.t);
       const int bottom = stack.size;
-      for (int c = 0; c < node.count; ++c)
-        if (any(less(enter[c], infinity))) stack.push(bottom, node.child[c], least_lane(enter[c]), enter[c]);
+      for (int c = 0; c < node.count; ++c) {
+        const Entry<F> child = enter_child(node, c, slopes, best.t);
+        stack.near[stack.size] = select(child.meets, child.near, infinity);
+        stack.node[stack.size] = node.child[c];
+        stack.size += any(child.meets) ? 1 : 0;
+      }
+      if (stack.size > bottom + 1) stack.raise_nearest(bottom);
     } else {
       asked.lanes = less(asked.near, infinity);
       test_leaf(s, s.leaves[~current], ray, asked, best);
@@ -215,9 +228,10 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hi
     }
     do {
       if (stack.size == 0) return;
-      const auto& top = stack.entry[--stack.size];
-      current = top.node;
-      asked.near = select(less_equal(top.near, best.t * F(slab_room)), top.near, infinity);
+      --stack.size;
+      current = stack.node[stack.size];
+      const F near = stack.near[stack.size];
+      asked.near = select(less_equal(near, best.t * F(slab_room)), near, infinity);
     } while (!any(less(asked.near, infinity)));
   }
 }
