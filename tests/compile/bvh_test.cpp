@@ -106,7 +106,7 @@ bool same_tree(const Bvh& a, const Bvh& b) {
 
 TEST_CASE("bvh: every primitive is in one leaf of its kind, every box within its parent's") {
   Engine engine(1);
-  for (const int count : {1, 2, 3, 5, 17, 100, 3000}) {
+  for (const int count : {1, 2, 3, 5, 17, 100, 3000, 30000}) {
     std::vector<BvhInput> input;
     for (int i = 0; i < count; ++i)
       input.push_back(ball(rounded(in_cube(engine, 10)), static_cast<float>(uniform(engine, 0, 2)), some_kind(engine)));

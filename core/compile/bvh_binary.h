@@ -1,0 +1,26 @@
+#pragma once
+#include "core/compile/bvh.h"
+
+#include <vector>
+
+/// The binary tree that build_bvh widens.
+namespace tyndall {
+
+struct BinaryNode {
+  Bounds bounds;
+  int left = -1, right = -1;  ///< children, or
+  int first = 0, count = 0;   ///< a leaf's range in the order
+};
+
+struct BinaryTree {
+  std::vector<BinaryNode> nodes;  ///< node 0 is the root; a node's left subtree follows it, then the right one
+  std::vector<int> order;         ///< inputs, in the order of the leaves
+};
+
+/// Half of the surface of a box; 0 for one that holds nothing.
+float half_area(const Bounds& b);
+
+/// Splits by the surface area heuristic over bins; large subtrees are built side by side. A pure function of the input.
+BinaryTree build_binary_tree(const std::vector<BvhInput>& input);
+
+}  // namespace tyndall
