@@ -39,6 +39,34 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
   return r;
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
+TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
+#if HWY_TARGET == HWY_AVX3
+  if (count <= 32) {  // two vectors hold it; the SIMD library has no lookup in two yet
+    const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
+    const __m512 low = _mm512_maskz_loadu_ps(static_cast<__mmask16>(readable), table);
+    const __m512 high = _mm512_maskz_loadu_ps(static_cast<__mmask16>(readable >> 16), table + 16);
+    F r;
+    r.v.raw = _mm512_permutex2var_ps(low, index.v.raw, high);
+    return r;
+  }
+#endif
+  return gather<F>(table, index);
+}
+template <std::same_as<HWY_NAMESPACE::Floats> F>
+TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
+#if HWY_TARGET == HWY_AVX3
+  if (count <= 32) {
+    const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
+    const __m512i low = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable), table);
+    const __m512i high = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable >> 16), table + 16);
+    IntOf<F> r;
+    r.v.raw = _mm512_permutex2var_epi32(low, index.v.raw, high);
+    return r;
+  }
+#endif
+  return gather_int<F>(table, index);
+}
+template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F load(const float* from) {
   F r;
   r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagF(), from);
@@ -58,8 +86,12 @@ TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
-  alignas(8) std::uint8_t bytes[8] = {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(b >> 8)};
   MaskOf<F> m;
+#if HWY_TARGET == HWY_AVX3
+  m.v.raw = static_cast<__mmask16>(b);
+  return m;
+#endif
+  alignas(8) std::uint8_t bytes[8] = {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(b >> 8)};
   m.v = HWY_NAMESPACE::hn::LoadMaskBits(HWY_NAMESPACE::TagF(), bytes);
   return m;
 }

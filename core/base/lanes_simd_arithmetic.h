@@ -149,6 +149,9 @@ TYNDALL_INLINE Mask mask_and_not(Mask a, Mask b) {
 TYNDALL_INLINE bool any(Mask a) { return !hn::AllFalse(TagF(), a.v); }
 TYNDALL_INLINE bool all(Mask a) { return hn::AllTrue(TagF(), a.v); }
 TYNDALL_INLINE std::uint32_t bits(Mask a) {
+#if HWY_TARGET == HWY_AVX3
+  return a.v.raw;
+#endif
   alignas(8) std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(TagF(), a.v, bytes);
   return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;

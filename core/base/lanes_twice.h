@@ -195,6 +195,14 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
   return {gather_int<HalfOf<F>>(table, index.a), gather_int<HalfOf<F>>(table, index.b)};
 }
 template <Doubled F>
+TYNDALL_INLINE F lookup(const float* table, int count, IntOf<F> index) {
+  return {lookup<HalfOf<F>>(table, count, index.a), lookup<HalfOf<F>>(table, count, index.b)};
+}
+template <Doubled F>
+TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, int count, IntOf<F> index) {
+  return {lookup_int<HalfOf<F>>(table, count, index.a), lookup_int<HalfOf<F>>(table, count, index.b)};
+}
+template <Doubled F>
 TYNDALL_INLINE F load(const float* from) {
   return {load<HalfOf<F>>(from), load<HalfOf<F>>(from + lanes_of<HalfOf<F>>)};
 }

@@ -45,6 +45,14 @@ TYNDALL_INLINE Start<F> start_on(IntOf<F> from, std::int32_t first, std::int32_t
   return {here, mask_and(here, equal(from & I(3), I(0)))};
 }
 
+/// Start for a shape of one element.
+template <class F>
+TYNDALL_INLINE Start<F> start_on(IntOf<F> from, std::int32_t element) {
+  using I = IntOf<F>;
+  const auto here = equal(as_int(shift_right<2>(as_uint(from))), I(element));
+  return {here, mask_and(here, equal(from & I(3), I(0)))};
+}
+
 /// What meets a surface, for one scattering event.
 template <class F>
 struct Incident {

@@ -68,7 +68,7 @@ TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf
   const auto could = mask_and(lit, less(F(0.0f), p.density));
   if (!s.light_sampling || !any(could)) return F(1.0f);
   if (!s.multiple_importance) return select(could, F(0.0f), F(1.0f));
-  const IntOf<F> light = gather_int<F>(s.light_of, element);
+  const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
   const F chosen = light_density(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
   const F ratio = p.density / max(chosen, F(1e-30f));
@@ -80,7 +80,7 @@ TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf
 template <class F>
 TYNDALL_INLINE void meet_surfaces(const SceneView& s, Paths<F>& p, const Hit<F>& hit, Vec3<F> unit, Event<F>& e) {
   e.at = surface_at(s, p.ray, hit.t, hit.element);
-  e.kind = gather_int<F>(s.kind, e.at.material);
+  e.kind = lookup_int<F>(s.kind, s.material_count, e.at.material);
   const Vec3<F> colour = surface_colour(s, e.at, e.surface);
   const auto lit = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Light<double>>())));
   if (any(lit)) {

@@ -18,27 +18,24 @@ struct Hit {
 /// Relative room for the rounding of box tests: far more than it needs, far less than costs time.
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
-/// How a primitive test is asked for: by a leaf of the tree, whose box a lane must have met at `near`, or for all.
-/// shadow: only whether something is in the way counts, and each lane leaves out the element it aims at.
-template <class F, bool is_shadow = false>
+/// How a primitive test is asked for. shadow: only whether something is in the way counts, and each lane leaves out the
+/// element it aims at. by_tree: by a leaf of the tree, whose box a lane meets at `near`; infinity: it does not.
+template <class F, bool is_shadow, bool is_by_tree>
 struct Asked {
-  static constexpr bool shadow = is_shadow;
-  MaskOf<F> lanes;
+  static constexpr bool shadow = is_shadow, by_tree = is_by_tree;
   F near;
-  bool by_tree;
   IntOf<F> aim;  ///< shadow rays: the element that is left out
 };
 
-/// Where candidate hits beat the best so far.
+/// Where candidate hits beat the best so far, whose distance is negative in lanes that are not asked.
 template <class F, class Q>
 TYNDALL_INLINE MaskOf<F> beats(F t, std::int32_t element, MaskOf<F> hit, const Hit<F>& best, const Q& asked) {
-  using I = IntOf<F>;
-  if constexpr (Q::shadow) {
-    return mask_and(mask_and(hit, asked.lanes), mask_and(less(F(0.0f), t), less(t, best.t)));
-  }
-  const auto closer = mask_or(less(t, best.t), mask_and(equal(t, best.t), less(I(element), best.element)));
-  const auto ok = mask_and(mask_and(hit, closer), mask_and(less(F(0.0f), t), asked.lanes));
-  return asked.by_tree ? mask_and(ok, less_equal(asked.near, t * F(slab_room))) : ok;
+  const auto ahead = mask_and(hit, less(F(0.0f), t));
+  auto closer = less(t, best.t);
+  if constexpr (!Q::shadow) closer = mask_or(closer, mask_and(equal(t, best.t), less(IntOf<F>(element), best.element)));
+  const auto better = mask_and(ahead, closer);
+  if constexpr (Q::by_tree) return mask_and(better, less_equal(asked.near, t * F(slab_room)));
+  return better;
 }
 
 template <class F, class Q>
@@ -46,7 +43,7 @@ TYNDALL_INLINE void test_sphere(Vec3<F> center, float radius, std::int32_t eleme
                                 Hit<F>& best) {
   const Vec3<F> to_center = center - ray.origin;
   Interval<F> line = sphere_interval(to_center, splat<F>(radius), ray.direction);
-  const Start<F> start = start_on<F>(ray.from, element, 1);
+  const Start<F> start = start_on<F>(ray.from, element);
   if (any(start.here)) line = leave_sphere(line, to_center, ray.direction, ray.from, start);
   if constexpr (Q::shadow) line.hit = mask_and_not(line.hit, equal(asked.aim, IntOf<F>(element)));
   if (!any(line.hit)) return;
@@ -81,7 +78,7 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
     QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
     if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(asked.aim, IntOf<F>(element)));
     if (!any(h.hit)) continue;
-    const Start<F> start = start_on<F>(ray.from, element, 1);
+    const Start<F> start = start_on<F>(ray.from, element);
     const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, asked);
     best.t = select(better, h.t, best.t);
     best.element = select(better, IntOf<F>(element), best.element);
@@ -123,7 +120,7 @@ TYNDALL_INLINE void test_all(const SceneView& s, const Ray<F>& ray, const Q& ask
 template <class F>
 TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  test_all(s, ray, Asked<F>{active, F(0.0f), false, IntOf<F>(-1)}, best);
+  test_all(s, ray, Asked<F, false, false>{F(0.0f), IntOf<F>(-1)}, best);
   return best;
 }
 
@@ -222,7 +219,6 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hi
       }
       if (stack.size > bottom + 1) stack.raise_nearest(bottom);
     } else {
-      asked.lanes = less(asked.near, infinity);
       test_leaf(s, s.leaves[~current], ray, asked, best);
       if constexpr (Q::shadow) best.t = select(less(best.element, IntOf<F>(0)), best.t, F(-1.0f));
     }
@@ -239,7 +235,7 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hi
 template <class F>
 TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  test_tree(s, ray, Asked<F>{active, F(0.0f), true, IntOf<F>(-1)}, best);
+  test_tree(s, ray, Asked<F, false, true>{F(0.0f), IntOf<F>(-1)}, best);
   return best;
 }
 
@@ -248,11 +244,10 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
-  const Asked<F, true> asked{active, F(0.0f), s.nodes != nullptr, aim};
   if (s.nodes)
-    test_tree(s, ray, asked, best);
+    test_tree(s, ray, Asked<F, true, true>{F(0.0f), aim}, best);
   else
-    test_all(s, ray, asked, best);
+    test_all(s, ray, Asked<F, true, false>{F(0.0f), aim}, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 

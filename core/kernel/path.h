@@ -15,9 +15,8 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
       if (samples.empty()) return;
       refill(queue, samples, s, unit);
     }
-    std::uint32_t free = full & ~p.alive, fresh = 0;
-    const int count = min(queue.end - queue.next, __builtin_popcount(free));
-    for (int k = 0; k < count; ++k, free &= free - 1) fresh |= free & (~free + 1u);
+    std::uint32_t fresh = full & ~p.alive;
+    while (__builtin_popcount(fresh) > queue.end - queue.next) fresh &= fresh - 1;
     const Expansion<F> fill = expansion<F>(fresh);
     const auto m = mask_from_bits<F>(fresh);
     const auto take = [&](const auto* column, auto old) __attribute__((always_inline)) {
@@ -30,7 +29,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     p.slot = take(queue.slot, p.slot);
     p.dice.low = as_uint(take(queue.low, as_int(p.dice.low)));
     p.dice.high = as_uint(take(queue.high, as_int(p.dice.high)));
-    queue.next += count;
+    queue.next += __builtin_popcount(fresh);
     p.ray.from = select(m, IntOf<F>(from_nowhere), p.ray.from);
     p.dice.event = select(m, UintOf<F>(dimension::camera_count * golden_ratio), p.dice.event);
     p.throughput = select(m, Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.throughput);

@@ -61,7 +61,9 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.move_x = e.move_x.data(), v.move_y = e.move_y.data(), v.move_z = e.move_z.data(), v.uv = e.uv.data();
   v.material = e.material.data(), v.light_of = e.light.data();
   v.lights = view_of(s.lights);
+  v.element_count = static_cast<int>(e.material.size());
   const Materials& m = s.materials;
+  v.material_count = static_cast<int>(m.kind.size());
   v.kind = m.kind.data(), v.texture_of = m.texture.data();
   v.red = m.red.data(), v.green = m.green.data(), v.blue = m.blue.data();
   for (std::size_t i = 0; i < max_material_fields; ++i) v.parameter[i] = m.parameter[i].data();

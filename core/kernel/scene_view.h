@@ -39,6 +39,7 @@ struct SceneView {
   FlatView quads, boxes;
   const BvhNode* nodes;  ///< null: every primitive is tested
   const BvhLeaf* leaves;
+  int element_count, material_count;
   // elements
   const float *x, *y, *z, *inverse_radius, *move_x, *move_y, *move_z, *uv;
   const std::int32_t *material, *light_of;

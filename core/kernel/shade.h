@@ -35,16 +35,18 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
   SurfacePoint<F> p;
   p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
   p.point = along(ray.origin, safe_t, ray.direction);
-  p.material = gather_int<F>(s.material, p.element);
-  Vec3<F> column{gather<F>(s.x, p.element), gather<F>(s.y, p.element), gather<F>(s.z, p.element)};
+  p.material = lookup_int<F>(s.material, s.element_count, p.element);
+  Vec3<F> column{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
+                 lookup<F>(s.z, s.element_count, p.element)};
   p.normal = column;
   p.inverted = less(F(1.0f), F(0.0f));
   if (!s.needs.spheres && !s.needs.moving_spheres) return p;
-  const F inverse_radius = gather<F>(s.inverse_radius, p.element);
+  const F inverse_radius = lookup<F>(s.inverse_radius, s.element_count, p.element);
   const auto round = mask_not(equal(inverse_radius, F(0.0f)));
   if (!any(round)) return p;
   if (s.needs.moving_spheres) {
-    const Vec3<F> way{gather<F>(s.move_x, p.element), gather<F>(s.move_y, p.element), gather<F>(s.move_z, p.element)};
+    const Vec3<F> way{lookup<F>(s.move_x, s.element_count, p.element), lookup<F>(s.move_y, s.element_count, p.element),
+                      lookup<F>(s.move_z, s.element_count, p.element)};
     column = along(column, ray.time, way);
   }
   const Vec3<F> arm = p.point - column;
@@ -62,7 +64,7 @@ TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& 
   for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.uv + i, at);
   u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
   v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
-  const auto round = mask_not(equal(gather<F>(s.inverse_radius, p.element), F(0.0f)));
+  const auto round = mask_not(equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f)));
   if (!any(round)) return;
   const Vec3<F> outward = select(p.inverted, -p.normal, p.normal);
   const Vec3<F> own{mul_add(column[0], outward.x, -(column[1] * outward.z)), outward.y,
@@ -110,9 +112,10 @@ TYNDALL_INLINE Vec3<F> textured(const SceneView& s, Vec3<F> colour, IntOf<F> ind
 
 template <class F>
 TYNDALL_INLINE Vec3<F> surface_colour(const SceneView& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
-  const Vec3<F> colour{gather<F>(s.red, p.material), gather<F>(s.green, p.material), gather<F>(s.blue, p.material)};
+  const Vec3<F> colour{lookup<F>(s.red, s.material_count, p.material), lookup<F>(s.green, s.material_count, p.material),
+                       lookup<F>(s.blue, s.material_count, p.material)};
   if (!s.needs.textures) return colour;
-  return textured(s, colour, gather_int<F>(s.texture_of, p.material), lanes, p.point, &p);
+  return textured(s, colour, lookup_int<F>(s.texture_of, s.material_count, p.material), lanes, p.point, &p);
 }
 
 /// Radiance that a light's element sends from a point on it.
@@ -120,12 +123,14 @@ template <class F>
 TYNDALL_INLINE Vec3<F> light_radiance(const SceneView& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
   p.element = element;
-  p.material = gather_int<F>(s.material, element);
+  p.material = lookup_int<F>(s.material, s.element_count, element);
   p.point = point;
   p.inverted = less(F(1.0f), F(0.0f));
   p.normal = zero3<F>();
   if (s.needs.image_textures) {
-    const Vec3<F> arm = point - Vec3<F>{gather<F>(s.x, element), gather<F>(s.y, element), gather<F>(s.z, element)};
+    const Vec3<F> arm =
+        point - Vec3<F>{lookup<F>(s.x, s.element_count, element), lookup<F>(s.y, s.element_count, element),
+                        lookup<F>(s.z, s.element_count, element)};
     p.normal = (F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f)))) * arm;  // outward; only spheres use it
   }
   return surface_colour(s, p, lanes);
@@ -139,7 +144,7 @@ TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
     [[maybe_unused]] constexpr auto list = fields(static_cast<const M*>(nullptr));
     (([&]() __attribute__((always_inline)) {
        constexpr auto member = std::get<i>(list).value;
-       m.*member = gather<F>(s.parameter[i], material);
+       m.*member = lookup<F>(s.parameter[i], s.material_count, material);
      }()),
      ...);
   }

@@ -165,6 +165,19 @@ void check_expansion(Differences& d, const Inputs& in, const T* table) {
   d.expect(got, expected);
 }
 
+/// Entries of tables of all lengths: what lies beyond is never read.
+void check_lookup(Differences& d, const Inputs& in, const float* table, const std::int32_t* whole_table, int count) {
+  table += 256 - count, whole_table += 256 - count;
+  std::int32_t at[width], whole[width], plain[width];
+  float got[width], expected[width];
+  for (int k = 0; k < width; ++k) at[k] = (in.i[k] & 0xffff) % count;
+  for (int k = 0; k < width; ++k) expected[k] = table[at[k]], plain[k] = whole_table[at[k]];
+  store(got, lookup<Wide>(table, count, load_int<Wide>(at)));
+  d.expect(got, expected);
+  store(whole, lookup_int<Wide>(whole_table, count, load_int<Wide>(at)));
+  d.expect(whole, plain);
+}
+
 [[maybe_unused]] int differences_in_memory(int rounds) {
   Differences d;
   float table[256];
@@ -179,6 +192,7 @@ void check_expansion(Differences& d, const Inputs& in, const T* table) {
     d.expect(got, expected);
     store(whole, gather_int<Wide>(whole_table, load_int<Wide>(at)));
     d.expect(whole, plain);
+    for (const int count : {1, 7, 16, 31, 32, 33, 256}) check_lookup(d, in, table, whole_table, count);
     check_expansion(d, in, table);
     check_expansion(d, in, whole_table);
     float least = expected[0];
