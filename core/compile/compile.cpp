@@ -1,6 +1,7 @@
 #include "core/compile/compile.h"
 
 #include "core/compile/columns.h"
+#include "core/compile/hull.h"
 #include "core/compile/lights.h"
 #include "core/film/film.h"
 
@@ -103,7 +104,13 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
                                       RenderScene& out) {
   std::vector<std::int32_t> order(flat.shapes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-  if (flat.shapes.size() <= most_by_brute_force) return order;
+  if (flat.shapes.size() <= most_by_brute_force) {
+    const auto bounding = std::stable_partition(order.begin(), order.end(), [&](std::int32_t i) {
+      return !bounds_scene(flat, static_cast<std::size_t>(i), camera);
+    });
+    out.quads.bounding = static_cast<int>(order.end() - bounding);
+    return order;
+  }
   std::vector<BvhInput> input;
   for (const PlacedShape& s : flat.shapes)
     input.push_back(

@@ -50,6 +50,7 @@ struct Spheres {
 struct Flats {
   std::vector<Affine> map;
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
+  int bounding = 0;                   ///< so many of the last are quads that bound the scene and hide nothing in it
 };
 
 /// Per element: a sphere, a quad, or a face of a box.

@@ -24,7 +24,8 @@ template <class F, bool is_shadow, bool is_by_tree>
 struct Asked {
   static constexpr bool shadow = is_shadow, by_tree = is_by_tree;
   F near;
-  IntOf<F> aim;  ///< shadow rays: the element that is left out
+  IntOf<F> aim;             ///< shadow rays: the element that is left out
+  std::int32_t common_aim;  ///< the one that all lanes leave out, or -1
 };
 
 /// Where candidate hits beat the best so far, whose distance is negative in lanes that are not asked.
@@ -75,6 +76,7 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
                                Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const std::int32_t element = q.element[i];
+    if (Q::shadow && element == asked.common_aim) continue;
     QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
     if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(asked.aim, IntOf<F>(element)));
     if (!any(h.hit)) continue;
@@ -113,14 +115,14 @@ template <class F, class Q>
 TYNDALL_INLINE void test_all(const SceneView& s, const Ray<F>& ray, const Q& asked, Hit<F>& best) {
   test_spheres(s.spheres, 0, s.spheres.count, ray, asked, best);
   test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, asked, best);
-  test_quads(s.quads, 0, s.quads.count, ray, asked, best);
+  test_quads(s.quads, 0, Q::shadow ? s.quads.hiding : s.quads.count, ray, asked, best);
   test_boxes(s.boxes, 0, s.boxes.count, ray, asked, best);
 }
 
 template <class F>
 TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  test_all(s, ray, Asked<F, false, false>{F(0.0f), IntOf<F>(-1)}, best);
+  test_all(s, ray, Asked<F, false, false>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
 }
 
@@ -235,7 +237,7 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hi
 template <class F>
 TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  test_tree(s, ray, Asked<F, false, true>{F(0.0f), IntOf<F>(-1)}, best);
+  test_tree(s, ray, Asked<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
 }
 
@@ -244,10 +246,11 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
+  const std::int32_t common_aim = s.lights.count == 1 ? s.lights.element[0] : -1;
   if (s.nodes)
-    test_tree(s, ray, Asked<F, true, true>{F(0.0f), aim}, best);
+    test_tree(s, ray, Asked<F, true, true>{F(0.0f), aim, common_aim}, best);
   else
-    test_all(s, ray, Asked<F, true, false>{F(0.0f), aim}, best);
+    test_all(s, ray, Asked<F, true, false>{F(0.0f), aim, common_aim}, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 

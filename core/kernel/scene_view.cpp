@@ -15,7 +15,10 @@ SphereView view_of(const Spheres& s) {
           s.element.data()};
 }
 
-FlatView view_of(const Flats& f) { return {static_cast<int>(f.map.size()), f.map.data(), f.element.data()}; }
+FlatView view_of(const Flats& f) {
+  const int count = static_cast<int>(f.map.size());
+  return {count, count - f.bounding, f.map.data(), f.element.data()};
+}
 
 TextureView view_of(const TextureColumns& t) {
   return {static_cast<TextureColumns::Kind>(t.kind),

@@ -12,6 +12,7 @@ struct SphereView {
 };
 struct FlatView {
   int count = 0;
+  int hiding = 0;  ///< the first of them, which shadow rays have to be tested with
   const Affine* map;
   const std::int32_t* element;
 };
