@@ -41,10 +41,10 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
 }
 
 /// Ends paths with a probability that grows as they carry less: survivors carry what the ended ones would have.
-/// The factor 6 keeps paths above a sixth of full throughput; between 4 and 8 the time to a given error is flat.
+/// The factor 8 keeps paths above an eighth of full throughput; between 4 and 8 the time to a given error is flat.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
-  const F survival = F(6.0f) * max_component(p.throughput);
+  const F survival = F(8.0f) * max_component(p.throughput);
   const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
   if (!any(at_risk)) return lanes;
   const auto ended = mask_and_not(at_risk, less(p.dice.one(dimension::roulette), survival));
