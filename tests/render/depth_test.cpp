@@ -77,7 +77,7 @@ TEST_CASE("depth: light counts after at most max_depth events; the rest is cut a
       for (int k = 0; k < depth; ++k) expected += rho * f * std::pow(rho * (1 - f), k);
       scores.add("truncated sum", estimate(batches), expected, 0.01);
       // Roulette starts below an eighth of the full throughput: until then a path is cut if it never met the lamp.
-      if (std::pow(rho, depth - 1) * 6 >= 1) scores.add("cut", estimate(cut), std::pow(1 - f, depth), 0.02);
+      if (std::pow(rho, depth - 1) * 8 >= 1) scores.add("cut", estimate(cut), std::pow(1 - f, depth), 0.02);
     }
 }
 
