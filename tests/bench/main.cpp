@@ -14,6 +14,7 @@ const std::vector<Part>& parts() {
       {"throughput", "samples and rays a second on one thread, by scene and instruction set", measure_throughput},
       {"accuracy", "seconds to relMSE 0.01 on two threads, and relMSE x spp", measure_accuracy},
       {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
+      {"tree", "build time, memory and speed of trees over spheres", measure_tree},
   };
   return list;
 }
