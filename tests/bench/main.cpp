@@ -15,6 +15,7 @@ const std::vector<Part>& parts() {
       {"accuracy", "seconds to relMSE 0.01 on two threads, and relMSE x spp", measure_accuracy},
       {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
       {"tree", "build time, memory and speed of trees over spheres", measure_tree},
+      {"edits", "milliseconds from an edit to its picture, interactive renderer", measure_edits},
   };
   return list;
 }
