@@ -16,6 +16,7 @@ const std::vector<Part>& parts() {
       {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
       {"tree", "build time, memory and speed of trees over spheres", measure_tree},
       {"edits", "milliseconds from an edit to its picture, interactive renderer", measure_edits},
+      {"start", "wall time of the smallest render as a process", measure_start},
   };
   return list;
 }
