@@ -18,6 +18,7 @@ struct Effort {
 
 Effort effort_of(const Settings& settings) {
   Effort effort = settings.quick ? Effort{512, 2, 3} : Effort{4096, 4, 5};
+  if (settings.thorough) effort.reference_spp = 4096;  // a reference's own error must be small beside the target
   if (settings.repeat > 0) effort.repeat = settings.repeat;
   return effort;
 }
