@@ -1,0 +1,57 @@
+#include "tests/bench/give_way.h"
+
+#include "core/compile/compile.h"
+#include "core/render/pass.h"
+#include "tests/bench/measure.h"
+
+#include <thread>
+
+namespace tyndall::bench {
+namespace {
+
+/// How long a pass of that many samples goes on after it is asked, some time after its start, to give up; nothing if it
+/// was done before. The film's first sample must be there.
+std::vector<double> give_way(Crew& crew, const SceneView& view, Film& film, std::uint32_t samples,
+                             std::chrono::microseconds after) {
+  const Kernels kernels = *choose_kernels("");
+  std::atomic<bool> give_up = false;
+  Pass pass(film.region, 1, 1 + samples);
+  bool whole = false;
+  Clock::time_point returned;
+  std::thread runner([&] {
+    whole = pass.run(crew, kernels, view, film, give_up);
+    returned = Clock::now();
+  });
+  std::this_thread::sleep_for(after);
+  const Clock::time_point asked = Clock::now();
+  give_up = true;
+  runner.join();
+  if (whole) return {};
+  return {seconds_between(asked, returned)};
+}
+
+}  // namespace
+
+std::vector<double> compile_times(const Scene& from, const Scene& to, int repeat) {
+  const RenderScene before = compile(from);
+  std::vector<double> seconds(static_cast<std::size_t>(repeat));
+  for (double& s : seconds) s = seconds_of([&] { return compile(to, &before); });
+  return seconds;
+}
+
+std::vector<double> give_way_times(const Scene& scene, int repeat) {
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  Crew crew(0);
+  Film film =
+      make_film(compiled.width, compiled.height, {0, 0, compiled.width, compiled.height}, 0, compiled.film_unit);
+  std::vector<double> seconds;
+  for (int i = 0; i < repeat; ++i) {
+    const std::chrono::microseconds after(5000 + 617 * (i % 16));
+    const auto one = give_way(crew, view.view(), film, i % 2 ? 16 : 1, after);
+    seconds.insert(seconds.end(), one.begin(), one.end());
+  }
+  return seconds;
+}
+
+}  // namespace tyndall::bench

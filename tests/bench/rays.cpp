@@ -1,0 +1,90 @@
+#include "tests/bench/rays.h"
+
+#include "core/base/sampling.h"
+
+#include <random>
+#include <utility>
+
+namespace tyndall::bench {
+namespace {
+
+constexpr int tile = 32, samples_of_pixel = 2, most_bounces = 50;
+
+/// Follows paths; knows which comes next.
+class Walk {
+ public:
+  explicit Walk(const RenderScene& scene) : scene_(scene) {}
+
+  /// The next ray from the camera.
+  TraceRay start() {
+    const CameraColumns& c = scene_.camera;
+    const float x = static_cast<float>(left_ + column_) + uniform(), y = static_cast<float>(top_ + row_) + uniform();
+    advance();
+    return {c.center, normalize(c.corner + x * c.du + y * c.dv), 0, from_nowhere};
+  }
+
+  /// The ray that leaves what `ray` hit in a cosine-weighted direction. It starts a few roundings above the surface, so
+  /// that who is not told where it starts does not meet that surface again.
+  TraceRay bounce(const TraceRay& ray, const TraceHit& hit) {
+    const Elements& e = scene_.elements;
+    const auto i = static_cast<std::size_t>(hit.element);
+    const Vec3f center{e.x[i], e.y[i], e.z[i]};
+    const Vec3f normal = normalize(e.inverse_radius[i] * (along(ray.origin, hit.t, ray.direction) - center));
+    const float radius = 1 / e.inverse_radius[i], lift = 4e-7f * (length(center) + radius);
+    const float u = uniform(), v = uniform();
+    const Vec3f direction = normal + 0.9999f * on_sphere(Pair<float>{u, v});  // never zero
+    return {along(center, radius + lift, normal), normalize(direction), 0,
+            4 * hit.element + static_cast<std::int32_t>(Side::outward)};
+  }
+
+ private:
+  float uniform() { return static_cast<float>(random_() >> 8) * 0x1p-24f; }
+
+  /// Samples of a pixel, pixels of a tile, tiles of the image; then again.
+  void advance() {
+    if (++sample_ < samples_of_pixel) return;
+    sample_ = 0;
+    if (++column_ < tile && left_ + column_ < scene_.width) return;
+    column_ = 0;
+    if (++row_ < tile && top_ + row_ < scene_.height) return;
+    row_ = 0;
+    if ((left_ += tile) < scene_.width) return;
+    left_ = 0;
+    if ((top_ += tile) >= scene_.height) top_ = 0;
+  }
+
+  const RenderScene& scene_;
+  std::mt19937 random_{1};
+  int sample_ = 0, column_ = 0, row_ = 0, left_ = 0, top_ = 0;
+};
+
+}  // namespace
+
+std::vector<TraceRay> rays_in_path_order(const RenderScene& scene, const Kernels& kernels, std::size_t count) {
+  const SceneViewOf view(scene);
+  const auto lanes = static_cast<std::size_t>(kernels.lanes);
+  Walk walk(scene);
+  std::vector<TraceRay> group(lanes), rays;
+  std::vector<TraceHit> hits(lanes);
+  std::vector<int> bounces(lanes);
+  for (TraceRay& ray : group) ray = walk.start();
+  while (rays.size() < count) {
+    rays.insert(rays.end(), group.begin(), group.end());
+    kernels.trace(view.view(), group.data(), hits.data(), kernels.lanes, false);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const bool on = hits[k].element >= 0 && ++bounces[k] <= most_bounces;
+      if (!on) bounces[k] = 0;
+      group[k] = on ? walk.bounce(group[k], hits[k]) : walk.start();
+    }
+  }
+  rays.resize(count);
+  return rays;
+}
+
+std::vector<TraceRay> shuffled(std::vector<TraceRay> rays) {
+  std::mt19937_64 random(3);
+  for (std::size_t i = rays.size(); i > 1; --i) std::swap(rays[i - 1], rays[random() % i]);
+  return rays;
+}
+
+}  // namespace tyndall::bench

@@ -1,0 +1,18 @@
+#pragma once
+#include "core/kernel/kernels.h"
+
+#include <cstddef>
+#include <vector>
+
+/// Rays to trace, as a path tracer meets them.
+namespace tyndall::bench {
+
+/// `count` rays in the order in which the kernels would trace them: groups of `kernels.lanes` paths that start at the
+/// camera, tile by tile, and bounce as if all surfaces were lambertian; a path that leaves is followed by the next one.
+/// The scene must consist of spheres at rest. Repeatable.
+std::vector<TraceRay> rays_in_path_order(const RenderScene& scene, const Kernels& kernels, std::size_t count);
+
+/// The same rays in random order. Repeatable.
+std::vector<TraceRay> shuffled(std::vector<TraceRay> rays);
+
+}  // namespace tyndall::bench

@@ -1,0 +1,80 @@
+#include "tests/bench/scenes.h"
+
+#include "core/scene/load.h"
+
+#include <cmath>
+#include <random>
+
+namespace tyndall::bench {
+namespace {
+
+Scene book_scene(const std::string& name, int width, int height) {
+  Scene scene = built_in(name, width, height);
+  scene.render.max_depth = 50;
+  return scene;
+}
+
+/// Grey in place of every texture.
+Scene without_textures(Scene scene) {
+  for (Material& material : scene.materials)
+    if (std::holds_alternative<TextureIndex>(material.colour)) material.colour = Vec3d{0.5, 0.5, 0.5};
+  return scene;
+}
+
+Object sphere(Vec3d center, double radius) {
+  Object object;
+  object.kind = Solid3d{Sphere<>{center, radius, std::nullopt}, 0};
+  return object;
+}
+
+/// In [0, 1); the standard distributions differ between libraries.
+double uniform(std::mt19937& random) { return static_cast<double>(random()) * 0x1p-32; }
+
+/// Small spheres, one in each cell of a square of edge² cells, as far as they keep clear of the large ones.
+std::vector<Object> small_spheres(int edge, std::size_t most) {
+  std::mt19937 random(7);
+  std::vector<Object> spheres;
+  for (int i = 0; i < edge; ++i)
+    for (int j = 0; j < edge; ++j) {
+      const double x = i - edge / 2 + 0.9 * uniform(random), z = j - edge / 2 + 0.9 * uniform(random);
+      const bool clear = std::abs(z) > 1.3 || std::abs(x) > 5.3;
+      if (clear && spheres.size() < most) spheres.push_back(sphere({x, 0.2, z}, 0.2));
+    }
+  return spheres;
+}
+
+}  // namespace
+
+Scene built_in(const std::string& name, int width, int height) {
+  Scene scene = load_scene(name).scene;
+  scene.width = width;
+  scene.height = height;
+  return scene;
+}
+
+std::vector<NamedScene> book_scenes() {
+  return {{"cornell-box", book_scene("cornell-box", 256, 256)},
+          {"cornell-smoke", book_scene("cornell-smoke", 256, 256)},
+          {"cover", book_scene("cover", 400, 225)},
+          {"simple-light", book_scene("simple-light", 400, 225)},
+          {"simple-light-grey", without_textures(book_scene("simple-light", 400, 225))},
+          {"hollow-glass", book_scene("hollow-glass", 400, 225)}};
+}
+
+Scene field_of_spheres(int count) {
+  Scene scene;
+  scene.width = 400, scene.height = 225;
+  scene.camera = {.look_from = {13, 2, 3}, .look_at = {0, 0, 0}, .vfov = 20};
+  scene.background = Gradient{};
+  scene.render.max_depth = 50;
+  scene.materials = {Material{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
+  scene.objects = {sphere({0, -1000, 0}, 1000), sphere({0, 1, 0}, 1), sphere({-4, 1, 0}, 1), sphere({4, 1, 0}, 1)};
+  const auto small = static_cast<std::size_t>(count) - scene.objects.size();
+  std::vector<Object> strewn;
+  for (int edge = static_cast<int>(std::sqrt(static_cast<double>(small))); strewn.size() < small; ++edge)
+    strewn = small_spheres(edge, small);
+  scene.objects.insert(scene.objects.end(), strewn.begin(), strewn.end());
+  return scene;
+}
+
+}  // namespace tyndall::bench

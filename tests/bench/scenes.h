@@ -1,0 +1,26 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+/// The scenes that are measured.
+namespace tyndall::bench {
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+/// Built-in scenes of the books at small sizes, paths of at most 50 events: cornell-box, cornell-smoke, cover,
+/// simple-light, the same with grey in place of its texture (simple-light-grey), hollow-glass. Throws SceneError.
+std::vector<NamedScene> book_scenes();
+
+/// A built-in scene in another size. Throws SceneError.
+Scene built_in(const std::string& name, int width, int height);
+
+/// A field of `count` >= 500 or so lambertian spheres like that of the books' cover: a ground, three large ones, small
+/// ones strewn around them, all apart, under the sky. A pure function of the count.
+Scene field_of_spheres(int count);
+
+}  // namespace tyndall::bench
