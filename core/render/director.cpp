@@ -125,7 +125,8 @@ void Director::start_over() {
   rejected_ = truncated_ = 0;
   error_ = std::numeric_limits<double>::infinity();
   next_estimate_ = Clock::now();
-  step_ = preview_step(pixels(), paths_per_second_, budget_, step_);
+  first_picture_due_ = true;
+  step_ = preview_step(pixels(), first_paths_per_second_, std::max(budget_ - picture_seconds_, budget_ / 4), step_);
 }
 
 /// The pass that is under way, or the next: coarse, the rest of the first sample, then more and more samples.
@@ -148,8 +149,11 @@ Pass& Director::current_pass() {
 void Director::finish_pass(double seconds) {
   seconds_ += seconds;
   mrays_per_s_ = static_cast<double>(pass_->rays()) / seconds * 1e-6;
-  const double speed = static_cast<double>(pass_->paths()) / seconds;
-  paths_per_second_ = paths_per_second_ > 0 ? std::sqrt(paths_per_second_ * speed) : speed;
+  paths_per_second_ = static_cast<double>(pass_->paths()) / seconds;
+  // Passes of one sample are slower than the ones that follow.
+  if (pass_->last() == 1)
+    first_paths_per_second_ =
+        first_paths_per_second_ > 0 ? std::sqrt(first_paths_per_second_ * paths_per_second_) : paths_per_second_;
   if (pass_is_coarse_)
     coarse_done_ = true;
   else
@@ -160,10 +164,6 @@ void Director::finish_pass(double seconds) {
   if (taken_ >= 2 && (taken_ < 16 || Clock::now() >= next_estimate_ || taken_ >= limit_)) {
     error_ = estimated_relative_error(film_, crew_.get());
     next_estimate_ = Clock::now() + std::chrono::milliseconds(400);
-  }
-  if (pass_is_coarse_ || taken_ == 1) {
-    const double ms = 1000 * seconds_between(submitted_, Clock::now());
-    if (pass_is_coarse_ || step_ == 1) first_picture_ms_ = ms;
   }
   publish();
 }
@@ -190,7 +190,11 @@ void Director::publish() {
   frame->edit = edit_;
   frame->pass = ++frames_;
   frame->width = film_.width, frame->height = film_.height;
+  const Clock::time_point start = Clock::now();
   frame->rgba = picture();
+  picture_seconds_ = seconds_between(start, Clock::now());
+  if (first_picture_due_) first_picture_ms_ = 1000 * seconds_between(submitted_, Clock::now());
+  first_picture_due_ = false;
   frame->view = view_;
   frame->step = taken_ == 0 ? step_ : 1;
   frame->spp = taken_;

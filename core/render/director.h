@@ -85,7 +85,10 @@ class Director {
   std::uint32_t taken_ = 0;  ///< samples that every pixel has
   bool coarse_done_ = false;
   double seconds_ = 0, mrays_per_s_ = 0, error_ = 0, first_picture_ms_ = 0;
-  double paths_per_second_ = 0;  ///< of the last passes: sets the next edit's coarseness
+  double paths_per_second_ = 0;        ///< of the last pass
+  double first_paths_per_second_ = 0;  ///< of the last passes of one sample: sets the next edit's coarseness
+  double picture_seconds_ = 0;         ///< from the film to the last picture
+  bool first_picture_due_ = false;
   double pass_seconds_ = 0;
   std::uint64_t frames_ = 0, rejected_ = 0, truncated_ = 0;
   Clock::time_point next_estimate_;
