@@ -38,15 +38,24 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
   r.v = HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagI(), table, index.v);
   return r;
 }
+#if HWY_TARGET == HWY_AVX3
+namespace HWY_NAMESPACE {
+/// Entries of a table of at most 32, which two vectors hold; the SIMD library has no lookup in two yet.
+TYNDALL_INLINE __m512i lookup_in_two(const void* table, int count, __m512i index) {
+  const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
+  const __m512i low = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable), table);
+  const __m512i high =
+      _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable >> 16), static_cast<const std::int32_t*>(table) + 16);
+  return _mm512_permutex2var_epi32(low, index, high);
+}
+}  // namespace HWY_NAMESPACE
+#endif
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= 32) {  // two vectors hold it; the SIMD library has no lookup in two yet
-    const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
-    const __m512 low = _mm512_maskz_loadu_ps(static_cast<__mmask16>(readable), table);
-    const __m512 high = _mm512_maskz_loadu_ps(static_cast<__mmask16>(readable >> 16), table + 16);
+  if (count <= 32) {
     F r;
-    r.v.raw = _mm512_permutex2var_ps(low, index.v.raw, high);
+    r.v.raw = _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_two(table, count, index.v.raw));
     return r;
   }
 #endif
@@ -56,11 +65,8 @@ template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
   if (count <= 32) {
-    const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
-    const __m512i low = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable), table);
-    const __m512i high = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable >> 16), table + 16);
     IntOf<F> r;
-    r.v.raw = _mm512_permutex2var_epi32(low, index.v.raw, high);
+    r.v.raw = HWY_NAMESPACE::lookup_in_two(table, count, index.v.raw);
     return r;
   }
 #endif
@@ -89,10 +95,10 @@ TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
   MaskOf<F> m;
 #if HWY_TARGET == HWY_AVX3
   m.v.raw = static_cast<__mmask16>(b);
-  return m;
-#endif
+#else
   alignas(8) std::uint8_t bytes[8] = {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(b >> 8)};
   m.v = HWY_NAMESPACE::hn::LoadMaskBits(HWY_NAMESPACE::TagF(), bytes);
+#endif
   return m;
 }
 

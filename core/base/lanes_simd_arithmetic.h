@@ -151,10 +151,11 @@ TYNDALL_INLINE bool all(Mask a) { return hn::AllTrue(TagF(), a.v); }
 TYNDALL_INLINE std::uint32_t bits(Mask a) {
 #if HWY_TARGET == HWY_AVX3
   return a.v.raw;
-#endif
+#else
   alignas(8) std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(TagF(), a.v, bytes);
   return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+#endif
 }
 
 TYNDALL_INLINE Floats select(Mask m, Floats a, Floats b) {

@@ -14,9 +14,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Bounds nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 constexpr int bins = 16;
 constexpr int most_in_leaf = 8;
-constexpr float traversal_cost =
-    4.0f;                              // of a binary step, in units of one primitive's test: measured, flat from 3 to 6
-constexpr int deepest_heuristic = 48;  // below this depth ranges are halved, which bounds the traversal's stack
+constexpr float traversal_cost = 4.0f;  // of a binary step, in primitives' tests: measured, flat from 3 to 6
+constexpr int deepest_heuristic = 48;   // below this depth ranges are halved, which bounds the traversal's stack
 
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -57,9 +56,8 @@ class Builder {
     const Split at = split(range);
     std::vector<BinaryNode> nodes{at.node};
     if (at.middle < 0) return nodes;
-    auto right = std::async(std::launch::async, [this, range, at] {
-      return build({at.middle, range.end, range.depth + 1});
-    });
+    // Without a policy: where no thread is to be had it runs here, later.
+    auto right = std::async([this, range, at] { return build({at.middle, range.end, range.depth + 1}); });
     nodes[0].left = 1;
     append(nodes, build({range.begin, at.middle, range.depth + 1}));
     nodes[0].right = static_cast<int>(nodes.size());

@@ -39,39 +39,21 @@ Bounds widen(Vec3d low, Vec3d high) {
   return {to_float(low - room), to_float(high + room)};
 }
 
-Bounds bounds_of_points(const std::vector<Vec3d>& points) {
-  Vec3d low = points[0], high = points[0];
-  for (const Vec3d& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+Bounds bounds_of(const Extent& extent, Vec3d origin) {
+  const Vec3d reach{extent.radius, extent.radius, extent.radius};
+  Vec3d low = extent.points[0] - origin - reach, high = extent.points[0] - origin + reach;
+  for (const Vec3d& point : extent.points) {
+    const Vec3d from = point - origin - reach, to = point - origin + reach;
+    low = {std::min(low.x, from.x), std::min(low.y, from.y), std::min(low.z, from.z)};
+    high = {std::max(high.x, to.x), std::max(high.y, to.y), std::max(high.z, to.z)};
   }
   return widen(low, high);
 }
 
-/// Over the whole shutter: a linear motion stays within the boxes of its ends.
-BvhInput input_of(const Sphere<>& s, const Placement& placement, Vec3d origin, const Camera& camera) {
-  const double r = std::abs(s.radius);
-  const Vec3d reach{r, r, r};
-  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
-  const Vec3d open = place(placement, s.center + camera.shutter_open * way) - origin;
-  const Vec3d close = place(placement, s.center + camera.shutter_close * way) - origin;
-  return {bounds_of_points({open - reach, open + reach, close - reach, close + reach}),
-          s.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere};
-}
-
-BvhInput input_of(const Quad<>& q, const Placement& placement, Vec3d origin, const Camera&) {
-  std::vector<Vec3d> corners;
-  for (const Vec3d p : {q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v})
-    corners.push_back(place(placement, p) - origin);
-  return {bounds_of_points(corners), PrimitiveKind::quad};
-}
-
-BvhInput input_of(const Box<>& b, const Placement& placement, Vec3d origin, const Camera&) {
-  std::vector<Vec3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(
-        place(placement, {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z}) - origin);
-  return {bounds_of_points(corners), PrimitiveKind::box};
+PrimitiveKind kind_of(const PlacedShape& shape) {
+  if (const auto* sphere = std::get_if<Sphere<>>(&shape.shape))
+    return sphere->center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere;
+  return std::holds_alternative<Quad<>>(shape.shape) ? PrimitiveKind::quad : PrimitiveKind::box;
 }
 
 struct SlotFiller {
@@ -112,9 +94,7 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
     return order;
   }
   std::vector<BvhInput> input;
-  for (const PlacedShape& s : flat.shapes)
-    input.push_back(
-        std::visit([&](const auto& shape) { return input_of(shape, s.placement, out.origin, camera); }, s.shape));
+  for (const PlacedShape& s : flat.shapes) input.push_back({bounds_of(extent_of(s, camera), out.origin), kind_of(s)});
   const bool kept = before && before->bvh && before->bvh->input == input;
   out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));
   return out.bvh->order;

@@ -47,4 +47,12 @@ Flattened flatten(const Scene& scene);
 Vec3d center_of(const PlacedShape& shape);
 Vec3d center_of(const PlacedVolume& volume);
 
+/// What holds a shape over the whole shutter: the hull of these points, world space, grown by `radius`.
+struct Extent {
+  std::vector<Vec3d> points;
+  double radius = 0;
+};
+Extent extent_of(const PlacedShape& shape, const Camera& camera);
+Extent extent_of(const PlacedVolume& volume, const Camera& camera);
+
 }  // namespace tyndall

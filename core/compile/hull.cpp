@@ -1,37 +1,24 @@
 #include "core/compile/hull.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <vector>
 
 namespace tyndall {
 namespace {
 
-/// What lies on which side of a plane.
-struct Sides {
-  Vec3d normal, point;
-  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
-
-  void add(Vec3d p, double radius = 0) {
-    const double height = dot(normal, p - point);
-    least = std::min(least, height - radius);
-    most = std::max(most, height + radius);
-  }
+/// How far something reaches below and above a plane.
+struct Reach {
+  double low = 0, high = 0;
 };
 
-void add(Sides& sides, const Sphere<>& s, const Placement& placement, const Camera& camera) {
-  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
-  for (const double time : {camera.shutter_open, camera.shutter_close})
-    sides.add(place(placement, s.center + time * way), std::abs(s.radius));
-}
-
-void add(Sides& sides, const Quad<>& q, const Placement& placement, const Camera&) {
-  for (const Vec3d p : {q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v}) sides.add(place(placement, p));
-}
-
-void add(Sides& sides, const Box<>& b, const Placement& placement, const Camera&) {
-  for (int i = 0; i < 8; ++i)
-    sides.add(place(placement, {i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z}));
+Reach reach_of(const Extent& extent, Vec3d normal, Vec3d on_plane) {
+  Reach reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Vec3d& p : extent.points) {
+    const double height = dot(normal, p - on_plane);
+    reach = {std::min(reach.low, height - extent.radius), std::max(reach.high, height + extent.radius)};
+  }
+  return reach;
 }
 
 }  // namespace
@@ -40,12 +27,17 @@ bool bounds_scene(const Flattened& flat, std::size_t shape, const Camera& camera
   const auto* quad = std::get_if<Quad<>>(&flat.shapes[shape].shape);
   if (!quad) return false;
   const Placement& placement = flat.shapes[shape].placement;
-  Sides sides{normalize(turn(placement, cross(quad->u, quad->v))), place(placement, quad->corner)};
-  for (const PlacedShape& other : flat.shapes)
-    std::visit([&](const auto& s) { add(sides, s, other.placement, camera); }, other.shape);
+  const Vec3d normal = normalize(turn(placement, cross(quad->u, quad->v))), on_plane = place(placement, quad->corner);
+  std::vector<Reach> others;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
+    if (i != shape) others.push_back(reach_of(extent_of(flat.shapes[i], camera), normal, on_plane));
   for (const PlacedVolume& volume : flat.volumes)
-    std::visit([&](const auto& s) { add(sides, s, volume.placement, camera); }, volume.boundary);
-  return std::min(-sides.least, sides.most) <= 1e-7 * (sides.most - sides.least);
+    others.push_back(reach_of(extent_of(volume, camera), normal, on_plane));
+  Reach all;
+  for (const Reach& other : others) all = {std::min(all.low, other.low), std::max(all.high, other.high)};
+  const double rounding = 1e-7 * (all.high - all.low);
+  const auto in_plane = [&](const Reach& r) { return r.high <= rounding && -r.low <= rounding; };
+  return std::min(-all.low, all.high) <= rounding && std::none_of(others.begin(), others.end(), in_plane);
 }
 
 }  // namespace tyndall

@@ -89,9 +89,8 @@ void Director::take_orders() {
 void Director::take_scene(Scene scene, Clock::time_point before) {
   try {
     auto compiled = std::make_shared<const RenderScene>(compile(scene, compiled_.get()));
-    const bool moving =
-        compiled_ && (only_camera_differs(scene_, scene) || seconds_between(before, submitted_) < movement_gap);
-    budget_ = moving ? moving_budget : single_budget;
+    const bool only_camera = compiled_ && only_camera_differs(scene_, scene);
+    budget_ = picture_budget(only_camera, seconds_between(before, submitted_));
     compiled_ = std::move(compiled);
     scene_view_ = std::make_unique<SceneViewOf>(*compiled_);
     scene_ = std::move(scene);

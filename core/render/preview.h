@@ -4,12 +4,9 @@
 /// How the first pictures after an edit are paced. Pure decisions, so that they can be tested.
 namespace tyndall {
 
-/// Seconds in which the first picture should be there: what moves (a camera, a slider that is dragged) wants fluency, a
-/// single change is looked at.
-inline constexpr double moving_budget = 0.033, single_budget = 0.075;
-
-/// Edits that follow each other within this many seconds are one movement.
-inline constexpr double movement_gap = 0.3;
+/// Seconds in which the first picture of an edit should be there: what moves (a camera, a slider that is dragged) wants
+/// fluency, a single change is looked at. since: seconds from the edit before it; within 0.3 they are one movement.
+double picture_budget(bool only_camera, double since);
 
 /// Every how many pixels (8, 4, 2 or 1, in x and y) a first picture samples, so that `pixels / step²` paths take about
 /// `budget` seconds at `paths_per_second` (<= 0: unknown). `before`: the last answer, kept while the ideal is at

@@ -28,11 +28,11 @@ Scene example() {
   return scene;
 }
 
-struct Extent {
+struct Span {
   double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
 };
-Extent extent(const std::vector<ImageLine>& lines) {
-  Extent e;
+Span extent(const std::vector<ImageLine>& lines) {
+  Span e;
   for (const ImageLine& line : lines)
     for (const ImagePoint& p : {line.a, line.b}) {
       e.x0 = std::min(e.x0, p.x), e.x1 = std::max(e.x1, p.x);
@@ -78,7 +78,7 @@ TEST_CASE("what is interesting: metal, glass and fog, else lamp and matt") {
 }
 
 TEST_CASE("a sphere's outline is the circle of its tangents") {
-  const Extent e = extent(outline(example(), {0}));
+  const Span e = extent(outline(example(), {0}));
   const double half = std::tan(std::asin(0.1)) / std::tan(std::acos(-1) / 6) / 2;  // in heights of the picture
   CHECK(e.y1 - 0.5 == doctest::Approx(half).epsilon(1e-3));
   CHECK(0.5 - e.y0 == doctest::Approx(half).epsilon(1e-3));
