@@ -43,6 +43,23 @@ TEST_CASE("rectangular lights: Lambert's formula, by light sampling, with and wi
       }
 }
 
+TEST_CASE("a screen before a rectangular light: half of it hides half, all of it all, whatever bounds the scene") {
+  ZScores z;
+  for (const Integrator integrator : all_integrators)
+    for (const bool walled : {false, true}) {
+      Scene scene = floor_room();
+      aim(scene, {0.04, 0.05, 0.03}, {0, 0, 0});
+      add(scene, Quad<>{{-0.5, 1, -0.5}, {1, 0, 0}, {0, 0, 1}}, lamp(1));
+      if (walled) add(scene, Quad<>{{-3000, 9, -3000}, {6000, 0, 0}, {0, 0, 6000}}, lambertian(0));
+      Scene half = scene;
+      add(half, Quad<>{{-5, 0.5, -5}, {5, 0, 0}, {0, 0, 10}}, lambertian(0));
+      const int spp = integrator == Integrator::path ? 4096 : 256;
+      z.add("half", measure(half, integrator, SamplerKind::random, spp), 0.25 * 0.7522747 / pi, 4e-2);
+      add(scene, Quad<>{{-5, 0.5, -5}, {10, 0, 0}, {0, 0, 10}}, lambertian(0));
+      CHECK(measure(scene, integrator, SamplerKind::random, 64).mean == 0);
+    }
+}
+
 TEST_CASE("spherical lights: from nearly touching to a hundred radii, and cut by the horizon") {
   struct Case {
     Vec3d center;
