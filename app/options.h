@@ -64,6 +64,8 @@ struct MergeCommand {
 struct InspectCommand {
   SceneRequest scene;
   bool json = false;
+  bool measure = false;  ///< what the chosen kernel gains
+  std::string isa;       ///< "": the best; with measure
 };
 
 struct ScenesCommand {};

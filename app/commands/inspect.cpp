@@ -1,6 +1,8 @@
 #include "app/commands/commands.h"
 #include "app/contents.h"
+#include "app/kernel_gain.h"
 #include "app/open_scene.h"
+#include "app/render_setup.h"
 #include "app/standard_streams.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
@@ -9,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <optional>
 
 namespace tyndall {
 namespace {
@@ -18,16 +21,23 @@ struct Report {
   Contents contents;
   RenderScene compiled;
   std::size_t film_bytes = 0;
+  std::optional<KernelGain> gain;
 };
 
-Report examine(const SceneRequest& request) {
-  Report report{open_scene(request), {}, {}, 0};
+Report examine(const InspectCommand& command) {
+  Report report{open_scene(command.scene), {}, {}, 0, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
   report.compiled = compile(scene);
+  if (command.measure) report.gain = measure_kernel_gain(report.compiled, find_kernels(command.isa).isa);
   report.film_bytes =
       sizeof(FilmPixel) * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
+}
+
+nlohmann::ordered_json json_of(const KernelGain& gain) {
+  return {{"isa", gain.isa},   {"gain", gain.gain},   {"least", gain.least},
+          {"most", gain.most}, {"pairs", gain.pairs}, {"same_picture", gain.same_picture}};
 }
 
 std::string json_text(const Report& report) {
@@ -56,6 +66,8 @@ std::string json_text(const Report& report) {
   json["primitives"] = report.compiled.primitives();
   json["tree"] = report.compiled.bvh != nullptr;
   json["kernel_features"] = names_of(report.compiled.needs);
+  json["kernel"] = name_of(report.compiled.kernel);
+  if (report.gain) json["kernel_gain"] = json_of(*report.gain);
   json["scene_bytes"] = bytes_of(report.compiled);
   json["film_bytes"] = report.film_bytes;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -89,6 +101,14 @@ std::string bytes_text(std::size_t bytes) {
   return text;
 }
 
+std::string gain_text(const KernelGain& gain) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %.2f times as fast as the full kernel (%.2f to %.2f in %d pairs), %s",
+                gain.isa.c_str(), gain.gain, gain.least, gain.most, gain.pairs,
+                gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
+  return text;
+}
+
 std::string table(const Report& report) {
   const Scene& scene = report.loaded.scene;
   const Contents& c = report.contents;
@@ -111,7 +131,9 @@ std::string table(const Report& report) {
   row("defocus", c.defocus ? "yes" : "no");
   row("primitives", std::to_string(report.compiled.primitives()) +
                         (report.compiled.bvh ? ", in a tree" : ", each tested for every ray"));
-  row("kernel", listed(names_of(report.compiled.needs)));
+  row("models", listed(names_of(report.compiled.needs)));
+  row("kernel", name_of(report.compiled.kernel));
+  if (report.gain) row("", gain_text(*report.gain));
   row("memory", "scene " + bytes_text(bytes_of(report.compiled)) + ", film " + bytes_text(report.film_bytes));
   return text;
 }
@@ -119,9 +141,9 @@ std::string table(const Report& report) {
 }  // namespace
 
 int run(const InspectCommand& command) {
-  const Report report = examine(command.scene);
+  const Report report = examine(command);
   write_standard_output(command.json ? json_text(report) : table(report));
-  return 0;
+  return report.gain && !report.gain->same_picture ? 1 : 0;
 }
 
 }  // namespace tyndall

@@ -21,6 +21,9 @@ inline constexpr std::uint32_t radius = 4;
 inline constexpr std::uint32_t light_choice = 5;
 inline constexpr std::uint32_t light_point = 6;  // and 7
 inline constexpr std::uint32_t roulette = 8;
+inline constexpr std::uint32_t near_pair = 9;
+inline constexpr std::uint32_t near_distance = 10;
+inline constexpr std::uint32_t near_point = 12;  // and 13
 inline constexpr std::uint32_t per_event = 16;
 }  // namespace dimension
 

@@ -3,6 +3,7 @@
 #include "core/compile/columns.h"
 #include "core/compile/hull.h"
 #include "core/compile/lights.h"
+#include "core/compile/near_lamps.h"
 #include "core/film/film.h"
 
 #include <algorithm>
@@ -172,6 +173,11 @@ Needs needs_of(const Scene& scene, const Flattened& flat) {
   return n;
 }
 
+KernelSet least_kernel(const RenderScene& s) {
+  if (!s.near.medium.empty()) return KernelSet::everything;
+  return s.needs.media || s.needs.textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
+}
+
 double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
 double brightest(const Scene& scene) {
@@ -209,12 +215,19 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.sobol = scene.render.sampler == SamplerKind::sobol;
   out.light_sampling = scene.render.integrator != Integrator::path && out.lights.count() > 0;
   out.multiple_importance = scene.render.integrator == Integrator::mis;
+  if (out.multiple_importance) out.near = find_near_lamps(out);
+  out.kernel = least_kernel(out);
   out.film_unit = film_unit(brightest(scene));
   return out;
 }
 
 int RenderScene::primitives() const {
   return static_cast<int>(spheres.x.size() + moving_spheres.x.size() + quads.map.size() + boxes.map.size());
+}
+
+const char* name_of(KernelSet set) {
+  constexpr const char* names[kernel_sets] = {"everything", "no lamps in fog", "no fog, no textures"};
+  return names[static_cast<int>(set)];
 }
 
 std::vector<std::string> names_of(const Needs& n) {

@@ -118,6 +118,18 @@ struct Lights {
 };
 inline constexpr int most_lights_by_contribution = 16;
 
+/// Pairs of a medium and a lamp that sits in it or close to it, and is small against it: light scatters without bound
+/// there, and integrator mis looks for it.
+struct NearLamps {
+  std::vector<std::int32_t> medium, light;
+  std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
+};
+
+/// The kernels there are, by the models that they leave out. What is left out changes no bit of a picture without it.
+enum class KernelSet { everything, no_lamps_in_fog, no_fog_nor_textures };
+inline constexpr int kernel_sets = 3;
+const char* name_of(KernelSet set);
+
 struct RenderScene {
   int width = 0, height = 0;
   Vec3d origin;  ///< world position of (0, 0, 0): the component-wise median of the shapes' centres
@@ -131,6 +143,7 @@ struct RenderScene {
   Materials materials;
   std::vector<TextureColumns> textures;
   std::vector<MediumColumns> media;
+  NearLamps near;
   std::shared_ptr<const std::vector<float>> gradients;  ///< of noise textures, 3·256
   int max_depth = 1000;
   std::uint32_t seed = 0;
@@ -140,6 +153,7 @@ struct RenderScene {
   bool multiple_importance = false;  ///< mis
   double film_unit = 1;
   Needs needs;
+  KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs
   int primitives() const;
 };
 

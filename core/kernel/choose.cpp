@@ -24,6 +24,11 @@ bool runs_avx512() {
 
 }  // namespace
 
+void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                          UnitCounts& counts) const {
+  render_units[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, counts);
+}
+
 std::vector<Kernels> available_kernels() {
   std::vector<Kernels> list{scalar_kernels()};
 #if defined(TYNDALL_HAVE_SSE4)

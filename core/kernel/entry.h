@@ -66,4 +66,28 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
+/// The table of one instruction set. Internal to each file that asks for it: an ordinary template, compiled with wide
+/// instructions, could be the copy the linker keeps for all.
+template <class F, KernelSet set>
+static void render_unit_entry(const SceneView& s, const Unit& u, double film_unit, FilmPixel* p, UnitCounts& c) {
+  render_unit<F>(SceneViewFor<set>{s}, u, film_unit, p, c);
+}
+template <class F>
+static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {
+  trace_rays<F>(s, r, h, n, brute_force);
+}
+template <class F>
+static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
+  first_hits<F>(s, r, h);
+}
+template <class F>
+static Kernels kernels_of(const char* isa) {
+  return {isa,
+          lanes_of<F>,
+          {render_unit_entry<F, KernelSet::everything>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
+           render_unit_entry<F, KernelSet::no_fog_nor_textures>},
+          trace_entry<F>,
+          first_hits_entry<F>};
+}
+
 }  // namespace tyndall

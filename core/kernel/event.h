@@ -1,4 +1,5 @@
 #pragma once
+#include "core/kernel/equiangular.h"
 #include "core/kernel/flight.h"
 #include "core/kernel/lights.h"
 #include "core/kernel/shade.h"
@@ -15,7 +16,8 @@ struct Paths {
   Dice<F> dice;
   IntOf<F> depth;  ///< scattering events so far
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
-  IntOf<F> slot;   ///< 2 · pixel within the tile + half
+  FogFlight<F> flight;      ///< that led to where the ray starts; only in scenes with lamps in fog
+  IntOf<F> slot;            ///< 2 · pixel within the tile + half
   std::uint32_t alive = 0;  ///< a bit a lane
 };
 
@@ -32,39 +34,52 @@ struct Event {
   F g;
 };
 
+/// Which light an event asks for, and how the event was found.
+template <class F>
+struct LightAsked {
+  LightChoice<F> choice;  ///< the probability is choose_light's
+  Pair<F> u;
+  FogFlight<F> flight;  ///< that led to the event
+  bool by_angle;        ///< it ended by angle, with regard to just this light
+};
+
 /// Light that lanes see directly from an event, by one sample of one light, weighed against what scattering would have
 /// found by itself. E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2: the power
-/// heuristic, written in the ratio r of the two densities: r² / (1 + r²) and 1 / (1 + r²).
+/// heuristic, written in ratios of densities to that of free flight and light sampling: r for scattering, q for events
+/// found by angle: 1 / (1 + r² + q²), r² / (1 + r² + q²), q² / (1 + r² + q²).
 template <class F>
-TYNDALL_INLINE Vec3<F> direct_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
-                                    std::uint32_t& shadows) {
-  const LightChoice<F> choice = choose_light(s.lights, e.point, p.dice.one(dimension::light_choice));
-  const LightSample<F> sample =
-      sample_light(s.lights, choice.light, e.point, p.ray.time, p.dice.pair(dimension::light_point));
+TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                                    const LightAsked<F>& asked, std::uint32_t& shadow_rays) {
+  const LightChoice<F>& choice = asked.choice;
+  const LightSample<F> sample = sample_light(s.lights, choice.light, e.point, p.ray.time, asked.u);
   F scattered = F(0.0f);
   if (any(e.surface)) scattered = density_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
-  if (s.needs.media && any(e.medium))
+  if (s.has_media() && any(e.medium))
     scattered = select(e.medium, henyey_greenstein_density(e.g, dot(p.ray.direction, sample.direction)), scattered);
   const F chosen = sample.density * choice.probability;
   const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered), less(F(0.0f), chosen)));
   if (!any(useful)) return zero3<F>();
-  shadows = bits(useful);
+  shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(useful)));
   const Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
   const IntOf<F> element =
       s.lights.count == 1 ? IntOf<F>(s.lights.element[0]) : gather_int<F>(s.lights.element, choice.light);
   const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();
   const F ratio = scattered / select(useful, chosen, F(1.0f));
-  F weight = s.multiple_importance ? ratio / mul_add(ratio, ratio, F(1.0f)) : ratio;
-  if (s.needs.media) weight = weight * pass_media(s, ray, sample.distance, arrives);
+  F weight = ratio;
+  if (s.multiple_importance) {
+    const F odds = s.has_lamps_in_fog() ? by_angle_odds(s, asked.flight, choice.light, choice.probability) : F(0.0f);
+    weight = weight / mul_add(ratio, ratio, F(1.0f) + odds);
+    if (asked.by_angle) weight = weight * sqrt(odds);
+  }
+  if (s.has_media()) weight = weight * pass_media(s, ray, sample.distance, arrives);
   const Vec3<F> radiance = light_radiance(s, element, along(e.point, sample.distance, sample.direction), arrives);
   return select(arrives, weight * (p.throughput * e.colour * radiance), zero3<F>());
 }
 
 /// Weight of a light that a ray met by itself.
 template <class F>
-TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf<F> element, F distance,
-                                    MaskOf<F> lit) {
+TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
   const auto could = mask_and(lit, less(F(0.0f), p.density));
   if (!s.light_sampling || !any(could)) return F(1.0f);
   if (!s.multiple_importance) return select(could, F(0.0f), F(1.0f));
@@ -72,13 +87,15 @@ TYNDALL_INLINE F found_light_weight(const SceneView& s, const Paths<F>& p, IntOf
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
   const F chosen = light_density(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
   const F ratio = p.density / max(chosen, F(1e-30f));
-  const F other = F(1.0f) / mul_add(ratio, ratio, F(1.0f));
-  return select(could, F(1.0f) - other, F(1.0f));
+  F others = F(1.0f);
+  if (s.has_lamps_in_fog())
+    others = others + by_angle_odds(s, p.flight, safe, choice_probability(s.lights, p.ray.origin, safe));
+  return select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f));
 }
 
 /// Adds what lanes on a light see, and fills the event of the others.
 template <class F>
-TYNDALL_INLINE void meet_surfaces(const SceneView& s, Paths<F>& p, const Hit<F>& hit, Vec3<F> unit, Event<F>& e) {
+TYNDALL_INLINE void meet_surfaces(const auto& s, Paths<F>& p, const Hit<F>& hit, Vec3<F> unit, Event<F>& e) {
   e.at = surface_at(s, p.ray, hit.t, hit.element);
   e.kind = lookup_int<F>(s.kind, s.material_count, e.at.material);
   const Vec3<F> colour = surface_colour(s, e.at, e.surface);
@@ -101,9 +118,9 @@ TYNDALL_INLINE void meet_surfaces(const SceneView& s, Paths<F>& p, const Hit<F>&
 }
 
 template <class F>
-TYNDALL_INLINE void meet_media(const SceneView& s, const MediumEvent<F>& found, Event<F>& e) {
+TYNDALL_INLINE void meet_media(const auto& s, const MediumEvent<F>& found, Event<F>& e) {
   Vec3<F> albedo = found.albedo;
-  if (s.needs.textures) albedo = textured<F>(s, albedo, found.texture, e.medium, found.point, nullptr);
+  if (s.has_textures()) albedo = textured<F>(s, albedo, found.texture, e.medium, found.point, nullptr);
   e.point = select(e.medium, found.point, e.point);
   e.colour = select(e.medium, albedo, e.colour);
   e.from = select(e.medium, found.from, e.from);
@@ -112,7 +129,7 @@ TYNDALL_INLINE void meet_media(const SceneView& s, const MediumEvent<F>& found, 
 
 /// New directions; answers which lanes go on.
 template <class F>
-TYNDALL_INLINE MaskOf<F> scatter(const SceneView& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u) {
+TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u) {
   const Vec3<F> before = p.ray.direction;
   MaskOf<F> goes_on = e.medium;
   p.ray.origin = e.point;
@@ -127,7 +144,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const SceneView& s, Paths<F>& p, const Event<F>
     p.ray.from = select(through, e.from + IntOf<F>(1) - (side + side), p.ray.from);
     goes_on = mask_or(goes_on, mask_and_not(e.surface, out.absorbed));
   }
-  if (s.needs.media && any(e.medium)) {
+  if (s.has_media() && any(e.medium)) {
     Vec3<F> direction = unit;
     if (s.needs.phase_functions) direction = scatter_in_medium(e.g, before, unit, u);
     p.ray.direction = select(e.medium, direction, p.ray.direction);

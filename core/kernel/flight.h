@@ -13,11 +13,24 @@ template <class F>
 struct MediumEvent {
   MaskOf<F> happens;
   Vec3<F> point;  ///< the ray's origin where nothing happens
+  IntOf<F> medium;
+  F density;      ///< of the medium
+  F begin, far;   ///< where the ray is within its boundary
   IntOf<F> from;  ///< Ray::from of a start within the medium
   Vec3<F> albedo;
   IntOf<F> texture;
   F g;
 };
+
+template <class F>
+TYNDALL_INLINE MediumEvent<F> no_event(const Ray<F>& ray) {
+  MediumEvent<F> none{};
+  none.happens = less(F(1.0f), F(0.0f));
+  none.point = ray.origin;
+  none.medium = none.texture = IntOf<F>(-1);
+  none.from = IntOf<F>(from_nowhere);
+  return none;
+}
 
 /// Where a line is inside a medium's boundary. from: see Ray.
 template <class F>
@@ -54,7 +67,7 @@ template <class F>
 TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>& ray, const Dice<F>& dice,
                                                 MaskOf<F> active, F& nearest) {
   const F infinity = F(__builtin_inff());
-  MediumEvent<F> event{less(F(1.0f), F(0.0f)), ray.origin, IntOf<F>(from_nowhere), zero3<F>(), IntOf<F>(-1), F(0.0f)};
+  MediumEvent<F> event = no_event(ray);
   for (int k = 0; k < s.medium_count; ++k) {
     const MediumColumns& m = s.media[k];
     const Interval<F> inside = medium_interval(m, ray.origin, ray.direction, ray.from);
@@ -68,6 +81,9 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>
     event.happens = mask_or(event.happens, here);
     const Vec3<F> entry = enter_medium(m, ray, inside, here);
     event.point = select(here, along(entry, flight, ray.direction), event.point);
+    event.medium = select(here, IntOf<F>(k), event.medium);
+    event.density = select(here, splat<F>(m.density), event.density);
+    event.begin = select(here, begin, event.begin), event.far = select(here, inside.far, event.far);
     event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
     event.albedo = select(here, splat<F>(m.albedo), event.albedo);
     event.texture = select(here, IntOf<F>(m.texture), event.texture);

@@ -23,7 +23,6 @@ struct UnitCounts {
   std::uint64_t shadow_rays = 0;  ///< of them, occlusion queries
 };
 
-/// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts. `taken` is set for what was sampled.
 using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
                             UnitCounts& counts);
 
@@ -51,11 +50,16 @@ struct FirstHit {
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;  ///< "scalar", "sse4", "avx2", "avx512"
-  int lanes;        ///< paths that run together
-  RenderUnit render_unit;
+  const char* isa;                       ///< "scalar", "sse4", "avx2", "avx512"
+  int lanes;                             ///< paths that run together
+  RenderUnit render_units[kernel_sets];  ///< by KernelSet
   TraceRays trace;
   FirstHits first_hits;
+
+  /// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts, by the kernel set that the scene
+  /// names. `taken` is set for what was sampled.
+  void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                   UnitCounts& counts) const;
 };
 
 // One per file that is compiled with its set's flags.

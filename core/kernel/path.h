@@ -1,6 +1,6 @@
 #pragma once
 #include "core/kernel/camera.h"
-#include "core/kernel/event.h"
+#include "core/kernel/near_lights.h"
 
 /// The path loop: a group of lanes, each following its own path; a lane whose path has ended takes the next camera ray.
 namespace tyndall {
@@ -65,12 +65,12 @@ TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
 /// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
 /// that max_depth ended.
 template <class F>
-TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut,
-                              std::uint32_t& shadows) {
-  const MaskOf<F> none = less(F(1.0f), F(0.0f));
+TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut,
+                              std::uint32_t& shadow_rays) {
   Hit<F> hit = closest(s, p.ray, active);
-  MediumEvent<F> found{none, p.ray.origin, IntOf<F>(0), zero3<F>(), IntOf<F>(-1), F(0.0f)};
-  if (s.needs.media) found = fly_through_media(s, p.ray, p.dice, active, hit.t);
+  MediumEvent<F> found = no_event(p.ray);
+  const F to_surface = hit.t;
+  if (s.has_media()) found = fly_through_media(s, p.ray, p.dice, active, hit.t);
   Event<F> e{};
   e.medium = found.happens;
   e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
@@ -82,7 +82,8 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
   const Pair<F> u = p.dice.pair(dimension::direction);
   const Vec3<F> unit = on_sphere(u);
   if (any(e.surface)) meet_surfaces(s, p, hit, unit, e);
-  if (s.needs.media && any(e.medium)) meet_media(s, found, e);
+  if (s.has_media() && any(e.medium)) meet_media(s, found, e);
+  if (s.has_lamps_in_fog()) light_near_lamps(s, p, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
   const auto met = mask_or(e.surface, e.medium);
   const Vec3<F> carried = p.throughput * e.colour;
   const auto lost = lose(p, met, carried + e.point);
@@ -91,7 +92,11 @@ TYNDALL_INLINE MaskOf<F> step(const SceneView& s, Paths<F>& p, MaskOf<F> active,
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   cut = mask_and(useful, deep);
   const auto scattering = mask_and_not(useful, deep);
-  if (s.light_sampling && any(scattering)) p.radiance = p.radiance + direct_light(s, p, e, scattering, shadows);
+  if (s.light_sampling && any(scattering)) {
+    const LightAsked<F> asked{choose_light(s.lights, e.point, p.dice.one(dimension::light_choice)),
+                              p.dice.pair(dimension::light_point), p.flight, false};
+    p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
+  }
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(lanes, carried, p.throughput);
@@ -119,7 +124,7 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
 }
 
 template <class F>
-TYNDALL_INLINE void render_unit(const SceneView& s, const Unit& unit, double film_unit, FilmPixel* pixels,
+TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_unit, FilmPixel* pixels,
                                 UnitCounts& counts) {
   UnitSamples samples;
   list_samples(unit, samples);
@@ -132,9 +137,8 @@ TYNDALL_INLINE void render_unit(const SceneView& s, const Unit& unit, double fil
     if (!p.alive) return;
     counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
     MaskOf<F> cut;
-    std::uint32_t shadows = 0;
-    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, shadows)) & p.alive;
-    const auto shadow_rays = static_cast<std::uint64_t>(__builtin_popcount(shadows));
+    std::uint32_t shadow_rays = 0;
+    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, shadow_rays)) & p.alive;
     counts.rays += shadow_rays;
     counts.shadow_rays += shadow_rays;
     finish(p, p.alive & ~survivors, bits(cut), per_unit, pixels);

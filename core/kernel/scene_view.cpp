@@ -74,12 +74,16 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.textures = textures_.data();
   v.medium_count = static_cast<int>(s.media.size());
   v.media = s.media.data();
+  v.near_count = static_cast<int>(s.near.medium.size());
+  v.near_medium = s.near.medium.data(), v.near_light = s.near.light.data();
+  v.near_probability = s.near.probability.data();
   v.gradients = s.gradients ? s.gradients->data() : nullptr;
   v.max_depth = s.max_depth;
   v.seed = s.seed;
   v.schlick = s.schlick, v.sobol = s.sobol;
   v.light_sampling = s.light_sampling, v.multiple_importance = s.multiple_importance;
   v.needs = s.needs;
+  v.kernel = s.kernel;
 }
 
 }  // namespace tyndall

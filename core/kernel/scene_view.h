@@ -53,11 +53,30 @@ struct SceneView {
   const TextureView* textures;
   int medium_count;
   const MediumColumns* media;
+  int near_count;  ///< pairs of a medium and a lamp in or near it
+  const std::int32_t *near_medium, *near_light;
+  const float* near_probability;  ///< medium · number of lights + light
   const float* gradients;
   int max_depth;
   std::uint32_t seed;
   bool schlick, sobol, light_sampling, multiple_importance;
   Needs needs;
+  KernelSet kernel;
+
+  TYNDALL_INLINE bool has_media() const { return needs.media; }
+  TYNDALL_INLINE bool has_textures() const { return needs.textures; }
+  TYNDALL_INLINE bool has_image_textures() const { return needs.image_textures; }
+  TYNDALL_INLINE bool has_lamps_in_fog() const { return near_count > 0; }
+};
+
+/// The same for a kernel that leaves models out: what it asks about them is known when it is compiled.
+template <KernelSet set>
+struct SceneViewFor : SceneView {
+  static constexpr bool fog_and_textures = set != KernelSet::no_fog_nor_textures;
+  TYNDALL_INLINE bool has_media() const { return fog_and_textures && needs.media; }
+  TYNDALL_INLINE bool has_textures() const { return fog_and_textures && needs.textures; }
+  TYNDALL_INLINE bool has_image_textures() const { return fog_and_textures && needs.image_textures; }
+  TYNDALL_INLINE bool has_lamps_in_fog() const { return set == KernelSet::everything && near_count > 0; }
 };
 
 /// Points into `scene`, which must stay as it is while the view is used.

@@ -101,7 +101,7 @@ TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, 
 
 /// `colour`, replaced where `index` names a texture.
 template <class F>
-TYNDALL_INLINE Vec3<F> textured(const SceneView& s, Vec3<F> colour, IntOf<F> index, MaskOf<F> lanes, Vec3<F> point,
+TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, MaskOf<F> lanes, Vec3<F> point,
                                 const SurfacePoint<F>* surface) {
   for (int k = 0; k < s.texture_count; ++k) {
     const auto here = mask_and(lanes, equal(index, IntOf<F>(k)));
@@ -111,23 +111,23 @@ TYNDALL_INLINE Vec3<F> textured(const SceneView& s, Vec3<F> colour, IntOf<F> ind
 }
 
 template <class F>
-TYNDALL_INLINE Vec3<F> surface_colour(const SceneView& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
+TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
   const Vec3<F> colour{lookup<F>(s.red, s.material_count, p.material), lookup<F>(s.green, s.material_count, p.material),
                        lookup<F>(s.blue, s.material_count, p.material)};
-  if (!s.needs.textures) return colour;
+  if (!s.has_textures()) return colour;
   return textured(s, colour, lookup_int<F>(s.texture_of, s.material_count, p.material), lanes, p.point, &p);
 }
 
 /// Radiance that a light's element sends from a point on it.
 template <class F>
-TYNDALL_INLINE Vec3<F> light_radiance(const SceneView& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
+TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
   p.element = element;
   p.material = lookup_int<F>(s.material, s.element_count, element);
   p.point = point;
   p.inverted = less(F(1.0f), F(0.0f));
   p.normal = zero3<F>();
-  if (s.needs.image_textures) {
+  if (s.has_image_textures()) {
     const Vec3<F> arm =
         point - Vec3<F>{lookup<F>(s.x, s.element_count, element), lookup<F>(s.y, s.element_count, element),
                         lookup<F>(s.z, s.element_count, element)};

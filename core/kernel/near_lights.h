@@ -1,0 +1,83 @@
+#pragma once
+#include "core/kernel/event.h"
+
+/// Light that scatters in fog close to a lamp: by flights that end by angle.
+namespace tyndall {
+
+/// A medium and a lamp near it for each lane, and the flight that ends in it with regard to that lamp.
+template <class F>
+struct NearEvent {
+  MaskOf<F> happens;
+  IntOf<F> light;
+  FogFlight<F> flight;
+  F density, g;  ///< of the medium
+  Vec3<F> albedo;
+  IntOf<F> texture, from;
+};
+
+template <class F>
+TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
+  const F count = splat<F>(static_cast<float>(s.near_count));
+  const IntOf<F> pair = to_int(min(p.dice.one(dimension::near_pair) * count, count - F(1.0f)));
+  NearEvent<F> event{};
+  event.happens = less(F(1.0f), F(0.0f));
+  event.light = lookup_int<F>(s.near_light, s.near_count, pair);
+  FogFlight<F>& flight = event.flight;
+  flight = {lookup_int<F>(s.near_medium, s.near_count, pair),
+            p.ray.origin,
+            p.ray.direction,
+            F(0.0f),
+            F(1.0f),
+            F(0.0f),
+            F(0.0f)};
+  for (int k = 0; k < s.medium_count; ++k) {
+    const MediumColumns& m = s.media[k];
+    const auto mine = mask_and(lanes, equal(flight.medium, IntOf<F>(k)));
+    if (!any(mine)) continue;
+    const Interval<F> inside = medium_interval(m, p.ray.origin, p.ray.direction, p.ray.from);
+    const F begin = max(inside.near, F(0.0f)), end = min(inside.far, to_surface);
+    const auto here = mask_and(mask_and(mine, inside.hit), less(begin, end));
+    event.happens = mask_or(event.happens, here);
+    flight.begin = select(here, begin, flight.begin), flight.end = select(here, end, flight.end);
+    event.density = select(here, splat<F>(m.density), event.density);
+    event.g = select(here, splat<F>(m.g), event.g);
+    event.albedo = select(here, splat<F>(m.albedo), event.albedo);
+    event.texture = select(here, IntOf<F>(m.texture), event.texture);
+    event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
+  }
+  flight.distance = sample(way_past(s.lights, event.light, flight), p.dice.one(dimension::near_distance));
+  flight.density = event.density * pass_media(s, p.ray, flight.distance, event.happens);
+  return event;
+}
+
+/// The free flight that led to an event in a medium, for comparison.
+template <class F>
+TYNDALL_INLINE FogFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray, const MediumEvent<F>& found,
+                                           Pair<F> lengths) {
+  const F density = found.density * pass_media(s, ray, lengths.x, found.happens);
+  return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, density};
+}
+
+/// Adds the light that reaches flights ended by angle, and leaves in `p` the free flight that the event in a medium
+/// `found` ended. lengths: of the ray, to its event and to the surface.
+template <class F>
+TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, const MediumEvent<F>& found, MaskOf<F> active,
+                                     Pair<F> lengths, std::uint32_t& shadow_rays) {
+  p.flight = free_flight_to(s, p.ray, found, lengths);
+  const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
+  const NearEvent<F> near = fly_by_angle(s, p, lanes, lengths.y);
+  if (!any(near.happens)) return;
+  Event<F> e{};
+  e.surface = less(F(1.0f), F(0.0f));
+  e.medium = near.happens;
+  e.point = along(p.ray.origin, near.flight.distance, p.ray.direction);
+  e.from = near.from, e.g = near.g;
+  e.colour = s.has_textures() ? textured<F>(s, near.albedo, near.texture, e.medium, e.point, nullptr) : near.albedo;
+  const LightAsked<F> asked{{near.light, choice_probability(s.lights, e.point, near.light)},
+                            p.dice.pair(dimension::near_point),
+                            near.flight,
+                            true};
+  p.radiance = p.radiance + direct_light(s, p, e, near.happens, asked, shadow_rays);
+}
+
+}  // namespace tyndall

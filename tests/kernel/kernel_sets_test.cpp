@@ -1,0 +1,51 @@
+#include "core/compile/compile.h"
+#include "core/kernel/kernels.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+/// A kernel that leaves models out gives, bit for bit, the picture of the full one.
+using namespace tyndall;
+
+namespace {
+
+std::vector<float> picture(const Kernels& kernels, const RenderScene& scene) {
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_unit);
+  const SceneViewOf view(scene);
+  UnitCounts counts;
+  kernels.render_unit(view.view(), {film.region, 1, 0, 0, 4}, film.unit, film.pixels.data(), counts);
+  return resolve(film);
+}
+
+}  // namespace
+
+TEST_CASE("kernel sets: each built-in scene's own gives bit for bit what the full one gives") {
+  int scenes_of[kernel_sets] = {};
+  for (const BuiltIn& scene : built_in_scenes()) {
+    Scene loaded = load_scene(scene.name).scene;
+    loaded.width = loaded.height = 32;
+    const RenderScene own = compile(loaded);
+    ++scenes_of[static_cast<int>(own.kernel)];
+    RenderScene full = own;
+    full.kernel = KernelSet::everything;
+    CAPTURE(scene.name);
+    for (const Kernels& kernels : available_kernels()) {
+      CAPTURE(std::string(kernels.isa));
+      CHECK(picture(kernels, own) == picture(kernels, full));
+    }
+  }
+  for (const int count : scenes_of) CHECK(count > 0);
+}
+
+TEST_CASE("kernel sets: a scene gets the least that holds its models") {
+  CHECK(compile(load_scene("cornell-box").scene).kernel == KernelSet::no_fog_nor_textures);
+  CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_lamps_in_fog);
+  CHECK(compile(load_scene("earth").scene).kernel == KernelSet::no_lamps_in_fog);
+  Scene scene = load_scene("stress-light-in-fog").scene;
+  CHECK(compile(scene).kernel == KernelSet::everything);
+  scene.render.integrator = Integrator::nee;
+  CHECK(compile(scene).kernel == KernelSet::no_lamps_in_fog);
+}

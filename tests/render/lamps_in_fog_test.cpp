@@ -1,0 +1,116 @@
+#include "core/kernel/equiangular.h"
+#include "core/scene/load.h"
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+/// Small lamps in fog: distances sampled by angle.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// A lamp of radius 0.01 in the middle of a ball of fog.
+Scene lamp_in_fog(Medium<> medium) {
+  Scene scene = dark_room();
+  scene.render.max_depth = 1;
+  add(scene, sphere({0, 0, 0}, 0.01), lamp(1e4));
+  add_medium(scene, sphere({0, 0, 0}, 2), medium, 0.8);
+  return scene;
+}
+
+/// Light that a ray at `impact` from the lamp of lamp_in_fog gathers by one even scattering, by quadrature.
+double single_scattering(double impact, double density) {
+  const double radius = 0.01, edge = std::sqrt(4 - impact * impact);
+  // Light that arrives at distance d from the lamp's centre, over all directions within its cap.
+  const auto arriving = [&](double d) {
+    const double least = std::sqrt(1 - radius * radius / (d * d));
+    const auto from_direction = [&](double cosine) {
+      const double sine2 = 1 - cosine * cosine;
+      const double way = d * cosine - std::sqrt(std::max(radius * radius - d * d * sine2, 0.0));
+      return std::exp(-density * way);
+    };
+    return 2 * pi * 1e4 * integrate(from_direction, least, 1, 8);
+  };
+  const auto scattered = [&](double x) {
+    const double way = edge + x;
+    return density * 0.8 / (4 * pi) * std::exp(-density * way) * arriving(std::hypot(x, impact));
+  };
+  return integrate(scattered, -edge, -0.1, 200) + integrate(scattered, -0.1, 0.1, 400) +
+         integrate(scattered, 0.1, edge, 200);
+}
+
+Estimate measure(Scene scene, Integrator integrator, int spp) {
+  scene.render.integrator = integrator;
+  // Paths that the depth ends are part of the question, so not radiance().
+  const Film film = film_of(scene, spp);
+  CHECK(totals(film).rejected == 0);
+  std::vector<double> pixels;
+  for (const FilmPixel& pixel : film.pixels) pixels.push_back(static_cast<double>(mean(film, pixel).x));
+  return estimate(pixels);
+}
+
+}  // namespace
+
+TEST_CASE("lamps in fog: distances by angle have the density they claim") {
+  const Vec3f across{0, 0.3f, 0}, direction{1, 0, 0};
+  for (const float reach : {0.0f, 0.01f, 1.0f})
+    for (const float end : {-0.5f, 0.001f, 40.0f}) {
+      const Equiangular<float> way = equiangular(across, reach * reach, direction, -1.0f, end);
+      const auto claimed = [&](double t) { return static_cast<double>(density(way, static_cast<float>(t))); };
+      CHECK(integrate(claimed, -1, static_cast<double>(end)) == doctest::Approx(1).epsilon(2e-5));
+      std::vector<double> drawn;
+      for (int i = 0; i < 2000; ++i)
+        drawn.push_back(static_cast<double>(sample(way, (static_cast<float>(i) + 0.5f) / 2000)));
+      const auto below = [&](double t) { return integrate(claimed, -1, t, 500); };
+      CHECK(kolmogorov_smirnov(drawn, below) < 0.05);  // evenly placed, so far below chance
+    }
+}
+
+TEST_CASE("lamps in fog: single scattering by quadrature, from rays that all but touch the lamp to far ones") {
+  ZScores z;
+  for (const double impact : {0.011, 0.1, 1.0})
+    for (const double density : {0.05, 0.5}) {
+      Scene scene = lamp_in_fog({density, 0});
+      aim(scene, {impact, 0, 5}, {impact, 0, 0});
+      z.add("mis", measure(scene, Integrator::mis, 256), single_scattering(impact, density), 2e-3);
+    }
+}
+
+TEST_CASE("lamps in fog: what light sampling alone finds, with far less noise") {
+  Scene scene = lamp_in_fog({0.4, 0.5});
+  scene.render.max_depth = 4;
+  add(scene, Quad<>{{-3, -1, -3}, {6, 0, 0}, {0, 0, 6}}, lambertian(0.5));
+  add(scene, Quad<>{{0.5, 0.3, 0}, {0.1, 0, 0}, {0, 0.05, 0.1}}, lamp(50));
+  add_medium(scene, Box<>{{-1, -0.9, -1}, {1, 1, 1}}, {0.3, -0.3}, 0.9, {RotateY{30}});
+  add_medium(scene, sphere({0, 0, 0}, 2), {0.1, 0}, 0.5);  // as large as the first
+  scene.camera.look_from = {0, 0.5, 5};
+  scene.camera.look_at = {0.8, 0, 0};  // beside the lamps: seen themselves they would be all the noise
+  scene.camera.vfov = 4;
+  CHECK(compile(scene).near.light.size() == 0);
+  scene.render.integrator = Integrator::mis;
+  const RenderScene compiled = compile(scene);
+  CHECK(compiled.near.light == std::vector<std::int32_t>{0, 1, 0, 1, 0, 1});
+  CHECK(compiled.kernel == KernelSet::everything);
+  // The picture's mean over seeds: pixels differ.
+  const auto over_seeds = [&](Integrator integrator, int spp) {
+    std::vector<double> means;
+    for (scene.render.seed = 0; scene.render.seed < 16; ++scene.render.seed)
+      means.push_back(measure(scene, integrator, spp).mean);
+    return estimate(means);
+  };
+  const Estimate mis = over_seeds(Integrator::mis, 128), nee = over_seeds(Integrator::nee, 512);
+  CAPTURE(mis.mean);
+  CAPTURE(mis.error);
+  CAPTURE(nee.mean);
+  CAPTURE(nee.error);
+  CHECK(std::abs(mis.mean - nee.mean) < 4 * std::hypot(mis.error, nee.error));
+  CHECK(mis.error < 0.004 * mis.mean);
+  CHECK(mis.error < 0.6 * 2 * nee.error);  // of as many samples
+}
+
+TEST_CASE("lamps in fog: sought only where it pays") {
+  CHECK(compile(load_scene("stress-light-in-fog").scene).near.light.size() == 1);
+  for (const char* name : {"cornell-smoke", "next-week", "showroom", "stress-dense-fog"})
+    CHECK(compile(load_scene(name).scene).near.light.size() == 0);
+}
