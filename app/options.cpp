@@ -68,13 +68,11 @@ Command read_inspect(Words words) {
   CommandLine line("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.", "");
   add_scene(line, command.scene);
   line.flag("--json", "print JSON", command.json);
-  line.flag("--measure", "measure what the chosen kernel gains over the full one; takes about two seconds",
-            command.measure);
-  line.value("--isa", "NAME", "with --measure: scalar, sse4, avx2 or avx512 [the best that this CPU runs]",
-             [&](Text t) {
-               read_name(t, {"scalar", "sse4", "avx2", "avx512"});
-               command.isa = t;
-             });
+  line.flag("--measure", "measure what the kernel gains over the full one (2 s)", command.measure);
+  line.value("--isa", "NAME", "with --measure: scalar, sse4, avx2 or avx512 [the best]", [&](Text t) {
+    read_name(t, {"scalar", "sse4", "avx2", "avx512"});
+    command.isa = t;
+  });
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");
   return command;

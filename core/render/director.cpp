@@ -167,30 +167,33 @@ void Director::finish_pass(double seconds) {
   publish();
 }
 
-std::vector<float> Director::picture() {
+void Director::draw(std::vector<float>& rgba) {
   switch (view_) {
     case View::beauty:
-      return beauty_rgba(film_, taken_ == 0 ? step_ : 1, *crew_);
+      beauty_rgba(film_, taken_ == 0 ? step_ : 1, *crew_, rgba);
+      return;
     case View::noise:
-      return taken_ == 0 ? grey_rgba(film_.pixels.size(), 1) : noise_rgba(film_);
+      rgba = taken_ == 0 ? grey_rgba(film_.pixels.size(), 1) : noise_rgba(film_);
+      return;
     case View::samples:
-      return taken_ == 0 ? grey_rgba(film_.pixels.size(), 0) : samples_rgba(film_);
+      rgba = taken_ == 0 ? grey_rgba(film_.pixels.size(), 0) : samples_rgba(film_);
+      return;
     case View::albedo:
     case View::normal:
     case View::depth:
       break;
   }
   if (first_hits_.empty()) first_hits_ = find_first_hits(kernels_, scene_view_->view(), *crew_);
-  return first_hit_rgba(first_hits_, view_);
+  rgba = first_hit_rgba(first_hits_, view_);
 }
 
 void Director::publish() {
-  auto frame = std::make_shared<Frame>();
+  const std::shared_ptr<Frame> frame = frame_memory_.take();
   frame->edit = edit_;
   frame->pass = ++frames_;
   frame->width = film_.width, frame->height = film_.height;
   const Clock::time_point start = Clock::now();
-  frame->rgba = picture();
+  draw(frame->rgba);
   picture_seconds_ = seconds_between(start, Clock::now());
   if (first_picture_due_) first_picture_ms_ = 1000 * seconds_between(submitted_, Clock::now());
   first_picture_due_ = false;
@@ -209,7 +212,7 @@ void Director::publish() {
   {
     const std::lock_guard lock(mail_.mutex);
     frame->finished = taken_ >= mail_.limit;
-    mail_.latest = std::move(frame);
+    mail_.latest = frame;
   }
   if (on_frame_) on_frame_();
 }

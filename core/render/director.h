@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/compile.h"
+#include "core/render/frame.h"
 #include "core/render/pass.h"
 #include "core/render/renderer.h"
 
@@ -57,7 +58,7 @@ class Director {
   Pass& current_pass();
   void finish_pass(double seconds);
   void publish();
-  std::vector<float> picture();
+  void draw(std::vector<float>& rgba);
   bool has_work() const;
   std::int64_t pixels() const { return static_cast<std::int64_t>(compiled_->width) * compiled_->height; }
 
@@ -92,6 +93,7 @@ class Director {
   double pass_seconds_ = 0;
   std::uint64_t frames_ = 0, rejected_ = 0, truncated_ = 0;
   Clock::time_point next_estimate_;
+  FrameMemory frame_memory_;
 };
 
 }  // namespace tyndall

@@ -40,8 +40,22 @@ void fill_row(std::vector<float>& rgba, int width, int height, int y, int step) 
 
 }  // namespace
 
-std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew) {
-  std::vector<float> rgba(4 * film.pixels.size());
+std::shared_ptr<Frame> FrameMemory::take() {
+  constexpr std::size_t most = 2;
+  auto frame = std::make_unique<Frame>();
+  {
+    const std::lock_guard lock(spare_->mutex);
+    if (!spare_->rgba.empty()) frame->rgba = std::move(spare_->rgba.back()), spare_->rgba.pop_back();
+  }
+  return {frame.release(), [spare = spare_](Frame* done) {
+            const std::unique_ptr<Frame> owner(done);
+            const std::lock_guard lock(spare->mutex);
+            if (spare->rgba.size() < most) spare->rgba.push_back(std::move(done->rgba));
+          }};
+}
+
+void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba) {
+  rgba.resize(4 * film.pixels.size());
   const int width = film.region.width(), height = film.region.height();
   crew.for_each((height + step - 1) / step, [&](int row) {
     for (int x = 0; x < width; x += step) {
@@ -50,7 +64,6 @@ std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew) {
     }
   });
   if (step > 1) crew.for_each(height, [&](int y) { fill_row(rgba, width, height, y, step); });
-  return rgba;
 }
 
 std::vector<float> grey_rgba(std::size_t pixels, float grey) {

@@ -4,14 +4,30 @@
 #include "core/kernel/kernels.h"
 #include "core/render/renderer.h"
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 /// From a film to what is shown. Values are linear; exposure and tone mapping are the display's.
 namespace tyndall {
 
-/// RGBA of a film's means. step > 1: only every step-th pixel has samples; the others are filled in between (bilinear),
-/// in the picture only.
-std::vector<float> beauty_rgba(const Film& film, int step, Crew& crew);
+/// RGBA of a film's means, in `rgba`. step > 1: only every step-th pixel has samples; the others are filled in between
+/// (bilinear), in the picture only.
+void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
+
+/// Memory of frames that nobody looks at any more: fresh memory costs more than the picture that is written to it.
+class FrameMemory {
+ public:
+  /// A frame with what a former one's `rgba` held. Keep this object for as long as there are frames.
+  std::shared_ptr<Frame> take();
+
+ private:
+  struct Spare {
+    std::mutex mutex;
+    std::vector<std::vector<float>> rgba;
+  };
+  std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+};
 
 /// A picture of one grey.
 std::vector<float> grey_rgba(std::size_t pixels, float grey);

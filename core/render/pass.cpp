@@ -56,8 +56,7 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
   auto& pixels = buffer();
   pixels.assign(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()), {});
   UnitCounts counts;
-  kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit,
-                                                      pixels.data(), counts);
+  kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, pixels.data(), counts);
   const bool first = first_ == film.first_sample;
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
   auto from = pixels.begin();

@@ -133,7 +133,6 @@ TEST_CASE("limits that exclude each other are named") {
 TEST_CASE("what is not there yet says so") {
   CHECK(has(refusal({"chart", "box", "-o", "a.svg"}), "not in this version yet"));
   CHECK(has(refusal({"verify"}), "not in this version yet"));
-  CHECK(has(refusal({"inspect", "box", "--measure"}), "not in this version yet"));
 }
 
 TEST_CASE("help names every command and option, with units and defaults") {
