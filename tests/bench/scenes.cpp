@@ -61,6 +61,32 @@ std::vector<NamedScene> book_scenes() {
           {"hollow-glass", book_scene("hollow-glass", 400, 225)}};
 }
 
+Scene forty_six_spheres() {
+  Scene scene;
+  scene.width = 640, scene.height = 360;
+  scene.camera = {.look_from = {0, 2, 3}, .look_at = {0, 0, 0}, .vfov = 60, .defocus_angle = 2};
+  scene.background = Gradient{{0.15, 0.21, 0.3}, {0.05, 0.07, 0.1}};
+  scene.render.max_depth = 10;
+  const auto matt = [](double r, double g, double b) { return Material{"", Vec3d{r, g, b}, Lambertian<>{}}; };
+  const auto metal = [](double fuzz) { return Material{"", Vec3d{0.8, 0.7, 0.6}, Metal<>{fuzz}}; };
+  scene.materials = {matt(0.8, 0.8, 0.8),
+                     matt(0.8, 0.4, 0.4),
+                     matt(0.4, 0.8, 0.4),
+                     matt(0.4, 0.4, 0.8),
+                     metal(0),
+                     metal(0.2),
+                     metal(0.6),
+                     Material{"", Vec3d{1, 1, 1}, Dielectric<>{1.5}},
+                     Material{"", Vec3d{30, 25, 15}, Light<>{}}};
+  scene.objects = {sphere({0, -100.5, -1}, 100)};
+  const int light = static_cast<int>(scene.materials.size()) - 1;
+  for (int i = 0; i < 45; ++i) {
+    scene.objects.push_back(sphere({i % 9 - 4.0, 0, 1.0 - i / 9}, 0.45));
+    std::get<Solid3d>(scene.objects.back().kind).material = i == 3 || i == 32 ? light : i % light;
+  }
+  return scene;
+}
+
 Scene field_of_spheres(int count) {
   Scene scene;
   scene.width = 400, scene.height = 225;

@@ -19,6 +19,10 @@ std::vector<NamedScene> book_scenes();
 /// A built-in scene in another size. Throws SceneError.
 Scene built_in(const std::string& name, int width, int height);
 
+/// A ground and 45 spheres in rows, two of them lights, the others matt, fuzzy metal and glass, under a dim sky: what
+/// ray tracers of this kind are often timed with. 640x360.
+Scene forty_six_spheres();
+
 /// A field of `count` >= 500 or so lambertian spheres like that of the books' cover: a ground, three large ones, small
 /// ones strewn around them, all apart, under the sky. A pure function of the count.
 Scene field_of_spheres(int count);

@@ -79,7 +79,9 @@ Json measure_throughput(const Settings& settings) {
                {"msamples_per_s", "Msamples/s", 2},
                {"mrays_per_s", "Mrays/s", 1},
                {"rays_per_sample", "rays/sample", 2}});
-  for (const NamedScene& named : book_scenes()) {
+  std::vector<NamedScene> scenes = book_scenes();
+  scenes.push_back({"46-spheres", forty_six_spheres()});
+  for (const NamedScene& named : scenes) {
     std::vector<Job> jobs;
     for (const Method& method : methods)
       for (const Kernels& kernels : available_kernels())
