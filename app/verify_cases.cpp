@@ -65,7 +65,6 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
   const JsonArray& list = list_of(object, at, "cases", "the group's cases");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Place cases{at, "cases"};
-    group.number = static_cast<int>(out.size());
     out.push_back(read_case(list[i], {cases, i}, group));
     const auto same_name = [&](const VerifyCase& other) { return other.name == out.back().name; };
     if (std::find_if(out.begin(), out.end() - 1, same_name) != out.end() - 1)

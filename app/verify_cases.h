@@ -16,7 +16,6 @@ struct VerifyCase {
   double expected = 0;
   std::string source;                 ///< author, title, year, or how it is derived
   bool needs_light_sampling = false;  ///< chance alone does not find its lights
-  int number = 0;                     ///< place in the table
 };
 
 /// Reads a table of cases: { "groups": [{ "name", "scene", "source", "set": { POINTER: VALUE, … }, "light_sampling",

@@ -44,7 +44,7 @@ std::string line_of(const VerifyRow& row, std::size_t name_width) {
 }
 
 std::string sum_up(const VerifyRun& run) {
-  const ZScores z = z_scores(run.rows);
+  const ZStatistic z = z_statistic(run.rows);
   std::uint64_t samples = 0, rejected = 0;
   for (const VerifyRow& row : run.rows)
     samples += row.measured.totals.samples, rejected += row.measured.totals.rejected;
@@ -93,8 +93,8 @@ VerifyRow judge(VerifyRow row, const Measured& measured, double precision) {
   return row;
 }
 
-ZScores z_scores(const std::vector<VerifyRow>& rows) {
-  ZScores scores;
+ZStatistic z_statistic(const std::vector<VerifyRow>& rows) {
+  ZStatistic scores;
   double sum = 0;
   for (const VerifyRow& row : rows) {
     const double rounding = rounding_share * std::abs(row.what.expected);
@@ -109,7 +109,7 @@ ZScores z_scores(const std::vector<VerifyRow>& rows) {
 }
 
 bool passed(const VerifyRun& run) {
-  return count(run, Verdict::fail) == 0 && count(run, Verdict::vague) == 0 && z_scores(run.rows).ok();
+  return count(run, Verdict::fail) == 0 && count(run, Verdict::vague) == 0 && z_statistic(run.rows).ok();
 }
 
 std::string verify_table(const VerifyRun& run) {
@@ -135,7 +135,7 @@ std::string verify_json(const VerifyRun& run) {
   json["precision"] = run.precision;
   json["cases"] = nlohmann::ordered_json::array();
   for (const VerifyRow& row : run.rows) json["cases"].push_back(json_of(row));
-  const ZScores z = z_scores(run.rows);
+  const ZStatistic z = z_statistic(run.rows);
   json["z_count"] = z.count;
   json["z_mean_square"] = z.mean_square;
   json["z_mean_square_band"] = {z.band.low, z.band.high};

@@ -36,13 +36,13 @@ struct VerifyRun {
 };
 
 /// Mean square of the z-scores whose standard error is above the rounding, against what chance allows.
-struct ZScores {
+struct ZStatistic {
   int count = 0;
   double mean_square = 0;
   SquareBand band;
   bool ok() const { return count == 0 || (mean_square >= band.low && mean_square <= band.high); }
 };
-ZScores z_scores(const std::vector<VerifyRow>& rows);
+ZStatistic z_statistic(const std::vector<VerifyRow>& rows);
 
 /// Nothing failed, nothing stayed vague, and the z-scores are as large as they should be.
 bool passed(const VerifyRun& run);

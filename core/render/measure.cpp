@@ -8,6 +8,7 @@ namespace {
 
 constexpr double first_samples = 64;  // a pixel: sees what one path in some ten thousand finds
 constexpr double margin = 0.85;       // of the error to reach: the pilot may have been lucky
+constexpr double far_off = 8;         // standard errors: no chance, however many samples
 constexpr double most_growth = 16;    // from pilot to pilot: a poor pilot plans badly
 
 double cube(double x) { return x * x * x; }
@@ -34,8 +35,10 @@ Measured measure_mean(RenderScene scene, const MeasureOptions& options, const Pr
     seconds += result.seconds;
     measured = {film_mean(result.film), totals(result.film), seconds, result.interrupted};
     const bool reached = measured.value.error <= options.error;
-    if (result.interrupted || (round > 0 && (reached || spp >= most))) break;
-    if (!reached) spp = std::min(std::max(planned(spp, measured.value.error, options.error), 1.25 * spp), most);
+    const bool hopeless = std::abs(z_score(measured.value, options.expected)) > far_off;
+    if (result.interrupted || (round > 0 && (reached || hopeless || spp >= most))) break;
+    if (!reached && !hopeless)
+      spp = std::min(std::max(planned(spp, measured.value.error, options.error), 1.25 * spp), most);
   }
   return measured;
 }

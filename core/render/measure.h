@@ -3,14 +3,16 @@
 #include "core/render/render.h"
 
 #include <cstdint>
+#include <limits>
 
 /// A number out of a picture, as accurate as asked for.
 namespace tyndall {
 
 struct MeasureOptions {
-  int threads = 0;   ///< 0: all cores
-  std::string isa;   ///< "": the best
-  double error = 0;  ///< standard error to reach, >= 0
+  int threads = 0;                                             ///< 0: all cores
+  std::string isa;                                             ///< "": the best
+  double error = 0;                                            ///< standard error to reach, >= 0
+  double expected = std::numeric_limits<double>::quiet_NaN();  ///< what is far off from this needs no small error
 };
 
 struct Measured {
