@@ -54,8 +54,8 @@ std::string sum_up(const VerifyRun& run) {
   text += format("; %.3g samples, %llu rejected; %s\n", static_cast<double>(samples),
                  static_cast<unsigned long long>(rejected), duration(run.seconds).c_str());
   if (z.count == 0) return text;
-  return text + format("mean square of %d z-scores: %.2f, expected 1 (%.2f to %.2f): %s\n", z.count, z.mean_square,
-                       z.band.low, z.band.high, z.ok() ? "ok" : "FAIL");
+  return text + format("z-scores of %d cases: mean square %.2f, expected 1 (%.2f to %.2f): %s\n", z.count,
+                       z.mean_square, z.band.low, z.band.high, z.ok() ? "ok" : "FAIL");
 }
 
 nlohmann::ordered_json json_of(const VerifyRow& row) {

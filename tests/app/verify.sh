@@ -14,7 +14,7 @@ done
 expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60
 grep -q '^  plate/reflected-n1.5-60deg  *0.1637675 ' out || fail "no row: $(cat out)"
 grep -q 'Born & Wolf' out || fail "no source: $(cat out)"
-grep -q 'mean square of 9 z-scores' out || fail "no sum: $(cat out)"
+grep -q 'z-scores of 9 cases: mean square' out || fail "no sum: $(cat out)"
 expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60 --json --seed 5
 cp out verify.json
 same passed "$(json verify.json passed)" true
