@@ -101,7 +101,6 @@ Command read_convert(Words words) {
 }
 
 Command refuse_chart(Words) { throw UsageError("'tyndall chart' is not in this version yet"); }
-Command refuse_verify(Words) { throw UsageError("'tyndall verify' is not in this version yet"); }
 
 struct Entry {
   const char* name;
@@ -114,7 +113,7 @@ constexpr Entry entries[] = {
     {"render", "render without a window and write images", read_render},
     {"compare", "how far an image is from a reference", read_compare},
     {"chart", "speed against accuracy (not in this version yet)", refuse_chart},
-    {"verify", "check the renderer against known answers (not in this version yet)", refuse_verify},
+    {"verify", "check the renderer against known answers", read_verify},
     {"merge", "add films of neighbouring sample ranges", read_merge},
     {"inspect", "what a scene contains and which models it needs", read_inspect},
     {"scenes", "list the built-in scenes", read_scenes},

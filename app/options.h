@@ -57,6 +57,16 @@ struct CompareCommand {
   bool json = false;
 };
 
+struct VerifyCommand {
+  std::vector<std::string> names;  ///< beginnings of the cases' names; none: all cases
+  SceneRequest method;             ///< what is the same for all scenes; its `what` and overrides are the cases'
+  bool thorough = false;           ///< standard errors of 1e-4 instead of 1e-3
+  bool json = false;
+  int threads = 0;  ///< 0: all cores
+  std::string isa;  ///< "": the best
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
 struct MergeCommand {
   std::vector<std::filesystem::path> parts, outputs;
 };
@@ -80,8 +90,8 @@ struct PrintCommand {
   std::string text;
 };
 
-using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, MergeCommand, InspectCommand, ScenesCommand,
-                             ConvertCommand, PrintCommand>;
+using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, VerifyCommand, MergeCommand, InspectCommand,
+                             ScenesCommand, ConvertCommand, PrintCommand>;
 
 /// Reads the command line; arguments[0] is what follows the program's name. Throws UsageError. Reads no file but to see
 /// whether a first argument that looks like a misspelt command is one.

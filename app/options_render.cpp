@@ -55,6 +55,12 @@ void add_machine_options(CommandLine& line, AnyCommand& command) {
   });
 }
 
+void add_progress(CommandLine& line, ProgressStyle& style) {
+  line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
+    style = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
+  });
+}
+
 void add_limits(CommandLine& line, RenderCommand& command) {
   line.group("Limits (the first one reached ends the render)");
   line.value("--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
@@ -81,9 +87,7 @@ void add_output(CommandLine& line, RenderCommand& command) {
              [&](Text t) { command.region = read_region(t); });
   line.value("--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
   line.flag("--resume", "go on from the film in the .exr output, if there is one", command.resume);
-  line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
-    command.progress = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
-  });
+  add_progress(line, command.progress);
 }
 
 void refuse_conflicts(const RenderCommand& c) {
@@ -149,6 +153,30 @@ Command read_render(const std::vector<std::string>& words) {
   line.require(!command.scene.what.empty(), "SCENE");
   line.require(!command.outputs.empty(), "an output (-o FILE)");
   refuse_conflicts(command);
+  if (quiet) command.progress = ProgressStyle::none;
+  return command;
+}
+
+Command read_verify(const std::vector<std::string>& words) {
+  VerifyCommand command;
+  CommandLine line("verify [NAME...] [options]",
+                   "Measures pictures whose mean radiance is known, with the kernels that draw, and prints a table:\n"
+                   "expected and from where, measured, standard error, deviation in standard errors (z), verdict.\n\n"
+                   "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
+                   "errors that are too good are errors too. Exit code 1 if anything fails.",
+                   "Examples:\n"
+                   "  tyndall verify\n"
+                   "  tyndall verify plate fog-ball/ --isa scalar\n"
+                   "  tyndall verify plate --fresnel schlick      # the books' rule fails");
+  bool quiet = false;
+  line.arguments("NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
+  line.flag("--thorough", "standard errors of at most 1e-4 of the value instead of 1e-3", command.thorough);
+  line.flag("--json", "print JSON", command.json);
+  add_progress(line, command.progress);
+  line.flag("-q,--quiet", "no progress", quiet);
+  add_method_options(line, command.method);
+  add_machine_options(line, command);
+  if (auto help = line.read(words)) return PrintCommand{*help};
   if (quiet) command.progress = ProgressStyle::none;
   return command;
 }

@@ -78,25 +78,28 @@ ProgressReport::ProgressReport(ProgressStyle style, ProgressGoal goal) : goal_(g
 ProgressReport::~ProgressReport() { clear_bar(); }
 
 void ProgressReport::show(const RenderProgress& now) {
-  if (form_ == Form::none || now.seconds < next_) return;
+  show(now.seconds, progress_fraction(now, goal_), progress_text(now, goal_));
+}
+
+void ProgressReport::show(double seconds, double part, const std::string& text) {
+  if (form_ == Form::none || seconds < next_) return;
   if (form_ == Form::bar) {
-    draw_bar(now);
-    next_ = now.seconds + 0.1;
+    draw_bar(part, text);
+    next_ = seconds + 0.1;
   } else {
-    std::fprintf(stderr, "tyndall: %s\n", progress_text(now, goal_).c_str());
-    next_ = now.seconds + std::clamp(0.25 * now.seconds, 2.0, 60.0);
+    std::fprintf(stderr, "tyndall: %s\n", text.c_str());
+    next_ = seconds + std::clamp(0.25 * seconds, 2.0, 60.0);
   }
   said_ = true;
 }
 
-void ProgressReport::draw_bar(const RenderProgress& now) {
-  const std::string text = progress_text(now, goal_);
+void ProgressReport::draw_bar(double part, const std::string& text) {
   constexpr int text_columns = 60;  // kept free, so that the bar keeps its length
   const int columns = terminal_columns() - 1;
   const int cells = std::clamp(columns - text_columns, 0, 40);
   std::string bar;
   if (cells >= 8) {
-    const auto full = static_cast<std::size_t>(std::lround(progress_fraction(now, goal_) * cells));
+    const auto full = static_cast<std::size_t>(std::lround(part * cells));
     bar = "[" + std::string(colour_ ? "\x1b[36m" : "") + std::string(full, '#') + (colour_ ? "\x1b[0m" : "") +
           std::string(static_cast<std::size_t>(cells) - full, '.') + "] ";
   }

@@ -31,18 +31,20 @@ std::string progress_text(const RenderProgress& now, const ProgressGoal& goal);
 /// rarely. NO_COLOR and TERM=dumb are respected.
 class ProgressReport {
  public:
-  ProgressReport(ProgressStyle style, ProgressGoal goal);
+  explicit ProgressReport(ProgressStyle style, ProgressGoal goal = {});
   /// Takes the bar away.
   ~ProgressReport();
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;
 
   void show(const RenderProgress& now);
+  /// The same for what is no single render. part: of the way, in [0, 1].
+  void show(double seconds, double part, const std::string& text);
   /// Takes the bar away, and says how it ended if anything was shown before.
   void finish(const std::string& summary);
 
  private:
-  void draw_bar(const RenderProgress& now);
+  void draw_bar(double part, const std::string& text);
   void clear_bar();
 
   enum class Form { none, lines, bar } form_ = Form::none;

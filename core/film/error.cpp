@@ -43,6 +43,20 @@ double estimated_relative_error(const Film& film, Crew* crew) {
   return std::sqrt(std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(film.pixels.size()));
 }
 
+FilmMean film_mean(const Film& film) {
+  const auto grey = [](Vec3f v) {
+    return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3;
+  };
+  double sum = 0, variance = 0;
+  for (const FilmPixel& pixel : film.pixels) {
+    const bool whole = counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
+    sum += grey(mean(film, pixel));
+    variance += whole ? square((grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2) : infinity;
+  }
+  const auto pixels = static_cast<double>(film.pixels.size());
+  return {sum / pixels, std::sqrt(variance) / pixels};
+}
+
 namespace {
 
 struct Sum {

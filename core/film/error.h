@@ -15,6 +15,14 @@ double estimated_relative_error(const Film& film, Crew* crew = nullptr);
 /// none is left.
 std::vector<float> pixel_relative_error(const Film& film);
 
+/// The mean over a film's pixels and channels, and its standard error from the differences of the two halves: they are
+/// independent randomisations, so it holds for any sampler, also where pixels show different things.
+struct FilmMean {
+  double mean = 0;
+  double error = 0;  ///< infinite while a half of a pixel is empty
+};
+FilmMean film_mean(const Film& film);
+
 /// Errors of an image against a reference. Means over pixels and channels.
 struct ImageError {
   double mse = 0, rmse = 0;

@@ -37,8 +37,12 @@ template <class F>
 TYNDALL_INLINE Interval<F> medium_interval(const MediumColumns& m, Vec3<F> origin, Vec3<F> direction, IntOf<F> from) {
   const Start<F> start = start_on<F>(from, m.first, m.count);
   if (m.box) {
-    const Interval<F> line = box_slabs(m.map, origin, direction).inside;
-    return any(start.here) ? leave_box(line, start) : line;
+    const BoxSlabs<F> slabs = box_slabs(m.map, origin, direction);
+    if (!any(start.here)) return slabs.inside;
+    const Interval<F> line = leave_box(slabs.inside, start);
+    const auto within =
+        mask_and(start.here, equal(from & IntOf<F>(3), IntOf<F>(static_cast<std::int32_t>(Side::within))));
+    return {line.near, select(within, leave_from_within(slabs), line.far), line.hit};
   }
   const Vec3<F> to_center = splat<F>(m.center) - origin;
   const Interval<F> line = sphere_interval(to_center, splat<F>(m.radius), direction);

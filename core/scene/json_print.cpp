@@ -48,7 +48,7 @@ void print(const JsonValue& json, std::string& out, std::size_t indent, std::siz
   const bool is_leaf = !array && !object;
   std::string line;
   const std::size_t limit = is_leaf ? line.max_size() : width - std::min(width, column + 1);  // 1: a comma may follow
-  if (!open && print_line(json, line, limit)) {
+  if ((is_leaf || !open) && print_line(json, line, limit)) {
     out += line;
     return;
   }

@@ -48,8 +48,10 @@ expect 2 "$tyndall" render cornell-box -o a.png --stats a.png
 complains '--stats' '.json'
 expect 2 "$tyndall" chart cornell-box -o a.svg
 complains 'not in this version yet'
-expect 2 "$tyndall" verify
-complains 'not in this version yet'
+expect 2 "$tyndall" verify plaet
+complains '"plaet"' 'did you mean "plate"?'
+expect 2 "$tyndall" verify plate fog-bal/
+complains '"fog-bal/"' 'fog-ball'
 
 # Scenes that cannot be read: 2.
 expect 2 "$tyndall" render missing.json -o a.png
@@ -81,6 +83,8 @@ complains 'folder/s.json'
 expect 3 "$tyndall" compare missing.png missing.png
 complains 'missing.png'
 expect 3 "$tyndall" merge missing.exr -o m.png
+expect 2 env TYNDALL_ASSETS=/nowhere "$tyndall" verify
+complains 'cases.json' 'TYNDALL_ASSETS'
 expect 3 env TYNDALL_ASSETS=/nowhere "$tyndall" scenes
 complains 'TYNDALL_ASSETS'
 [ ! -e a.png ] || fail 'an image was written in spite of an error'

@@ -130,9 +130,23 @@ TEST_CASE("limits that exclude each other are named") {
   CHECK(render_command({"--samples", "4:8"}).samples->first == 4);
 }
 
+TEST_CASE("verify: names, method, machine") {
+  const auto command = std::get<VerifyCommand>(read_command(
+      {"verify", "plate", "--json", "milk", "--isa", "scalar", "-t", "2", "--integrator", "nee", "--seed", "7", "-q"}));
+  CHECK(command.names == std::vector<std::string>{"plate", "milk"});
+  CHECK(command.json);
+  CHECK_FALSE(command.thorough);
+  CHECK(command.isa == "scalar");
+  CHECK(command.threads == 2);
+  CHECK(command.method.integrator == Integrator::nee);
+  CHECK(command.method.seed == 7u);
+  CHECK(command.progress == ProgressStyle::none);
+  CHECK(std::get<VerifyCommand>(read_command({"verify", "--thorough"})).thorough);
+  CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
+}
+
 TEST_CASE("what is not there yet says so") {
   CHECK(has(refusal({"chart", "box", "-o", "a.svg"}), "not in this version yet"));
-  CHECK(has(refusal({"verify"}), "not in this version yet"));
 }
 
 TEST_CASE("help names every command and option, with units and defaults") {

@@ -116,6 +116,20 @@ TEST_CASE("pixel error: an average over 7 x 7 pixels, fewer at the border") {
   CHECK(static_cast<double>(pixel_relative_error(corner)[0]) == doctest::Approx(std::sqrt(4.0 / 16)));
 }
 
+TEST_CASE("film mean: by hand for two pixels that show different things") {
+  Film film = make_film(2, 1, {0, 0, 2, 1}, 0, 8);
+  const auto add = [&](int x, std::uint32_t half, float red) {
+    add_sample(film.at(x, 0), half, {red, 2, 3}, 1 / film.unit);
+    ++film.at(x, 0).taken;
+  };
+  add(0, 0, 1), add(0, 1, 4), add(1, 0, 7);
+  CHECK(film_mean(film).error == std::numeric_limits<double>::infinity());
+  add(1, 1, 7);
+  CHECK(film_mean(film).mean == doctest::Approx((2.5 + 7 + 2 + 2 + 3 + 3) / 6));
+  CHECK(film_mean(film).error ==
+        doctest::Approx(0.5 * std::sqrt(0.25)));  // halves 2 and 3 in one pixel, alike in the other
+}
+
 TEST_CASE("image error: numbers by hand") {
   const ImageError error = image_error({0.2f, 0.5f, 1.0f}, {0.1f, 0.5f, 0.5f});
   CHECK(error.mse == doctest::Approx((0.01 + 0.25) / 3).epsilon(1e-6));

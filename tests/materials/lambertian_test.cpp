@@ -50,6 +50,20 @@ TEST_CASE("lambertian: density cos/pi on the side where the light comes from") {
   check_cosine_law<double>(500000);
 }
 
+TEST_CASE("lambertian: from one disc to a smaller one above it") {
+  // Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-41: radii 1 and 1/2, 2 apart.
+  Moments reached;
+  for (std::uint32_t i = 0; i < 1000000; ++i) {
+    const Dice<float> d = dice<float>(i);
+    const Pair<float> from = in_disc(d.pair(dimension::light_point));
+    const Vec3f way = scatter(Lambertian<float>{}, event(d, down_at<float>(0.3), up<float>)).direction;
+    const float t = 2 / way.z, x = from.x + t * way.x, y = from.y + t * way.y;
+    reached.add(x * x + y * y < 0.25f ? 1 : 0);
+  }
+  ZScores scores;
+  scores.add("discs", reached.estimate(), 0.04805898398896202, 5e-3);
+}
+
 TEST_CASE("lambertian: where the unit vector cancels the normal, the normal") {
   const Dice<float> d = dice<float>(1);
   Incident<float> in = event(d, down_at<float>(0.3), up<float>);

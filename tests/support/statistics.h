@@ -1,4 +1,6 @@
 #pragma once
+#include "core/render/measure.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,14 +55,14 @@ class ZScores {
     squares_ += z * z;
     ++count_;
   }
-  /// Mean square of n standard normal numbers, made normal itself by its cube root. E. Wilson, M. Hilferty, The
-  /// Distribution of Chi-Square, Proceedings of the National Academy of Sciences 17 (1931).
   ~ZScores() {
     if (count_ == 0) return;
-    const double mean_square = squares_ / count_, spread = 2.0 / (9 * count_);
+    const double mean_square = squares_ / count_;
+    const SquareBand band = mean_square_band(count_);
     CAPTURE(count_);
     CAPTURE(mean_square);
-    CHECK(std::abs(std::cbrt(mean_square) - (1 - spread)) <= 4 * std::sqrt(spread));
+    CHECK(mean_square >= band.low);
+    CHECK(mean_square <= band.high);
   }
   ZScores() = default;
   ZScores(const ZScores&) = delete;

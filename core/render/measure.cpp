@@ -1,0 +1,56 @@
+#include "core/render/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double first_samples = 64;  // a pixel: sees what one path in some ten thousand finds
+constexpr double margin = 0.85;       // of the error to reach: the pilot may have been lucky
+constexpr double far_off = 8;         // standard errors: no chance, however many samples
+constexpr double most_growth = 16;    // from pilot to pilot: a poor pilot plans badly
+
+double cube(double x) { return x * x * x; }
+
+/// Samples a pixel for a standard error, from what a pilot of `spp` has shown.
+double planned(double spp, double error, double wanted) {
+  const double ratio = error / (margin * wanted);
+  return std::clamp(spp * ratio * ratio, spp, most_growth * spp);
+}
+
+}  // namespace
+
+Measured measure_mean(RenderScene scene, const MeasureOptions& options, const ProgressCallback& progress) {
+  const double pixels = static_cast<double>(scene.width) * scene.height;
+  const double most = std::max(first_samples, most_samples_measured / pixels);
+  Measured measured;
+  double spp = first_samples, seconds = 0;
+  for (std::uint32_t round = 0; round < most_rounds; ++round, ++scene.seed) {
+    RenderOptions render_options;
+    render_options.threads = options.threads;
+    render_options.isa = options.isa;
+    render_options.spp = static_cast<std::uint32_t>(spp / 2) * 2;  // both halves alike
+    const RenderResult result = render(scene, render_options, progress);
+    seconds += result.seconds;
+    measured = {film_mean(result.film), totals(result.film), seconds, result.interrupted};
+    const bool reached = measured.value.error <= options.error;
+    const bool hopeless = std::abs(z_score(measured.value, options.expected)) > far_off;
+    if (result.interrupted || (round > 0 && (reached || hopeless || spp >= most))) break;
+    if (!reached && !hopeless)
+      spp = std::min(std::max(planned(spp, measured.value.error, options.error), 1.25 * spp), most);
+  }
+  return measured;
+}
+
+double z_score(const FilmMean& measured, double expected) {
+  const double deviation = measured.mean - expected;
+  return deviation == 0 ? 0 : deviation / std::hypot(measured.error, rounding_share * expected);
+}
+
+SquareBand mean_square_band(int count) {
+  const double spread = 2.0 / (9 * count), room = 4 * std::sqrt(spread);
+  return {cube(std::max(1 - spread - room, 0.0)), cube(1 - spread + room)};
+}
+
+}  // namespace tyndall

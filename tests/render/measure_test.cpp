@@ -1,0 +1,99 @@
+#include "core/render/measure.h"
+
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// A fog ball before a white room, seen whole: its pixels show different things.
+Scene fog_ball() {
+  Scene scene = white_room();
+  scene.width = scene.height = 16;
+  scene.camera.look_from = {0, 0, 5};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vfov = 30;
+  add_medium(scene, sphere({0, 0, 0}, 1), {2, 0.3}, 0.7);
+  return scene;
+}
+
+Measured measure(const Scene& scene, double error) { return measure_mean(compile(scene), {1, "", error}); }
+
+}  // namespace
+
+TEST_CASE(
+    "measuring: standard errors say how far measurements lie apart, also where pixels differ and points are even") {
+  for (const SamplerKind sampler : {SamplerKind::random, SamplerKind::sobol}) {
+    CAPTURE(static_cast<int>(sampler));
+    Scene scene = fog_ball();
+    scene.render.sampler = sampler;
+    const double truth = measure(scene, 2e-5).value.mean;
+    ZScores scores;
+    Moments z;
+    for (std::uint32_t run = 1; run <= 100; ++run) {
+      scene.render.seed = run * most_rounds;
+      const FilmMean one = measure(scene, 5e-4).value;
+      scores.add("fog ball", one, truth, 5e-4 / truth);
+      z.add(z_score(one, truth));
+    }
+    CHECK(std::abs(z.estimate().mean) <= 4 * z.estimate().error);
+  }
+}
+
+TEST_CASE("measuring: the samples that planned the measurement are not part of it") {
+  Scene scene = fog_ball();
+  const Measured measured = measure(scene, 1e-3);
+  CHECK(measured.value.error <= 1e-3);
+  const auto spp = static_cast<int>(measured.totals.samples / 256);
+  CHECK(spp > 64);
+  int found = 0;
+  for (scene.render.seed = 1; scene.render.seed < 4; ++scene.render.seed) {
+    const FilmMean one = film_mean(film_of(scene, spp));
+    found += one.mean == measured.value.mean && one.error == measured.value.error ? 1 : 0;
+  }
+  CHECK(found == 1);
+  CHECK(measure(fog_ball(), 1e-3).value.mean == measured.value.mean);
+}
+
+TEST_CASE("measuring: stops when it is told to") {
+  int calls = 0;
+  const Measured measured =
+      measure_mean(compile(fog_ball()), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 3; });
+  CHECK(measured.interrupted);
+  CHECK(measured.totals.samples < 256 * 64);
+}
+
+TEST_CASE("measuring: what is far off is not measured on and on") {
+  const Measured measured = measure_mean(compile(fog_ball()), {1, "", 1e-7, 0.5});
+  CHECK(measured.totals.samples == 256 * 64);
+  CHECK(std::abs(z_score(measured.value, 0.5)) > 8);
+}
+
+TEST_CASE("measuring: what varies not at all takes no more samples than the pilot") {
+  Scene scene = fog_ball();
+  scene.objects.clear();
+  const Measured measured = measure(scene, 0);
+  CHECK(measured.value.mean == 1);
+  CHECK(measured.value.error == 0);
+  CHECK(measured.totals.samples == 256 * 64);
+}
+
+TEST_CASE("z-scores: in standard errors, with room for the rounding of single precision") {
+  CHECK(z_score({1.002, 1e-3}, 1) == doctest::Approx(2).epsilon(1e-5));
+  CHECK(z_score({0.999, 1e-3}, 1) == doctest::Approx(-1).epsilon(1e-5));
+  CHECK(z_score({0.8f, 0}, 0.8) < 0.1);
+  CHECK(z_score({0.80001, 0}, 0.8) > 4);
+  CHECK(z_score({0, 0}, 0) == 0);
+  CHECK(std::isinf(z_score({1e-9, 0}, 0)));
+}
+
+TEST_CASE("z-scores: the band of their mean square") {
+  // Of 100 of them: the 3.17e-5 and 1 - 3.17e-5 quantiles of chi-square with 100 degrees of freedom.
+  CHECK(mean_square_band(100).low == doctest::Approx(0.5269).epsilon(0.01));
+  CHECK(mean_square_band(100).high == doctest::Approx(1.6681).epsilon(0.01));
+  CHECK(mean_square_band(1).low == 0);
+  CHECK(mean_square_band(1).high > 16);
+}
