@@ -69,10 +69,7 @@ Command read_inspect(Words words) {
   add_scene(line, command.scene);
   line.flag("--json", "print JSON", command.json);
   line.flag("--measure", "measure what the kernel gains over the full one (2 s)", command.measure);
-  line.value("--isa", "NAME", "with --measure: scalar, sse4, avx2 or avx512 [the best]", [&](Text t) {
-    read_name(t, {"scalar", "sse4", "avx2", "avx512"});
-    command.isa = t;
-  });
+  add_isa(line, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");
   return command;
@@ -100,8 +97,6 @@ Command read_convert(Words words) {
   return command;
 }
 
-Command refuse_chart(Words) { throw UsageError("'tyndall chart' is not in this version yet"); }
-
 struct Entry {
   const char* name;
   const char* about;
@@ -112,7 +107,7 @@ constexpr Entry entries[] = {
     {"view", "open a scene in the window (also without this word; default: the showroom)", read_view},
     {"render", "render without a window and write images", read_render},
     {"compare", "how far an image is from a reference", read_compare},
-    {"chart", "speed against accuracy (not in this version yet)", refuse_chart},
+    {"chart", "speed against accuracy: error over time of several methods", read_chart},
     {"verify", "check the renderer against known answers", read_verify},
     {"merge", "add films of neighbouring sample ranges", read_merge},
     {"inspect", "what a scene contains and which models it needs", read_inspect},

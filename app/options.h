@@ -67,6 +67,23 @@ struct VerifyCommand {
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
+/// One curve of a chart: the scene's own settings and what its flags change.
+struct MethodRequest {
+  std::string name;
+  SceneRequest scene;  ///< only its integrator, sampler, Fresnel rule, depth and seed
+  std::string isa;     ///< "": the best
+};
+
+struct ChartCommand {
+  SceneRequest scene;                  ///< "all": a gallery
+  std::filesystem::path output;        ///< the SVG; for "all" a folder
+  std::filesystem::path reference;     ///< empty: rendered
+  std::vector<MethodRequest> methods;  ///< none: the default ones
+  double budget = 50;                  ///< seconds, the reference included; for "all" of each chart
+  int threads = 0;                     ///< 0: all cores
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
 struct MergeCommand {
   std::vector<std::filesystem::path> parts, outputs;
 };
@@ -90,8 +107,8 @@ struct PrintCommand {
   std::string text;
 };
 
-using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, VerifyCommand, MergeCommand, InspectCommand,
-                             ScenesCommand, ConvertCommand, PrintCommand>;
+using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,
+                             InspectCommand, ScenesCommand, ConvertCommand, PrintCommand>;
 
 /// Reads the command line; arguments[0] is what follows the program's name. Throws UsageError. Reads no file but to see
 /// whether a first argument that looks like a misspelt command is one.

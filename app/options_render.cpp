@@ -24,43 +24,6 @@ void add_image_options(CommandLine& line, SceneRequest& scene) {
              [&](Text t) { scene.tone_map = read_named(t, tone_maps); });
 }
 
-void add_method_options(CommandLine& line, SceneRequest& scene) {
-  line.group("Method");
-  line.value("--integrator", "NAME",
-             "mis: light sampling, weighted; nee: without the weights;\n"
-             "path: no light sampling [from the scene, else mis]",
-             [&](Text t) { scene.integrator = read_named(t, integrators); });
-  line.value("--sampler", "NAME", "sobol (scrambled) or random [from the scene, else sobol]",
-             [&](Text t) { scene.sampler = read_named(t, samplers); });
-  line.value("--fresnel", "NAME",
-             "exact, or schlick: the books' rule, wrong by up to 0.93 inside\n"
-             "glass, for comparison [from the scene, else exact]",
-             [&](Text t) { scene.fresnel = read_named(t, fresnel_rules); });
-  line.value("--max-depth", "N",
-             "longest path in scattering events; 0: lights and background\n"
-             "only [from the scene, else 1000]",
-             [&](Text t) { scene.max_depth = static_cast<int>(read_whole(t, 0, 1'000'000'000)); });
-  line.value("--seed", "N", "of the random numbers [from the scene, else 0]",
-             [&](Text t) { scene.seed = static_cast<std::uint32_t>(read_whole(t, 0, 0xffffffff)); });
-}
-
-template <class AnyCommand>
-void add_machine_options(CommandLine& line, AnyCommand& command) {
-  line.group("Machine");
-  line.value("-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
-             [&](Text t) { command.threads = static_cast<int>(read_whole(t, 1, 4096)); });
-  line.value("--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
-    read_name(t, {"scalar", "sse4", "avx2", "avx512"});
-    command.isa = t;
-  });
-}
-
-void add_progress(CommandLine& line, ProgressStyle& style) {
-  line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
-    style = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
-  });
-}
-
 void add_limits(CommandLine& line, RenderCommand& command) {
   line.group("Limits (the first one reached ends the render)");
   line.value("--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
@@ -103,6 +66,46 @@ void refuse_conflicts(const RenderCommand& c) {
 
 }  // namespace
 
+void add_method_options(CommandLine& line, SceneRequest& scene) {
+  line.group("Method");
+  line.value("--integrator", "NAME",
+             "mis: light sampling, weighted; nee: without the weights;\n"
+             "path: no light sampling [from the scene, else mis]",
+             [&](Text t) { scene.integrator = read_named(t, integrators); });
+  line.value("--sampler", "NAME", "sobol (scrambled) or random [from the scene, else sobol]",
+             [&](Text t) { scene.sampler = read_named(t, samplers); });
+  line.value("--fresnel", "NAME",
+             "exact, or schlick: the books' rule, wrong by up to 0.93 inside\n"
+             "glass, for comparison [from the scene, else exact]",
+             [&](Text t) { scene.fresnel = read_named(t, fresnel_rules); });
+  line.value("--max-depth", "N",
+             "longest path in scattering events; 0: lights and background\n"
+             "only [from the scene, else 1000]",
+             [&](Text t) { scene.max_depth = static_cast<int>(read_whole(t, 0, 1'000'000'000)); });
+  line.value("--seed", "N", "of the random numbers [from the scene, else 0]",
+             [&](Text t) { scene.seed = static_cast<std::uint32_t>(read_whole(t, 0, 0xffffffff)); });
+}
+
+void add_machine_options(CommandLine& line, int& threads, std::string& isa) {
+  line.group("Machine");
+  line.value("-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
+             [&](Text t) { threads = static_cast<int>(read_whole(t, 1, 4096)); });
+  add_isa(line, isa);
+}
+
+void add_isa(CommandLine& line, std::string& isa) {
+  line.value("--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
+    read_name(t, {"scalar", "sse4", "avx2", "avx512"});
+    isa = t;
+  });
+}
+
+void add_progress(CommandLine& line, ProgressStyle& style) {
+  line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
+    style = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
+  });
+}
+
 void add_scene(CommandLine& line, SceneRequest& scene, const std::string& note) {
   line.argument("SCENE",
                 "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
@@ -124,7 +127,7 @@ Command read_view(const std::vector<std::string>& words) {
   add_scene(line, command.scene, " [showroom]");
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
-  add_machine_options(line, command);
+  add_machine_options(line, command.threads, command.isa);
   line.value("--ui-log", "FILE",
              "for tests: write what is on the screen and how long things took;\n- for standard output",
              [&](Text t) { command.ui_log = t; });
@@ -148,7 +151,7 @@ Command read_render(const std::vector<std::string>& words) {
   add_limits(line, command);
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
-  add_machine_options(line, command);
+  add_machine_options(line, command.threads, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");
   line.require(!command.outputs.empty(), "an output (-o FILE)");
@@ -175,7 +178,7 @@ Command read_verify(const std::vector<std::string>& words) {
   add_progress(line, command.progress);
   line.flag("-q,--quiet", "no progress", quiet);
   add_method_options(line, command.method);
-  add_machine_options(line, command);
+  add_machine_options(line, command.threads, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   if (quiet) command.progress = ProgressStyle::none;
   return command;

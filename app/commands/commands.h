@@ -8,6 +8,7 @@ namespace tyndall {
 int run(const ViewCommand& command);
 int run(const RenderCommand& command);
 int run(const CompareCommand& command);
+int run(const ChartCommand& command);
 int run(const VerifyCommand& command);
 int run(const MergeCommand& command);
 int run(const InspectCommand& command);
