@@ -43,6 +43,7 @@ struct RenderCommand {
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
+  std::optional<SampleKey> replay;  ///< print this sample's path instead of rendering
   int threads = 0;              ///< 0: all cores
   std::string isa;              ///< "": the best
   std::filesystem::path stats;  ///< empty: none
