@@ -68,10 +68,16 @@ Command read_inspect(Words words) {
   CommandLine line("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.", "");
   add_scene(line, command.scene);
   line.flag("--json", "print JSON", command.json);
+  line.flag("--accuracy",
+            "print what each approximation costs: the books' Fresnel rule,\n"
+            "limits of depth, float lanes, 8 bits; without SCENE: in all\n"
+            "built-in scenes",
+            command.accuracy);
   bool measure = false;
   line.flag("--measure", "measure what the chosen kernel gains; not in this version yet", measure);
   if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!command.scene.what.empty(), "SCENE");
+  line.require(command.accuracy || !command.scene.what.empty(), "SCENE");
+  if (command.accuracy && command.json) throw UsageError("--accuracy and --json exclude each other");
   if (measure) throw UsageError("inspect --measure is not in this version yet");
   return command;
 }

@@ -44,9 +44,9 @@ struct RenderCommand {
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
   std::optional<SampleKey> replay;  ///< print this sample's path instead of rendering
-  int threads = 0;              ///< 0: all cores
-  std::string isa;              ///< "": the best
-  std::filesystem::path stats;  ///< empty: none
+  int threads = 0;                  ///< 0: all cores
+  std::string isa;                  ///< "": the best
+  std::filesystem::path stats;      ///< empty: none
   bool resume = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
@@ -63,8 +63,9 @@ struct MergeCommand {
 };
 
 struct InspectCommand {
-  SceneRequest scene;
+  SceneRequest scene;  ///< with `accuracy`, no name: all built-in scenes
   bool json = false;
+  bool accuracy = false;
 };
 
 struct ScenesCommand {};

@@ -1,3 +1,4 @@
+#include "app/accuracy.h"
 #include "app/commands/commands.h"
 #include "app/contents.h"
 #include "app/open_scene.h"
@@ -119,6 +120,7 @@ std::string table(const Report& report) {
 }  // namespace
 
 int run(const InspectCommand& command) {
+  if (command.accuracy) return print_accuracy(command.scene);
   const Report report = examine(command.scene);
   write_standard_output(command.json ? json_text(report) : table(report));
   return 0;

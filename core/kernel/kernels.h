@@ -21,6 +21,7 @@ struct Unit {
 struct UnitCounts {
   std::uint64_t rays = 0;         ///< closest-hit and occlusion queries
   std::uint64_t shadow_rays = 0;  ///< of them, occlusion queries
+  ExactSum cut_throughput;        ///< what paths that max_depth ended carried: their brightest channels, summed
 };
 
 /// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts. `taken` is set for what was sampled.
@@ -63,6 +64,9 @@ Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
+/// The same source over double: what rounding costs the others. It reads the same scene, whose columns are float, and
+/// draws the same random numbers; slow. Its name is "double"; none of available_kernels().
+Kernels double_kernels();
 
 /// What this build has and this CPU runs, narrowest first ("scalar" always).
 std::vector<Kernels> available_kernels();
