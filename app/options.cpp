@@ -69,9 +69,16 @@ Command read_inspect(Words words) {
   add_scene(line, command.scene);
   line.flag("--json", "print JSON", command.json);
   line.flag("--measure", "measure what the kernel gains over the full one (2 s)", command.measure);
+  line.flag("--accuracy",
+            "print what each approximation costs: the books' Fresnel rule,\n"
+            "limits of depth, float lanes, 8 bits; without SCENE: in all\n"
+            "built-in scenes",
+            command.accuracy);
   add_isa(line, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!command.scene.what.empty(), "SCENE");
+  line.require(command.accuracy || !command.scene.what.empty(), "SCENE");
+  if (command.accuracy && (command.json || command.measure))
+    throw UsageError(std::string("--accuracy and ") + (command.json ? "--json" : "--measure") + " exclude each other");
   return command;
 }
 

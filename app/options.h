@@ -43,9 +43,10 @@ struct RenderCommand {
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
-  int threads = 0;              ///< 0: all cores
-  std::string isa;              ///< "": the best
-  std::filesystem::path stats;  ///< empty: none
+  std::optional<SampleKey> replay;  ///< print this sample's path instead of rendering
+  int threads = 0;                  ///< 0: all cores
+  std::string isa;                  ///< "": the best
+  std::filesystem::path stats;      ///< empty: none
   bool resume = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
@@ -89,10 +90,11 @@ struct MergeCommand {
 };
 
 struct InspectCommand {
-  SceneRequest scene;
+  SceneRequest scene;  ///< with `accuracy`, no name: all built-in scenes
   bool json = false;
   bool measure = false;  ///< what the chosen kernel gains
   std::string isa;       ///< "": the best; with measure
+  bool accuracy = false;  ///< what each approximation costs
 };
 
 struct ScenesCommand {};

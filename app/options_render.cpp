@@ -49,11 +49,16 @@ void add_output(CommandLine& line, RenderCommand& command) {
              "PNG, PFM and HDR get the region's size, EXR a data window",
              [&](Text t) { command.region = read_region(t); });
   line.value("--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
+  line.value("--replay", "X,Y,SAMPLE",
+             "write no image; print the path of this sample of this pixel,\n"
+             "vertex by vertex, as --isa scalar follows it",
+             [&](Text t) { command.replay = read_sample_key(t); });
   line.flag("--resume", "go on from the film in the .exr output, if there is one", command.resume);
   add_progress(line, command.progress);
 }
 
 void refuse_conflicts(const RenderCommand& c) {
+  if (c.replay && !c.outputs.empty()) throw UsageError("--replay and -o exclude each other: a replay writes no image");
   if (!c.samples) return;
   const char* other = c.spp                  ? "--spp"
                       : c.time_limit < 1e300 ? "--time"
@@ -154,7 +159,7 @@ Command read_render(const std::vector<std::string>& words) {
   add_machine_options(line, command.threads, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");
-  line.require(!command.outputs.empty(), "an output (-o FILE)");
+  line.require(command.replay || !command.outputs.empty(), "an output (-o FILE)");
   refuse_conflicts(command);
   if (quiet) command.progress = ProgressStyle::none;
   return command;

@@ -42,6 +42,13 @@ void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["truncated_paths"] = sum.truncated;
 }
 
+/// What came after the first version of the figures, whose order stays.
+void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
+  json["truncated_throughput"] = sum.cut_throughput;
+  json["first_rejected"] = Json::array();
+  for (const RejectedSample& r : run.result.first_rejected) json["first_rejected"].push_back({r.x, r.y, r.sample});
+}
+
 }  // namespace
 
 std::string stats_text(const RunFigures& run) {
@@ -65,6 +72,7 @@ std::string stats_text(const RunFigures& run) {
   json["peak_memory_bytes"] = peak_memory();
   json["image_hash"] = hash_text(film);
   json["version"] = TYNDALL_VERSION;
+  add_losses(json, run, sum);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -78,6 +86,7 @@ std::string embedded_stats_text(const RunFigures& run) {
   json["spp"] = sum.least_taken;
   add_method(json, run, sum);
   json["image_hash"] = hash_text(film);
+  add_losses(json, run, sum);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

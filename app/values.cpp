@@ -74,6 +74,15 @@ Region read_region(const std::string& text) {
   return r;
 }
 
+SampleKey read_sample_key(const std::string& text) {
+  const auto parts = split(text, ',');
+  SampleKey key;
+  if (parts.size() != 3 || !read_all(parts[0], key.x) || !read_all(parts[1], key.y) ||
+      !read_all(parts[2], key.sample) || key.x < 0 || key.y < 0)
+    refuse(text, "X,Y,SAMPLE with whole numbers >= 0, such as 12,40,7");
+  return key;
+}
+
 Override read_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || text.front() != '/')

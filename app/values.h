@@ -27,6 +27,12 @@ struct SampleRange {
   std::uint32_t first = 0, last = 0;
 };
 
+/// One sample of a pixel.
+struct SampleKey {
+  int x = 0, y = 0;
+  std::uint32_t sample = 0;
+};
+
 /// Most samples a pixel that a film can add without losing exactness.
 inline constexpr std::uint32_t most_samples = 1u << 24;
 
@@ -40,6 +46,8 @@ Size read_size(const std::string& text);
 SampleRange read_samples(const std::string& text);
 /// X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1.
 Region read_region(const std::string& text);
+/// X,Y,SAMPLE, none below 0.
+SampleKey read_sample_key(const std::string& text);
 /// POINTER=VALUE; the pointer starts with "/".
 Override read_override(const std::string& text);
 /// A file name with that ending (".png", any case).

@@ -1,3 +1,4 @@
+#include "app/accuracy.h"
 #include "app/commands/commands.h"
 #include "app/contents.h"
 #include "app/kernel_gain.h"
@@ -141,6 +142,7 @@ std::string table(const Report& report) {
 }  // namespace
 
 int run(const InspectCommand& command) {
+  if (command.accuracy) return print_accuracy(command.scene);
   const Report report = examine(command);
   write_standard_output(command.json ? json_text(report) : table(report));
   return report.gain && !report.gain->same_picture ? 1 : 0;

@@ -4,6 +4,7 @@
 #include "app/open_scene.h"
 #include "app/outputs.h"
 #include "app/render_setup.h"
+#include "app/replay.h"
 #include "app/signals.h"
 #include "app/standard_streams.h"
 #include "app/stats.h"
@@ -50,12 +51,22 @@ void prepare(Job& job) {
   job.samples_before = totals(job.film).samples;
 }
 
+/// What the picture lacks, if it lacks anything.
+std::string losses(const FilmTotals& sum) {
+  std::string text;
+  if (sum.rejected > 0) text += ", " + std::to_string(sum.rejected) + " samples rejected";
+  if (sum.truncated == 0) return text;
+  char part[80];
+  std::snprintf(part, sizeof part, ", %.2g %% of the throughput cut at the longest path", 100 * sum.cut_throughput);
+  return text + part;
+}
+
 std::string outcome(const Job& job) {
   const RenderResult& r = job.result;
   const RenderProgress end{totals(r.film).least_taken, r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
                            estimated_relative_error(r.film)};
-  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {});
+  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(totals(r.film));
 }
 
 void render(Job& job, const SignalWatch& signals) {
@@ -112,14 +123,33 @@ bool write(const Job& job) {
 void warn_of_rejected(const Job& job) {
   const FilmTotals sum = totals(job.result.film);
   if (sum.rejected == 0 || job.command.progress == ProgressStyle::none) return;
-  complain(std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
-           " samples were rejected: not finite, or brighter than any light of the scene explains");
+  std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
+                     " samples were rejected: not finite, or brighter than any light of the scene explains";
+  for (const RejectedSample& r : job.result.first_rejected)
+    text += (&r == job.result.first_rejected.data() ? "; the first are (pixel and index) " : " ") +
+            std::to_string(r.x) + "," + std::to_string(r.y) + "," + std::to_string(r.sample);
+  complain(text);
+}
+
+int print_replay(const RenderCommand& command) {
+  const LoadedScene loaded = open_scene(command.scene);
+  const SampleKey& key = *command.replay;
+  const Scene& scene = loaded.scene;
+  if (key.x >= scene.width || key.y >= scene.height)
+    throw UsageError("--replay: found pixel " + std::to_string(key.x) + "," + std::to_string(key.y) +
+                     ", expected one of an image of " + std::to_string(scene.width) + "x" +
+                     std::to_string(scene.height));
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  write_standard_output(replay_text(scene, compiled, replay(view.view(), key.x, key.y, key.sample)));
+  return 0;
 }
 
 }  // namespace
 
 int run(const RenderCommand& command) {
   constexpr int output_failed = 3;
+  if (command.replay) return print_replay(command);
   Job job{command};
   prepare(job);
   const SignalWatch signals;

@@ -197,9 +197,9 @@ TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {
 }
 /// Lane by lane the next of the values that start at `from` where the expansion has the lane, else `old`. As many
 /// values as a group has lanes are readable.
-template <Plain F, class T>
-TYNDALL_INLINE T expand(const Expansion<F>& e, const T* from, T old) {
-  return e.here ? *from : old;
+template <Plain F, class S, class T>
+TYNDALL_INLINE T expand(const Expansion<F>& e, const S* from, T old) {
+  return e.here ? static_cast<T>(*from) : old;
 }
 TYNDALL_INLINE void store(float* to, float v) { *to = v; }
 TYNDALL_INLINE void store(float* to, double v) { *to = static_cast<float>(v); }

@@ -66,6 +66,11 @@ struct Incident {
   const Dice<F>* dice;
 };
 
+/// Whether lights are asked for where a material scatters: never (mirrors and glass send light into single directions),
+/// always, or only `weighted` by mis, as its lobe may be so narrow that by itself it almost never finds a light's
+/// sample.
+enum class LightSampling { never, weighted, always };
+
 /// What leaves it.
 template <class F>
 struct Scattered {

@@ -15,7 +15,7 @@ TYNDALL_INLINE Vec3<F> on_sphere(Pair<F> u) {
   return {r * a.cos, r * a.sin, z};
 }
 
-/// Uniform in the unit disc.
+/// Uniform in the unit disc: a share r^2 of it is within radius r, the angle is uniform.
 template <class F>
 TYNDALL_INLINE Pair<F> in_disc(Pair<F> u) {
   const F r = sqrt(u.x);

@@ -50,7 +50,9 @@ struct Bvh {
   int depth = 0;                ///< of the deepest node, root 1: bounds the traversal's stack
 };
 
-/// Builds with the surface area heuristic (binned). A pure function of the input. Identical centroids are split in the
+/// Builds with the surface area heuristic (J. MacDonald, K. Booth, Heuristics for Ray Tracing Using Space Subdivision,
+/// The Visual Computer 6(3), 1990) over bins (I. Wald, On Fast Construction of SAH-based Bounding Volume Hierarchies,
+/// IEEE Symposium on Interactive Ray Tracing, 2007). A pure function of the input. Identical centroids are split in the
 /// middle of the list.
 Bvh build_bvh(std::vector<BvhInput> input);
 

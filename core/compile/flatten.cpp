@@ -2,7 +2,10 @@
 
 #include "core/base/math.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -47,6 +50,52 @@ void flatten_list(const std::vector<Object>& objects, const Placement& outer, st
   }
 }
 
+/// The numbers of a shape and its placement as bits: equal for equal ones.
+std::uint64_t hash_of(const PlacedShape& placed) {
+  std::uint64_t hash = placed.shape.index();
+  const auto add = [&hash](double number) {  // -0 as +0; the multiplier is that of D. Knuth's MMIX generator
+    hash = (hash ^ std::bit_cast<std::uint64_t>(number + 0.0)) * 6364136223846793005u;
+    hash ^= hash >> 32;
+  };
+  const auto add_all = [&add](std::initializer_list<Vec3d> list) {
+    for (const Vec3d& v : list) add(v.x), add(v.y), add(v.z);
+  };
+  std::visit(Overloaded{[&](const Sphere<>& s) {
+                          add_all({s.center, s.center_end.value_or(s.center)});
+                          add(s.radius);
+                        },
+                        [&](const Quad<>& q) {
+                          add_all({q.corner, q.u, q.v});
+                        },
+                        [&](const Box<>& b) {
+                          add_all({b.min, b.max});
+                        }},
+             placed.shape);
+  add(placed.placement.degrees);
+  add_all({placed.placement.offset});
+  return hash;
+}
+
+/// Leaves out exact copies of earlier shapes. Of surfaces in one place the first is met; a ray that leaves it must not
+/// meet the others by the rounding of its start.
+void drop_copies(std::vector<PlacedShape>& shapes) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> keys;
+  for (std::size_t i = 0; i < shapes.size(); ++i) keys.push_back({hash_of(shapes[i]), i});
+  std::sort(keys.begin(), keys.end());
+  std::vector<bool> copy(shapes.size());
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    for (std::size_t j = k; j-- > 0 && keys[j].first == keys[k].first;) {
+      const PlacedShape &a = shapes[keys[j].second], &b = shapes[keys[k].second];
+      if (!(a.shape == b.shape && a.placement == b.placement)) continue;
+      copy[keys[k].second] = true;
+      break;
+    }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (!copy[i]) std::swap(shapes[kept++], shapes[i]);
+  shapes.resize(kept);
+}
+
 bool same_shape(const PlacedShape& shape, const PlacedVolume& volume) {
   if (!(shape.placement == volume.placement)) return false;
   return std::visit(
@@ -88,6 +137,7 @@ Flattened flatten(const Scene& scene) {
   Flattened out;
   std::vector<int> path;
   flatten_list(scene.objects, {}, path, out);
+  drop_copies(out.shapes);
   for (PlacedVolume& volume : out.volumes)
     for (std::size_t i = 0; i < out.shapes.size() && !volume.surface; ++i)
       if (same_shape(out.shapes[i], volume)) volume.surface = static_cast<int>(i);

@@ -37,7 +37,7 @@ struct PlacedVolume {
 };
 
 struct Flattened {
-  std::vector<PlacedShape> shapes;
+  std::vector<PlacedShape> shapes;    ///< without exact copies of earlier ones
   std::vector<PlacedVolume> volumes;  ///< of density > 0
 };
 

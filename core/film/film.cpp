@@ -12,8 +12,13 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
   assert(0 <= region.x0 && region.x0 < region.x1 && region.x1 <= width);
   assert(0 <= region.y0 && region.y0 < region.y1 && region.y1 <= height);
   assert(unit > 0);
-  Film film{
-      .width = width, .height = height, .region = region, .first_sample = first_sample, .unit = unit, .pixels = {}};
+  Film film{.width = width,
+            .height = height,
+            .region = region,
+            .first_sample = first_sample,
+            .unit = unit,
+            .cut_throughput = {},
+            .pixels = {}};
   film.pixels.resize(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()));
   return film;
 }
@@ -108,6 +113,7 @@ FilmTotals totals(const Film& film) {
     sum.least_taken = std::min(sum.least_taken, pixel.taken);
     sum.most_taken = std::max(sum.most_taken, pixel.taken);
   }
+  if (sum.samples > 0) sum.cut_throughput = film.cut_throughput.value() / static_cast<double>(sum.samples);
   return sum;
 }
 

@@ -16,13 +16,13 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-/// What a pixel has gathered: for each of two halves (even and odd sample indices, independent randomisations) the exact
-/// sum of each channel. 112 bytes.
+/// What a pixel has gathered: for each of two halves (even and odd sample indices, independent randomisations) the
+/// exact sum of each channel. 112 bytes.
 struct FilmPixel {
   ExactSum sum[2][3];
-  std::uint32_t taken = 0;           ///< samples taken, both halves, rejected ones included: indices first … first + taken - 1
+  std::uint32_t taken = 0;  ///< samples taken, both halves, rejected ones included: indices first … first + taken - 1
   std::uint32_t rejected[2] = {0, 0};  ///< samples that were not finite or out of range: in neither sum nor count
-  std::uint32_t truncated = 0;       ///< paths cut off at max_depth
+  std::uint32_t truncated = 0;         ///< paths cut off at max_depth
   bool operator==(const FilmPixel&) const = default;
 };
 static_assert(sizeof(FilmPixel) == 112);
@@ -34,6 +34,7 @@ struct Film {
   Region region;                   ///< the part that is held
   std::uint32_t first_sample = 0;  ///< index of every pixel's first sample
   double unit = 1;                 ///< a power of two not below the brightest emitter: what sums are divided by
+  ExactSum cut_throughput;         ///< what paths that max_depth ended carried: their brightest channels, summed
   std::vector<FilmPixel> pixels;   ///< region, row by row
 
   FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
@@ -84,6 +85,7 @@ std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb);
 
 struct FilmTotals {
   std::uint64_t samples = 0, rejected = 0, truncated = 0;
+  double cut_throughput = 0;                      ///< mean over the samples: what truncated paths carried on, at most 1
   std::uint32_t least_taken = 0, most_taken = 0;  ///< of any pixel
 };
 FilmTotals totals(const Film& film);

@@ -85,6 +85,9 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   header.insert(exr_name::height, Imf::IntAttribute(film.height));
   header.insert(exr_name::first_sample, Imf::DoubleAttribute(film.first_sample));
   header.insert(exr_name::unit, Imf::DoubleAttribute(film.unit));
+  const ExactSum& cut = film.cut_throughput;
+  header.insert(exr_name::cut_throughput,
+                Imf::StringAttribute(std::to_string(cut.high) + " " + std::to_string(cut.low)));
   if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
   if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
   return header;

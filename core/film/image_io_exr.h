@@ -23,6 +23,7 @@ inline constexpr const char* width = "tyndall:width";                // of the f
 inline constexpr const char* height = "tyndall:height";              // of the full image
 inline constexpr const char* first_sample = "tyndall:first_sample";  // a double, to hold all of 32 bits
 inline constexpr const char* unit = "tyndall:unit";
+inline constexpr const char* cut_throughput = "tyndall:cut_throughput";  // both limbs in decimal, high first
 }  // namespace exr_name
 
 }  // namespace tyndall

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace tyndall {
 
@@ -83,6 +84,13 @@ auto value_of(const std::filesystem::path& file, const Imf::Header& header, cons
   return attribute->value();
 }
 
+ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Header& header) {
+  std::istringstream text(value_of<Imf::StringAttribute>(file, header, exr_name::cut_throughput));
+  ExactSum sum;
+  if (!(text >> sum.high >> sum.low)) damaged_film(file, std::string(exr_name::cut_throughput) + " is no sum");
+  return sum;
+}
+
 /// The film's frame, without pixels.
 Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
   const Imath::Box2i window = header.dataWindow();
@@ -104,6 +112,7 @@ Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
   if (!(film.unit > 0) || !std::isfinite(film.unit) || std::frexp(film.unit, &exponent) != 0.5) {
     damaged_film(file, std::string(exr_name::unit) + " is no power of two");
   }
+  film.cut_throughput = read_cut_throughput(file, header);
   return film;
 }
 

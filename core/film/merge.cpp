@@ -40,6 +40,7 @@ void append(Film& film, const FilmPart& part) {
     }
     add_pixel(film.pixels[i], part.film.pixels[i]);
   }
+  film.cut_throughput.add(part.film.cut_throughput);
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ std::vector<Kernels> available_kernels() {
 std::optional<Kernels> choose_kernels(std::string_view isa) {
   const std::vector<Kernels> list = available_kernels();
   if (isa.empty()) return list.back();
+  if (isa == "double") return double_kernels();
   for (const Kernels& kernels : list)
     if (kernels.isa == isa) return kernels;
   return std::nullopt;

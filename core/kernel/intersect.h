@@ -16,6 +16,7 @@ struct Hit {
 };
 
 /// Relative room for the rounding of box tests: far more than it needs, far less than costs time.
+/// T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
 /// How a primitive test is asked for. shadow: only whether something is in the way counts, and each lane leaves out the

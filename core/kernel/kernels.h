@@ -21,6 +21,7 @@ struct Unit {
 struct UnitCounts {
   std::uint64_t rays = 0;         ///< closest-hit and occlusion queries
   std::uint64_t shadow_rays = 0;  ///< of them, occlusion queries
+  ExactSum cut_throughput;        ///< what paths that max_depth ended carried: their brightest channels, summed
 };
 
 using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
@@ -67,6 +68,9 @@ Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
+/// The same source over double: what rounding costs the others. It reads the same scene, whose columns are float, and
+/// draws the same random numbers; slow. Its name is "double"; none of available_kernels().
+Kernels double_kernels();
 
 /// What this build has and this CPU runs, narrowest first ("scalar" always).
 std::vector<Kernels> available_kernels();

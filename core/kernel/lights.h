@@ -162,7 +162,8 @@ TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pa
   return {x, min(max(y, r.y0), r.y1)};
 }
 
-/// A sphere seen from a point.
+/// A sphere seen from a point: directions to it fill a cone, over which they are drawn evenly.
+/// P. Shirley, C. Wang, K. Zimmerman, Monte Carlo Techniques for Direct Lighting Calculations, ACM TOG 15(1), 1996.
 template <class F>
 struct SphericalCap {
   Vec3<F> axis;     ///< unit, towards the centre

@@ -41,6 +41,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
 }
 
 /// Ends paths with a probability that grows as they carry less: survivors carry what the ended ones would have.
+/// Russian roulette: J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
 /// The factor 8 keeps paths above an eighth of full throughput; between 4 and 8 the time to a given error is flat.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
@@ -99,27 +100,36 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   }
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
-  p.throughput = select(lanes, carried, p.throughput);
+  p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
   const auto survivors = roulette(p, lanes);
   p.dice.next_event();
   return survivors;
 }
 
-/// Adds the samples of finished lanes to the unit's pixels.
+/// Where the samples of a unit go.
+struct UnitFilm {
+  double per_unit;
+  FilmPixel* pixels;
+  UnitCounts& counts;
+};
+
+/// Adds the samples of finished lanes to the unit's pixels; max_depth ended the lanes in `cut`.
 template <class F>
-TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, double per_unit,
-                           FilmPixel* pixels) {
+TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, const UnitFilm& film) {
   if (!finished) return;
-  alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>];
+  alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>], carried[lanes_of<F>];
   alignas(64) std::int32_t slot[lanes_of<F>];
   store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slot, p.slot);
+  store(carried, max_component(p.throughput));
   for (; finished; finished &= finished - 1) {
     const int lane = __builtin_ctz(finished);
-    FilmPixel& pixel = pixels[slot[lane] >> 1];
-    add_sample(pixel, static_cast<std::uint32_t>(slot[lane]) & 1u, {r[lane], g[lane], b[lane]}, per_unit);
+    FilmPixel& pixel = film.pixels[slot[lane] >> 1];
+    add_sample(pixel, static_cast<std::uint32_t>(slot[lane]) & 1u, {r[lane], g[lane], b[lane]}, film.per_unit);
     ++pixel.taken;
-    pixel.truncated += cut >> lane & 1u;
+    if (!(cut >> lane & 1u)) continue;
+    ++pixel.truncated;
+    film.counts.cut_throughput.add(static_cast<double>(carried[lane]));
   }
 }
 
@@ -131,7 +141,7 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_uni
   CameraQueue<F> queue;
   Paths<F> p{};
   p.dice.sobol = s.sobol;
-  const double per_unit = 1 / film_unit;
+  const UnitFilm film{1 / film_unit, pixels, counts};
   for (;;) {
     take_samples(p, queue, samples, s, unit);
     if (!p.alive) return;
@@ -141,7 +151,7 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_uni
     const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, shadow_rays)) & p.alive;
     counts.rays += shadow_rays;
     counts.shadow_rays += shadow_rays;
-    finish(p, p.alive & ~survivors, bits(cut), per_unit, pixels);
+    finish(p, p.alive & ~survivors, bits(cut), film);
     p.alive = survivors;
   }
 }

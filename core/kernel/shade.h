@@ -11,6 +11,7 @@
 /// What a ray finds where it ends: background, surface, colour, and the scattering of the material there.
 namespace tyndall {
 
+/// Gradient: Ray Tracing in One Weekend, section 4.2 "Sending Rays Into the Scene".
 template <class F>
 TYNDALL_INLINE Vec3<F> background_radiance(const BackgroundColumns& b, Vec3<F> direction) {
   const Vec3<F> first = splat<F>(b.a);
@@ -161,6 +162,13 @@ constexpr std::int32_t kind_of() {
     return kind_of<M, i + 1>();
 }
 
+/// Whether the integrator samples lights where a material of kind M scatters.
+template <class M>
+TYNDALL_INLINE bool asks_for_lights(const SceneView& s) {
+  return M::light_sampling == LightSampling::always ||
+         (M::light_sampling == LightSampling::weighted && s.multiple_importance);
+}
+
 /// Scattering by whatever material each lane is at; lights absorb.
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
@@ -176,7 +184,8 @@ TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, I
        out.direction = select(here, one.direction, out.direction);
        out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
        out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
-       out.density = select(here, one.density, out.density);
+       const F density = asks_for_lights<M>(s) ? one.density : F(one_direction);
+       out.density = select(here, density, out.density);
      }()),
      ...);
   }
@@ -192,9 +201,10 @@ TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kin
   [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
     (([&]() __attribute__((always_inline)) {
        using M = std::variant_alternative_t<i, MaterialKinds<F>>;
-       if constexpr (M::samples_lights) {
+       if constexpr (M::light_sampling != LightSampling::never) {
          const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(i))));
-         if (any(here)) out = select(here, density(load_material<M, F>(s, material), in, direction), out);
+         if (asks_for_lights<M>(s) && any(here))
+           out = select(here, density(load_material<M, F>(s, material), in, direction), out);
        }
      }()),
      ...);

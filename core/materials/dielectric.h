@@ -11,7 +11,7 @@ template <class F = double>
 struct Dielectric {
   static constexpr const char* type = "dielectric";
   static constexpr const char* colour_name = nullptr;
-  static constexpr bool samples_lights = false;  ///< it sends light into a range of directions
+  static constexpr LightSampling light_sampling = LightSampling::never;
   F refractive_index = F(1.5);
   bool operator==(const Dielectric&) const = default;
 };

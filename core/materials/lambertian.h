@@ -12,7 +12,7 @@ template <class F = double>
 struct Lambertian {
   static constexpr const char* type = "lambertian";
   static constexpr const char* colour_name = "albedo";
-  static constexpr bool samples_lights = true;  ///< it sends light into a range of directions
+  static constexpr LightSampling light_sampling = LightSampling::always;
   bool operator==(const Lambertian&) const = default;
 };
 
@@ -28,14 +28,14 @@ TYNDALL_INLINE F density(const Lambertian<F>&, const Incident<F>& in, Vec3<F> di
   return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));
 }
 
-/// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where the two cancel (to 1e-6 in
-/// length, one direction in 10^12) the normal itself.
+/// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where the two cancel (to 1e-3 in
+/// length, one direction in four million, whose rounding could lead below the surface) the normal itself.
 /// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Lambertian<F>&, const Incident<F>& in) {
   const Vec3<F> sum = in.facing + in.unit;
   const F squared = dot(sum, sum);
-  const auto cancelled = less(squared, F(1e-12f));
+  const auto cancelled = less(squared, F(1e-6f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
   const MaskOf<F> none = less(F(1.0f), F(0.0f));
   const Vec3<F> out = select(cancelled, in.facing, scale * sum);

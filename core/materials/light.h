@@ -12,7 +12,7 @@ template <class F = double>
 struct Light {
   static constexpr const char* type = "light";
   static constexpr const char* colour_name = "radiance";
-  static constexpr bool samples_lights = false;  ///< it sends light into a range of directions
+  static constexpr LightSampling light_sampling = LightSampling::never;
   bool operator==(const Light&) const = default;
 };
 

@@ -12,7 +12,7 @@ template <class F = double>
 struct Metal {
   static constexpr const char* type = "metal";
   static constexpr const char* colour_name = "albedo";
-  static constexpr bool samples_lights = true;  ///< it sends light into a range of directions
+  static constexpr LightSampling light_sampling = LightSampling::weighted;
   F fuzz = F(0);
   bool operator==(const Metal&) const = default;
 };

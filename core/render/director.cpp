@@ -113,7 +113,7 @@ void Director::start_over() {
   const Region all{0, 0, compiled_->width, compiled_->height};
   if (film_.pixels.size() == static_cast<std::size_t>(pixels())) {  // the first pass replaces what the pixels hold
     film_.width = compiled_->width, film_.height = compiled_->height, film_.region = all,
-    film_.unit = compiled_->film_unit;
+    film_.unit = compiled_->film_unit, film_.cut_throughput = {};
   } else {
     film_ = make_film(compiled_->width, compiled_->height, all, 0, compiled_->film_unit);
   }
@@ -206,6 +206,9 @@ void Director::publish() {
   frame->mrays_per_s = mrays_per_s_;
   frame->first_picture_ms = first_picture_ms_;
   frame->rejected = rejected_, frame->truncated = truncated_;
+  const double samples =
+      static_cast<double>(taken_) * static_cast<double>(pixels()) + (pass_ ? static_cast<double>(pass_->paths()) : 0);
+  if (samples > 0) frame->cut_throughput = film_.cut_throughput.value() / samples;
   frame->film_bytes = film_.pixels.size() * sizeof(FilmPixel);
   frame->isa = kernels_.isa;
   frame->lanes = kernels_.lanes, frame->threads = crew_->size();

@@ -29,6 +29,7 @@ void level(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& fil
   const FilmTotals sum = totals(film);
   if (sum.least_taken == sum.most_taken) return;
   std::atomic<std::uint64_t> rays = 0, shadow_rays = 0;
+  std::atomic<std::int64_t> cut_high = 0, cut_low = 0;
   const auto fill_row = [&](int row) {
     UnitCounts added;
     const int y = film.region.y0 + row;
@@ -44,10 +45,13 @@ void level(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& fil
     }
     rays += added.rays;
     shadow_rays += added.shadow_rays;
+    cut_high += added.cut_throughput.high;
+    cut_low += added.cut_throughput.low;
   };
   crew.for_each(film.region.height(), fill_row, poll);
   counts.rays += rays;
   counts.shadow_rays += shadow_rays;
+  film.cut_throughput.add(ExactSum{cut_high, cut_low});
 }
 
 }  // namespace tyndall

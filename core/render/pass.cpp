@@ -48,6 +48,7 @@ bool Pass::run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film&
     done = 1;
   };
   crew.for_each(columns_ * rows_, job, poll);
+  film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
   return std::all_of(done_.begin(), done_.end(), [](std::uint8_t d) { return d != 0; });
 }
 
@@ -76,6 +77,8 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
   paths_.fetch_add(paths, std::memory_order_relaxed);
   rejected_.fetch_add(rejected, std::memory_order_relaxed);
   truncated_.fetch_add(truncated, std::memory_order_relaxed);
+  cut_high_.fetch_add(counts.cut_throughput.high, std::memory_order_relaxed);
+  cut_low_.fetch_add(counts.cut_throughput.low, std::memory_order_relaxed);
 }
 
 }  // namespace tyndall

@@ -41,6 +41,7 @@ class Pass {
   int columns_, rows_;
   std::vector<std::uint8_t> done_;  ///< a flag a unit; each is written by the one thread that runs it
   std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
+  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< limbs of what the film does not know yet
 };
 
 }  // namespace tyndall

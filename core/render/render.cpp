@@ -56,6 +56,7 @@ class BlockingRender {
     result_.isa = kernels_.isa;
     result_.lanes = kernels_.lanes;
     result_.interrupted = stop_;
+    result_.first_rejected = find_rejected(kernels_, view_.view(), result_.film);
     return std::move(result_);
   }
 

@@ -2,6 +2,7 @@
 #include "core/compile/compile.h"
 #include "core/film/film.h"
 #include "core/kernel/kernels.h"
+#include "core/render/rejected.h"
 #include "core/scene/scene.h"
 
 #include <functional>
@@ -32,6 +33,7 @@ struct RenderProgress {
 
 struct RenderResult {
   Film film;
+  std::vector<RejectedSample> first_rejected;  ///< a few, if there are any
   std::uint64_t rays = 0, shadow_rays = 0;
   double seconds = 0;  ///< from the first sample started to the last film write, thread start included
   int threads = 0;

@@ -27,6 +27,7 @@ struct Frame {
   double mrays_per_s = 0;       ///< of the last pass
   double first_picture_ms = 0;  ///< from submit() or restart() to the first frame after it
   std::uint64_t rejected = 0, truncated = 0;
+  double cut_throughput = 0;  ///< see FilmTotals
   std::size_t film_bytes = 0;
   std::string isa;
   int lanes = 1, threads = 1;

@@ -33,6 +33,7 @@ struct BoxSlabs {
   Vec3<F> slope;      ///< 1 / (the box's own direction)
 };
 
+/// The intersection of three slabs. T. Kay, J. Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986.
 template <class F>
 TYNDALL_INLINE BoxSlabs<F> box_slabs(const Affine& box, Vec3<F> origin, Vec3<F> direction) {
   const Vec3<F> slope{safe_reciprocal(affine_direction(box, 0, direction)),

@@ -46,7 +46,7 @@ struct QuadHit {
 };
 
 /// Distance along the ray to the quad. A ray in its plane misses (its distance is infinite or not a number); edges
-/// belong to the quad.
+/// belong to the quad. The Next Week, section 6 "Quadrilaterals", with the plane and both edges as affine functions.
 template <class F>
 TYNDALL_INLINE QuadHit<F> hit_quad(const Affine& quad, Vec3<F> origin, Vec3<F> direction, F limit) {
   const F t = -affine_point(quad, 2, origin) / affine_direction(quad, 2, direction);

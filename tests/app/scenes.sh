@@ -30,6 +30,15 @@ cp out box.json
 same '--set' "$(json box.json defocus)" true
 same 'film' "$(json box.json film_bytes)" $((112 * 600 * 600))
 
+# Each scene in which methods fail says what fails there, how, and what is right.
+for file in "$source_root"/assets/scenes/stress-*.json; do
+  scene=$(basename "$file" .json)
+  expect 0 "$tyndall" inspect "$scene"
+  for word in Stress Fails Right; do
+    grep -Eq "^  $word: .{20}" out || fail "inspect $scene does not show '$word:'"
+  done
+done
+
 # convert: normal form, which is a fixed point, and the same picture.
 for scene in showroom earth next-week cornell-smoke; do
   mkdir -p "$scene/down"

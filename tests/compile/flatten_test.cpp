@@ -109,6 +109,27 @@ TEST_CASE("flatten: shapes keep the order of the file and know which object they
   CHECK(flat.volumes.size() == 1);
 }
 
+TEST_CASE("flatten: of shapes in exactly one place the first is kept, however its placement is written") {
+  Scene scene;
+  const Quad<> quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto solid = [](auto shape, int material, Transform transform = {}) {
+    return Object{"", Solid3d{shape, material}, std::move(transform)};
+  };
+  scene.objects = {sphere_at({1, 0, 0}),
+                   solid(quad, 3, {Translate{{1, 2, 3}}}),
+                   sphere_at({1, -0.0, 0}),
+                   solid(Box<>{}, 0),
+                   {"", Group{{solid(quad, 4), solid(Box<>{}, 5, {RotateY{1}})}}, {Translate{{1, 2, 3}}}},
+                   solid(Sphere<>{{1, 0, 0}, 1, Vec3d{1, 0, 0}}, 6),
+                   solid(Sphere<>{{1, 0, 0}, 1 + 1e-15, {}}, 7)};
+  const Flattened flat = flatten(scene);
+  REQUIRE(flat.shapes.size() == 6);
+  CHECK(flat.shapes[1].material == 3);
+  CHECK(flat.shapes[3].object == std::vector<int>{4, 1});
+  CHECK(flat.shapes[4].material == 6);  // one that may move is another
+  CHECK(flat.shapes[5].material == 7);
+}
+
 TEST_CASE("flatten: a medium's boundary has its own transform, then the object's") {
   Scene scene;
   const Box<> box{{0, 0, 0}, {2, 2, 2}};

@@ -40,7 +40,7 @@ Scene textured_wall(const TextureKinds<double>& texture, Vec3d middle) {
 
 /// Puts the origin elsewhere: most shapes are there, out of sight.
 void drag_origin(Scene& scene, Vec3d to) {
-  for (int i = 0; i < 4; ++i) scene.objects.push_back({"", Solid3d{Sphere<>{to, 0.01, {}}, 1}, {}});
+  for (int i = 0; i < 4; ++i) scene.objects.push_back({"", Solid3d{Sphere<>{to, 0.01 + 1e-3 * i, {}}, 1}, {}});
 }
 
 /// The point of that wall that the middle of a pixel sees.

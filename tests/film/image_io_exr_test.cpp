@@ -27,6 +27,7 @@ Film wild_film() {
     pixel.rejected[1] = static_cast<std::uint32_t>(engine() % 30);
     pixel.truncated = static_cast<std::uint32_t>(engine());
   }
+  film.cut_throughput = {std::numeric_limits<std::int64_t>::max(), -7};
   film.pixels[0].sum[0][0] = {std::numeric_limits<std::int64_t>::min(), -1};
   return film;
 }
@@ -148,6 +149,8 @@ TEST_SUITE("exr" * doctest::skip(!has_openexr())) {
     const std::string unit("tyndall:unit\0double\0\x08\0\0\0", 24);
     CHECK(message(unit + std::string(6, '\0') + "\xf0\x3f", unit + std::string(6, '\0') + "\xf8\x3f") ==
           ": cannot read: its film is damaged: tyndall:unit is no power of two");
+    const std::string cut("tyndall:cut_throughput\0string\0\3\0\0\0", 34);
+    CHECK(message(cut + "0 0", cut + "0 x") == ": cannot read: its film is damaged: tyndall:cut_throughput is no sum");
     const std::string width("tyndall:width\0int\0\4\0\0\0", 22);
     CHECK(message(width + '\3', width + '\2') ==
           ": cannot read: its film is damaged: its data window is not within the image");

@@ -181,12 +181,14 @@ TEST_CASE("trace: every instruction set meets what the scalar one meets, but for
 TEST_CASE("trace: of equal distances the lower element wins, in the tree and without it") {
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  const Object quad{"", Solid3d{Quad<>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, 0}, {}};
-  const Object box{"", Solid3d{Box<>{{-1, -1, -2}, {1, 1, 0}}, 0}, {}};
+  // The same in single precision, yet no exact copies, which would be left out.
+  const auto left = [](int i) { return -1 - 1e-12 * i; };
+  const auto quad = [&](int i) { return Object{"", Solid3d{Quad<>{{left(i), -1, 0}, {2, 0, 0}, {0, 2, 0}}, 0}, {}}; };
+  const auto box = [&](int i) { return Object{"", Solid3d{Box<>{{left(i), -1, -2}, {1, 1, 0}}, 0}, {}}; };
   for (const int count : {2, 40}) {
     for (const bool box_first : {false, true}) {
       scene.objects.clear();
-      for (int i = 0; i < count; ++i) scene.objects.push_back((i == 0) == box_first ? box : quad);
+      for (int i = 0; i < count; ++i) scene.objects.push_back((i == 0) == box_first ? box(i) : quad(i));
       const RenderScene compiled = compile(scene);
       CHECK((compiled.bvh != nullptr) == (count > 16));
       const std::vector<TraceRay> rays(40,

@@ -72,3 +72,22 @@ TEST_CASE("lambertian: where the unit vector cancels the normal, the normal") {
   in.unit = {1e-8f, 0, -1};
   CHECK(scatter(Lambertian<float>{}, in).direction == up<float>);
 }
+
+TEST_CASE(
+    "lambertian: around the point where they cancel, unit directions above the surface; elsewhere never the normal") {
+  Directions directions;
+  int fallbacks = 0, naive = 0;
+  for (std::uint32_t i = 0; i < 200000; ++i) {
+    const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, 2.5);
+    const Dice<float> d = dice<float>(i);
+    Incident<float> in = event(d, way, normal);
+    fallbacks += scatter(Lambertian<float>{}, in).direction == in.facing ? 1 : 0;
+    in.unit = directions.at_angle(-in.facing, std::pow(10.0, -static_cast<int>(i % 10)));
+    const Vec3f out = scatter(Lambertian<float>{}, in).direction, sum = in.facing + in.unit;
+    REQUIRE(std::abs(length(out) - 1) < 4e-7f);
+    REQUIRE(dot(out, in.facing) >= 0.0f);
+    naive += std::isfinite(normalize(sum).x) && dot(normalize(sum), in.facing) >= 0.0f ? 0 : 1;
+  }
+  CHECK(fallbacks == 0);
+  CHECK(naive > 1000);  // the plain sum is no number there, or points below the surface
+}

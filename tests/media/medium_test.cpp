@@ -1,5 +1,6 @@
 #include "core/media/medium.h"
 
+#include "tests/support/directions.h"
 #include "tests/support/event.h"
 #include "tests/support/statistics.h"
 
@@ -125,6 +126,23 @@ TEST_CASE("henyey-greenstein: the inverse has the law's distribution, whose dens
     CHECK(integrate(around, -1, 0.3) == doctest::Approx(cumulative_cosine(g, 0.3)).epsilon(1e-6));
   }
   CHECK(henyey_greenstein_density(0.0, 0.7) == doctest::Approx(0.25 / pi));
+}
+
+TEST_CASE("henyey-greenstein: directions are as dense as the phase function says, which integrates to 1") {
+  Directions directions;
+  for (const double g : {0.0, 1e-7, 0.3, -0.6, 0.9}) {
+    CAPTURE(g);
+    const auto way = directions.next<double>();
+    CapCells cap(way, 2);
+    constexpr int drawn = 200000;
+    for (std::uint32_t i = 0; i < drawn; ++i) {
+      const Pair<double> u = dice<double>(i).pair(dimension::direction);
+      cap.count(scatter_in_medium(g, way, on_sphere(u), u));
+    }
+    const auto share = cap.integrate([&](Vec3d d) { return henyey_greenstein_density(g, dot(way, d)); }, g > 0.8 ? 250 : 60);
+    CHECK(sum(share) == doctest::Approx(1).epsilon(1e-3));
+    CHECK(std::abs(cap.deviate(share, drawn)) < 4.5);
+  }
 }
 
 TEST_CASE("medium: scattered directions are unit vectors about the old one, all the way round") {

@@ -91,6 +91,23 @@ TEST_CASE("white furnace: boxes and quads of glass, also turned, far away and to
   check_all(turned, 1.0f, "");
 }
 
+TEST_CASE("white furnace: of surfaces in one place the first is seen, and does not shade itself with the others") {
+  for (const double scale : {1e-3, 1.0, 1e3})
+    for (const char* isa : {"", "scalar"}) {
+      CAPTURE(scale);
+      CAPTURE(isa);
+      const auto check = [&](const auto& shape, const Transform& turned) {
+        Scene scene = ball_room(scale);
+        for (const double albedo : {0.8, 0.3, 0.5}) add(scene, shape, lambertian(albedo), turned);
+        check_all(scene, 0.8f, isa);
+      };
+      const double s = scale;
+      check(sphere({0, 0, 0}, s), {});
+      check(Box<>{{-s, -s, -s}, {s, s, s}}, {RotateY{33}});
+      check(Quad<>{{-s, -s, -0.2 * s}, {2 * s, 0, 0.3 * s}, {0.1 * s, 2 * s, 0}}, {RotateY{10}, Translate{{0, 0, s}}});
+    }
+}
+
 TEST_CASE("white furnace: a medium that only scatters is invisible at any density") {
   for (const double scale : {1e-3, 1.0, 1e3})
     for (const double density : {0.01, 1.0, 10.0, 100.0})

@@ -84,6 +84,31 @@ TEST_CASE("quad: of a parallelogram the right share is met, at every size and sh
     }
 }
 
+TEST_CASE("quad: a direction of any length meets it as the unit one does, and no length decides between hit and miss") {
+  // A test of |d·n| against 1e-8 misses with every short direction.
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    Engine engine(5);
+    const Affine map = quad_map({{0, 0, 0}, size * Vec3d{1, 0.2, 0}, size * Vec3d{-0.3, 1, 0.1}}, {}, {});
+    int met = 0, wrong = 0, naive = 0;
+    for (int i = 0; i < 5000; ++i) {
+      const Vec3d from = size * (in_cube(engine, 2) + Vec3d{0, 0, 3});
+      const Vec3f origin = rounded(from), d = unit(size * in_cube(engine, 1) - from);
+      const QuadHit<float> hit = hit_quad(map, origin, d, infinity);
+      met += hit.hit ? 1 : 0;
+      for (const int exponent : {-30, -10, -3, 3, 10, 30}) {  // 1e-9 to 1e9
+        const float scale = std::ldexp(1.0f, exponent);
+        const QuadHit<float> again = hit_quad(map, origin, scale * d, infinity);
+        wrong += again.hit == hit.hit && (!hit.hit || again.t * scale == hit.t) ? 0 : 1;
+        naive += hit.hit && std::abs(scale * d.z) < 1e-8f ? 1 : 0;
+      }
+    }
+    CAPTURE(size);
+    CHECK(met > 500);
+    CHECK(wrong == 0);
+    CHECK(naive > met / 2);
+  }
+}
+
 TEST_CASE("quad: a grazing ray meets it where it should, down to a ten-thousandth of a radian") {
   const Quad<> floor{{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}};
   for (const double slope : {0.1, 1e-2, 1e-3, 1e-4}) {

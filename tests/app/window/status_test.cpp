@@ -59,6 +59,10 @@ TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
   const std::vector<StatusCell> cells = status_cells(&frame, {}, edited_document, false);
   for (const StatusCell& cell : cells) warnings += cell.warning;
   CHECK(warnings == 2);
+  frame.cut_throughput = 0.02;
+  CHECK(text_of(status_cells(&frame, {}, edited_document, false)).find("cut off=2 %;") != std::string::npos);
+  frame.cut_throughput = 1e-5;
+  CHECK(text_of(status_cells(&frame, {}, edited_document, false)).find("cut off") == std::string::npos);
   CHECK(cells.front().value == "finished");
   CHECK(cells.back().value == "edited");
 }

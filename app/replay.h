@@ -1,0 +1,14 @@
+#pragma once
+#include "core/compile/render_scene.h"
+#include "core/kernel/replay.h"
+#include "core/scene/scene.h"
+
+#include <string>
+
+namespace tyndall {
+
+/// One path as text, a paragraph a vertex: what it met (by its name in the scene, else by its place in the file) and
+/// what became of it there. Positions are the scene's own. The last line is the sample's value, to the last bit.
+std::string replay_text(const Scene& scene, const RenderScene& compiled, const PathReplay& path);
+
+}  // namespace tyndall

@@ -1,0 +1,88 @@
+// Compiled like the scalar kernel: the same steps, looked at one by one.
+#include "core/kernel/replay.h"
+
+#include "core/kernel/path.h"
+
+namespace tyndall {
+namespace {
+
+bool finite(Vec3f v) {
+  const float sum = 0.0f * v.x + 0.0f * v.y + 0.0f * v.z;
+  return sum == 0.0f;
+}
+
+/// What a path meets next: the same queries that its step makes.
+struct Meeting {
+  PathVertex vertex;
+  Vec3f colour;
+  std::int32_t kind = -1;  ///< of the surface's material
+  Vec3f facing;
+};
+
+Meeting meet(const SceneView& s, const Paths<float>& p) {
+  Meeting m{};
+  PathVertex& v = m.vertex;
+  v.direction = p.ray.direction, v.throughput = p.throughput, v.point = p.ray.origin;
+  v.first_dimension = dimension::camera_count + static_cast<std::uint32_t>(p.depth) * dimension::per_event;
+  Hit<float> hit = closest(s, p.ray, true);
+  MediumEvent<float> event{};
+  if (s.needs.media) event = fly_through_media(s, p.ray, p.dice, true, hit.t);
+  if (event.happens) {
+    v.met = Met::medium;
+    v.element = event.from / 4;
+    v.point = event.point;
+    v.medium = event.medium;
+    m.colour = event.albedo;
+    if (s.needs.textures) m.colour = textured<float>(s, m.colour, event.texture, true, event.point, nullptr);
+  } else if (hit.element >= 0) {
+    const SurfacePoint<float> at = surface_at(s, p.ray, hit.t, hit.element);
+    v.met = Met::surface;
+    v.element = hit.element;
+    v.point = at.point;
+    m.colour = surface_colour(s, at, true);
+    m.kind = s.kind[at.material];
+    m.facing = dot(p.ray.direction, at.normal) > 0 ? -at.normal : at.normal;
+  }
+  v.distance = length(v.point - p.ray.origin);
+  return m;
+}
+
+Fate fate_of(const Meeting& m, const Paths<float>& after, bool survives, bool cut) {
+  if (survives) return Fate::goes_on;
+  if (cut) return Fate::cut;
+  if (!finite(after.radiance)) return Fate::lost;
+  if (m.vertex.met == Met::nothing) return Fate::escapes;
+  if (m.kind == kind_of<Light<double>>()) return Fate::ends_at_light;
+  const bool black = !(max_component(m.vertex.throughput * m.colour) > 0);
+  const bool below = m.kind == kind_of<Metal<double>>() && dot(after.ray.direction, m.facing) <= 0;
+  return black || below ? Fate::absorbed : Fate::roulette;
+}
+
+}  // namespace
+
+PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
+  const Unit unit{{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1};
+  UnitSamples samples;
+  list_samples(unit, samples);
+  CameraQueue<float> queue;
+  Paths<float> p{};
+  p.dice.sobol = s.sobol;
+  take_samples(p, queue, samples, s, unit);
+  PathReplay path{p.ray.origin, p.ray.time, {}, {}};
+  while (p.alive) {
+    Meeting meeting = meet(s, p);
+    bool cut = false;
+    std::uint32_t shadows = 0;
+    const bool survives = step(s, p, true, cut, shadows);
+    PathVertex& v = meeting.vertex;
+    v.radiance = p.radiance;
+    v.fate = fate_of(meeting, p, survives, cut);
+    v.inside = v.met == Met::surface && survives && p.ray.from >= 0 && (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
+    path.vertices.push_back(v);
+    p.alive = survives ? 1 : 0;
+  }
+  path.radiance = p.radiance;
+  return path;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,28 @@
+#include "tests/support/pictures.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+TEST_CASE("built-in scenes: in 1024 samples a pixel none is rejected, and none is cut where there is no limit of 50") {
+  int scenes = 0;
+  for (const BuiltIn& built_in : built_in_scenes()) {
+    const Scene scene = small_scene(built_in.name, 48, 36, 1024);
+    const RenderScene compiled = compile(scene);
+    for (const Kernels& kernels : {available_kernels().back(), scalar_kernels()}) {
+      RenderOptions options;
+      options.isa = kernels.isa;
+      options.spp = kernels.lanes == 1 ? 64 : 1024;
+      const FilmTotals sum = totals(render(compiled, options).film);
+      CAPTURE(built_in.name);
+      CAPTURE(kernels.isa);
+      CHECK(sum.rejected == 0);
+      if (scene.render.max_depth >= 200) CHECK(sum.truncated == 0);
+    }
+    ++scenes;
+  }
+  CHECK(scenes >= 40);
+}

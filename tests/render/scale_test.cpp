@@ -1,0 +1,130 @@
+#include "tests/support/pictures.h"
+#include "tests/support/probe.h"
+#include "tests/support/scaled_scene.h"
+
+#include <doctest/doctest.h>
+
+/// Nothing in here has a size of its own: a scene is the same picture in any unit of length, and anywhere.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr int width = 24, height = 18;
+
+Film small_film(Scene scene, const std::string& isa = "") {
+  scene.width = width, scene.height = height;
+  return film_of(scene, 2, isa);
+}
+
+/// The books' marble has a length of its own: its turbulence is that of one unit, whatever its scale.
+bool has_own_length(const Scene& scene) {
+  for (const Texture& texture : scene.textures) {
+    const auto* noise = std::get_if<Noise<>>(&texture.kind);
+    if (noise && noise->style == Noise<>::Style::marble) return true;
+  }
+  return false;
+}
+
+/// Pixels whose means differ by more than a rounding, and how far the pictures' means lie apart.
+struct Difference {
+  double pixels = 0, mean = 0;
+};
+Difference difference(const Film& a, const Film& b) {
+  const std::vector<float> x = resolve(a), y = resolve(b);
+  double sum = 0, change = 0, count = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto p = static_cast<double>(x[i]), q = static_cast<double>(y[i]);
+    count += std::abs(p - q) > 1e-3 * (std::abs(p) + 1e-3) ? 1 : 0;
+    sum += p, change += q - p;
+  }
+  return {count / static_cast<double>(x.size()), std::abs(change) / sum};
+}
+
+/// Balls of all materials, fog, a lamp and a turned box, in numbers that shifts by powers of two leave exact.
+Scene shelf() {
+  Scene scene = white_room();
+  scene.background = Gradient{{0.2, 0.2, 0.25}, {0.5, 0.6, 0.8}};
+  scene.camera.look_from = {0.5, 1.5, 5};
+  scene.camera.look_at = {0, 0.5, 0};
+  scene.camera.vfov = 40;
+  scene.render.integrator = Integrator::mis;
+  scene.render.sampler = SamplerKind::sobol;
+  add(scene, Quad<>{{-4, 0, -4}, {8, 0, 0}, {0, 0, 8}}, lambertian(0.5));
+  add(scene, sphere({-1.5, 0.5, 0}, 0.5), lambertian(0.7));
+  add(scene, sphere({0, 0.5, 0.5}, 0.5), glass(1.5));
+  add(scene, sphere({0, 0.5, 0.5}, -0.375), glass(1.5));
+  add(scene, sphere({1.25, 0.5, 0}, 0.5), metal(0.8, 0.3));
+  add(scene, Quad<>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, lamp(4));
+  add(scene, Box<>{{-0.5, 0, -0.5}, {0.5, 1.5, 0.5}}, lambertian(0.4), {RotateY{90}, Translate{{-1, 0, -1.5}}});
+  add_medium(scene, Box<>{{-2, 0, -2}, {2, 2, 2}}, {0.25, 0.5}, 0.9);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("scale: every built-in scene is, bit for bit, the same picture in units 2^-20 to 2^20 times as long") {
+  // A fixed least distance of 0.001 loses the glass of the small ones and makes acne on the large ones.
+  int scenes = 0;
+  for (const BuiltIn& built_in : built_in_scenes()) {
+    const Scene scene = small_scene(built_in.name, width, height, 2);
+    if (has_own_length(scene)) continue;
+    const Film film = small_film(scene);
+    CAPTURE(built_in.name);
+    for (const int exponent : {-20, -13, 13, 20}) {
+      CAPTURE(exponent);
+      CHECK(small_film(scaled(scene, std::ldexp(1.0, exponent))) == film);
+    }
+    ++scenes;
+  }
+  CHECK(scenes >= 40);
+}
+
+TEST_CASE("scale: the same on every instruction set") {
+  const Scene scene = shelf();
+  for (const Kernels& kernels : available_kernels()) {
+    const Film film = small_film(scene, kernels.isa);
+    for (int exponent = -20; exponent <= 20; exponent += 5) {
+      CAPTURE(kernels.isa);
+      CAPTURE(exponent);
+      CHECK(small_film(scaled(scene, std::ldexp(1.0, exponent)), kernels.isa) == film);
+    }
+  }
+}
+
+TEST_CASE("scale: in other units the numbers are rounded anew, and hardly a path takes another way") {
+  for (const BuiltIn& built_in : built_in_scenes()) {
+    const Scene scene = small_scene(built_in.name, width, height, 2);
+    if (has_own_length(scene)) continue;
+    const Film film = small_film(scene);
+    for (const double scale : {1e-6, 1e-4, 1e4, 1e6}) {
+      CAPTURE(built_in.name);
+      CAPTURE(scale);
+      const Difference d = difference(film, small_film(scaled(scene, scale)));
+      CHECK(d.pixels < (built_in.name == "stress-solid-fog" ? 0.12 : 0.03));  // its walks have hundreds of events
+      CHECK(d.mean < 0.01);
+    }
+  }
+}
+
+TEST_CASE("scale: a scene more than a hundred thousand units away is the same picture, bit for bit") {
+  const Scene scene = shelf();
+  for (const Kernels& kernels : available_kernels()) {
+    const Film film = small_film(scene, kernels.isa);
+    for (const Vec3d way : {Vec3d{131072, 0, 0}, Vec3d{-131072, 262144, 524288}, Vec3d{0, -0x1p30, 0}})
+      CHECK(small_film(moved(scene, way), kernels.isa) == film);
+    CHECK_FALSE(small_film(moved(scene, {0.1, 0, 0}), kernels.isa) == small_film(scaled(scene, 1.1), kernels.isa));
+  }
+}
+
+TEST_CASE("scale: the same seen from inside glass and from inside fog") {
+  for (const Vec3d eye : {Vec3d{0.0625, 0.5, 0.9375}, Vec3d{0.25, 0.75, 0.5}, Vec3d{0.5, 1.5, 1.5}}) {
+    Scene scene = shelf();  // in the shell, in the hollow, in the fog
+    scene.camera.look_from = eye;
+    scene.camera.look_at = eye + Vec3d{-0.5, -0.25, -1};
+    const Film film = small_film(scene);
+    CHECK(totals(film).rejected == 0);
+    for (const int exponent : {-20, -13, 13, 20}) CHECK(small_film(scaled(scene, std::ldexp(1.0, exponent))) == film);
+    CHECK(small_film(moved(scene, {131072, -65536, 262144})) == film);
+  }
+}
