@@ -19,7 +19,9 @@ Command read_compare(Words words) {
                    "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
                    "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
                    "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
-                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].",
+                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
+                   "Two EXR files that Tyndall made hold their noise too: then z-scores of blocks of 8x8 pixels say\n"
+                   "whether the difference is more than that.",
                    "Exit code 1: an error is above its --max-..., or not a number.");
   std::string image, reference;
   line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);

@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/outputs.h"
 #include "app/standard_streams.h"
+#include "core/film/bias.h"
 #include "core/film/error.h"
 #include "core/film/flip.h"
 
@@ -19,7 +20,17 @@ struct Comparison {
   ImageError error;
   double flip = 0;  ///< mean
   std::vector<float> flip_map;
+  std::optional<BlockScores> blocks;  ///< if both files hold films of one region
 };
+
+/// Both are EXR files with films: is the difference more than their noise?
+std::optional<BlockScores> compare_films(const CompareCommand& command) {
+  if (!is_exr(command.image) || !is_exr(command.reference)) return std::nullopt;
+  const auto image = read_film(command.image), reference = read_film(command.reference);
+  if (!image || !reference) return std::nullopt;
+  const BlockScores scores = block_scores(*image, *reference);
+  return scores.blocks > 0 ? std::optional(scores) : std::nullopt;
+}
 
 Comparison compare(const CompareCommand& command) {
   const LinearImage image = read_image(command.image), reference = read_image(command.reference);
@@ -27,7 +38,7 @@ Comparison compare(const CompareCommand& command) {
   if (image.width != reference.width || image.height != reference.height)
     throw UsageError(command.image.string() + ": found " + size(image) + " pixels, expected " + size(reference) +
                      " as in " + command.reference.string());
-  Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}};
+  Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}, compare_films(command)};
   result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
   for (const float value : result.flip_map) result.flip += static_cast<double>(value);
   result.flip /= static_cast<double>(result.flip_map.size());
@@ -46,7 +57,21 @@ std::string json_text(const Comparison& c) {
   json["flip"] = c.flip;
   json["mean_image"] = channels(c.error.mean_image);
   json["mean_reference"] = channels(c.error.mean_reference);
+  if (c.blocks)
+    json["blocks"] = {{"count", c.blocks->blocks},
+                      {"mean_square_z", c.blocks->mean_square},
+                      {"worst_z", c.blocks->worst},
+                      {"limit", c.blocks->most},
+                      {"only_noise", c.blocks->noise()}};
   return json.dump(2) + "\n";
+}
+
+std::string blocks_text(const BlockScores& b) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "blocks   mean z^2 %.3g in %d blocks of 8x8 (up to %.3g is noise), worst |z| %.3g: %s\n", b.mean_square,
+                b.blocks, b.most, b.worst, b.noise() ? "only noise" : "more than noise");
+  return text;
 }
 
 std::string row(const char* name, double value, const char* note) {
@@ -67,7 +92,7 @@ std::string table(const Comparison& c) {
                 a.x, b.x, a.y, b.y, a.z, b.z);
   return row("MSE", c.error.mse, "") + row("RMSE", c.error.rmse, "") +
          row("relMSE", c.error.rel_mse, "depends on the unit of radiance") + row("PSNR", c.error.psnr, "dB, sRGB") +
-         row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + means;
+         row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (c.blocks ? blocks_text(*c.blocks) : "") + means;
 }
 
 /// Black, violet, red, orange, white: brighter all the way, so that it also reads in grey. value in [0, 1].
