@@ -22,27 +22,28 @@ struct Measured {
   bool interrupted = false;  ///< the callback said stop: the rest means nothing
 };
 
-/// The mean over the picture's pixels and channels. Pilots find out how many samples its standard error takes; then as
-/// many others, of another seed, are the measurement: samples that decide when to stop would not be unbiased. Seeds
-/// used: the scene's and the following, at most `most_rounds` in all. Gives up at most_samples_measured: look at
-/// value.error.
+/// Most seeds and samples that one measurement takes.
 inline constexpr std::uint32_t most_rounds = 16;
 inline constexpr double most_samples_measured = 4e9;
+
+/// The mean over a picture's pixels and channels. Pilots find out how many samples its standard error takes; as many
+/// others, of another seed, are the measurement: samples that decide when to stop are not unbiased. Takes the scene's
+/// seed and those that follow. Gives up at most_samples_measured: look at value.error.
 Measured measure_mean(RenderScene scene, const MeasureOptions& options, const ProgressCallback& progress = {});
 
-/// Measurements against known answers. Standard errors below this share of what is expected drown in the rounding of
-/// single precision.
+/// Standard errors below this share of a value drown in the rounding of single precision.
 inline constexpr double rounding_share = 1e-6;
 
-/// Deviation from what is expected in standard errors, the share for rounding included; of 0: 0 or infinite.
+/// Deviation from a known answer in standard errors, the share for rounding included; from 0: 0 or infinite if the
+/// standard error is 0.
 double z_score(const FilmMean& measured, double expected);
 
-/// z-scores of honest standard errors have mean square 1. Says whether that of `count` of them is within 4 of its own
-/// standard errors: what is too good is an error too. E. Wilson, M. Hilferty, The Distribution of Chi-Square,
-/// Proceedings of the National Academy of Sciences 17 (1931).
 struct SquareBand {
   double low = 0, high = 0;
 };
+/// Where the mean square of `count` z-scores lies if their standard errors are honest: about 1, within 4 standard
+/// deviations of its cube root. Too small is as wrong as too large. E. Wilson, M. Hilferty, The Distribution of
+/// Chi-Square, Proceedings of the National Academy of Sciences 17 (1931).
 SquareBand mean_square_band(int count);
 
 }  // namespace tyndall

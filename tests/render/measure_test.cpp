@@ -36,7 +36,7 @@ TEST_CASE(
     for (std::uint32_t run = 1; run <= 100; ++run) {
       scene.render.seed = run * most_rounds;
       const FilmMean one = measure(scene, 5e-4).value;
-      scores.add("fog ball", one, truth, 5e-4 / truth);
+      scores.add("fog ball", {one.mean, one.error}, truth, 5e-4 / truth);
       z.add(z_score(one, truth));
     }
     CHECK(std::abs(z.estimate().mean) <= 4 * z.estimate().error);
