@@ -78,24 +78,25 @@ Shift shift_of_depth(Scene scene, const Film& exact, int depth) {
   return shift(exact, film_of(scene));
 }
 
+/// 16 letters wide.
 std::string cell(const Shift& s) {
   char text[40];
   if (s.rms == 0 && s.error == 0)
-    std::snprintf(text, sizeof text, "%19s", "0");
+    std::snprintf(text, sizeof text, "%7s%9s", "0", "");
   else if (s.rms > s.error)
-    std::snprintf(text, sizeof text, "%9.2g ± %-7.1g", 100 * s.rms, 100 * s.error);
+    std::snprintf(text, sizeof text, "%7.2g ± %-6.1g", 100 * s.rms, 100 * s.error);
   else
-    std::snprintf(text, sizeof text, "%9s %-9.1g", "<", 100 * (s.rms + 2 * s.error));
+    std::snprintf(text, sizeof text, "%7s %-8.1g", "<", 100 * (s.rms + 2 * s.error));
   return text;
 }
 
 const char* heading =
     "relative RMS difference in %, ± standard error, from exact Fresnel terms, 1000 events, linear floats\n"
-    "scene                              schlick            depth 5           depth 10           depth 50"
-    "        float lanes              8 bit\n";
+    "scene                       schlick         depth 5         depth 10  "
+    "      depth 50        float lanes     8 bit\n";
 
 std::string row(const std::string& name, const Accuracy& a) {
-  std::string text = name + std::string(name.size() < 24 ? 24 - name.size() : 1, ' ');
+  std::string text = name + std::string(name.size() < 25 ? 25 - name.size() : 1, ' ');
   for (const Shift& s : {a.schlick, a.depth5, a.depth10, a.depth50, a.single, a.bytes}) text += cell(s);
   return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
 }

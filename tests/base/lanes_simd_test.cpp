@@ -9,7 +9,7 @@ using namespace tyndall;
 
 namespace {
 
-void check_lanes(const char* isa, int lanes, test::LanesReport (*report_of)()) {
+[[maybe_unused]] void check_lanes(const char* isa, int lanes, test::LanesReport (*report_of)()) {
   if (!choose_kernels(isa)) {
     MESSAGE("not run on this CPU: ", std::string(isa));
     return;
