@@ -25,7 +25,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene);
 /// What curves are measured against.
 struct ChartReference {
   LinearImage image;
-  double rel_mse = 0;  ///< the part of measured errors that is its own noise; 0 where that is not known
+  double rel_mse = 0;  ///< the part of measured errors that is its own noise; 0: not known, floors may be that
   std::string about;   ///< "nee, random, 512 spp"
 };
 

@@ -130,6 +130,9 @@ std::string curve_lines(const Plot& plot, const ChartCurve& curve, const std::op
   return out;
 }
 
+/// Against a picture whose noise is not known, a floor may be that.
+const char* floor_name(const Chart& chart) { return chart.reference.rel_mse > 0 ? "bias" : "floor"; }
+
 /// Names in the right margin at the height of the curves' ends, pushed apart.
 std::string names(const Plot& plot, const Chart& chart) {
   constexpr double apart = 17;
@@ -157,7 +160,7 @@ std::string names(const Plot& plot, const Chart& chart) {
                   plot.x(end.seconds) + 5, plot.y(end.rel_mse), width - right + 4, y, width - right + 12, y);
     const auto bias = bias_of(curve, chart.reference);
     out += text_at(width - right + 16, y + 4, format("class=\"f%zu\"", colour),
-                   curve.method + (bias ? format(" (bias %.2g)", *bias) : ""));
+                   curve.method + (bias ? format(" (%s %.2g)", floor_name(chart), *bias) : ""));
   }
   return out;
 }
@@ -203,7 +206,7 @@ std::string chart_table(const Chart& chart) {
   const auto padded = [](std::string text, std::size_t to) {
     return text += std::string(to - std::min(to, text.size()), ' ');
   };
-  std::string out = padded("method", longest + 2) + "to 0.01    to 0.001   speed     bias\n";
+  std::string out = padded("method", longest + 2) + "to 0.01    to 0.001   speed     " + floor_name(chart) + "\n";
   const ChartCurve* first = chart.curves.empty() ? nullptr : &chart.curves.front();
   for (const ChartCurve& curve : chart.curves) {
     const auto bias = bias_of(curve, chart.reference);

@@ -46,8 +46,8 @@ expect 2 "$tyndall" render cornell-box -o a.png -o ./a.png
 complains 'twice'
 expect 2 "$tyndall" render cornell-box -o a.png --stats a.png
 complains '--stats' '.json'
-expect 2 "$tyndall" chart cornell-box -o a.svg
-complains 'not in this version yet'
+expect 2 "$tyndall" chart cornell-box -o a.png
+complains .svg
 expect 2 "$tyndall" verify plaet
 complains '"plaet"' 'did you mean "plate"?'
 expect 2 "$tyndall" verify plate fog-bal/

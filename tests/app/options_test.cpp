@@ -145,8 +145,25 @@ TEST_CASE("verify: names, method, machine") {
   CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
 }
 
-TEST_CASE("what is not there yet says so") {
-  CHECK(has(refusal({"chart", "box", "-o", "a.svg"}), "not in this version yet"));
+TEST_CASE("chart: methods with flags of their own, reference, budget") {
+  const auto command =
+      std::get<ChartCommand>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
+                                           "no MIS=--integrator nee --isa scalar", "--budget", "7"}));
+  CHECK(command.scene.what == "box");
+  CHECK(command.output == "a.svg");
+  CHECK(command.budget == 7);
+  REQUIRE(command.methods.size() == 2);
+  CHECK(command.methods[0].name == "plain");
+  CHECK_FALSE(command.methods[0].scene.integrator);
+  CHECK(command.methods[1].name == "no MIS");
+  CHECK(command.methods[1].scene.integrator == Integrator::nee);
+  CHECK(command.methods[1].isa == "scalar");
+  CHECK(std::get<ChartCommand>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
+  CHECK(has(refusal({"chart", "box"}), "-o FILE.svg"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.png"}), ".svg"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--method", "nee"}), "NAME=FLAGS"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--method", "a=--integrator neee"}), "did you mean"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--budget", "0"}), "seconds > 0"));
 }
 
 TEST_CASE("help names every command and option, with units and defaults") {

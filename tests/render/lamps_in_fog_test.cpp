@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-/// Small lamps in fog: distances sampled by angle.
+/// Small lamps in fog: distances sampled by angle. What they gather by one scattering: render/light_in_fog.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -17,27 +17,6 @@ Scene lamp_in_fog(Medium<> medium) {
   add(scene, sphere({0, 0, 0}, 0.01), lamp(1e4));
   add_medium(scene, sphere({0, 0, 0}, 2), medium, 0.8);
   return scene;
-}
-
-/// Light that a ray at `impact` from the lamp of lamp_in_fog gathers by one even scattering, by quadrature.
-double single_scattering(double impact, double density) {
-  const double radius = 0.01, edge = std::sqrt(4 - impact * impact);
-  // Light that arrives at distance d from the lamp's centre, over all directions within its cap.
-  const auto arriving = [&](double d) {
-    const double least = std::sqrt(1 - radius * radius / (d * d));
-    const auto from_direction = [&](double cosine) {
-      const double sine2 = 1 - cosine * cosine;
-      const double way = d * cosine - std::sqrt(std::max(radius * radius - d * d * sine2, 0.0));
-      return std::exp(-density * way);
-    };
-    return 2 * pi * 1e4 * integrate(from_direction, least, 1, 8);
-  };
-  const auto scattered = [&](double x) {
-    const double way = edge + x;
-    return density * 0.8 / (4 * pi) * std::exp(-density * way) * arriving(std::hypot(x, impact));
-  };
-  return integrate(scattered, -edge, -0.1, 200) + integrate(scattered, -0.1, 0.1, 400) +
-         integrate(scattered, 0.1, edge, 200);
 }
 
 Estimate measure(Scene scene, Integrator integrator, int spp) {
@@ -64,18 +43,6 @@ TEST_CASE("lamps in fog: distances by angle have the density they claim") {
         drawn.push_back(static_cast<double>(sample(way, (static_cast<float>(i) + 0.5f) / 2000)));
       const auto below = [&](double t) { return integrate(claimed, -1, t, 500); };
       CHECK(kolmogorov_smirnov(drawn, below) < 0.05);  // evenly placed, so far below chance
-    }
-}
-
-TEST_CASE("lamps in fog: single scattering by quadrature, from rays that all but touch the lamp to far ones") {
-  ZScores z;
-  for (const double impact : {0.011, 0.1, 1.0})
-    for (const double density : {0.05, 0.5}) {
-      Scene scene = lamp_in_fog({density, 0});
-      aim(scene, {impact, 0, 5}, {impact, 0, 0});
-      const Estimate mis = measure(scene, Integrator::mis, 256);
-      z.add("mis", mis, single_scattering(impact, density), 2e-3);
-      if (impact < 1) CHECK(5 * mis.error < measure(scene, Integrator::nee, 256).error);
     }
 }
 

@@ -79,8 +79,10 @@ TEST_CASE("light in fog: light scattered once, next to a lamp of radius 0.01 and
       CHECK(totals(film).rejected == 0);
       std::vector<double> batches;
       for (const FilmPixel& pixel : film.pixels) batches.push_back(static_cast<double>(mean(film, pixel).x));
-      scores.add("radiance", estimate(batches), scattered_once(impact), 0.01);
-      if (impact < 0.1) CHECK(clamped_mean(scene, 0.1) < 0.7 * scattered_once(impact));
+      // Distances by angle leave mis next to no noise; what a clamp would take away is what nee has in its tail.
+      const bool by_angle = integrator == Integrator::mis;
+      scores.add("radiance", estimate(batches), scattered_once(impact), by_angle ? 1e-3 : 0.01);
+      if (impact < 0.1 && !by_angle) CHECK(clamped_mean(scene, 0.1) < 0.7 * scattered_once(impact));
     }
 }
 
