@@ -30,8 +30,8 @@ expect 0 "$tyndall" verify furnace/glass --fresnel schlick # all of the light is
 expect 0 "$tyndall" verify small-lamp --integrator path
 grep -q 'skipped' out || fail "not skipped: $(cat out)"
 
-# Ctrl-C: what was done so far is shown.
-expect 130 timeout --preserve-status -s INT 1 "$tyndall" verify furnace/glass fog-layer/transmitted-depth16 --thorough -q
+# Ctrl-C, once: what was done so far is shown.
+expect 130 timeout --foreground --preserve-status -s INT 1 "$tyndall" verify furnace/glass fog-layer/transmitted-depth16 --thorough -q
 grep -q 'furnace/glass ' out || fail "nothing shown: $(cat out)"
 
 # Another table: one wrong number is found, alone, and a broken table is refused.
