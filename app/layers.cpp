@@ -5,7 +5,23 @@
 
 namespace tyndall {
 
-std::vector<Layer> first_hit_layers(const RenderScene& scene, const Region& region, const Kernels& kernels) {
+namespace {
+
+Layer variance_layer(const Film& film) {
+  Layer layer{"variance", {"R", "G", "B"}, {}};
+  for (const FilmPixel& pixel : film.pixels) {
+    const bool whole = counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
+    const Vec3f half = 0.5f * (half_mean(film, pixel, 0) - half_mean(film, pixel, 1));
+    for (const float v : {half.x, half.y, half.z})
+      layer.values.push_back(whole ? v * v : std::numeric_limits<float>::infinity());
+  }
+  return layer;
+}
+
+}  // namespace
+
+std::vector<Layer> layers_of(const RenderScene& scene, const Film& film, const Kernels& kernels) {
+  const Region& region = film.region;
   constexpr int rows = 64;  // at a time, to spare memory
   std::vector<Layer> layers = {{"albedo", {"R", "G", "B"}, {}}, {"normal", {"X", "Y", "Z"}, {}}, {"depth", {"Z"}, {}}};
   std::vector<float>&albedo = layers[0].values, &normal = layers[1].values, &depth = layers[2].values;
@@ -20,6 +36,7 @@ std::vector<Layer> first_hit_layers(const RenderScene& scene, const Region& regi
       depth.push_back(hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth);
     }
   }
+  layers.push_back(variance_layer(film));
   return layers;
 }
 

@@ -7,8 +7,9 @@
 
 namespace tyndall {
 
-/// What is seen first through the middle of each pixel, for EXR: albedo, normal (towards the outside of the shape), and
-/// depth along the camera's axis. Where nothing is seen: 0, 0 and infinity.
-std::vector<Layer> first_hit_layers(const RenderScene& scene, const Region& region, const Kernels& kernels);
+/// What goes with a picture into EXR. Seen first through the middle of each pixel: albedo, normal (towards the outside
+/// of the shape), and depth along the camera's axis; where nothing is seen 0, 0 and infinity. From the film's halves:
+/// variance of each pixel's mean, by channel; infinite before a sample in each half.
+std::vector<Layer> layers_of(const RenderScene& scene, const Film& film, const Kernels& kernels);
 
 }  // namespace tyndall

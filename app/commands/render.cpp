@@ -103,9 +103,7 @@ bool write(const Job& job) {
     return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, job.result.film, file),
                     embedded_stats_text(figures(job))};
   };
-  const auto layers = [&job] {
-    return first_hit_layers(job.compiled, job.result.film.region, find_kernels(job.command.isa));
-  };
+  const auto layers = [&job] { return layers_of(job.compiled, job.result.film, find_kernels(job.command.isa)); };
   auto problems = write_images({job.result.film, job.loaded.scene.display, embedded, layers}, job.command.outputs);
   const std::filesystem::path& stats = job.command.stats;
   try {

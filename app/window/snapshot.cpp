@@ -48,7 +48,7 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
       [&](const fs::path& file) {
         return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file), stats};
       },
-      [&] { return first_hit_layers(compiled, result.film.region, choose_kernels(snapshot.isa).value()); }};
+      [&] { return layers_of(compiled, result.film, choose_kernels(snapshot.isa).value()); }};
   std::vector<fs::path> files{snapshot.base.string() + ".png"};
   if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
   const std::vector<std::string> problems = write_images(picture, files);
