@@ -17,21 +17,21 @@ double speed_for(double step) { return static_cast<double>(full_hd) / (step * st
 
 TEST_CASE("preview: what moves is shown sooner than what changed once") {
   CHECK(picture_budget(false, 10) == doctest::Approx(0.075));
-  CHECK(picture_budget(true, 10) == doctest::Approx(0.026));
-  CHECK(picture_budget(false, 0.2) == doctest::Approx(0.026));
+  CHECK(picture_budget(true, 10) == doctest::Approx(0.016));
+  CHECK(picture_budget(false, 0.2) == doctest::Approx(0.016));
 }
 
 TEST_CASE("preview: the step that fits the time, coarse while nothing is known") {
   CHECK(preview_step(full_hd, 0, 0.1, 1) == 8);
   CHECK(preview_step(full_hd, -1, 0.1, 0) == 8);
-  CHECK(preview_step(full_hd, 1e12, 0.026, 0) == 1);
-  CHECK(preview_step(full_hd, 1, 0.026, 0) == 8);
+  CHECK(preview_step(full_hd, 1e12, 0.016, 0) == 1);
+  CHECK(preview_step(full_hd, 1, 0.016, 0) == 8);
   for (const int step : {1, 2, 4, 8}) {
     CHECK(preview_step(full_hd, speed_for(0.99 * step), 1, 0) == step);
     CHECK(preview_step(full_hd, speed_for(0.51 * step), 1, 0) == step);
   }
-  CHECK(preview_step(full_hd, speed_for(2) / 0.026, 0.026, 0) == 2);
-  CHECK(preview_step(1, 1e3, 0.026, 0) == 1);
+  CHECK(preview_step(full_hd, speed_for(2) / 0.016, 0.026, 0) == 2);
+  CHECK(preview_step(1, 1e3, 0.016, 0) == 1);
 }
 
 TEST_CASE("preview: a step once chosen is kept while little speaks for another") {
