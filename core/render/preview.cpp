@@ -5,7 +5,7 @@
 
 namespace tyndall {
 
-double picture_budget(bool only_camera, double since) { return only_camera || since < 0.3 ? 0.016 : 0.075; }
+double picture_budget(bool only_camera, double since) { return only_camera ? 0.016 : since < 0.3 ? 0.033 : 0.075; }
 
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before) {
   if (!(paths_per_second > 0)) return 8;

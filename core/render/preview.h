@@ -4,9 +4,9 @@
 /// How the first pictures after an edit are paced. Pure decisions, so that they can be tested.
 namespace tyndall {
 
-/// Seconds that the first picture of an edit should take: what moves (a camera, a slider that is dragged) wants fluency,
-/// and gets a frame of a 60 Hz display, so that it is there in two of them on a busy machine too; a single change is
-/// looked at. since: seconds from the edit before it; within 0.3 they are one movement.
+/// Seconds that the first picture of an edit should take. A camera wants fluency and gets a frame of a 60 Hz display,
+/// so that its picture is there in two of them on a busy machine too; a slider that is dragged gets two; a single
+/// change is looked at. since: seconds from the edit before it; within 0.3 they are one movement.
 double picture_budget(bool only_camera, double since);
 
 /// Every how many pixels (8, 4, 2 or 1, in x and y) a first picture samples, so that `pixels / step²` paths take about

@@ -18,7 +18,7 @@ double speed_for(double step) { return static_cast<double>(full_hd) / (step * st
 TEST_CASE("preview: what moves is shown sooner than what changed once") {
   CHECK(picture_budget(false, 10) == doctest::Approx(0.075));
   CHECK(picture_budget(true, 10) == doctest::Approx(0.016));
-  CHECK(picture_budget(false, 0.2) == doctest::Approx(0.016));
+  CHECK(picture_budget(false, 0.2) == doctest::Approx(0.033));
 }
 
 TEST_CASE("preview: the step that fits the time, coarse while nothing is known") {
