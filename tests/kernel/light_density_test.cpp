@@ -13,15 +13,6 @@ namespace {
 
 Dice<float> dice_of(std::uint32_t i) { return Dice<float>::of(1, i, i >> 12, i * 7u); }
 
-RenderScene lit(const std::vector<Object>& lamps) {
-  Scene scene = dark_room();
-  scene.materials = {lamp(3)};
-  scene.objects = lamps;
-  scene.render.integrator = Integrator::mis;
-  return compile(scene);
-}
-Object lamp_object(auto shape, Transform transform = {}) { return {"", Solid3d{shape, 0}, std::move(transform)}; }
-
 Vec3d vector_of(const float* const* columns, int k) { return {columns[0][k], columns[1][k], columns[2][k]}; }
 
 /// Distance at which a line from the point meets light k; 0: it does not.

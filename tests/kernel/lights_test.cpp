@@ -35,15 +35,6 @@ Seen quadrature(const Quad<>& q, Vec3d point) {
   return seen;
 }
 
-RenderScene lit(const std::vector<Object>& lamps) {
-  Scene scene = dark_room();
-  scene.materials = {lamp(3)};
-  scene.objects = lamps;
-  scene.render.integrator = Integrator::mis;
-  return compile(scene);
-}
-Object lamp_object(auto shape) { return {"", Solid3d{shape, 0}, {}}; }
-
 }  // namespace
 
 TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or slanting one by area") {

@@ -44,6 +44,18 @@ Object& add_medium(Scene& scene, const Boundary& boundary, Medium<> medium, doub
   return scene.objects.back();
 }
 
+/// A dark room of lamps of radiance 3, as mis sees them; made by lamp_object.
+inline RenderScene lit(const std::vector<Object>& lamps) {
+  Scene scene = dark_room();
+  scene.materials = {lamp(3)};
+  scene.objects = lamps;
+  scene.render.integrator = Integrator::mis;
+  return compile(scene);
+}
+inline Object lamp_object(auto shape, Transform transform = {}) {
+  return {"", Solid3d{shape, 0}, std::move(transform)};
+}
+
 /// Turns the camera into a probe: all its rays run from `from` towards `to`, within a hundred-thousandth of a degree.
 inline void aim(Scene& scene, Vec3d from, Vec3d to) {
   scene.camera = {};
