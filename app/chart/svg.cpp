@@ -19,7 +19,7 @@ constexpr const char* style =
     ".paper{fill:#ffffff}.grid{stroke:#dfe3e8;stroke-width:1}.minor{stroke:#eef0f3;stroke-width:1}"
     ".guide{stroke:#727a88;stroke-dasharray:2 5;fill:none}.mark{stroke:#727a88;stroke-width:1}"
     ".curve{fill:none;stroke-width:2.2;stroke-linejoin:round}.lead{stroke-width:1;opacity:.55;fill:none}"
-    ".bias{stroke-width:1.4;stroke-dasharray:6 4;fill:none}"
+    ".again{stroke-dasharray:9 4}.bias{stroke-width:1.4;stroke-dasharray:6 4;fill:none}"
     ".s0{stroke:#3a4150}.s1{stroke:#e69f00}.s2{stroke:#56b4e9}.s3{stroke:#009e73}.s4{stroke:#cc79a7}"
     ".s5{stroke:#0072b2}.s6{stroke:#d55e00}.s7{stroke:#8a6d3b}"
     ".f0{fill:#3a4150}.f1{fill:#b97f00}.f2{fill:#2f8fc7}.f3{fill:#008060}.f4{fill:#b0568a}"
@@ -122,11 +122,12 @@ std::string curve_lines(const Plot& plot, const ChartCurve& curve, const std::op
   for (const ChartPoint& p : curve.points) {
     if (!(p.rel_mse > 0)) continue;
     points += format("%.1f,%.1f ", plot.x(p.seconds), plot.y(p.rel_mse));
-    dots +=
-        format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.6\" class=\"f%zu\"/>\n", plot.x(p.seconds), plot.y(p.rel_mse), i);
+    dots += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.6\" class=\"f%zu\"/>\n", plot.x(p.seconds), plot.y(p.rel_mse),
+                   i % colours);
   }
-  std::string out = format("<polyline class=\"curve s%zu\" points=\"", i) + points + "\"/>\n" + dots;
-  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), format("bias s%zu", i));
+  std::string out = format("<polyline class=\"curve s%zu%s\" points=\"", i % colours, i < colours ? "" : " again") +
+                    points + "\"/>\n" + dots;
+  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), format("bias s%zu", i % colours));
   return out;
 }
 
@@ -178,7 +179,7 @@ std::string chart_svg(const Chart& chart) {
   out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
   out += grid(plot) + slope_guide(plot, chart.curves);
   for (std::size_t i = 0; i < chart.curves.size(); ++i)
-    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference), i % colours);
+    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference), i);
   return out + names(plot, chart) + "</svg>\n";
 }
 
