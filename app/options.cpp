@@ -79,6 +79,7 @@ Command read_inspect(Words words) {
   add_isa(line, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(command.accuracy || !command.scene.what.empty(), "SCENE");
+  if (!command.isa.empty() && !command.measure) throw UsageError("--isa is of use with --measure only");
   if (command.accuracy && (command.json || command.measure))
     throw UsageError(std::string("--accuracy and ") + (command.json ? "--json" : "--measure") + " exclude each other");
   return command;

@@ -145,6 +145,11 @@ TEST_CASE("verify: names, method, machine") {
   CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
 }
 
+TEST_CASE("inspect: an instruction set is only for measuring") {
+  CHECK(std::get<InspectCommand>(read_command({"inspect", "box", "--measure", "--isa", "sse4"})).isa == "sse4");
+  CHECK(has(refusal({"inspect", "box", "--isa", "sse4"}), "--measure"));
+}
+
 TEST_CASE("chart: methods with flags of their own, reference, budget") {
   const auto command =
       std::get<ChartCommand>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
