@@ -44,6 +44,14 @@ using MaskOf = typename LaneTypes<F>::Mask;
 template <class F>
 inline constexpr int lanes_of = LaneTypes<F>::lanes;
 
+/// A number type of two groups, and the type of each.
+template <class F>
+concept Doubled = requires {
+  typename LaneTypes<F>::Half;
+};
+template <Doubled F>
+using HalfOf = typename LaneTypes<F>::Half;
+
 // The same value in every lane of F.
 template <class F>
 TYNDALL_INLINE F splat(float value) {
@@ -183,6 +191,15 @@ TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
 template <Plain F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return *from;
+}
+/// The first `count` of as many values as there are lanes, which need not be readable beyond; 0 in the other lanes.
+template <Plain F>
+TYNDALL_INLINE F load_some(const float* from, int count) {
+  return count > 0 ? static_cast<F>(*from) : F(0);
+}
+template <Plain F>
+TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
+  return count > 0 ? *from : 0;
 }
 /// Lanes, a bit each, that are to be filled with consecutive values.
 template <class F>

@@ -91,6 +91,34 @@ TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return r;
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
+TYNDALL_INLINE F load_some(const float* from, int count) {
+  namespace hn = HWY_NAMESPACE::hn;
+  F r;
+#if HWY_TARGET == HWY_SSE4  // without a load that stops early
+  float values[lanes_of<F>] = {};
+  for (int i = 0; i < count && i < lanes_of<F>; ++i) values[i] = from[i];
+  r.v = hn::LoadU(HWY_NAMESPACE::TagF(), values);
+#else
+  const HWY_NAMESPACE::TagF tag;
+  r.v = hn::MaskedLoad(hn::FirstN(tag, count > 0 ? static_cast<std::size_t>(count) : 0), tag, from);
+#endif
+  return r;
+}
+template <std::same_as<HWY_NAMESPACE::Floats> F>
+TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
+  namespace hn = HWY_NAMESPACE::hn;
+  IntOf<F> r;
+#if HWY_TARGET == HWY_SSE4
+  std::int32_t values[lanes_of<F>] = {};
+  for (int i = 0; i < count && i < lanes_of<F>; ++i) values[i] = from[i];
+  r.v = hn::LoadU(HWY_NAMESPACE::TagI(), values);
+#else
+  const HWY_NAMESPACE::TagI tag;
+  r.v = hn::MaskedLoad(hn::FirstN(tag, count > 0 ? static_cast<std::size_t>(count) : 0), tag, from);
+#endif
+  return r;
+}
+template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
   MaskOf<F> m;
 #if HWY_TARGET == HWY_AVX3

@@ -22,14 +22,6 @@ requires(LaneTypes<T>::lanes > 1) struct LaneTypes<Twice<T>> {
   static constexpr int lanes = 2 * lanes_of<T>;
 };
 
-/// A number type of two groups, and the type of each.
-template <class F>
-concept Doubled = requires {
-  typename LaneTypes<F>::Half;
-};
-template <Doubled F>
-using HalfOf = typename LaneTypes<F>::Half;
-
 template <class T>
 TYNDALL_INLINE Twice<T> operator+(Twice<T> x, Twice<T> y) {
   return {x.a + y.a, x.b + y.b};
@@ -209,6 +201,16 @@ TYNDALL_INLINE F load(const float* from) {
 template <Doubled F>
 TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
   return {load_int<HalfOf<F>>(from), load_int<HalfOf<F>>(from + lanes_of<HalfOf<F>>)};
+}
+template <Doubled F>
+TYNDALL_INLINE F load_some(const float* from, int count) {
+  constexpr int half = lanes_of<HalfOf<F>>;
+  return {load_some<HalfOf<F>>(from, count), load_some<HalfOf<F>>(from + half, count - half)};
+}
+template <Doubled F>
+TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
+  constexpr int half = lanes_of<HalfOf<F>>;
+  return {load_some_int<HalfOf<F>>(from, count), load_some_int<HalfOf<F>>(from + half, count - half)};
 }
 template <Doubled F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {

@@ -47,9 +47,9 @@ TYNDALL_INLINE Start<F> start_on(IntOf<F> from, std::int32_t first, std::int32_t
 
 /// Start for a shape of one element.
 template <class F>
-TYNDALL_INLINE Start<F> start_on(IntOf<F> from, std::int32_t element) {
+TYNDALL_INLINE Start<F> start_on(IntOf<F> from, IntOf<F> element) {
   using I = IntOf<F>;
-  const auto here = equal(as_int(shift_right<2>(as_uint(from))), I(element));
+  const auto here = equal(as_int(shift_right<2>(as_uint(from))), element);
   return {here, mask_and(here, equal(from & I(3), I(0)))};
 }
 

@@ -25,7 +25,8 @@ inline constexpr int bvh_width = 8;
 inline constexpr int bvh_most_primitives = 1 << 24;
 inline constexpr int bvh_stack = 640;  ///< open nodes that a traversal can have: (48 + 24 + 2) levels of 7, and room
 
-/// Children's boxes by component, so that one ray can be tested against all, or one box against many rays.
+/// Children's boxes by component, so that one ray can be tested against all, or one box against many rays. From the
+/// start of each row of eight 16 values can be read: the node goes on behind the last.
 struct alignas(64) BvhNode {
   float low[3][bvh_width], high[3][bvh_width];
   std::int32_t child[bvh_width];  ///< >= 0: node; < 0: leaf ~child

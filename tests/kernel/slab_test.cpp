@@ -25,7 +25,8 @@ BvhNode node_of(Vec3f low, Vec3f high) {
 
 float enter(const BvhNode& node, Vec3f origin, Vec3f direction, float limit = infinity) {
   const Ray<float> ray{origin, direction, 0, from_nowhere};
-  const Entry<float> entry = enter_child(node, 0, slopes_of(ray), limit);
+  const Entry<float> entry = enter_boxes([&](int axis) { return node.low[axis][0]; },
+                                         [&](int axis) { return node.high[axis][0]; }, slopes_of(ray), limit);
   return entry.meets ? entry.near : infinity;
 }
 
