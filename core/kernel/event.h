@@ -61,8 +61,8 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   if (!any(useful)) return zero3<F>();
   shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(useful)));
   const Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
-  const IntOf<F> element =
-      s.lights.count == 1 ? IntOf<F>(s.lights.element[0]) : gather_int<F>(s.lights.element, choice.light);
+  const IntOf<F> element = s.lights.count == 1 ? IntOf<F>(s.lights.element[0])
+                                               : lookup_int<F>(s.lights.element, s.lights.count, choice.light);
   const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();
   const F ratio = scattered / select(useful, chosen, F(1.0f));

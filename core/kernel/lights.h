@@ -19,9 +19,11 @@ struct LightColumns {
 
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
-  const auto value = [&](const float* column) { return l.count == 1 ? splat<F>(column[0]) : gather<F>(column, k); };
+  const auto value = [&](const float* column) {
+    return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
+  };
   const auto vector = [&](const float* const* c) { return Vec3<F>{value(c[0]), value(c[1]), value(c[2])}; };
-  return {l.count == 1 ? IntOf<F>(l.kind[0]) : gather_int<F>(l.kind, k),
+  return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count, k),
           vector(l.corner),
           vector(l.edge_u),
           vector(l.edge_v),
