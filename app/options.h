@@ -92,8 +92,8 @@ struct MergeCommand {
 struct InspectCommand {
   SceneRequest scene;  ///< with `accuracy`, no name: all built-in scenes
   bool json = false;
-  bool measure = false;  ///< what the chosen kernel gains
-  std::string isa;       ///< "": the best; with measure
+  bool measure = false;   ///< what the chosen kernel gains
+  std::string isa;        ///< "": the best; with measure
   bool accuracy = false;  ///< what each approximation costs
 };
 

@@ -47,6 +47,7 @@ void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["truncated_throughput"] = sum.cut_throughput;
   json["first_rejected"] = Json::array();
   for (const RejectedSample& r : run.result.first_rejected) json["first_rejected"].push_back({r.x, r.y, r.sample});
+  json["rare_bright_paths"] = run.rare_bright_paths;
 }
 
 }  // namespace

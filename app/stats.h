@@ -16,6 +16,7 @@ struct RunFigures {
   std::uint64_t samples_before = 0;  ///< in the film when the run began
   double seconds_build = 0;          ///< compiling the scene
   double seconds_total = 0;          ///< from the command's start to now
+  bool rare_bright_paths = false;    ///< the estimated error says too little: see has_rare_bright_paths
 };
 
 /// All figures, as a JSON object. What is not known is null.

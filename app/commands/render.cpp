@@ -8,8 +8,10 @@
 #include "app/signals.h"
 #include "app/standard_streams.h"
 #include "app/stats.h"
+#include "core/compile/caustics.h"
 #include "core/compile/compile.h"
 #include "core/film/error.h"
+#include "core/render/rare.h"
 #include "core/scene/text.h"
 
 #include <chrono>
@@ -34,6 +36,7 @@ struct Job {
   RenderResult result{};
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
+  bool rare_bright_paths = false;
 };
 
 /// Finds everything that can be wrong before the first sample.
@@ -89,12 +92,14 @@ void render(Job& job, const SignalWatch& signals) {
                   1e-9 * sizeof(FilmPixel) * r.width() * r.height());
     throw IoError(text);
   }
+  job.rare_bright_paths =
+      has_rare_bright_paths(job.result.film, totals(job.result.film).least_taken, chance_of_caustics(job.loaded.scene));
   report.finish(outcome(job));
 }
 
 RunFigures figures(const Job& job) {
-  return {job.loaded.name,   job.loaded.scene,        job.compiled, job.result, job.samples_before,
-          job.seconds_build, seconds_since(job.start)};
+  return {job.loaded.name,   job.loaded.scene,         job.compiled,         job.result, job.samples_before,
+          job.seconds_build, seconds_since(job.start), job.rare_bright_paths};
 }
 
 /// Writes all that can be written; false if something could not.
@@ -118,9 +123,11 @@ bool write(const Job& job) {
   return problems.empty();
 }
 
-void warn_of_rejected(const Job& job) {
+void warn(const Job& job) {
+  if (job.command.progress == ProgressStyle::none) return;
+  if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   const FilmTotals sum = totals(job.result.film);
-  if (sum.rejected == 0 || job.command.progress == ProgressStyle::none) return;
+  if (sum.rejected == 0) return;
   std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
                      " samples were rejected: not finite, or brighter than any light of the scene explains";
   for (const RejectedSample& r : job.result.first_rejected)
@@ -157,7 +164,7 @@ int run(const RenderCommand& command) {
     complain("interrupted before the first samples: nothing written");
     return code;
   }
-  warn_of_rejected(job);
+  warn(job);
   return write(job) ? code : output_failed;
 }
 

@@ -50,6 +50,7 @@ std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& r
                      std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});
     cells.push_back({"film", printed("%.0f MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
     cells.push_back({"rejected", format_count(frame->rejected), frame->rejected > 0 ? 1 : 5, frame->rejected > 0});
+    if (frame->rare_bright_paths) cells.push_back({"not converged", "rare bright paths", 1, true});
     if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});
   }
   cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});

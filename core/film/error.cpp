@@ -43,6 +43,63 @@ double estimated_relative_error(const Film& film, Crew* crew) {
   return std::sqrt(std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(film.pixels.size()));
 }
 
+namespace {
+
+/// Sums of errors, each against the mean around its pixel, and of their squares.
+struct Spread {
+  double sum = 0, squares = 0;
+};
+
+constexpr int block_edge = 8;
+
+Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+
+void add_block(const Film& film, const Region& block, Spread& to) {
+  Vec3d around;
+  double count = 0;
+  const auto each = [&](auto&& use) {
+    for (int y = block.y0; y < block.y1; ++y)
+      for (int x = block.x0; x < block.x1; ++x) {
+        const FilmPixel& pixel = film.at(x, y);
+        if (counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0) use(pixel, to_double(mean(film, pixel)));
+      }
+  };
+  each([&](const FilmPixel&, Vec3d own) { around = around + own, ++count; });
+  each([&](const FilmPixel& pixel, Vec3d own) {
+    const Vec3d others = (1 / std::max(count - 1, 1.0)) * (around - own);
+    const Vec3d apart = to_double(half_mean(film, pixel, 0)) - to_double(half_mean(film, pixel, 1));
+    const auto channel = [](double difference, double a, double b) {
+      return square(difference / 2) / (square(std::min(a, b)) + floor_of_square);
+    };
+    const double error =
+        channel(apart.x, own.x, others.x) + channel(apart.y, own.y, others.y) + channel(apart.z, own.z, others.z);
+    to.sum += error, to.squares += square(error);
+  });
+}
+
+}  // namespace
+
+bool rests_on_few_pixels(const Film& film, Crew* crew) {
+  const Region& r = film.region;
+  std::vector<Spread> bands(static_cast<std::size_t>((r.height() + block_edge - 1) / block_edge));
+  const auto add_band = [&](int band) {
+    const int y = r.y0 + band * block_edge;
+    for (int x = r.x0; x < r.x1; x += block_edge)
+      add_block(film, {x, y, std::min(x + block_edge, r.x1), std::min(y + block_edge, r.y1)},
+                bands[static_cast<std::size_t>(band)]);
+  };
+  const int count = static_cast<int>(bands.size());
+  if (crew)
+    crew->for_each(count, add_band);
+  else
+    for (int band = 0; band < count; ++band) add_band(band);
+  Spread all;
+  for (const Spread& band : bands) all.sum += band.sum, all.squares += band.squares;
+  const double few =
+      0.35 + 3 / std::sqrt(static_cast<double>(film.pixels.size()));  // small pictures vary by themselves
+  return std::sqrt(all.squares) > few * all.sum;
+}
+
 FilmMean film_mean(const Film& film) {
   const auto grey = [](Vec3f v) {
     return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3;

@@ -11,8 +11,13 @@ namespace tyndall {
 /// ((A-B)/2)² / (mean² + 0.01)). Its square estimates relMSE. Infinite while a half is empty. crew: shares the work,
 /// null: the caller's thread does it; the answer is the same.
 double estimated_relative_error(const Film& film, Crew* crew = nullptr);
-/// The same for each pixel of the region from the 7 x 7 pixels around it, less those with an empty half; infinite where
-/// none is left.
+/// Whether a few pixels make up so much of a film's error that its estimate means little: paths that are rare and
+/// bright have been met in these, and not yet in others. Each pixel's error is taken against the mean of the pixels
+/// around it, as its own is lifted by what is wrong with it. True where the standard deviation of the mean of these
+/// errors is more than 0.35 of it, in large pictures: where it rests on about 8 pixels.
+bool rests_on_few_pixels(const Film& film, Crew* crew = nullptr);
+/// The estimated relative error of each pixel of the region from the 7 x 7 pixels around it, less those with an empty
+/// half; infinite where none is left.
 std::vector<float> pixel_relative_error(const Film& film);
 
 /// The mean over a film's pixels and channels, and its standard error from the differences of the two halves: they are

@@ -1,8 +1,10 @@
 #include "core/render/director.h"
 
+#include "core/compile/caustics.h"
 #include "core/film/error.h"
 #include "core/render/frame.h"
 #include "core/render/preview.h"
+#include "core/render/rare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +97,7 @@ void Director::take_scene(Scene scene, Clock::time_point before) {
     scene_view_ = std::make_unique<SceneViewOf>(*compiled_);
     scene_ = std::move(scene);
     first_hits_.clear();
+    chance_of_caustics_.reset();
     start_over();
     const std::lock_guard lock(mail_.mutex);
     mail_.compiled = compiled_;
@@ -123,6 +126,7 @@ void Director::start_over() {
   seconds_ = pass_seconds_ = 0;
   rejected_ = truncated_ = 0;
   error_ = std::numeric_limits<double>::infinity();
+  rare_bright_paths_ = false;
   next_estimate_ = Clock::now();
   first_picture_due_ = true;
   step_ = preview_step(pixels(), first_paths_per_second_, std::max(budget_ - picture_seconds_, budget_ / 4), step_);
@@ -162,6 +166,8 @@ void Director::finish_pass(double seconds) {
   pass_.reset();
   if (taken_ >= 2 && (taken_ < 16 || Clock::now() >= next_estimate_ || taken_ >= limit_)) {
     error_ = estimated_relative_error(film_, crew_.get());
+    if (!chance_of_caustics_) chance_of_caustics_ = chance_of_caustics(scene_);
+    rare_bright_paths_ = has_rare_bright_paths(film_, taken_, *chance_of_caustics_, crew_.get());
     next_estimate_ = Clock::now() + std::chrono::milliseconds(400);
   }
   publish();
@@ -202,6 +208,7 @@ void Director::publish() {
   frame->spp = taken_;
   frame->finished = taken_ >= limit_;
   frame->relative_error = error_;
+  frame->rare_bright_paths = rare_bright_paths_;
   frame->seconds = seconds_;
   frame->mrays_per_s = mrays_per_s_;
   frame->first_picture_ms = first_picture_ms_;

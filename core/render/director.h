@@ -9,6 +9,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -76,6 +77,8 @@ class Director {
   double budget_ = 0;
   std::uint32_t limit_ = 0;
   View view_ = View::beauty;
+  std::optional<double> chance_of_caustics_;  ///< of this scene, once it was asked for
+  bool rare_bright_paths_ = false;
   std::vector<FirstHit> first_hits_;  ///< found when a view asks
 
   // its samples

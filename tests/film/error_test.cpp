@@ -158,3 +158,12 @@ TEST_CASE("image error: equal images, and what is not a number") {
   CHECK(std::isnan(bad.mse));
   CHECK(std::isnan(bad.psnr));
 }
+
+TEST_CASE("few pixels: noise of known size does not rest on them, one bright sample does") {
+  Film film = noisy_film(16, 1);
+  CHECK_FALSE(rests_on_few_pixels(film));
+  add_sample(film.at(100, 60), 0, {60 * 64, 60 * 64, 60 * 64}, 1 / film.unit);
+  CHECK(rests_on_few_pixels(film));
+  Crew crew(2);
+  CHECK(rests_on_few_pixels(film, &crew));
+}

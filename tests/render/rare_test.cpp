@@ -1,0 +1,54 @@
+#include "core/render/rare.h"
+
+#include "core/compile/caustics.h"
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+#include "core/scene/json.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+bool is_rare(Scene scene, std::uint32_t spp) {
+  scene.width = 80, scene.height = 60;
+  RenderOptions options;
+  options.spp = spp;
+  const Film film = render(compile(scene), options).film;
+  return has_rare_bright_paths(film, spp, chance_of_caustics(scene));
+}
+
+/// A glass ball under a lamp of the same power, however small.
+Scene caustic(double radius) {
+  Scene scene;
+  scene.camera = {.look_from = {0, 3, 6}, .look_at = {0, 0.6, 0}, .vfov = 40};
+  scene.background = Vec3d{0.02, 0.02, 0.02};
+  const double radiance = 1.8 / (radius * radius);
+  scene.materials = {{"floor", Vec3d{0.7, 0.7, 0.7}, Lambertian<>{}},
+                     {"glass", Vec3d{1, 1, 1}, Dielectric<>{1.5}},
+                     {"lamp", Vec3d{radiance, radiance, radiance}, Light<>{}}};
+  scene.objects = {{"", Solid3d{Quad<>{{-5, 0, -5}, {10, 0, 0}, {0, 0, 10}}, 0}, {}},
+                   {"", Solid3d{Sphere<>{{0, 1, 0}, 1, {}}, 1}, {}},
+                   {"", Solid3d{Sphere<>{{1, 4, 1}, radius, {}}, 2}, {}}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("rare bright paths: a small lamp through glass is told, before and after the first path has met it") {
+  for (const std::uint32_t spp : {16u, 64u, 512u}) CHECK(is_rare(caustic(0.03), spp));
+  CHECK(is_rare(caustic(0.3), 16));
+  CHECK_FALSE(is_rare(caustic(1.5), 64));
+}
+
+TEST_CASE("rare bright paths: pictures that converge are not suspected") {
+  for (const char* name : {"cornell-box", "cornell-smoke", "cover", "simple-light", "showroom", "hollow-glass"}) {
+    CAPTURE(std::string(name));
+    for (const std::uint32_t spp : {8u, 64u}) CHECK_FALSE(is_rare(load_scene(name).scene, spp));
+  }
+  CHECK(is_rare(load_scene("stress-light-and-fuzz").scene, 64));
+}
+
+TEST_CASE("rare bright paths: nothing is said before 8 samples") { CHECK_FALSE(is_rare(caustic(0.03), 7)); }
