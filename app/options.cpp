@@ -26,7 +26,7 @@ Command read_compare(Words words) {
   std::string image, reference;
   line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
   line.argument("REFERENCE", "what it should be; of the same size", reference);
-  line.value("--heatmap", "FILE.png", "write FLIP of each pixel: black 0, violet, red, orange, white 1",
+  line.value("--heatmap", "FILE.png", "write FLIP of each pixel, in colours whose scale is beneath",
              [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
   line.flag("--json", "print JSON", command.json);
   line.group("Checks");

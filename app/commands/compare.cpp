@@ -1,4 +1,5 @@
 #include "app/commands/commands.h"
+#include "app/heat_map.h"
 #include "app/outputs.h"
 #include "app/standard_streams.h"
 #include "core/film/bias.h"
@@ -95,27 +96,6 @@ std::string table(const Comparison& c) {
          row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (c.blocks ? blocks_text(*c.blocks) : "") + means;
 }
 
-/// Black, violet, red, orange, white: brighter all the way, so that it also reads in grey. value in [0, 1].
-std::array<float, 3> heat(float value) {
-  static constexpr std::array<std::array<float, 3>, 5> stops = {
-      {{0, 0, 0}, {0.30f, 0.07f, 0.45f}, {0.78f, 0.20f, 0.34f}, {0.98f, 0.60f, 0.25f}, {1, 1, 0.85f}}};
-  const float at = std::clamp(value, 0.0f, 1.0f) * 4;
-  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
-  const float part = at - static_cast<float>(i);
-  std::array<float, 3> colour{};
-  for (std::size_t k = 0; k < 3; ++k) colour[k] = srgb_decode(stops[i][k] + part * (stops[i + 1][k] - stops[i][k]));
-  return colour;
-}
-
-void write_heatmap(const Comparison& c, const std::filesystem::path& file) {
-  LinearImage map{c.width, c.height, {}};
-  for (const float value : c.flip_map) {
-    const auto colour = heat(value);
-    map.rgb.insert(map.rgb.end(), colour.begin(), colour.end());
-  }
-  write_png(file, map, 0, ToneCurve::srgb, {});
-}
-
 /// Says which errors are too large; what is not a number always is.
 bool passes(const CompareCommand& command, const Comparison& c) {
   bool good = true;
@@ -137,7 +117,9 @@ bool passes(const CompareCommand& command, const Comparison& c) {
 int run(const CompareCommand& command) {
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
   const Comparison comparison = compare(command);
-  if (!command.heatmap.empty()) write_heatmap(comparison, command.heatmap);
+  if (!command.heatmap.empty())
+    write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneCurve::srgb,
+              {});
   write_standard_output(command.json ? json_text(comparison) : table(comparison));
   return passes(command, comparison) ? 0 : 1;
 }
