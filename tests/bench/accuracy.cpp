@@ -45,12 +45,15 @@ class Contest {
     options.spp = spp;
     return render(compiled_, options, {}, std::move(begun)).film;
   }
-  double rel_mse(const Film& film) const { return image_error(resolve(film), reference_).rel_mse; }
+  /// The reference's own noise taken off.
+  double rel_mse(const Film& film) const {
+    return image_error(resolve(film), reference_.rgb).rel_mse - reference_.rel_mse;
+  }
   static int threads() { return threads_up_to(2); }
 
  private:
   Scene scene_;
-  std::vector<float> reference_;
+  Reference reference_;
   RenderScene compiled_;
 };
 

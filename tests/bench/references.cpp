@@ -1,11 +1,14 @@
 #include "tests/bench/references.h"
 
 #include "core/compile/compile.h"
+#include "core/film/error.h"
 #include "core/film/image_io.h"
 #include "core/render/render.h"
 #include "core/scene/json.h"
 
+#include <cmath>
 #include <cstdio>
+#include <fstream>
 
 namespace tyndall::bench {
 namespace {
@@ -23,20 +26,25 @@ std::string fingerprint(const std::string& text) {
 
 }  // namespace
 
-std::vector<float> reference_image(const NamedScene& named, int spp, const std::filesystem::path& folder) {
+Reference reference_image(const NamedScene& named, int spp, const std::filesystem::path& folder) {
   Scene scene = named.scene;
   scene.render.seed = reference_seed;
   scene.render.spp = spp;
   const std::string version = fingerprint(write_scene(scene));
   const auto file = folder / ("reference-" + named.name + "-" + std::to_string(spp) + "-" + version + ".pfm");
-  std::error_code error;
-  if (std::filesystem::exists(file, error)) return read_image(file).rgb;
+  auto noise = file;
+  noise.replace_extension(".txt");
+  double rel_mse = 0;
+  if (std::ifstream(noise) >> rel_mse) return {read_image(file).rgb, rel_mse};
   const RenderScene compiled = compile(scene);
   RenderOptions options;
   options.spp = static_cast<std::uint32_t>(spp);
-  LinearImage image{compiled.width, compiled.height, resolve(render(compiled, options).film)};
+  const Film film = render(compiled, options).film;
+  const LinearImage image{compiled.width, compiled.height, resolve(film)};
+  rel_mse = std::pow(estimated_relative_error(film), 2);
   write_pfm(file, image);
-  return image.rgb;
+  std::ofstream(noise) << rel_mse << "\n";
+  return {image.rgb, rel_mse};
 }
 
 }  // namespace tyndall::bench
