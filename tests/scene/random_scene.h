@@ -21,6 +21,7 @@ class SceneGenerator {
     out.background = background();
     fill(out.render);
     if (chance()) out.render.fresnel = FresnelKind::schlick;
+    out.render.adaptive = chance();
     fill(out.display);
     if (chance()) out.display.tone_map = ToneMap::aces;
     for (int i = below(5); i > 0; --i) out.textures.push_back(texture(out.textures.size()));

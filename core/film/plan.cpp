@@ -1,0 +1,201 @@
+#include "core/film/plan.h"
+
+#include "core/film/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace tyndall {
+namespace {
+
+/// The cells that a film's region is cut into, from its upper left corner.
+struct Cells {
+  Region region;
+  int columns, rows;
+
+  explicit Cells(const Region& r)
+      : region(r), columns((r.width() + cell_edge - 1) / cell_edge), rows((r.height() + cell_edge - 1) / cell_edge) {}
+
+  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
+  Region pixels(int column, int row) const {
+    const int x = region.x0 + column * cell_edge, y = region.y0 + row * cell_edge;
+    return {x, y, std::min(x + cell_edge, region.x1), std::min(y + cell_edge, region.y1)};
+  }
+  Region pixels(std::size_t i) const {
+    const auto width = static_cast<std::size_t>(columns);
+    return pixels(static_cast<int>(i % width), static_cast<int>(i / width));
+  }
+  std::uint64_t area(std::size_t i) const {
+    const Region r = pixels(i);
+    return static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height());
+  }
+};
+
+void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
+  if (crew)
+    crew->for_each(rows, job);
+  else
+    for (int row = 0; row < rows; ++row) job(row);
+}
+
+/// Sums over pixels that have samples in both halves.
+struct Variance {
+  double sum = 0;  ///< of the relative variance of one sample
+  int pixels = 0;
+};
+
+Variance variance_in(const Film& film, const Region& where) {
+  Variance found;
+  for (int y = where.y0; y < where.y1; ++y)
+    for (int x = where.x0; x < where.x1; ++x) {
+      const FilmPixel& pixel = film.at(x, y);
+      const double error = squared_relative_error(film, pixel);
+      if (!std::isfinite(error)) continue;
+      found.sum += error * pixel.taken;
+      ++found.pixels;
+    }
+  return found;
+}
+
+/// Root of the mean variance in the window around a cell, without the cell itself.
+double need_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
+  Variance around;
+  for (int v = std::max(row - window_reach, 0); v <= std::min(row + window_reach, cells.rows - 1); ++v)
+    for (int u = std::max(column - window_reach, 0); u <= std::min(column + window_reach, cells.columns - 1); ++u) {
+      if (u == column && v == row) continue;
+      const Variance& one = variances[cells.index(u, v)];
+      around.sum += one.sum;
+      around.pixels += one.pixels;
+    }
+  return around.pixels > 0 ? std::sqrt(around.sum / around.pixels) : 0;
+}
+
+/// What the cells need, relative to their mean; at least a little, so that a round can always reach its mean.
+std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
+  std::vector<Variance> variances(cells.count());
+  for_rows(crew, cells.rows, [&](int row) {
+    for (int column = 0; column < cells.columns; ++column)
+      variances[cells.index(column, row)] = variance_in(film, cells.pixels(column, row));
+  });
+  std::vector<double> needs(cells.count());
+  for_rows(crew, cells.rows, [&](int row) {
+    for (int column = 0; column < cells.columns; ++column)
+      needs[cells.index(column, row)] = need_of(variances, cells, column, row);
+  });
+  const double mean = std::accumulate(needs.begin(), needs.end(), 0.0) / static_cast<double>(needs.size());
+  for (double& need : needs) need = mean > 0 ? std::max(need / mean, 1e-3) : 1;
+  return needs;
+}
+
+/// A number in [0, 2^16) for each cell, evenly spread over any few of them: cells that need the same do not all step up
+/// at once. Multiples of the golden ratio.
+std::uint64_t dither(std::size_t cell) { return (cell * 40503) & 0xffff; }
+
+/// A count that points of a sequence in base 2 like: no more than three binary digits.
+std::uint32_t rounded(double count, std::size_t cell) {
+  const auto whole = static_cast<std::uint32_t>(count);
+  const std::uint32_t step = std::max(std::bit_floor(whole) / 4, 2u);
+  return static_cast<std::uint32_t>(count / step + static_cast<double>(dither(cell)) / 65536) * step;
+}
+
+/// The count of each cell if needs were to be served by `scale` samples each, and their sum over the pixels.
+struct Shares {
+  const Cells& cells;
+  const std::vector<double>& needs;
+  const std::vector<PlannedSamples>& planned;
+  double mean;
+
+  std::uint32_t of(std::size_t cell, double scale) const {
+    const double wish = std::clamp(scale * needs[cell], least_of_mean * mean, most_of_mean * mean);
+    return std::max(rounded(std::min(wish, 0x1p30), cell), planned[cell].from);
+  }
+  double total(double scale) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < needs.size(); ++i) sum += static_cast<double>(of(i, scale) * cells.area(i));
+    return sum;
+  }
+};
+
+/// The highest scale whose total is within `budget`.
+double find_scale(const Shares& shares, double budget) {
+  double low = 0, high = shares.mean;
+  while (shares.total(high) <= budget && high < 1e6 * shares.mean) low = high, high *= 2;
+  for (int halving = 0; halving < 30; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (shares.total(middle) <= budget ? low : high) = middle;
+  }
+  return low;
+}
+
+double pixel_count(const Film& film) { return static_cast<double>(film.pixels.size()); }
+
+/// The power of two that a count's mean falls short of by less than a half: what the round was to reach.
+std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count) {
+  const Cells cells(film.region);
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < film.planned.size(); ++i) sum += film.planned[i].*count * cells.area(i);
+  return static_cast<std::uint32_t>(std::bit_ceil((sum + film.pixels.size() - 1) / film.pixels.size()));
+}
+
+}  // namespace
+
+void plan_round(Film& film, Crew* crew) {
+  const Cells cells(film.region);
+  std::vector<PlannedSamples> planned(cells.count());
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    const Region where = cells.pixels(i);
+    planned[i].from = planned[i].to = film.at(where.x0, where.y0).taken;
+  }
+  film.planned = std::move(planned);
+  const double mean = 2.0 * round_mean(film, &PlannedSamples::from);
+  const std::vector<double> needs = needs_of(film, cells, crew);
+  const Shares shares{cells, needs, film.planned, mean};
+  const double budget = mean * pixel_count(film), scale = find_scale(shares, budget);
+  double left = budget - shares.total(scale);
+  for (std::size_t i = 0; i < needs.size(); ++i) {
+    const bool more = 2 * static_cast<double>(cells.area(i)) <= left;  // matters where cells are few
+    film.planned[i].to = shares.of(i, scale) + (more ? 2 : 0);
+    if (more) left -= 2 * static_cast<double>(cells.area(i));
+  }
+}
+
+std::uint32_t planned_mean(const Film& film) {
+  return film.planned.empty() ? 0 : round_mean(film, &PlannedSamples::to);
+}
+
+std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
+  const Cells cells(film.region);
+  const auto count = [&film](std::size_t cell, std::uint64_t part) {
+    const auto [from, to] = film.planned[cell];
+    return from + static_cast<std::uint32_t>(((to - from) * part + dither(cell)) >> 16);
+  };
+  const auto fits = [&](std::uint64_t part) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < film.planned.size(); ++i) sum += count(i, part) * cells.area(i);
+    return sum <= spp * film.pixels.size();
+  };
+  std::uint64_t part = 0;  // of the round, in 65536ths
+  for (std::uint64_t step = 0x10000; step > 0; step /= 2)
+    if (part + step <= 0x10000 && fits(part + step)) part += step;
+  std::vector<std::uint32_t> counts(film.pixels.size());
+  for (std::size_t i = 0; i < film.planned.size(); ++i) {
+    const Region where = cells.pixels(i);
+    for (int y = where.y0; y < where.y1; ++y)
+      for (int x = where.x0; x < where.x1; ++x) counts[film.index(x, y)] = count(i, part);
+  }
+  return counts;
+}
+
+std::uint32_t labelled_spp(const Film& film) {
+  const FilmTotals sum = totals(film);
+  if (film.planned.empty()) return sum.least_taken;
+  return static_cast<std::uint32_t>(std::llround(static_cast<double>(sum.samples) / pixel_count(film)));
+}
+
+}  // namespace tyndall

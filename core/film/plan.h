@@ -1,0 +1,41 @@
+#pragma once
+#include "core/base/crew.h"
+#include "core/film/film.h"
+
+#include <cstdint>
+#include <vector>
+
+/// Adaptive sampling: how many samples the parts of a picture get. Pure functions of the film, so that threads, tiles
+/// and pauses change nothing.
+///
+/// A film starts with warm_up samples of every pixel. Then come rounds that double the mean. A round gives a cell of
+/// 4 x 4 pixels samples in proportion to the root of the variance of one sample, relative to the brightness, in the
+/// cells around it: for a given number of samples that makes relMSE least. It does not go below a quarter of the mean,
+/// so that rare bright paths are looked for everywhere, nor above 16 times the mean.
+///
+/// Samples that say when to stop are not unbiased: a pixel that missed the light would be left dark. So a cell's own
+/// pixels have no say in its count; it follows from the 5 x 5 cells around it less itself. What is left is that a cell
+/// has a say in the counts of its neighbours, and they in its own a round later, and that all share one mean.
+namespace tyndall {
+
+inline constexpr int cell_edge = 4;            ///< pixels
+inline constexpr std::uint32_t warm_up = 16;   ///< samples that every pixel gets before the first round
+inline constexpr int window_reach = 2;         ///< cells to each side that decide on a cell
+inline constexpr double least_of_mean = 0.25;  ///< of the mean count, what a cell gets at least
+inline constexpr double most_of_mean = 16;     ///< and at most
+
+/// Begins a round: film.planned for a mean of twice what the film has (made a power of two). Every pixel of a cell must
+/// have the same count. crew: shares the work, null: the caller's thread does it; the answer is the same.
+void plan_round(Film& film, Crew* crew = nullptr);
+
+/// The mean at the end of the planned round; 0 if there is none.
+std::uint32_t planned_mean(const Film& film);
+
+/// Samples that each pixel is to have, on the way through the planned round, at a mean of `spp`: as many as fit into
+/// spp times the pixels. Never fewer for a higher spp.
+std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp);
+
+/// What a picture is labelled with: the samples that every pixel has; after rounds their mean, to the nearest number.
+std::uint32_t labelled_spp(const Film& film);
+
+}  // namespace tyndall
