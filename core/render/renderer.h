@@ -20,7 +20,8 @@ struct Frame {
   std::vector<float> rgba;  ///< 4 floats a pixel, top row first, linear; holes of a coarse pass are filled
   View view = View::beauty;
   int step = 1;                 ///< every step-th pixel was rendered (8, 4, 2), 1: all
-  std::uint32_t spp = 0;        ///< samples that every pixel has; 0 while only a coarse pass is there
+  std::uint32_t spp = 0;        ///< samples that every pixel has, or with adaptive sampling their mean; the same film
+                                ///< as render() makes for that number; 0 while only a coarse pass is there
   bool finished = false;        ///< the limit is reached
   double relative_error = 0;    ///< estimated; infinite before two samples
   double seconds = 0;           ///< rendering time since the edit, pauses left out
