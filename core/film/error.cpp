@@ -21,10 +21,15 @@ double square(double x) { return x * x; }
 }  // namespace
 
 double squared_relative_error(const Film& film, const FilmPixel& pixel) {
-  if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
-  const Vec3f a = half_mean(film, pixel, 0), b = half_mean(film, pixel, 1), both = mean(film, pixel);
-  const auto channel = [](double x, double y, double m) { return square((x - y) / 2) / (square(m) + floor_of_square); };
-  return (channel(a.x, b.x, both.x) + channel(a.y, b.y, both.y) + channel(a.z, b.z, both.z)) / 3;
+  const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
+  if (count_a == 0 || count_b == 0) return infinity;
+  const double per_a = film.unit / count_a, per_b = film.unit / count_b, per_both = film.unit / (count_a + count_b);
+  double sum = 0;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double a = pixel.sum[0][channel].value(), b = pixel.sum[1][channel].value();
+    sum += square((a * per_a - b * per_b) / 2) / (square((a + b) * per_both) + floor_of_square);
+  }
+  return sum / 3;
 }
 
 double estimated_relative_error(const Film& film, Crew* crew) {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace tyndall {
@@ -31,11 +32,18 @@ struct Cells {
     const auto width = static_cast<std::size_t>(columns);
     return pixels(static_cast<int>(i % width), static_cast<int>(i / width));
   }
-  std::uint64_t area(std::size_t i) const {
-    const Region r = pixels(i);
-    return static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height());
+  /// Pixels of each.
+  std::vector<std::uint64_t> areas() const {
+    std::vector<std::uint64_t> found;
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Region r = pixels(i);
+      found.push_back(static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height()));
+    }
+    return found;
   }
 };
+
+constexpr double most_taken = 1 << 24;  // what a film's sums hold
 
 void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
   if (crew)
@@ -46,7 +54,7 @@ void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
 
 /// Sums over pixels that have samples in both halves.
 struct Variance {
-  double sum = 0;  ///< of the relative variance of one sample
+  double sum = 0;  ///< of squared relative error times count²
   int pixels = 0;
 };
 
@@ -57,13 +65,14 @@ Variance variance_in(const Film& film, const Region& where) {
       const FilmPixel& pixel = film.at(x, y);
       const double error = squared_relative_error(film, pixel);
       if (!std::isfinite(error)) continue;
-      found.sum += error * pixel.taken;
+      found.sum += error * pixel.taken * pixel.taken;
       ++found.pixels;
     }
   return found;
 }
 
-/// Root of the mean variance in the window around a cell, without the cell itself.
+/// Cube root of the mean in the window around a cell, without the cell itself: counts in proportion to that make the
+/// sum of error · count² / count'² least.
 double need_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
   Variance around;
   for (int v = std::max(row - window_reach, 0); v <= std::min(row + window_reach, cells.rows - 1); ++v)
@@ -73,7 +82,7 @@ double need_of(const std::vector<Variance>& variances, const Cells& cells, int c
       around.sum += one.sum;
       around.pixels += one.pixels;
     }
-  return around.pixels > 0 ? std::sqrt(around.sum / around.pixels) : 0;
+  return around.pixels > 0 ? std::cbrt(around.sum / around.pixels) : 0;
 }
 
 /// What the cells need, relative to their mean; at least a little, so that a round can always reach its mean.
@@ -97,27 +106,26 @@ std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
 /// at once. Multiples of the golden ratio.
 std::uint64_t dither(std::size_t cell) { return (cell * 40503) & 0xffff; }
 
-/// A count that points of a sequence in base 2 like: no more than three binary digits.
-std::uint32_t rounded(double count, std::size_t cell) {
-  const auto whole = static_cast<std::uint32_t>(count);
-  const std::uint32_t step = std::max(std::bit_floor(whole) / 4, 2u);
-  return static_cast<std::uint32_t>(count / step + static_cast<double>(dither(cell)) / 65536) * step;
-}
+/// The nearest power of two: the points of a Sobol' sequence are most even there. In between, where little is hard, the
+/// error would be up to a third higher.
+std::uint32_t rounded(double count) { return std::bit_floor(static_cast<std::uint32_t>(std::numbers::sqrt2 * count)); }
 
 /// The count of each cell if needs were to be served by `scale` samples each, and their sum over the pixels.
 struct Shares {
-  const Cells& cells;
+  std::vector<std::uint64_t> areas;
   const std::vector<double>& needs;
   const std::vector<PlannedSamples>& planned;
   double mean;
 
+  double wish(std::size_t cell, double scale) const {
+    return std::min(std::clamp(scale * needs[cell], least_of_mean * mean, most_of_mean * mean), most_taken);
+  }
   std::uint32_t of(std::size_t cell, double scale) const {
-    const double wish = std::clamp(scale * needs[cell], least_of_mean * mean, most_of_mean * mean);
-    return std::max(rounded(std::min(wish, 0x1p30), cell), planned[cell].from);
+    return std::max(rounded(wish(cell, scale)), planned[cell].from);
   }
   double total(double scale) const {
     double sum = 0;
-    for (std::size_t i = 0; i < needs.size(); ++i) sum += static_cast<double>(of(i, scale) * cells.area(i));
+    for (std::size_t i = 0; i < needs.size(); ++i) sum += static_cast<double>(of(i, scale) * areas[i]);
     return sum;
   }
 };
@@ -133,13 +141,35 @@ double find_scale(const Shares& shares, double budget) {
   return low;
 }
 
+/// Spends what rounding left of the budget on cells that were rounded down, so that the mean is what it is called.
+void spend(double left, const Shares& shares, double scale, std::vector<PlannedSamples>& planned) {
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    if (shares.wish(i, scale) <= planned[i].to) continue;
+    const double more =
+        std::min<double>(planned[i].to, 2 * std::floor(left / static_cast<double>(2 * shares.areas[i])));
+    planned[i].to += static_cast<std::uint32_t>(more);
+    left -= more * static_cast<double>(shares.areas[i]);
+  }
+}
+
+/// How many times less error a plan has than even counts, were error to fall as one over the count.
+double expected_gain(const std::vector<double>& needs, const std::vector<PlannedSamples>& planned, double mean) {
+  double even = 0, as_planned = 0;
+  for (std::size_t i = 0; i < needs.size(); ++i) {
+    const double variance = needs[i] * needs[i] * needs[i];
+    even += variance / mean;
+    as_planned += variance / planned[i].to;
+  }
+  return even / as_planned;
+}
+
 double pixel_count(const Film& film) { return static_cast<double>(film.pixels.size()); }
 
 /// The power of two that a count's mean falls short of by less than a half: what the round was to reach.
 std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count) {
-  const Cells cells(film.region);
+  const std::vector<std::uint64_t> areas = Cells(film.region).areas();
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < film.planned.size(); ++i) sum += film.planned[i].*count * cells.area(i);
+  for (std::size_t i = 0; i < film.planned.size(); ++i) sum += film.planned[i].*count * areas[i];
   return static_cast<std::uint32_t>(std::bit_ceil((sum + film.pixels.size() - 1) / film.pixels.size()));
 }
 
@@ -155,14 +185,15 @@ void plan_round(Film& film, Crew* crew) {
   film.planned = std::move(planned);
   const double mean = 2.0 * round_mean(film, &PlannedSamples::from);
   const std::vector<double> needs = needs_of(film, cells, crew);
-  const Shares shares{cells, needs, film.planned, mean};
+  const Shares shares{cells.areas(), needs, film.planned, mean};
   const double budget = mean * pixel_count(film), scale = find_scale(shares, budget);
-  double left = budget - shares.total(scale);
-  for (std::size_t i = 0; i < needs.size(); ++i) {
-    const bool more = 2 * static_cast<double>(cells.area(i)) <= left;  // matters where cells are few
-    film.planned[i].to = shares.of(i, scale) + (more ? 2 : 0);
-    if (more) left -= 2 * static_cast<double>(cells.area(i));
-  }
+  const double left = budget - shares.total(scale);
+  for (std::size_t i = 0; i < needs.size(); ++i) film.planned[i].to = shares.of(i, scale);
+  spend(left, shares, scale, film.planned);
+  const auto uneven = [&film](const PlannedSamples& p) { return p.from != film.planned.front().from; };
+  if (std::any_of(film.planned.begin(), film.planned.end(), uneven)) return;
+  if (expected_gain(needs, film.planned, mean) >= least_gain) return;
+  for (PlannedSamples& p : film.planned) p.to = std::max(p.from, static_cast<std::uint32_t>(mean));
 }
 
 std::uint32_t planned_mean(const Film& film) {
@@ -171,13 +202,14 @@ std::uint32_t planned_mean(const Film& film) {
 
 std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
   const Cells cells(film.region);
+  const std::vector<std::uint64_t> areas = cells.areas();
   const auto count = [&film](std::size_t cell, std::uint64_t part) {
     const auto [from, to] = film.planned[cell];
     return from + static_cast<std::uint32_t>(((to - from) * part + dither(cell)) >> 16);
   };
   const auto fits = [&](std::uint64_t part) {
     std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < film.planned.size(); ++i) sum += count(i, part) * cells.area(i);
+    for (std::size_t i = 0; i < film.planned.size(); ++i) sum += count(i, part) * areas[i];
     return sum <= spp * film.pixels.size();
   };
   std::uint64_t part = 0;  // of the round, in 65536ths

@@ -8,10 +8,13 @@
 /// Adaptive sampling: how many samples the parts of a picture get. Pure functions of the film, so that threads, tiles
 /// and pauses change nothing.
 ///
-/// A film starts with warm_up samples of every pixel. Then come rounds that double the mean. A round gives a cell of
-/// 4 x 4 pixels samples in proportion to the root of the variance of one sample, relative to the brightness, in the
-/// cells around it: for a given number of samples that makes relMSE least. It does not go below a quarter of the mean,
-/// so that rare bright paths are looked for everywhere, nor above 16 times the mean.
+/// A film starts with warm_up samples of every pixel. Then come rounds that double the mean. A round gives cells of
+/// 4 x 4 pixels more samples the larger the relative error around them is: so many that relMSE gets least if error
+/// falls as 1/count², as with Sobol' points where a picture is smooth. Where it falls as 1/count that spends less on
+/// the hard cells than would be best for a number of samples, and no less than is best for a time, for their paths take
+/// longer. Counts are powers of two, where Sobol' points are most even. They do not go below a quarter of the mean, so
+/// that rare bright paths are looked for everywhere, nor above 16 times the mean. Counts stay even as long as less than
+/// 5 % is to be gained.
 ///
 /// Samples that say when to stop are not unbiased: a pixel that missed the light would be left dark. So a cell's own
 /// pixels have no say in its count; it follows from the 5 x 5 cells around it less itself. What is left is that a cell

@@ -32,6 +32,7 @@ inline constexpr int most_unit_pixels = 4096;
 /// The samples of a unit in the order in which lanes take them: all pixels with their first index, then the next index.
 struct UnitSamples {
   std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
+  std::uint32_t start[most_unit_pixels];                          ///< first sample, where each pixel has its own
   int width;                                                      ///< of the tile
   const std::uint32_t *first_of, *last_of;                        ///< see Unit
   std::uint32_t first;
@@ -39,23 +40,27 @@ struct UnitSamples {
   int pixel;            ///< next
   std::uint32_t round;  ///< next sample of a pixel, counted from its first
   std::uint32_t rounds;
+  std::uint32_t next_finish;  ///< round at which some pixels may have all their samples
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
-  TYNDALL_INLINE std::uint32_t sample() const { return (first_of ? first_of[place(pixel)] : first) + round; }
+  TYNDALL_INLINE std::uint32_t sample() const { return (first_of ? start[pixel] : first) + round; }
   TYNDALL_INLINE void advance() {
     if (++pixel < pixels) return;
     pixel = 0;
     ++round;
-    if (first_of) drop_finished();
+    if (round == next_finish) drop_finished();
   }
   /// Takes pixels that have all their samples off the list.
   TYNDALL_INLINE void drop_finished() {
     int kept = 0;
+    next_finish = ~0u;
     for (int i = 0; i < pixels; ++i) {
       const int at = place(i);
-      if (last_of[at] - first_of[at] <= round) continue;
-      column[kept] = column[i], row[kept] = row[i];
+      const std::uint32_t count = last_of[at] - first_of[at];
+      if (count <= round) continue;
+      if (count < next_finish) next_finish = count;
+      column[kept] = column[i], row[kept] = row[i], start[kept] = first_of[at];
       ++kept;
     }
     pixels = kept;
@@ -79,10 +84,10 @@ TYNDALL_INLINE void list_samples(const Unit& unit, UnitSamples& list) {
   list.pixel = 0;
   list.round = 0;
   list.rounds = list.pixels ? unit.last - unit.first : 0;
-  if (unit.first_of) {
-    list.rounds = ~0u;
-    list.drop_finished();
-  }
+  list.next_finish = ~0u;
+  if (!unit.first_of) return;
+  list.rounds = ~0u;
+  list.drop_finished();
 }
 
 /// A group of fresh camera rays that waits for lanes to become free: so that all lanes of a group are computed at once.
