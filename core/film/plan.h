@@ -26,6 +26,7 @@ inline constexpr std::uint32_t warm_up = 16;   ///< samples that every pixel get
 inline constexpr int window_reach = 2;         ///< cells to each side that decide on a cell
 inline constexpr double least_of_mean = 0.25;  ///< of the mean count, what a cell gets at least
 inline constexpr double most_of_mean = 16;     ///< and at most
+inline constexpr double least_gain = 1.05;     ///< of error, for counts to become uneven
 
 /// Begins a round: film.planned for a mean of twice what the film has (made a power of two). Every pixel of a cell must
 /// have the same count. crew: shares the work, null: the caller's thread does it; the answer is the same.
