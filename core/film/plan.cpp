@@ -134,7 +134,7 @@ struct Shares {
 double find_scale(const Shares& shares, double budget) {
   double low = 0, high = shares.mean;
   while (shares.total(high) <= budget && high < 1e6 * shares.mean) low = high, high *= 2;
-  for (int halving = 0; halving < 30; ++halving) {
+  for (int halving = 0; halving < 16; ++halving) {
     const double middle = 0.5 * (low + high);
     (shares.total(middle) <= budget ? low : high) = middle;
   }

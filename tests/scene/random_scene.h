@@ -21,7 +21,6 @@ class SceneGenerator {
     out.background = background();
     fill(out.render);
     if (chance()) out.render.fresnel = FresnelKind::schlick;
-    out.render.adaptive = chance();
     fill(out.display);
     if (chance()) out.display.tone_map = ToneMap::aces;
     for (int i = below(5); i > 0; --i) out.textures.push_back(texture(out.textures.size()));
@@ -29,6 +28,7 @@ class SceneGenerator {
     for (int i = 1 + below(5); i > 0; --i) out.materials.push_back(material(out.materials.size()));
     materials_ = static_cast<int>(out.materials.size());
     out.objects = objects(3);
+    out.render.adaptive = chance();
     return out;
   }
 
