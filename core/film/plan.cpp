@@ -185,19 +185,29 @@ void plan_round(Film& film, Crew* crew) {
   film.planned = std::move(planned);
   const double mean = 2.0 * round_mean(film, &PlannedSamples::from);
   const std::vector<double> needs = needs_of(film, cells, crew);
+  const bool still_even = !planned_unevenly(film);
   const Shares shares{cells.areas(), needs, film.planned, mean};
   const double budget = mean * pixel_count(film), scale = find_scale(shares, budget);
   const double left = budget - shares.total(scale);
   for (std::size_t i = 0; i < needs.size(); ++i) film.planned[i].to = shares.of(i, scale);
   spend(left, shares, scale, film.planned);
-  const auto uneven = [&film](const PlannedSamples& p) { return p.from != film.planned.front().from; };
-  if (std::any_of(film.planned.begin(), film.planned.end(), uneven)) return;
-  if (expected_gain(needs, film.planned, mean) >= least_gain) return;
-  for (PlannedSamples& p : film.planned) p.to = std::max(p.from, static_cast<std::uint32_t>(mean));
+  if (still_even && expected_gain(needs, film.planned, mean) < least_gain)
+    for (PlannedSamples& p : film.planned) p.to = static_cast<std::uint32_t>(mean);
 }
 
 std::uint32_t planned_mean(const Film& film) {
   return film.planned.empty() ? 0 : round_mean(film, &PlannedSamples::to);
+}
+
+std::uint32_t end_of_round(Film& film, std::uint32_t taken, Crew* crew) {
+  if (taken < warm_up) return warm_up;
+  if (taken >= planned_mean(film)) plan_round(film, crew);
+  return planned_mean(film);
+}
+
+bool planned_unevenly(const Film& film) {
+  const auto differs = [&film](const PlannedSamples& planned) { return planned != film.planned.front(); };
+  return std::any_of(film.planned.begin(), film.planned.end(), differs);
 }
 
 std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {

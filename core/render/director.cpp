@@ -147,16 +147,11 @@ Pass& Director::current_pass() {
 }
 
 std::unique_ptr<Pass> Director::further_pass() {
-  const bool adaptive = scene_.render.adaptive;
   const std::uint32_t more = pass_samples(taken_, pixels(), paths_per_second_, pass_budget);
   pass_end_ = std::min(taken_ + more, limit_);
-  if (!adaptive || taken_ < warm_up) {
-    if (adaptive) pass_end_ = std::min(pass_end_, warm_up);
-    return std::make_unique<Pass>(film_.region, taken_, pass_end_);
-  }
-  if (taken_ >= planned_mean(film_)) plan_round(film_, crew_.get());
-  pass_end_ = std::min(pass_end_, planned_mean(film_));
-  return std::make_unique<Pass>(film_, counts_at(film_, pass_end_));
+  if (scene_.render.adaptive) pass_end_ = std::min(pass_end_, end_of_round(film_, taken_, crew_.get()));
+  if (planned_unevenly(film_)) return std::make_unique<Pass>(film_, counts_at(film_, pass_end_));
+  return std::make_unique<Pass>(film_.region, taken_, pass_end_);
 }
 
 void Director::finish_pass(double seconds) {

@@ -29,14 +29,6 @@ std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& want
   return static_cast<std::uint32_t>(sum / wanted.size());
 }
 
-/// Whether all pixels have equally many samples and lack equally many.
-bool is_even(const Film& film, const std::vector<std::uint32_t>& wanted) {
-  const auto differs = [&film](const FilmPixel& pixel) { return pixel.taken != film.pixels.front().taken; };
-  return std::all_of(wanted.begin(), wanted.end(),
-                     [&wanted](std::uint32_t count) { return count == wanted.front(); }) &&
-         std::none_of(film.pixels.begin(), film.pixels.end(), differs) && film.pixels.front().taken < wanted.front();
-}
-
 /// First and last sample of the next unit of a tile, for each of its pixels: of those that lack samples, as many as
 /// make about unit_paths. False if none lacks any.
 bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile,
@@ -77,12 +69,7 @@ Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, int tile)
       tile_(tile > 0 ? std::min(tile, most_tile) : chosen_tile(mean_lack(film, wanted_), 1)),
       columns_((region_.width() + tile_ - 1) / tile_),
       rows_((region_.height() + tile_ - 1) / tile_),
-      done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
-  if (!is_even(film, wanted_)) return;
-  first_ = film.first_sample + film.pixels.front().taken;
-  last_ = film.first_sample + wanted_.front();
-  wanted_.clear();
-}
+      done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
 Region Pass::tile(int unit) const {
   const int x = region_.x0 + unit % columns_ * tile_, y = region_.y0 + unit / columns_ * tile_;

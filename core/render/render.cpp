@@ -65,19 +65,15 @@ class BlockingRender {
   /// count: samples a pixel, or their mean; made less where a round of adaptive sampling ends.
   Pass next_pass(Crew& crew, std::uint32_t& count) {
     Film& film = result_.film;
-    if (options_.adaptive && taken_ >= warm_up) {
-      if (taken_ >= planned_mean(film)) plan_round(film, &crew);
-      count = std::min(count, planned_mean(film) - taken_);
-      return Pass(film, counts_at(film, taken_ + count), options_.tile);
-    }
-    if (options_.adaptive) count = std::min(count, warm_up - taken_);
+    if (options_.adaptive) count = std::min(count, end_of_round(film, taken_, &crew) - taken_);
+    if (planned_unevenly(film)) return Pass(film, counts_at(film, taken_ + count), options_.tile);
     const std::uint32_t first = film.first_sample + taken_;
     return Pass(film.region, first, first + count, 1, 0, options_.tile);
   }
-  /// A film that an interrupted pass left is made even before it is continued; if its counts are to differ, the next
+  /// A film that an interrupted pass left is made even before it is continued; where counts are to differ, the next
   /// pass does that.
   void level_film(Crew& crew) {
-    if (!result_.film.planned.empty()) {
+    if (planned_unevenly(result_.film)) {
       taken_ = static_cast<std::uint32_t>(totals(result_.film).samples / result_.film.pixels.size());
       return;
     }

@@ -89,6 +89,20 @@ TEST_CASE("plan: where little is to gain, all stay even") {
   for (const PlannedSamples& p : black.planned) REQUIRE(p == PlannedSamples{warm_up, 2 * warm_up});
 }
 
+TEST_CASE("plan: a round is planned when it is due, and not again") {
+  Film film = film_of(warm_up, disc);
+  CHECK(end_of_round(film, 3) == warm_up);
+  CHECK(film.planned.empty());
+  CHECK_FALSE(planned_unevenly(film));
+  CHECK(end_of_round(film, warm_up) == 2 * warm_up);
+  CHECK(planned_unevenly(film));
+  const Film planned = film;
+  film.at(60, 5) = {};
+  film.at(60, 5).taken = 20;
+  CHECK(end_of_round(film, 20) == 2 * warm_up);
+  CHECK(film.planned == planned.planned);
+}
+
 TEST_CASE("plan: a cell has no say in its own count, its neighbours have") {
   Film film = film_of(warm_up, disc),
        other =
