@@ -10,17 +10,17 @@
 ///
 /// A film starts with warm_up samples of every pixel. Then come rounds that double the mean. A round gives cells of
 /// 4 x 4 pixels more samples the larger the relative error around them is: so many that relMSE gets least if error
-/// falls as 1/count², as with Sobol' points where a picture is smooth. Where it falls as 1/count that spends less on
-/// the hard cells than would be best for a number of samples, and no less than is best for a time, for their paths take
-/// longer. Counts are powers of two, where Sobol' points are most even. They do not go below a quarter of the mean, so
-/// that rare bright paths are looked for everywhere, nor above 16 times the mean. Counts stay even as long as less than
-/// 5 % is to be gained.
+/// falls as 1/count², as with Sobol' points where a picture is smooth. Where it falls as 1/count that is less for hard
+/// cells than a number of samples would want, but not less than a time would: their paths take longer. Counts are
+/// powers of two, where Sobol' points are most even; at least a quarter of the mean, so that rare bright paths are
+/// looked for everywhere, and at most 16 times the mean. They stay even as long as less than a tenth of the error is to
+/// be gained: the hard cells' time would eat that up.
 ///
 /// Samples that say when to stop are not unbiased: a pixel that missed the light would be left dark. So a cell's own
 /// pixels have no say in its count; it follows from the 5 x 5 cells around it less itself. What is left is that a cell
 /// has a say in the counts of its neighbours, and they in its own a round later, and that all share one mean. Measured
-/// in the showroom at 64 samples, the mean over the picture is wrong by -0.6 % if pixels decide on themselves, by -0.12
-/// % if cells do, and by less than 0.01 % so.
+/// in the showroom at 64 samples, the mean over the picture is off by -0.6 % if pixels decide on themselves, by -0.12 %
+/// if cells do, and by less than 0.01 % so.
 namespace tyndall {
 
 inline constexpr int cell_edge = 4;            ///< pixels
