@@ -46,10 +46,8 @@ struct Cells {
 constexpr double most_taken = 1 << 24;  // what a film's sums hold
 
 void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
-  if (crew)
-    crew->for_each(rows, job);
-  else
-    for (int row = 0; row < rows; ++row) job(row);
+  if (crew) return crew->for_each(rows, job);
+  for (int row = 0; row < rows; ++row) job(row);
 }
 
 /// Sums over pixels that have samples in both halves.
@@ -152,18 +150,22 @@ void spend(double left, const Shares& shares, double scale, std::vector<PlannedS
   }
 }
 
+/// How many times less error the best counts, in proportion to the root of the variance, would have than even ones.
+double best_gain(const std::vector<double>& needs) {
+  double variances = 0, roots = 0;
+  for (const double need : needs) variances += need * need * need, roots += need * std::sqrt(need);
+  return variances * static_cast<double>(needs.size()) / (roots * roots);
+}
+
 /// How many times less error a plan has than even counts, were error to fall as one over the count.
 double expected_gain(const std::vector<double>& needs, const std::vector<PlannedSamples>& planned, double mean) {
   double even = 0, as_planned = 0;
   for (std::size_t i = 0; i < needs.size(); ++i) {
     const double variance = needs[i] * needs[i] * needs[i];
-    even += variance / mean;
-    as_planned += variance / planned[i].to;
+    even += variance / mean, as_planned += variance / planned[i].to;
   }
   return even / as_planned;
 }
-
-double pixel_count(const Film& film) { return static_cast<double>(film.pixels.size()); }
 
 /// The power of two that a count's mean falls short of by less than a half: what the round was to reach.
 std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count) {
@@ -186,13 +188,16 @@ void plan_round(Film& film, Crew* crew) {
   const double mean = 2.0 * round_mean(film, &PlannedSamples::from);
   const std::vector<double> needs = needs_of(film, cells, crew);
   const bool still_even = !planned_unevenly(film);
+  const auto stay_even = [&] {
+    for (PlannedSamples& p : film.planned) p.to = static_cast<std::uint32_t>(mean);
+  };
+  if (still_even && best_gain(needs) < least_gain) return stay_even();  // saves finding the scale
   const Shares shares{cells.areas(), needs, film.planned, mean};
-  const double budget = mean * pixel_count(film), scale = find_scale(shares, budget);
+  const double budget = mean * static_cast<double>(film.pixels.size()), scale = find_scale(shares, budget);
   const double left = budget - shares.total(scale);
   for (std::size_t i = 0; i < needs.size(); ++i) film.planned[i].to = shares.of(i, scale);
   spend(left, shares, scale, film.planned);
-  if (still_even && expected_gain(needs, film.planned, mean) < least_gain)
-    for (PlannedSamples& p : film.planned) p.to = static_cast<std::uint32_t>(mean);
+  if (still_even && expected_gain(needs, film.planned, mean) < least_gain) stay_even();
 }
 
 std::uint32_t planned_mean(const Film& film) {
@@ -237,7 +242,8 @@ std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
 std::uint32_t labelled_spp(const Film& film) {
   const FilmTotals sum = totals(film);
   if (film.planned.empty()) return sum.least_taken;
-  return static_cast<std::uint32_t>(std::llround(static_cast<double>(sum.samples) / pixel_count(film)));
+  return static_cast<std::uint32_t>(
+      std::llround(static_cast<double>(sum.samples) / static_cast<double>(film.pixels.size())));
 }
 
 }  // namespace tyndall
