@@ -1,6 +1,7 @@
 #include "app/film_files.h"
 
 #include "app/values.h"
+#include "core/film/plan.h"
 #include "core/scene/load.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ bool same_samples(Scene a, Scene b) {
 
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image) {
-  scene.render.spp = static_cast<int>(std::clamp(totals(film).least_taken, 1u, most_samples));
+  scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, most_samples));
   return write_scene(move_textures(std::move(scene), textures, image.parent_path()));
 }
 

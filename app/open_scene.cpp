@@ -16,6 +16,7 @@ void apply(const SceneRequest& request, Scene& scene) {
   if (request.sampler) scene.render.sampler = *request.sampler;
   if (request.fresnel) scene.render.fresnel = *request.fresnel;
   if (request.seed) scene.render.seed = *request.seed;
+  if (request.adaptive) scene.render.adaptive = true;
   if (request.exposure) scene.display.exposure = *request.exposure;
   if (request.tone_map) scene.display.tone_map = *request.tone_map;
 }

@@ -25,6 +25,7 @@ struct SceneRequest {
   std::optional<double> exposure;
   std::optional<ToneMap> tone_map;
   std::optional<std::uint32_t> seed;
+  bool adaptive = false;  ///< switched on; else the scene says
 };
 
 struct ViewCommand {
@@ -71,7 +72,7 @@ struct VerifyCommand {
 /// One curve of a chart: the scene's own settings and what its flags change.
 struct MethodRequest {
   std::string name;
-  SceneRequest scene;  ///< only its integrator, sampler, Fresnel rule, depth and seed
+  SceneRequest scene;  ///< only its integrator, sampler, Fresnel rule, depth, seed and adaptive
   std::string isa;     ///< "": the best
 };
 

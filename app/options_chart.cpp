@@ -16,6 +16,7 @@ MethodRequest read_method(const std::string& text) {
   for (std::string word; stream >> word;) words.push_back(word);
   CommandLine line("--method NAME=FLAGS", "One curve of a chart.", "");
   add_method_options(line, method.scene);
+  add_adaptive(line, method.scene);
   add_isa(line, method.isa);
   if (line.read(words)) throw UsageError("found a question for help, expected flags of a method");
   return method;

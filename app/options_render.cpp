@@ -91,6 +91,14 @@ void add_method_options(CommandLine& line, SceneRequest& scene) {
              [&](Text t) { scene.seed = static_cast<std::uint32_t>(read_whole(t, 0, 0xffffffff)); });
 }
 
+void add_adaptive(CommandLine& line, SceneRequest& scene) {
+  line.flag("--adaptive",
+            "more samples where the estimated error is, fewer elsewhere:\n"
+            "--spp is their mean then, never exceeded; not with --samples,\n"
+            "--resume or merge [from the scene, else off]",
+            scene.adaptive);
+}
+
 void add_machine_options(CommandLine& line, int& threads, std::string& isa) {
   line.group("Machine");
   line.value("-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
@@ -132,6 +140,7 @@ Command read_view(const std::vector<std::string>& words) {
   add_scene(line, command.scene, " [showroom]");
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
+  add_adaptive(line, command.scene);
   add_machine_options(line, command.threads, command.isa);
   line.value("--ui-log", "FILE",
              "for tests: write what is on the screen and how long things took;\n- for standard output",
@@ -156,6 +165,7 @@ Command read_render(const std::vector<std::string>& words) {
   add_limits(line, command);
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
+  add_adaptive(line, command.scene);
   add_machine_options(line, command.threads, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");

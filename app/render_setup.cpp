@@ -28,6 +28,11 @@ void check_region(const Region& region, const Scene& scene) {
                    pair(scene.width, scene.height) + ", the image's size");
 }
 
+void refuse_adaptive(const char* option, const char* why) {
+  throw UsageError(std::string(option) + " and adaptive sampling exclude each other: " + why +
+                   " (it comes from --adaptive, or from /render/adaptive of the scene)");
+}
+
 }  // namespace
 
 Kernels find_kernels(const std::string& isa) {
@@ -39,6 +44,9 @@ Kernels find_kernels(const std::string& isa) {
 }
 
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded) {
+  const bool adaptive = loaded.scene.render.adaptive;
+  if (adaptive && command.samples) refuse_adaptive("--samples", "it names exactly what every pixel takes");
+  if (adaptive && command.resume) refuse_adaptive("--resume", "a file does not hold how a round was to go on");
   if (command.region) check_region(*command.region, loaded.scene);
   RenderOptions options;
   options.threads = command.threads;
@@ -48,6 +56,7 @@ RenderOptions render_options(const RenderCommand& command, const LoadedScene& lo
   options.spp = last_sample_count(command, loaded);
   options.time_limit = command.time_limit;
   options.target_error = command.target_error;
+  options.adaptive = adaptive;
   return options;
 }
 

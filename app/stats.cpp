@@ -1,6 +1,7 @@
 #include "app/stats.h"
 
 #include "core/film/error.h"
+#include "core/film/plan.h"
 #include "core/scene/names.h"
 
 #include <nlohmann/json.hpp>
@@ -47,6 +48,9 @@ void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["truncated_throughput"] = sum.cut_throughput;
   json["first_rejected"] = Json::array();
   for (const RejectedSample& r : run.result.first_rejected) json["first_rejected"].push_back({r.x, r.y, r.sample});
+  json["adaptive"] = run.settings.render.adaptive;
+  json["least_spp"] = sum.least_taken;
+  json["most_spp"] = sum.most_taken;
   json["rare_bright_paths"] = run.rare_bright_paths;
 }
 
@@ -59,7 +63,7 @@ std::string stats_text(const RunFigures& run) {
   json["scene"] = run.scene;
   json["width"] = film.region.width();
   json["height"] = film.region.height();
-  json["spp"] = sum.least_taken;
+  json["spp"] = labelled_spp(film);
   json["samples"] = sum.samples;
   json["rays"] = run.result.rays;
   json["shadow_rays"] = run.result.shadow_rays;
@@ -84,7 +88,7 @@ std::string embedded_stats_text(const RunFigures& run) {
   json["version"] = TYNDALL_VERSION;
   json["region"] = {film.region.x0, film.region.y0, film.region.x1, film.region.y1};
   json["first_sample"] = film.first_sample;
-  json["spp"] = sum.least_taken;
+  json["spp"] = labelled_spp(film);
   add_method(json, run, sum);
   json["image_hash"] = hash_text(film);
   add_losses(json, run, sum);

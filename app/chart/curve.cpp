@@ -17,6 +17,7 @@ class GrowingPicture {
   GrowingPicture(const Scene& scene, const std::string& isa, const ChartRun& run) : scene_(compile(scene)), run_(run) {
     options_.isa = isa;
     options_.threads = run.threads;
+    options_.adaptive = scene.render.adaptive;
   }
   /// Up to `spp` samples; false if it was stopped on the way.
   bool grow(std::uint32_t spp) {
@@ -48,6 +49,7 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
   scene.render.integrator = Integrator::mis;
   scene.render.sampler = SamplerKind::random;
   scene.render.fresnel = FresnelKind::exact;
+  scene.render.adaptive = false;
   scene.render.seed += 0x5eed;
   GrowingPicture picture(scene, "", run);
   std::uint32_t spp = 2;

@@ -11,6 +11,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   std::vector<ChartMethod> methods;
   RenderSettings settings = scene.render;
   settings.spp.reset();
+  settings.adaptive = false;
   settings.integrator = Integrator::path;
   settings.sampler = SamplerKind::random;
   settings.fresnel = needs.dielectric ? FresnelKind::schlick : FresnelKind::exact;
@@ -28,6 +29,9 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});
+  settings.adaptive = true;
+  methods.push_back({"+ adaptive", settings, ""});
+  settings.adaptive = false;
   if (needs.dielectric) {
     settings.fresnel = FresnelKind::schlick;
     methods.push_back({"Schlick", settings, ""});

@@ -40,6 +40,7 @@ ChartMethod method_of(const MethodRequest& request, const Scene& scene) {
   s.fresnel = request.scene.fresnel.value_or(s.fresnel);
   s.max_depth = request.scene.max_depth.value_or(s.max_depth);
   s.seed = request.scene.seed.value_or(s.seed);
+  s.adaptive = s.adaptive || request.scene.adaptive;
   return method;
 }
 

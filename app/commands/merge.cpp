@@ -27,6 +27,8 @@ int run(const MergeCommand& command) {
   std::optional<Scene> scene;
   for (const auto& file : command.parts) {
     StoredFilm stored = read_stored_film(file);
+    if (stored.scene.render.adaptive)
+      throw UsageError(file.string() + ": found an adaptive render, expected a range of samples that every pixel has");
     if (scene && !same_samples(*scene, stored.scene))
       throw UsageError(file.string() + ": found a film of another scene or other settings than in " +
                        command.parts.front().string());

@@ -11,6 +11,7 @@
 #include "core/compile/caustics.h"
 #include "core/compile/compile.h"
 #include "core/film/error.h"
+#include "core/film/plan.h"
 #include "core/render/rare.h"
 #include "core/scene/text.h"
 
@@ -66,7 +67,7 @@ std::string losses(const FilmTotals& sum) {
 
 std::string outcome(const Job& job) {
   const RenderResult& r = job.result;
-  const RenderProgress end{totals(r.film).least_taken, r.seconds,
+  const RenderProgress end{labelled_spp(r.film), r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
                            estimated_relative_error(r.film)};
   return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(totals(r.film));

@@ -11,6 +11,7 @@ std::string method_of(const RenderSettings& settings) {
   std::string method =
       std::string(name_of(integrators, settings.integrator)) + " · " + name_of(samplers, settings.sampler);
   if (settings.fresnel == FresnelKind::schlick) method += " · schlick";
+  if (settings.adaptive) method += " · adaptive";
   return method;
 }
 

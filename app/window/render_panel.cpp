@@ -58,6 +58,15 @@ bool whole_row(Ui& ui, Row row, int& value) {
   return true;
 }
 
+void adaptive_row(Ui& ui, bool& adaptive) {
+  const Choice choices[] = {{"off", nullptr}, {"on", nullptr}};
+  int chosen = adaptive ? 1 : 0;
+  const char* meaning = adaptive ? "more where the error is; spp is their mean" : "as many samples everywhere";
+  if (choice_row(ui, {"adaptive", "Adaptive", {}, {}, "", "where samples are spent; view 6 shows it", meaning}, choices,
+                 chosen))
+    adaptive = chosen == 1;
+}
+
 void limit_rows(Ui& ui, PanelState& state) {
   RenderSettings& render = state.scene.render;
   whole_row(ui,
@@ -129,6 +138,7 @@ void render_panel(Ui& ui, PanelState& state) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4 * ui.scale);
     note(ui, "approximation: wrong by up to 0.93", true, palette::amber);
   }
+  adaptive_row(ui, render.adaptive);
   limit_rows(ui, state);
   note(ui, contents_text(state.scene), false);
   ui.scope.clear();

@@ -6,6 +6,7 @@
 #include "app/stats.h"
 #include "app/window/clock.h"
 #include "core/compile/compile.h"
+#include "core/film/plan.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -54,7 +55,7 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   const std::vector<std::string> problems = write_images(picture, files);
   if (!problems.empty()) throw ImageFileError(problems.front());
   return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +
-         std::to_string(totals(result.film).least_taken) + " spp";
+         std::to_string(labelled_spp(result.film)) + " spp";
 }
 
 Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,

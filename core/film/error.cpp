@@ -18,22 +18,26 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double square(double x) { return x * x; }
 
-/// Mean over the channels of ((A-B)/2)² / (mean² + 0.01) of one pixel; infinite if a half is empty.
-double squared_error(const Film& film, const FilmPixel& pixel) {
-  if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
-  const Vec3f a = half_mean(film, pixel, 0), b = half_mean(film, pixel, 1), both = mean(film, pixel);
-  const auto channel = [](double x, double y, double m) { return square((x - y) / 2) / (square(m) + floor_of_square); };
-  return (channel(a.x, b.x, both.x) + channel(a.y, b.y, both.y) + channel(a.z, b.z, both.z)) / 3;
-}
-
 }  // namespace
+
+double squared_relative_error(const Film& film, const FilmPixel& pixel) {
+  const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
+  if (count_a == 0 || count_b == 0) return infinity;
+  const double per_a = film.unit / count_a, per_b = film.unit / count_b, per_both = film.unit / (count_a + count_b);
+  double sum = 0;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double a = pixel.sum[0][channel].value(), b = pixel.sum[1][channel].value();
+    sum += square((a * per_a - b * per_b) / 2) / (square((a + b) * per_both) + floor_of_square);
+  }
+  return sum / 3;
+}
 
 double estimated_relative_error(const Film& film, Crew* crew) {
   const std::size_t width = static_cast<std::size_t>(film.region.width());
   std::vector<double> rows(static_cast<std::size_t>(film.region.height()));
   const auto add_row = [&](int y) {
     const auto row = static_cast<std::size_t>(y);
-    for (std::size_t x = 0; x < width; ++x) rows[row] += squared_error(film, film.pixels[row * width + x]);
+    for (std::size_t x = 0; x < width; ++x) rows[row] += squared_relative_error(film, film.pixels[row * width + x]);
   };
   if (crew)
     crew->for_each(film.region.height(), add_row);
@@ -143,7 +147,7 @@ std::vector<float> pixel_relative_error(const Film& film) {
   std::vector<Sum> sums, row;
   sums.reserve(film.pixels.size());
   for (const FilmPixel& pixel : film.pixels) {
-    const double error = squared_error(film, pixel);
+    const double error = squared_relative_error(film, pixel);
     sums.push_back(error == infinity ? Sum{} : Sum{error, 1});
   }
   const auto stride = static_cast<std::size_t>(width);

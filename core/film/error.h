@@ -7,6 +7,9 @@
 /// How far a picture is from another, and how far it is likely to be from the truth.
 namespace tyndall {
 
+/// Mean over the channels of ((A-B)/2)² / (mean² + 0.01) of one pixel; infinite while a half is empty.
+double squared_relative_error(const Film& film, const FilmPixel& pixel);
+
 /// Estimated relative error of a film from its two halves: sqrt(mean over pixels and channels of
 /// ((A-B)/2)² / (mean² + 0.01)). Its square estimates relMSE. Infinite while a half is empty. crew: shares the work,
 /// null: the caller's thread does it; the answer is the same.

@@ -18,7 +18,8 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
             .first_sample = first_sample,
             .unit = unit,
             .cut_throughput = {},
-            .pixels = {}};
+            .pixels = {},
+            .planned = {}};
   film.pixels.resize(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()));
   return film;
 }

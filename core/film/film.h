@@ -27,6 +27,13 @@ struct FilmPixel {
 };
 static_assert(sizeof(FilmPixel) == 112);
 
+/// What a round of adaptive sampling does to a pixel.
+struct PlannedSamples {
+  std::uint32_t from = 0;  ///< samples taken when it begins
+  std::uint32_t to = 0;    ///< and when it ends
+  bool operator==(const PlannedSamples&) const = default;
+};
+
 /// Samples gathered for the pixels of a region. Adding films of disjoint sample ranges gives, bit for bit, the film of
 /// all of them.
 struct Film {
@@ -36,6 +43,8 @@ struct Film {
   double unit = 1;                 ///< a power of two not below the brightest emitter: what sums are divided by
   ExactSum cut_throughput;         ///< what paths that max_depth ended carried: their brightest channels, summed
   std::vector<FilmPixel> pixels;   ///< region, row by row
+  /// The round of adaptive sampling that is under way or was the last, a cell each (see plan.h); empty: none yet.
+  std::vector<PlannedSamples> planned;
 
   FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
   const FilmPixel& at(int x, int y) const { return pixels[index(x, y)]; }

@@ -29,19 +29,42 @@ TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& di
 
 inline constexpr int most_unit_pixels = 4096;
 
-/// The samples of a unit in the order in which lanes take them: all pixels with the first index, then the next index.
+/// The samples of a unit in the order in which lanes take them: all pixels with their first index, then the next index.
 struct UnitSamples {
   std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
+  std::uint32_t start[most_unit_pixels];                          ///< first sample, where each pixel has its own
+  int width;                                                      ///< of the tile
+  const std::uint32_t *first_of, *last_of;                        ///< see Unit
+  std::uint32_t first;
   int pixels;
-  int pixel;             ///< next
-  std::uint32_t sample;  ///< next
-  std::uint32_t last;
+  int pixel;            ///< next
+  std::uint32_t round;  ///< next sample of a pixel, counted from its first
+  std::uint32_t rounds;
+  std::uint32_t next_finish;  ///< round at which some pixels may have all their samples
 
-  TYNDALL_INLINE bool empty() const { return sample >= last; }
+  TYNDALL_INLINE bool empty() const { return round >= rounds; }
+  TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
+  TYNDALL_INLINE std::uint32_t sample() const { return (first_of ? start[pixel] : first) + round; }
   TYNDALL_INLINE void advance() {
     if (++pixel < pixels) return;
     pixel = 0;
-    ++sample;
+    ++round;
+    if (round == next_finish) drop_finished();
+  }
+  /// Takes pixels that have all their samples off the list.
+  TYNDALL_INLINE void drop_finished() {
+    int kept = 0;
+    next_finish = ~0u;
+    for (int i = 0; i < pixels; ++i) {
+      const int at = place(i);
+      const std::uint32_t count = last_of[at] - first_of[at];
+      if (count <= round) continue;
+      if (count < next_finish) next_finish = count;
+      column[kept] = column[i], row[kept] = row[i], start[kept] = first_of[at];
+      ++kept;
+    }
+    pixels = kept;
+    if (pixels == 0) rounds = round;
   }
 };
 
@@ -55,9 +78,16 @@ TYNDALL_INLINE void list_samples(const Unit& unit, UnitSamples& list) {
       list.row[list.pixels] = static_cast<std::uint16_t>(y - unit.tile.y0);
       ++list.pixels;
     }
+  list.width = unit.tile.x1 - unit.tile.x0;
+  list.first_of = unit.first_of, list.last_of = unit.last_of;
+  list.first = unit.first;
   list.pixel = 0;
-  list.sample = unit.first;
-  list.last = list.pixels ? unit.last : unit.first;
+  list.round = 0;
+  list.rounds = list.pixels ? unit.last - unit.first : 0;
+  list.next_finish = ~0u;
+  if (!unit.first_of) return;
+  list.rounds = ~0u;
+  list.drop_finished();
 }
 
 /// A group of fresh camera rays that waits for lanes to become free: so that all lanes of a group are computed at once.
@@ -83,8 +113,8 @@ TYNDALL_INLINE void refill(CameraQueue<F>& queue, UnitSamples& samples, const Sc
     iy[k] = static_cast<std::uint32_t>(unit.tile.y0 + row);
     x[k] = static_cast<float>(ix[k]);
     y[k] = static_cast<float>(iy[k]);
-    index[k] = samples.sample;
-    queue.slot[k] = 2 * (row * (unit.tile.x1 - unit.tile.x0) + column) + static_cast<std::int32_t>(samples.sample & 1u);
+    index[k] = samples.sample();
+    queue.slot[k] = 2 * samples.place(samples.pixel) + static_cast<std::int32_t>(index[k] & 1u);
   }
   const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sobol);
   const Ray<F> ray = sample_ray(s, load<F>(x), load<F>(y), dice);

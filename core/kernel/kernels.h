@@ -16,6 +16,8 @@ struct Unit {
   int step = 1;                       ///< only pixels whose x and y are multiples of step; step 1: all
   int skip_step = 0;                  ///< > 0: pixels whose x and y are both multiples of it are left out (done before)
   std::uint32_t first = 0, last = 0;  ///< sample indices
+  /// Null, or for each pixel of the tile, row by row, its own first and last (<= last) in place of those above.
+  const std::uint32_t *first_of = nullptr, *last_of = nullptr;
 };
 
 struct UnitCounts {

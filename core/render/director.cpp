@@ -2,6 +2,7 @@
 
 #include "core/compile/caustics.h"
 #include "core/film/error.h"
+#include "core/film/plan.h"
 #include "core/render/frame.h"
 #include "core/render/preview.h"
 #include "core/render/rare.h"
@@ -117,6 +118,7 @@ void Director::start_over() {
   if (film_.pixels.size() == static_cast<std::size_t>(pixels())) {  // the first pass replaces what the pixels hold
     film_.width = compiled_->width, film_.height = compiled_->height, film_.region = all,
     film_.unit = compiled_->film_unit, film_.cut_throughput = {};
+    film_.planned.clear();
   } else {
     film_ = make_film(compiled_->width, compiled_->height, all, 0, compiled_->film_unit);
   }
@@ -138,15 +140,22 @@ Pass& Director::current_pass() {
   const Region all = film_.region;
   pass_seconds_ = 0;
   pass_is_coarse_ = taken_ == 0 && !coarse_done_ && step_ > 1;
-  if (pass_is_coarse_) {
+  pass_end_ = 1;
+  if (pass_is_coarse_)
     pass_ = std::make_unique<Pass>(all, 0, 1, step_);
-  } else if (taken_ == 0) {
+  else if (taken_ == 0)
     pass_ = std::make_unique<Pass>(all, 0, 1, 1, coarse_done_ ? step_ : 0);
-  } else {
-    const std::uint32_t more = pass_samples(taken_, pixels(), paths_per_second_, pass_budget);
-    pass_ = std::make_unique<Pass>(all, taken_, std::min(taken_ + more, limit_));
-  }
+  else
+    pass_ = further_pass();
   return *pass_;
+}
+
+std::unique_ptr<Pass> Director::further_pass() {
+  const std::uint32_t more = pass_samples(taken_, pixels(), paths_per_second_, pass_budget);
+  pass_end_ = std::min(taken_ + more, limit_);
+  if (scene_.render.adaptive) pass_end_ = std::min(pass_end_, end_of_round(film_, taken_, crew_.get()));
+  if (planned_unevenly(film_)) return std::make_unique<Pass>(film_, counts_at(film_, pass_end_));
+  return std::make_unique<Pass>(film_.region, taken_, pass_end_);
 }
 
 void Director::finish_pass(double seconds) {
@@ -154,13 +163,13 @@ void Director::finish_pass(double seconds) {
   mrays_per_s_ = static_cast<double>(pass_->rays()) / seconds * 1e-6;
   paths_per_second_ = static_cast<double>(pass_->paths()) / seconds;
   // Passes of one sample are slower than the ones that follow.
-  if (pass_->last() == 1)
+  if (pass_end_ == 1)
     first_paths_per_second_ =
         first_paths_per_second_ > 0 ? std::sqrt(first_paths_per_second_ * paths_per_second_) : paths_per_second_;
   if (pass_is_coarse_)
     coarse_done_ = true;
   else
-    taken_ = pass_->last();
+    taken_ = pass_end_;
   rejected_ += pass_->rejected();
   truncated_ += pass_->truncated();
   pass_.reset();
@@ -227,7 +236,7 @@ void Director::publish() {
   if (on_frame_) on_frame_();
 }
 
-/// Between passes, when a film has the same number of samples everywhere, unless the rest of a pass is not to come.
+/// Between passes, when a film has the samples it is to have everywhere, unless the rest of a pass is not to come.
 void Director::answer_films() {
   if (pass_ && has_work()) return;
   std::vector<std::promise<Film>> films;

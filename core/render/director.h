@@ -57,6 +57,7 @@ class Director {
   void start_over();
   void answer_films();
   Pass& current_pass();
+  std::unique_ptr<Pass> further_pass();
   void finish_pass(double seconds);
   void publish();
   void draw(std::vector<float>& rgba);
@@ -85,8 +86,9 @@ class Director {
   Film film_;
   std::unique_ptr<Pass> pass_;  ///< null between passes
   bool pass_is_coarse_ = false;
-  int step_ = 1;             ///< of the coarse pass
-  std::uint32_t taken_ = 0;  ///< samples that every pixel has
+  int step_ = 1;                ///< of the coarse pass
+  std::uint32_t taken_ = 0;     ///< samples that every pixel has; after rounds of adaptive sampling, their mean
+  std::uint32_t pass_end_ = 0;  ///< what it is after the pass that is under way
   bool coarse_done_ = false;
   double seconds_ = 0, mrays_per_s_ = 0, error_ = 0, first_picture_ms_ = 0;
   double paths_per_second_ = 0;        ///< of the last pass

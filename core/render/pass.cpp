@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -21,6 +22,34 @@ std::vector<FilmPixel>& buffer() {
   return pixels;
 }
 
+/// Mean number of samples that pixels lack.
+std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& wanted) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) sum += wanted[i] - std::min(wanted[i], film.pixels[i].taken);
+  return static_cast<std::uint32_t>(sum / wanted.size());
+}
+
+/// First and last sample of the next unit of a tile, for each of its pixels: of those that lack samples, as many as
+/// make about unit_paths. False if none lacks any.
+bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile,
+                  std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) {
+  first.clear(), last.clear();
+  std::uint32_t lacking = 0, deepest = 0;
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const std::size_t i = film.index(x, y);
+      first.push_back(film.first_sample + film.pixels[i].taken);
+      last.push_back(std::max(first.back(), film.first_sample + wanted[i]));
+      lacking += last.back() > first.back();
+      deepest = std::max(deepest, last.back() - first.back());
+    }
+  if (lacking == 0) return false;
+  const std::uint32_t most = std::max(static_cast<std::uint32_t>(unit_paths) / lacking, 1u);
+  if (deepest > most + most / 2)  // else no small rest
+    for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + most);
+  return true;
+}
+
 }  // namespace
 
 Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int skip_step, int tile)
@@ -34,6 +63,14 @@ Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int
       rows_((region.height() + tile_ - 1) / tile_),
       done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
+Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, int tile)
+    : region_(film.region),
+      wanted_(std::move(wanted)),
+      tile_(tile > 0 ? std::min(tile, most_tile) : chosen_tile(mean_lack(film, wanted_), 1)),
+      columns_((region_.width() + tile_ - 1) / tile_),
+      rows_((region_.height() + tile_ - 1) / tile_),
+      done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+
 Region Pass::tile(int unit) const {
   const int x = region_.x0 + unit % columns_ * tile_, y = region_.y0 + unit / columns_ * tile_;
   return {x, y, std::min(x + tile_, region_.x1), std::min(y + tile_, region_.y1)};
@@ -44,8 +81,12 @@ bool Pass::run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film&
   const auto job = [&](int unit) {
     auto& done = done_[static_cast<std::size_t>(unit)];
     if (done || give_up.load(std::memory_order_relaxed)) return;
-    run_unit(unit, kernels, scene, film);
-    done = 1;
+    if (wanted_.empty()) {
+      run_unit(unit, kernels, scene, film);
+      done = 1;
+    } else {
+      done = fill_tile(unit, kernels, scene, film, give_up);
+    }
   };
   crew.for_each(columns_ * rows_, job, poll);
   film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
@@ -58,7 +99,30 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
   pixels.assign(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()), {});
   UnitCounts counts;
   kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, pixels.data(), counts);
-  const bool first = first_ == film.first_sample;
+  add_unit(where, first_ == film.first_sample, pixels, film);
+  add_counts(counts);
+}
+
+/// Unit after unit until the tile's pixels have what is wanted; false if it was given up before.
+bool Pass::fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
+                     const std::atomic<bool>& give_up) {
+  const Region where = tile(unit);
+  auto& pixels = buffer();
+  thread_local std::vector<std::uint32_t> first, last;
+  for (;;) {
+    if (!list_lacking(film, wanted_, where, first, last)) return true;
+    if (give_up.load(std::memory_order_relaxed)) return false;
+    pixels.assign(first.size(), {});
+    UnitCounts counts;
+    const Unit lacking{where, 1, 0, 0, 0, first.data(), last.data()};
+    kernels.render_unit(scene, lacking, film.unit, pixels.data(), counts);
+    add_unit(where, false, pixels, film);
+    add_counts(counts);
+  }
+}
+
+/// Adds a unit's samples to the film, or lets them replace what its pixels held.
+void Pass::add_unit(const Region& where, bool replace, const std::vector<FilmPixel>& pixels, Film& film) {
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
   auto from = pixels.begin();
   for (int y = where.y0; y < where.y1; ++y)
@@ -67,16 +131,19 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
       paths += from->taken;
       rejected += from->rejected[0] + from->rejected[1];
       truncated += from->truncated;
-      if (first)
+      if (replace)
         film.at(x, y) = *from;
       else
         add_pixel(film.at(x, y), *from);
     }
-  rays_.fetch_add(counts.rays, std::memory_order_relaxed);
-  shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);
   paths_.fetch_add(paths, std::memory_order_relaxed);
   rejected_.fetch_add(rejected, std::memory_order_relaxed);
   truncated_.fetch_add(truncated, std::memory_order_relaxed);
+}
+
+void Pass::add_counts(const UnitCounts& counts) {
+  rays_.fetch_add(counts.rays, std::memory_order_relaxed);
+  shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);
   cut_high_.fetch_add(counts.cut_throughput.high, std::memory_order_relaxed);
   cut_low_.fetch_add(counts.cut_throughput.low, std::memory_order_relaxed);
 }

@@ -1,6 +1,7 @@
 #include "core/render/render.h"
 
 #include "core/film/error.h"
+#include "core/film/plan.h"
 #include "core/render/level.h"
 #include "core/render/pass.h"
 
@@ -41,8 +42,8 @@ class BlockingRender {
     Crew crew(options_.threads);
     level_film(crew);
     while (!stop_ && !reached_limit()) {
-      const std::uint32_t count = next_samples(options_, taken_), first = result_.film.first_sample + taken_;
-      Pass pass(result_.film.region, first, first + count, 1, 0, options_.tile);
+      std::uint32_t count = next_samples(options_, taken_);
+      Pass pass = next_pass(crew, count);
       pass.run(crew, kernels_, view_.view(), result_.film, stop_, [&] { report(pass, taken_); });
       result_.seconds = seconds_since(start_);
       result_.rays += pass.rays();
@@ -61,8 +62,21 @@ class BlockingRender {
   }
 
  private:
-  /// A film that an interrupted pass left is made even before it is continued.
+  /// count: samples a pixel, or their mean; made less where a round of adaptive sampling ends.
+  Pass next_pass(Crew& crew, std::uint32_t& count) {
+    Film& film = result_.film;
+    if (options_.adaptive) count = std::min(count, end_of_round(film, taken_, &crew) - taken_);
+    if (planned_unevenly(film)) return Pass(film, counts_at(film, taken_ + count), options_.tile);
+    const std::uint32_t first = film.first_sample + taken_;
+    return Pass(film.region, first, first + count, 1, 0, options_.tile);
+  }
+  /// A film that an interrupted pass left is made even before it is continued; where counts are to differ, the next
+  /// pass does that.
   void level_film(Crew& crew) {
+    if (planned_unevenly(result_.film)) {
+      taken_ = static_cast<std::uint32_t>(totals(result_.film).samples / result_.film.pixels.size());
+      return;
+    }
     UnitCounts counts;
     level(crew, kernels_, view_.view(), result_.film, stop_, counts, [&] {
       if (progress_ && !progress_({taken_, seconds_since(start_), 0, error_})) stop_ = true;

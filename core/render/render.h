@@ -14,18 +14,20 @@
 namespace tyndall {
 
 struct RenderOptions {
-  int threads = 0;                   ///< 0: all cores
-  std::string isa;                   ///< "": the best
-  std::optional<Region> region;      ///< absent: the whole image
-  std::uint32_t first_sample = 0;    ///< index of the first sample
-  std::optional<std::uint32_t> spp;  ///< samples a pixel in all, those of a continued film included; absent: no limit
+  int threads = 0;                 ///< 0: all cores
+  std::string isa;                 ///< "": the best
+  std::optional<Region> region;    ///< absent: the whole image
+  std::uint32_t first_sample = 0;  ///< index of the first sample
+  std::optional<std::uint32_t>
+      spp;  ///< samples a pixel in all (see adaptive), those of a continued film included; absent: no limit
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
   double target_error = 0;                                      ///< estimated relative error at which to stop; 0: none
-  int tile = 0;  ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
+  bool adaptive = false;  ///< spends samples where the error is (see plan.h); spp is their mean then
+  int tile = 0;           ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
 };
 
 struct RenderProgress {
-  std::uint32_t spp = 0;  ///< samples a pixel so far
+  std::uint32_t spp = 0;  ///< samples a pixel so far; adaptive: their mean
   double seconds = 0;     ///< rendering so far
   double mrays_per_s = 0;
   double relative_error = 0;  ///< estimated; infinite before two samples
@@ -46,7 +48,8 @@ struct RenderResult {
 /// stop.
 using ProgressCallback = std::function<bool(const RenderProgress&)>;
 
-/// Renders until the first of the limits. Continues `film` if it is not empty (it must be of this scene and region).
+/// Renders until the first of the limits. Continues `film` if it is not empty (it must be of this scene and region, and
+/// made with the same `adaptive`).
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
 

@@ -19,10 +19,11 @@ struct Frame {
   int width = 0, height = 0;
   std::vector<float> rgba;  ///< 4 floats a pixel, top row first, linear; holes of a coarse pass are filled
   View view = View::beauty;
-  int step = 1;                    ///< every step-th pixel was rendered (8, 4, 2), 1: all
-  std::uint32_t spp = 0;           ///< samples that every pixel has; 0 while only a coarse pass is there
-  bool finished = false;           ///< the limit is reached
-  double relative_error = 0;       ///< estimated; infinite before two samples
+  int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
+  std::uint32_t spp = 0;      ///< samples that every pixel has, or with adaptive sampling their mean; the same film
+                              ///< as render() makes for that number; 0 while only a coarse pass is there
+  bool finished = false;      ///< the limit is reached
+  double relative_error = 0;  ///< estimated; infinite before two samples
   bool rare_bright_paths = false;  ///< the estimate says too little: see has_rare_bright_paths
   double seconds = 0;              ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;          ///< of the last pass

@@ -59,11 +59,12 @@ void read_background(const JsonValue& json, const Place& at, Background& backgro
 
 void read_render(const JsonValue& json, const Place& at, RenderSettings& render) {
   const JsonObject& object = object_at(json, at, "an object with the render settings");
-  allow_keys(object, at, keys_of(fields_of<RenderSettings>(), {"integrator", "sampler", "fresnel"}));
+  allow_keys(object, at, keys_of(fields_of<RenderSettings>(), {"integrator", "sampler", "fresnel", "adaptive"}));
   read_fields(object, at, fields_of<RenderSettings>(), render);
   read_name(object, at, "integrator", integrators, render.integrator);
   read_name(object, at, "sampler", samplers, render.sampler);
   read_name(object, at, "fresnel", fresnel_rules, render.fresnel);
+  read_switch(object, at, "adaptive", render.adaptive);
 }
 
 void read_display(const JsonValue& json, const Place& at, Display& display) {

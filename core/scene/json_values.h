@@ -24,6 +24,8 @@ void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, 
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::uint32_t& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, Vec3d& out);
+/// true or false, if the key is there.
+void read_switch(const JsonObject& object, const Place& at, const char* key, bool& out);
 template <class T>
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::optional<T>& out) {
   read_value(json, at, meaning, out.emplace());

@@ -75,6 +75,7 @@ JsonObject render_json(const RenderSettings& render) {
   put_name(out, "sampler", samplers, render.sampler, defaults.sampler);
   put_name(out, "fresnel", fresnel_rules, render.fresnel, defaults.fresnel);
   put_fields(out, std::tuple{std::get<2>(all)}, render);
+  if (render.adaptive) put(out, "adaptive", {true});
   return out;
 }
 

@@ -141,6 +141,7 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   FresnelKind fresnel = FresnelKind::exact;
   std::uint32_t seed = 0;
+  bool adaptive = false;  ///< more samples where the error is, fewer elsewhere; spp is their mean then
   bool operator==(const RenderSettings&) const = default;
 };
 

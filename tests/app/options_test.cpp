@@ -130,6 +130,17 @@ TEST_CASE("limits that exclude each other are named") {
   CHECK(render_command({"--samples", "4:8"}).samples->first == 4);
 }
 
+TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered") {
+  CHECK_FALSE(render_command({}).scene.adaptive);
+  CHECK(render_command({"--adaptive"}).scene.adaptive);
+  CHECK(std::get<ViewCommand>(read_command({"view", "--adaptive", "box"})).scene.adaptive);
+  const auto chart = std::get<ChartCommand>(
+      read_command({"chart", "box", "-o", "a.svg", "--method", "even=", "--method", "adaptive=--adaptive --seed 3"}));
+  CHECK_FALSE(chart.methods.at(0).scene.adaptive);
+  CHECK(chart.methods.at(1).scene.adaptive);
+  CHECK(has(refusal({"verify", "--adaptive"}), "unknown option"));
+}
+
 TEST_CASE("verify: names, method, machine") {
   const auto command = std::get<VerifyCommand>(read_command(
       {"verify", "plate", "--json", "milk", "--isa", "scalar", "-t", "2", "--integrator", "nee", "--seed", "7", "-q"}));

@@ -28,6 +28,7 @@ class SceneGenerator {
     for (int i = 1 + below(5); i > 0; --i) out.materials.push_back(material(out.materials.size()));
     materials_ = static_cast<int>(out.materials.size());
     out.objects = objects(3);
+    out.render.adaptive = chance();
     return out;
   }
 

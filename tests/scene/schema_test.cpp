@@ -91,7 +91,8 @@ TEST_CASE("schema: the settings") {
                                             "textures", "materials", "objects"});
   check_object("image", parts["image"], image_fields());
   check_object("camera", parts["camera"], fields_of_kind<Camera>(), {"shutter"});
-  check_object("render", parts["render"], fields_of_kind<RenderSettings>(), {"integrator", "sampler", "fresnel"});
+  check_object("render", parts["render"], fields_of_kind<RenderSettings>(),
+               {"integrator", "sampler", "fresnel", "adaptive"});
   check_object("display", parts["display"], fields_of_kind<Display>(), {"tone_map"});
   check_object("gradient", kind(parts["background"], "gradient"), fields_of_kind<Gradient>(), {"type"}, {"type"});
   check_object("hemispheres", kind(parts["background"], "hemispheres"), fields_of_kind<Hemispheres>(), {"type"},

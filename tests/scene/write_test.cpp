@@ -26,7 +26,7 @@ TEST_CASE("write_scene: the normal form") {
     "shutter": [0, 0.5]
   },
   "background": { "type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1] },
-  "render": { "max_depth": 50, "spp": 200, "fresnel": "schlick", "seed": 7 },
+  "render": { "max_depth": 50, "spp": 200, "fresnel": "schlick", "seed": 7, "adaptive": true },
   "display": { "exposure": -1.5, "tone_map": "aces" },
   "textures": {
     "tiles": { "type": "checker", "scale": 0.32, "even": [0.2, 0.3, 0.1], "odd": [0.9, 0.9, 0.9] },

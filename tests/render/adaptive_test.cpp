@@ -1,0 +1,165 @@
+#include "core/film/plan.h"
+#include "core/render/pass.h"
+#include "tests/support/statistics.h"
+#include "tests/support/watched_renderer.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+/// Adaptive sampling: the same picture everywhere, unbiased, and better where parts are hard.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr int width = 61, height = 43;  // neither a multiple of any tile
+
+const RenderScene& scene_of(const std::string& name) {
+  static std::map<std::string, RenderScene> all;
+  if (!all.contains(name)) all[name] = compile(small_scene(name, width, height, 1));
+  return all[name];
+}
+
+RenderOptions options_of(std::uint32_t spp) {
+  RenderOptions options;
+  options.threads = 2;
+  options.spp = spp;
+  options.adaptive = true;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("adaptive: the same film for any number of threads and any tiles, on every instruction set") {
+  for (const Kernels& kernels : available_kernels())
+    for (const char* name : {"showroom", "wide-view"}) {
+      CAPTURE(kernels.isa);
+      RenderOptions options = options_of(40);  // in the middle of a round
+      options.isa = kernels.isa;
+      options.threads = 1;
+      const RenderResult reference = render(scene_of(name), options);
+      const FilmTotals sum = totals(reference.film);
+      CHECK(sum.least_taken < 40);
+      CHECK(sum.most_taken >= 64);
+      CHECK(sum.samples <= 40 * width * height);
+      CHECK(labelled_spp(reference.film) == 40);
+      for (const auto& [threads, tile] : {std::pair{2, 0}, {7, 5}, {2, 8}, {3, 1000}}) {
+        options.threads = threads;
+        options.tile = tile;
+        const RenderResult other = render(scene_of(name), options);
+        REQUIRE(other.film == reference.film);
+        REQUIRE(hash_of(other.film) == hash_of(reference.film));
+        CHECK(other.rays == reference.rays);
+      }
+    }
+}
+
+TEST_CASE("adaptive: by long and short passes, continued, and given up at any point") {
+  for (const char* name : {"showroom", "stress-touching"}) {
+    const RenderScene& scene = scene_of(name);
+    const Film whole = render(scene, options_of(80)).film;
+    Film film{};
+    for (const std::uint32_t spp : {1u, 2u, 9u, 16u, 17u, 32u, 50u, 64u, 80u})
+      film = render(scene, options_of(spp), {}, std::move(film)).film;
+    CHECK(film == whole);
+    RenderOptions looking = options_of(80);
+    looking.target_error = 1e-9;  // short passes
+    CHECK(render(scene, looking).film == whole);
+    int calls = 0, stops = 0;
+    for (film = {}; !(film == whole) && stops < 1000;) {
+      RenderResult part = render(
+          scene, options_of(80), [&](const RenderProgress&) { return ++calls % 3 > 0; }, std::move(film));
+      film = std::move(part.film);
+      stops += part.interrupted ? 1 : 0;
+    }
+    CHECK(film == whole);
+    CHECK(stops > 1);
+  }
+}
+
+namespace {
+
+/// Renders units until there have been enough, then has the pass given up.
+struct Stop {
+  Kernels real{};
+  std::atomic<int> units_left = 0;
+  std::atomic<bool> give_up = false;
+} stop;
+
+void stopping_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts) {
+  stop.real.render_unit(scene, unit, film_unit, pixels, counts);
+  if (--stop.units_left == 0) stop.give_up = true;
+}
+
+}  // namespace
+
+TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the same film") {
+  const RenderScene& scene = scene_of("showroom");
+  const SceneViewOf view(scene);
+  const Film whole = render(scene, options_of(128)).film;
+  Film film = render(scene, options_of(64)).film;
+  plan_round(film);
+  stop.real = available_kernels().back();
+  Kernels stopping = stop.real;
+  for (RenderUnit& unit : stopping.render_units) unit = stopping_unit;
+  Crew crew(2);
+  const std::vector<std::uint32_t> wanted = counts_at(film, 128);
+  Pass pass(film, wanted);
+  int abandoned = 0;
+  for (bool done = false; !done; ++abandoned) {
+    stop.units_left = 3;
+    stop.give_up = false;
+    done = pass.run(crew, stopping, view.view(), film, stop.give_up);
+    for (std::size_t i = 0; i < wanted.size(); ++i) REQUIRE(film.pixels[i].taken <= wanted[i]);
+  }
+  CHECK(abandoned > 10);
+  CHECK(film == whole);
+}
+
+TEST_CASE("adaptive: the window has the headless render's film") {
+  Scene scene = small_scene("showroom", width, height, 70);
+  scene.render.adaptive = true;
+  WatchedRenderer renderer;
+  const FramePointer frame = renderer.wait_finished(renderer->submit(scene));
+  CHECK(frame->spp == 70);
+  const Film film = render(compile(scene), options_of(70)).film;
+  CHECK(rgb_of(*frame) == resolve(film));
+  CHECK(renderer->film() == film);
+  scene.render.adaptive = false;
+  const std::size_t so_far = renderer.frames().size();
+  const FramePointer even = renderer.wait_finished(renderer->submit(scene), so_far);
+  CHECK(rgb_of(*even) == reference_picture(scene));
+}
+
+TEST_CASE("adaptive: a region has its own samples, no more than asked for") {
+  RenderOptions options = options_of(64);
+  options.region = Region{0, 3, 61, 40};
+  const Film film = render(scene_of("showroom"), options).film;
+  CHECK(film.region == *options.region);
+  CHECK(totals(film).most_taken > totals(film).least_taken);
+  CHECK(labelled_spp(film) == 64);
+}
+
+TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.1 %") {
+  // Glass, metal and a lamp in fog, where what decides on counts is rare and bright.
+  Scene scene = small_scene("showroom", 40, 30, 64);
+  std::vector<double> ratios;
+  for (std::uint32_t seed = 0; seed < 48; ++seed) {
+    double mean[2] = {};
+    for (const bool adaptive : {false, true}) {
+      scene.render.seed = seed;
+      RenderOptions options = options_of(64);
+      options.adaptive = adaptive;
+      for (const float value : resolve(render(compile(scene), options).film))
+        mean[adaptive ? 1 : 0] += static_cast<double>(value);
+    }
+    ratios.push_back(mean[1] / mean[0] - 1);
+  }
+  const Estimate bias = estimate(ratios);
+  CAPTURE(bias.mean);
+  CHECK(bias.error < 3e-4);  // or it could not fail
+  CHECK(std::abs(bias.mean) < 1e-3);
+}
