@@ -151,6 +151,7 @@ void MainWindow::apply_panels(double now) {
   session_.edit(panels_.scene, gesture_);
   if (!ui_.problem.empty()) session_.say(ui_.problem, true);
   if (panels_.wishes.open) session_.open(*panels_.wishes.open);
+  if (panels_.wishes.export_chart) session_.export_chart();
   if (panels_.wishes.threads) session_.set_threads(*panels_.wishes.threads);
   select_view(panels_.view);
   session_.send(now);

@@ -23,6 +23,7 @@ struct Wishes {
   std::optional<std::string> open;     ///< a scene by what load_scene takes
   std::optional<std::string> save_as;  ///< a file's name
   std::optional<int> threads;
+  bool export_chart = false;  ///< the chart's curves as files
 };
 
 struct PanelState {
@@ -50,7 +51,7 @@ void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);
 /// height: of the chart itself.
-void chart_panel(Ui& ui, const PanelState& state, float height);
+void chart_panel(Ui& ui, PanelState& state, float height);
 
 /// Texture, or colour, of a material or medium, with the fields of the texture.
 void colour_rows(Ui& ui, Scene& scene, ColourOrTexture& colour, const Row& row);

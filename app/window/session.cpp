@@ -155,9 +155,10 @@ void Session::snapshot() {
   const auto frame = latest();
   if (!frame) return say("there is no picture yet");
   if (changed_at_ >= 0) submit(clock_seconds());  // what is saved is what is edited
-  Snapshot snapshot{document(), snapshot_base(fs::current_path(), stem_of(document().origin->title), snapshots_ + 1),
-                    frame->isa, frame->lanes, frame->threads};
-  snapshots_ = snapshot_number(snapshot.base);
+  const std::string stem = stem_of(document().origin->title);
+  Snapshot snapshot{document(), numbered_base(fs::current_path(), stem, snapshots_ + 1, {".png", ".exr"}), frame->isa,
+                    frame->lanes, frame->threads};
+  snapshots_ = number_of(snapshot.base);
   say("saving " + snapshot.base.filename().string() + " …");
   saving_.run([this, snapshot = std::move(snapshot), edit = edit_number()]() -> JobQueue::Result {
     std::string text;
@@ -187,7 +188,7 @@ void Session::set_threads(int threads) {
 
 void Session::shown(const Frame& frame) {
   const double error = frame.relative_error;
-  convergence_.add(frame.edit, method_of(scene().render), {frame.seconds, error * error});
+  convergence_.add(frame.edit, method_of(scene().render), {frame.seconds, error * error, frame.spp, error * error});
 }
 
 bool Session::collect() {

@@ -50,6 +50,8 @@ class Session {
   void save(std::filesystem::path file);
   /// Writes the picture as numbered files into the current folder, in the background.
   void snapshot();
+  /// Writes the chart's curves as numbered files beside the snapshots, in the background.
+  void export_chart();
 
   void pause(bool paused) { renderer_.pause(paused); }
   bool paused() const { return renderer_.paused(); }
@@ -92,7 +94,7 @@ class Session {
   History history_;
   Convergence convergence_;
   Message message_;
-  int threads_ = 1, snapshots_ = 0;
+  int threads_ = 1, snapshots_ = 0, charts_ = 0;
   std::atomic<std::uint64_t> edit_ = 0;
   std::uint64_t problem_edit_ = 0;
   double changed_at_ = -1;  ///< since when the picture differs from what was sent; < 0: it does not
