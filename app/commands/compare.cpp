@@ -1,4 +1,5 @@
 #include "app/commands/commands.h"
+#include "app/heat.h"
 #include "app/outputs.h"
 #include "app/standard_streams.h"
 #include "core/film/bias.h"
@@ -7,8 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -93,18 +92,6 @@ std::string table(const Comparison& c) {
   return row("MSE", c.error.mse, "") + row("RMSE", c.error.rmse, "") +
          row("relMSE", c.error.rel_mse, "depends on the unit of radiance") + row("PSNR", c.error.psnr, "dB, sRGB") +
          row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (c.blocks ? blocks_text(*c.blocks) : "") + means;
-}
-
-/// Black, violet, red, orange, white: brighter all the way, so that it also reads in grey. value in [0, 1].
-std::array<float, 3> heat(float value) {
-  static constexpr std::array<std::array<float, 3>, 5> stops = {
-      {{0, 0, 0}, {0.30f, 0.07f, 0.45f}, {0.78f, 0.20f, 0.34f}, {0.98f, 0.60f, 0.25f}, {1, 1, 0.85f}}};
-  const float at = std::clamp(value, 0.0f, 1.0f) * 4;
-  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
-  const float part = at - static_cast<float>(i);
-  std::array<float, 3> colour{};
-  for (std::size_t k = 0; k < 3; ++k) colour[k] = srgb_decode(stops[i][k] + part * (stops[i + 1][k] - stops[i][k]));
-  return colour;
 }
 
 void write_heatmap(const Comparison& c, const std::filesystem::path& file) {

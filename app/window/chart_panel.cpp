@@ -128,7 +128,7 @@ void draw_lines(const Plot& plot) {
   plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
   draw_guides(plot, current);
   for (const ChartLine& line : plot.lines) draw_curve(plot, line);
-  std::vector<float> used;
+  std::vector<float> used{plot.axes.y(target_rel_mse) - ImGui::GetFontSize()};
   for (auto line = plot.lines.rbegin(); line != plot.lines.rend(); ++line) draw_name(plot, *line, used);
   plot.draw->PopClipRect();
   if (!current.points.empty())
@@ -166,11 +166,13 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   const float s = ui.scale;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("chart", size);
-  log_item(ui, "chart", state.convergence->current().method);
+  const LiveAccuracy& accuracy = *state.accuracy;
+  const Convergence& runs = accuracy.curves(Half::current);
+  log_item(ui, "chart", runs.current().method);
   compat::push_font(ui.fonts.small);
   ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, shade(palette::ink), 6 * s);
   const Rect frame{at.x + 38 * s, at.y + 10 * s, at.x + size.x - 14 * s, at.y + size.y - 22 * s};
-  const Plot plot(ui, named_runs(*state.convergence, nullptr), frame);
+  const Plot plot(ui, named_runs(runs, accuracy.split() ? &accuracy.curves(Half::kept) : nullptr), frame);
   draw_grid(plot);
   draw_lines(plot);
   ImGui::PopFont();
@@ -180,11 +182,18 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
 }  // namespace
 
 void chart_panel(Ui& ui, PanelState& state, float height) {
-  if (!section(ui, "Speed and accuracy", "estimated relMSE over time")) return;
+  const char* about = state.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
+  if (!section(ui, "Speed and accuracy", about)) return;
   const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   if (width < 80 * ui.scale) return;
   draw_chart(ui, state, {width, height});
+  for (const AccuracyLine& line : accuracy_lines(*state.accuracy))
+    line_of_note(ui, line.text, line.warning ? palette::amber : palette::dim);
+  if (small_button(ui, "chart.reference", "Reference…")) state.wishes.reference = true;
+  tooltip(ui, "an image to measure the true error against");
+  ImGui::SameLine();
   if (small_button(ui, "chart.export", "Export CSV, SVG")) state.wishes.export_chart = true;
+  tooltip(ui, "the curves, as numbered files in the current folder");
 }
 
 }  // namespace tyndall

@@ -14,6 +14,13 @@ std::string method_of(const RenderSettings& settings) {
   return method;
 }
 
+std::string method_of(const RenderSettings& settings, const RenderSettings& file) {
+  std::string method = method_of(settings);
+  if (settings.max_depth != file.max_depth) method += " · depth " + std::to_string(settings.max_depth);
+  if (settings.seed != file.seed) method += " · seed " + std::to_string(settings.seed);
+  return method;
+}
+
 std::optional<ConvergencePoint> point_at(const ConvergenceRun& run, double seconds) {
   const auto& points = run.points;
   if (points.empty() || seconds < points.front().seconds || seconds > points.back().seconds) return {};

@@ -24,6 +24,8 @@ struct ConvergenceRun {
 
 /// "mis · sobol", with "· schlick" where that approximation is on.
 std::string method_of(const RenderSettings& settings);
+/// The same, with depth and seed where they are not those of the file.
+std::string method_of(const RenderSettings& settings, const RenderSettings& file);
 
 /// The curve at that time, between its points on logarithmic scales; nothing before its first and after its last point.
 std::optional<ConvergencePoint> point_at(const ConvergenceRun& run, double seconds);

@@ -58,7 +58,7 @@ class UiLog {
   std::map<std::string, std::string> last_;
   std::map<std::uint64_t, double> submits_;  ///< of the edit that is shown and newer ones
   std::vector<double> latencies_, cpu_picture_, cpu_plain_;
-  std::uint64_t drawing_ = 1, shown_ = 0;
+  std::uint64_t drawing_ = 1, shown_ = 0, pass_ = 0;
 };
 
 /// The value below which a share q in [0, 1] of the values lies; 0 for none. Sorts.
