@@ -91,3 +91,13 @@ TEST_CASE("curves have names of their own: two of one method, and the halves of 
   CHECK(named[2].run == &kept.current());
   CHECK(named.back().role == NamedRun::Role::current);
 }
+
+TEST_CASE("methods are named by what differs from the file's") {
+  RenderSettings file, settings;
+  file.max_depth = settings.max_depth = 50;
+  CHECK(method_of(settings, file) == "mis · sobol");
+  settings.max_depth = 5;
+  settings.seed = 3;
+  settings.fresnel = FresnelKind::schlick;
+  CHECK(method_of(settings, file) == "mis · sobol · schlick · depth 5 · seed 3");
+}

@@ -33,9 +33,8 @@ TEST_CASE("the status line tells what is on the screen") {
   frame.threads = 2;
   frame.film_bytes = 103'000'000;
   const std::string text = text_of(status_cells(&frame, {0, "", {{10, 1.23e-4}}}, document(), false));
-  for (const char* part :
-       {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;", "avx512 x32=2 threads;",
-        "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
+  for (const char* part : {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;",
+                           "avx512 x32=2 threads;", "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
 }
 
@@ -65,6 +64,20 @@ TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
   CHECK(text_of(status_cells(&frame, {}, edited_document, false)).find("cut off") == std::string::npos);
   CHECK(cells.front().value == "finished");
   CHECK(cells.back().value == "edited");
+}
+
+TEST_CASE("against a reference the true error is told, and what is only estimated") {
+  Frame frame;
+  frame.edit = 3;
+  frame.spp = 64;
+  frame.relative_error = 0.011;
+  const ConvergenceRun run{3, "", {{1, 4e-4}}};
+  std::string text = text_of(status_cells(&frame, run, document(), false, true));
+  CHECK(text.find("true error=2 %;estimated=1.1 %;") != std::string::npos);
+  frame.edit = 4;  // not measured yet
+  text = text_of(status_cells(&frame, run, document(), false, true));
+  CHECK(text.find("true error=?;estimated=1.1 %;") != std::string::npos);
+  CHECK(text_of(status_cells(&frame, run, document(), false, false, true)).find("B=rendering;") == 0);
 }
 
 TEST_CASE("cells go by rank when there is no room, the state stays") {
