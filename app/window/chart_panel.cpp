@@ -105,20 +105,20 @@ void draw_curve(const Plot& plot, const ChartLine& line) {
     plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
 }
 
-/// A curve's name beneath its end, where a falling curve leaves room, off the names before it.
-void draw_name(const Plot& plot, const ChartLine& curve, std::vector<float>& used) {
+/// A curve's name beneath its end, where a falling curve leaves room, off the words that are there.
+void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
   if (curve.run->points.empty()) return;
   const Rect& f = plot.axes.frame;
   const float line = ImGui::GetFontSize(), s = plot.ui.scale;
   const ImVec2 end = plot.at(curve.run->points.back());
   const float width = ImGui::CalcTextSize(curve.name.c_str()).x;
-  const float x = std::clamp(end.x - width - 2 * s, f.x0 + 4 * s, f.x1 - width);
+  const float x = std::clamp(end.x - width - 2 * s, f.x0 + 4 * s, std::max(f.x0 + 4 * s, f.x1 - width));
   float y = end.y + 5 * s;
-  for (int tries = 0; tries < 4; ++tries)
-    for (const float other : used)
-      if (std::abs(other - y) < line) y = other + line;
+  for (std::size_t tries = 0; tries <= words.size(); ++tries)
+    for (const Rect& other : words)
+      if (x < other.x1 && x + width > other.x0 && std::abs(other.y0 - y) < line) y = other.y1;
   if (y + line > f.y1) return;
-  used.push_back(y);
+  words.push_back({x, y, x + width, y + line});
   plot.text({x, y}, curve.colour, curve.name);
 }
 
@@ -128,8 +128,9 @@ void draw_lines(const Plot& plot) {
   plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
   draw_guides(plot, current);
   for (const ChartLine& line : plot.lines) draw_curve(plot, line);
-  std::vector<float> used{plot.axes.y(target_rel_mse) - ImGui::GetFontSize()};
-  for (auto line = plot.lines.rbegin(); line != plot.lines.rend(); ++line) draw_name(plot, *line, used);
+  const float target = plot.axes.y(target_rel_mse);
+  std::vector<Rect> words{{f.x0, target - ImGui::GetFontSize() - 1, f.x0 + 64 * plot.ui.scale, target - 1}};
+  for (auto line = plot.lines.rbegin(); line != plot.lines.rend(); ++line) draw_name(plot, *line, words);
   plot.draw->PopClipRect();
   if (!current.points.empty())
     plot.draw->AddCircleFilled(plot.at(current.points.back()), 4 * plot.ui.scale, shade(palette::blue));
@@ -187,8 +188,12 @@ void chart_panel(Ui& ui, PanelState& state, float height) {
   const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   if (width < 80 * ui.scale) return;
   draw_chart(ui, state, {width, height});
-  for (const AccuracyLine& line : accuracy_lines(*state.accuracy))
+  std::string all;
+  for (const AccuracyLine& line : accuracy_lines(*state.accuracy)) {
     line_of_note(ui, line.text, line.warning ? palette::amber : palette::dim);
+    all += (all.empty() ? "" : " | ") + line.text;
+  }
+  if (ui.log) ui.log->changed("accuracy", all);
   if (small_button(ui, "chart.reference", "Reference…")) state.wishes.reference = true;
   tooltip(ui, "an image to measure the true error against");
   ImGui::SameLine();

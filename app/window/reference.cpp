@@ -50,7 +50,7 @@ Reference read_reference(const fs::path& file, const Document& document) {
   check_size(file.string(), reference.image, document.scene);
   const ImageKind kind = image_kind(read_bytes(file, 16));
   if (kind == ImageKind::png || kind == ImageKind::jpeg) reference.about += " (8 bit)";
-  if (const auto scene = scene_in(file, document)) reference.scene = *scene;
+  if (const auto scene = scene_in(file, document)) reference.scene = *scene, reference.known_method = true;
   if (kind != ImageKind::exr) return reference;
   if (const auto film = read_film(file)) {
     const double error = estimated_relative_error(*film);
@@ -70,7 +70,8 @@ Reference reference_of(const Frame& frame, const Scene& scene) {
   return {{frame.width, frame.height, picture_of(frame)},
           noise,
           "the picture at " + format_count(frame.spp) + " spp",
-          scene};
+          scene,
+          true};
 }
 
 ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
@@ -78,7 +79,7 @@ ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
   if (!(without_method(reference.scene) == without_method(scene))) return ReferenceFit::other_scene;
   RenderSettings settings = reference.scene.render;
   settings.spp = scene.render.spp;
-  return settings == scene.render ? ReferenceFit::same_samples : ReferenceFit::fits;
+  return reference.known_method && settings == scene.render ? ReferenceFit::same_samples : ReferenceFit::fits;
 }
 
 std::vector<float> picture_of(const Frame& frame) {

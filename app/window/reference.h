@@ -11,9 +11,10 @@ namespace tyndall {
 /// A picture that the window's own is measured against.
 struct Reference {
   LinearImage image;
-  double rel_mse = 0;  ///< its own noise, the part of measured errors that is due to it; 0: not known
-  std::string about;   ///< "sky.exr", "the picture at 512 spp"
-  Scene scene;         ///< what it shows: the scene in its file, else the one that it was loaded for
+  double rel_mse = 0;         ///< its own noise, the part of measured errors that is due to it; 0: not known
+  std::string about;          ///< "sky.exr", "the picture at 512 spp"
+  Scene scene;                ///< what it shows: the scene in its file, else the one that it was loaded for
+  bool known_method = false;  ///< the scene's method is that of the picture
 };
 
 /// Reads an image file, and the scene and film that it may hold. document: what it is for. Throws ImageFileError, and

@@ -10,7 +10,7 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
   if (dialog.kind != Dialog::Kind::reference) return {};
   begin_dialog(ui, area);
   ImGui::TextUnformatted("Measure the error against");
-  note(ui, "an image of the same scene and size, best an EXR of many samples and another seed", false);
+  note(ui, "an image of this scene and size, best an EXR of another seed", false);
   ImGui::Dummy({0, 2 * ui.scale});
   ImGui::SetNextItemWidth(420 * ui.scale);
   if (dialog.fresh) ImGui::SetKeyboardFocusHere();

@@ -176,9 +176,11 @@ void Session::snapshot() {
   const auto frame = latest();
   if (!frame) return say("there is no picture yet");
   if (changed_at_ >= 0) submit(clock_seconds());  // what is saved is what is edited
+  std::error_code gone;                           // the current folder may be; writing then says so
+  const fs::path folder = fs::current_path(gone);
   const std::string stem = stem_of(document().origin->title);
-  Snapshot snapshot{document(), numbered_base(fs::current_path(), stem, snapshots_ + 1, {".png", ".exr"}), frame->isa,
-                    frame->lanes, frame->threads};
+  Snapshot snapshot{document(), numbered_base(folder, stem, snapshots_ + 1, {".png", ".exr"}), frame->isa, frame->lanes,
+                    frame->threads};
   snapshots_ = number_of(snapshot.base);
   say("saving " + snapshot.base.filename().string() + " …");
   saving_.run([this, snapshot = std::move(snapshot), edit = edit_number()]() -> JobQueue::Result {

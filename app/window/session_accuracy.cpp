@@ -95,7 +95,8 @@ void Session::export_chart() {
                                std::to_string(threads_) + (threads_ == 1 ? " thread" : " threads") +
                                (against ? "" : "; estimated from two halves of each pixel"));
   if (chart.curves.empty()) return say("there is no curve yet");
-  const fs::path base = numbered_base(fs::current_path(), stem + "-chart", charts_ + 1, {".csv", ".svg"});
+  std::error_code gone;  // the current folder may be; writing then says so
+  const fs::path base = numbered_base(fs::current_path(gone), stem + "-chart", charts_ + 1, {".csv", ".svg"});
   charts_ = number_of(base);
   saving_.run([this, chart = std::move(chart), base]() -> JobQueue::Result {
     try {

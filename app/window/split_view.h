@@ -9,7 +9,7 @@ namespace tyndall {
 /// Where the divider is.
 struct Divider {
   float part = 0.5f;  ///< of the image's width
-  bool dragged = false;
+  bool hovered = false, dragged = false;
 
   float x(const Rect& image) const { return image.x0 + part * image.width(); }
   /// Whether a press at that place takes the divider. reach: to either side.

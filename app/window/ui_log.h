@@ -21,6 +21,10 @@ namespace tyndall {
 ///                                    renderer took for the edit's first picture
 ///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
 ///   state rendering|paused|finished
+///   reading CURVE: SECONDS RELMSE    what the chart says under the mouse
+///   accuracy TEXT                    the lines beneath the chart
+///   halves A SECONDS B SECONDS       of rendering, in a split view
+///   cursor plain|divider
 ///   message TEXT                     what the user is told
 ///   saved FILE
 /// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms.

@@ -163,8 +163,10 @@ bool MainWindow::drag_divider(const Layout& layout) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool free = pointer_.button < 0 && !io.WantCaptureMouse && dialog_.kind == Dialog::Kind::none;
   const bool at = shows_halves() && free && divider_.is_at(layout.image, io.MousePos.x, io.MousePos.y, 6 * ui_.scale);
-  if (at && ImGui::IsMouseClicked(0)) divider_.dragged = true;
-  if (divider_.dragged) divider_.drag_to(layout.image, io.MousePos.x);
+  // Where drawing is slow, the mouse may have left when its press is seen.
+  if ((at || divider_.hovered) && free && ImGui::IsMouseClicked(0)) divider_.dragged = true;
+  divider_.hovered = at;
+  if (divider_.dragged && io.MouseDown[0]) divider_.drag_to(layout.image, io.MousePos.x);
   if (at || divider_.dragged) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ui_.log) ui_.log->changed("cursor", at || divider_.dragged ? "divider" : "plain");
   const bool has_it = divider_.dragged;

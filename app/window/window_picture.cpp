@@ -38,6 +38,11 @@ void MainWindow::draw_halves(const Layout& layout) {
   const auto text = [&](Half half, const Frame* frame) {
     return half_text(session_.method(half), frame, accuracy.curves(half), accuracy.is_true());
   };
+  if (log_ && shown_ && shown_kept_) {
+    char seconds[64];
+    std::snprintf(seconds, sizeof seconds, "A %.2f B %.2f", shown_kept_->seconds, shown_->seconds);
+    log_->changed("halves", seconds);
+  }
   draw_split(ui_, layout.image, divider_, text(Half::kept, shown_kept_.get()), text(Half::current, shown_.get()));
 }
 

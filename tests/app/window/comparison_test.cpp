@@ -25,7 +25,7 @@ std::shared_ptr<Frame> frame_of(float add, std::uint32_t spp = 4) {
 }
 
 std::shared_ptr<Reference> reference_for(const Frame& frame, double noise = 0) {
-  return std::make_shared<Reference>(Reference{{columns, rows, picture_of(frame)}, noise, "made up", {}});
+  return std::make_shared<Reference>(Reference{{columns, rows, picture_of(frame)}, noise, "made up", {}, false});
 }
 
 }  // namespace

@@ -36,8 +36,11 @@ std::shared_ptr<Frame> picture(float grey, std::uint64_t edit, double seconds) {
 }
 
 std::shared_ptr<const Reference> reference(float grey, const Scene& scene) {
-  return std::make_shared<const Reference>(Reference{
-      {columns, rows, std::vector<float>(3 * columns * rows, grey)}, 0, grey < 1 ? "dark.exr" : "light.exr", scene});
+  return std::make_shared<const Reference>(Reference{{columns, rows, std::vector<float>(3 * columns * rows, grey)},
+                                                     0,
+                                                     grey < 1 ? "dark.exr" : "light.exr",
+                                                     scene,
+                                                     true});
 }
 
 struct Watched {

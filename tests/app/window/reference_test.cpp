@@ -66,6 +66,7 @@ TEST_CASE("a plain image belongs to the scene that it was loaded for, whatever t
   CHECK(reference.about == "a.pfm");
   CHECK(reference.rel_mse == 0);
   Scene scene = document.scene;
+  CHECK(fit_of(reference, scene) == ReferenceFit::fits);
   scene.render.integrator = Integrator::path;
   scene.render.fresnel = FresnelKind::schlick;
   scene.render.max_depth = 3;

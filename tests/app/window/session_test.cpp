@@ -242,6 +242,27 @@ TEST_CASE("references from files: read in the background, refused with a reason,
   CHECK_FALSE(opened.session->accuracy().is_true());
 }
 
+TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
+  Opened opened("export");
+  opened.session->export_chart();
+  CHECK(opened.session->message().text == "there is no curve yet");
+  REQUIRE(opened.finishes());
+  opened.session->shown(Half::current, opened.session->latest());
+  opened.session->export_chart();
+  opened.session->export_chart();
+  REQUIRE(opened.comes_true([&] { return fs::exists("scene-chart-002.svg"); }));
+  CHECK(fs::exists("scene-chart-001.csv"));
+  const fs::path folder = fs::current_path();
+  fs::remove_all(folder);
+  opened.session->export_chart();
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  CHECK(opened.session->message().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
+  opened.session->dismiss();
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  fs::create_directories(folder);
+}
+
 TEST_CASE("a split view keeps the settings on its left, and follows edits of the scene with both") {
   Opened opened("split");
   REQUIRE(opened.finishes());
