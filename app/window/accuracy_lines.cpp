@@ -21,7 +21,7 @@ AccuracyLine reference_line(const LiveAccuracy& accuracy) {
   const bool shared = fit == ReferenceFit::same_samples || accuracy.fit(Half::kept) == ReferenceFit::same_samples;
   if (fit == ReferenceFit::other_scene) return {"reference of another scene: " + name, true};
   if (fit == ReferenceFit::other_size) return {"reference of another size: " + name, true};
-  if (shared) return {"same samples, the error looks too small: " + name, true};
+  if (shared) return {"same random numbers, noise looks too small: " + name, true};
   return {"against " + name + (accuracy.split() ? "" : flip_text(accuracy.pair())), false};
 }
 

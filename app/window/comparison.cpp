@@ -47,7 +47,8 @@ ComparisonResult compare(const ComparisonOrder& order) {
   const std::vector<float> kept = order.kept ? picture_of(*order.kept) : std::vector<float>{};
   const std::vector<float>& against = order.kept ? kept : order.reference->image.rgb;
   ComparisonResult result;
-  result.rel_mse = relative_mse(image, against) - (order.kept ? 0 : order.reference->rel_mse);
+  result.rel_mse = relative_mse(image, against);
+  if (!order.kept && order.independent) result.rel_mse -= order.reference->rel_mse;
   if (order.map == ErrorView::error) result.map = map_of(pixel_relative_error(image, against, width, height), grey);
   if (order.flip || order.map == ErrorView::flip) {
     const std::vector<float> flip = flip_map(image, against, width, height);

@@ -13,10 +13,11 @@ enum class ErrorView { none, error, flip };
 /// Two pictures of one size: a frame and what it is measured against.
 struct ComparisonOrder {
   std::shared_ptr<const Frame> frame;
-  std::shared_ptr<const Frame> kept;           ///< the left half of a split view; null: the reference counts
-  std::shared_ptr<const Reference> reference;  ///< without its noise, where that is known
+  std::shared_ptr<const Frame> kept;  ///< the left half of a split view; null: the reference counts
+  std::shared_ptr<const Reference> reference;
   ErrorView map = ErrorView::none;
-  bool flip = false;  ///< also FLIP
+  bool flip = false;        ///< also FLIP
+  bool independent = true;  ///< of the reference's random numbers: its own noise is taken off, where that is known
 };
 
 struct ComparisonResult {

@@ -118,6 +118,7 @@ ComparisonOrder LiveAccuracy::order_of(Task task) const {
   if (split_ && !truth && !order.kept) return {};
   if (task == map_task || task == flip_map_task) order.map = view_;
   order.flip = task == flip_task;
+  order.independent = side(half_of(task)).fit == ReferenceFit::fits;
   return order;
 }
 
@@ -129,17 +130,20 @@ bool LiveAccuracy::due(Task task, double now) const {
   if (id_of(order) == measured.newest) return false;
   if (resting_) return true;
   // FLIP of the first samples is of no use.
-  const bool same_edit = order.frame->edit == measured.newest.edit;
-  if (task == flip_task && (order.frame->spp < 16 || (same_edit && order.frame->seconds < 2 * measured.seconds)))
-    return false;
+  if (task == flip_task && (order.frame->spp < 16 || !has_grown(task, order, 2))) return false;
   return measured.share.due(now) || is_early(task, order);
 }
 
 /// A curve that begins has points close to each other; what they take is little after a second.
 bool LiveAccuracy::is_early(Task task, const ComparisonOrder& order) const {
-  if (task != truth_task && task != kept_truth_task) return false;
+  return (task == truth_task || task == kept_truth_task) && has_grown(task, order, 1.25);
+}
+
+/// Whether the picture has rendered that many times longer than when this was done, or begun anew.
+bool LiveAccuracy::has_grown(Task task, const ComparisonOrder& order, double times) const {
   const Measured& measured = measured_[task];
-  return order.frame->edit != measured.newest.edit || order.frame->seconds > 1.25 * measured.seconds;
+  const double seconds = order.frame->seconds;
+  return order.frame->edit != measured.newest.edit || seconds > times * measured.seconds || seconds < measured.seconds;
 }
 
 LiveAccuracy::PairId LiveAccuracy::id_of(const ComparisonOrder& order) {

@@ -90,6 +90,7 @@ class LiveAccuracy {
   bool wanted(Task task) const;
   bool due(Task task, double now) const;
   bool is_early(Task task, const ComparisonOrder& order) const;
+  bool has_grown(Task task, const ComparisonOrder& order, double times) const;
   ComparisonOrder order_of(Task task) const;
   static PairId id_of(const ComparisonOrder& order);
   void start(Task task, double now);

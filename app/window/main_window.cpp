@@ -52,6 +52,7 @@ void MainWindow::run() {
     if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
   }
+  platform_.hide();  // a comparison or a snapshot may still take a second
 }
 
 /// A frame that is not on the screen, the last one of a render if there is one; null: there is none.

@@ -77,9 +77,9 @@ Reference reference_of(const Frame& frame, const Scene& scene) {
 ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
   if (reference.image.width != scene.width || reference.image.height != scene.height) return ReferenceFit::other_size;
   if (!(without_method(reference.scene) == without_method(scene))) return ReferenceFit::other_scene;
-  RenderSettings settings = reference.scene.render;
-  settings.spp = scene.render.spp;
-  return reference.known_method && settings == scene.render ? ReferenceFit::same_samples : ReferenceFit::fits;
+  const RenderSettings &one = reference.scene.render, &other = scene.render;
+  const bool same = reference.known_method && one.seed == other.seed && one.sampler == other.sampler;
+  return same ? ReferenceFit::same_samples : ReferenceFit::fits;
 }
 
 std::vector<float> picture_of(const Frame& frame) {

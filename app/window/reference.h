@@ -33,7 +33,7 @@ void check_size(const std::string& name, const LinearImage& image, const Scene& 
 /// How a reference goes with a scene.
 enum class ReferenceFit {
   fits,          ///< the same scene, perhaps rendered by another method: what differs is error
-  same_samples,  ///< rendered by the same method with the same random numbers: errors look too small
+  same_samples,  ///< it fits, but has the same random numbers: noise looks too small
   other_scene,   ///< camera, objects, materials, ... differ
   other_size
 };

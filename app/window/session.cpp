@@ -47,6 +47,11 @@ Session::Session(const WindowOptions& options, std::function<void()> wake, std::
   watch();
 }
 
+Session::~Session() {
+  closing_ = true;
+  share_.share_with(nullptr);  // the second renderer goes first
+}
+
 void Session::picture_changed() {
   if (changed_at_ < 0) changed_at_ = clock_seconds();
 }

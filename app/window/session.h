@@ -33,7 +33,7 @@ class Session {
   /// log: may be null.
   Session(const WindowOptions& options, std::function<void()> wake, std::function<void()> on_frame, UiLog* log);
   /// Finishes what is being saved.
-  ~Session() { closing_ = true; }
+  ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 

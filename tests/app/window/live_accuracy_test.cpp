@@ -110,7 +110,7 @@ TEST_CASE("a reference of another scene stays, but is no truth; other methods ar
   w.accuracy.set_scene(Half::current, other);
   CHECK(w.accuracy.is_true());
   w.accuracy.set_scene(Half::current, scene_with(40, 9));
-  CHECK(w.lines() == "! same samples, the error looks too small: light.exr\n");
+  CHECK(w.lines() == "! same random numbers, noise looks too small: light.exr\n");
 }
 
 TEST_CASE("a picture of the scene before is not measured against the reference of this one") {

@@ -269,6 +269,8 @@ TEST_CASE("a split view keeps the settings on its left, and follows edits of the
   Session& session = *opened.session;
   CHECK_FALSE(session.latest_kept());
   session.set_split(true);
+  session.set_split(false);
+  session.set_split(true);
   Scene scene = session.scene();
   scene.render.fresnel = FresnelKind::schlick;
   scene.render.sampler = SamplerKind::sobol;
