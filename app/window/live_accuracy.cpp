@@ -88,19 +88,20 @@ void LiveAccuracy::shown(Half half, std::shared_ptr<const Frame> frame, const st
 const Convergence& LiveAccuracy::curves(Half half) const { return is_true() ? side(half).truth : side(half).estimated; }
 
 bool LiveAccuracy::wanted(Task task) const {
+  const bool newest = side(Half::current).newest, kept_newest = side(Half::kept).newest;
   switch (task) {
     case map_task:
       return view_ == ErrorView::error;
     case flip_map_task:
       return view_ == ErrorView::flip;
     case truth_task:
-      return is_true() && side(Half::current).newest;
+      return is_true() && newest;
     case kept_truth_task:
-      return split_ && is_true() && side(Half::kept).newest;
+      return split_ && is_true() && kept_newest;
     case pair_task:
-      return split_;
+      return split_ && newest && kept_newest;
     case flip_task:
-      return split_ || is_true();
+      return newest && (split_ ? kept_newest : is_true());
     case task_count:
       break;
   }
