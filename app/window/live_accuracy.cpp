@@ -73,15 +73,18 @@ void LiveAccuracy::forget_results() {
   for (Measured& task : measured_) task.share.renew(), task.newest = {}, task.seconds = 0;
 }
 
-void LiveAccuracy::shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest,
-                         bool resting) {
+void LiveAccuracy::set_resting(bool resting) {
+  resting_ = resting;
+  consider();
+}
+
+void LiveAccuracy::shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest) {
   Side& one = side(half);
   const double error = frame->relative_error, rel_mse = error * error;
   one.estimated.add(frame->edit, method, {frame->seconds, rel_mse, frame->spp, rel_mse});
   one.frame = std::move(frame);
   one.method = method;
   one.newest = newest;
-  resting_ = resting;
   consider();
 }
 

@@ -50,8 +50,10 @@ class LiveAccuracy {
   /// How many threads render, in all.
   void set_threads(int threads) { threads_ = threads; }
 
-  /// A picture is on the screen. newest: of the scene that was set last; resting: nothing renders.
-  void shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest, bool resting);
+  /// Nothing renders: all that is left may be measured at once.
+  void set_resting(bool resting);
+  /// A picture is on the screen. newest: of the scene that was set last.
+  void shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest);
   /// Takes what was measured.
   void collect() { quick_jobs_.collect(), slow_jobs_.collect(); }
 

@@ -140,7 +140,7 @@ void MainWindow::draw_interface(const Layout& layout) {
   draw_halves(layout);
   draw_status(ui_, layout.status,
               status_cells(shown_.get(), session_.accuracy().curves(Half::current).current(), session_.document(),
-                           session_.paused(), session_.accuracy().is_true(), session_.split()));
+                           {session_.paused(), session_.accuracy().is_true(), session_.split()}));
   draw_message(ui_, layout.area, session_.message());
   if (help_) draw_help(ui_, layout.area, help_);
   const ReferenceWish reference =

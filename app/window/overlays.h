@@ -19,10 +19,15 @@ struct StatusCell {
   bool warning = false;
 };
 
+struct StatusState {
+  bool paused = false;
+  bool is_true = false;  ///< errors are against a reference, not estimated
+  bool split = false;    ///< the frame is the right half, B
+};
+
 /// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.
-/// is_true: its errors are against a reference, not estimated; split: the frame is the right half, B.
 std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
-                                     bool paused, bool is_true = false, bool split = false);
+                                     StatusState state);
 
 /// Which cells fit: drops those of the highest rank, last ones first, until the rest is at most `room` wide.
 std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,

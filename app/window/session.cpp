@@ -211,6 +211,7 @@ void Session::snapshot() {
 void Session::pause(bool paused) {
   paused_ = paused;
   share_.pause(paused);
+  accuracy_.set_resting(resting());
 }
 
 void Session::restart() {

@@ -107,6 +107,7 @@ class Session {
   void picture_changed();
   void submit(double now);
   void submit_kept();
+  bool resting() const;
   void watch();
   void reload();
   void read_in_background(const std::function<JobQueue::Result()>& read);

@@ -13,9 +13,13 @@ namespace fs = std::filesystem;
 
 void Session::shown(Half half, const std::shared_ptr<const Frame>& frame) {
   const bool newest = frame->edit == (half == Half::kept ? kept_edit_ : edit_number());
+  accuracy_.shown(half, frame, method(half), newest);
+  accuracy_.set_resting(resting());
+}
+
+bool Session::resting() const {
   const auto finished = [](const std::shared_ptr<const Frame>& one) { return !one || one->finished; };
-  const bool resting = paused_ || (finished(latest()) && finished(latest_kept()));
-  accuracy_.shown(half, frame, method(half), newest, resting);
+  return paused_ || (finished(latest()) && finished(latest_kept()));
 }
 
 std::string Session::method(Half half) const {

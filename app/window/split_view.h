@@ -18,7 +18,12 @@ struct Divider {
   void drag_to(const Rect& image, float mouse_x);
 };
 
+/// What is said of the halves.
+struct SplitLabels {
+  std::string a, b;
+};
+
 /// Divider, and in each half's upper corner what it is.
-void draw_split(Ui& ui, const Rect& image, const Divider& divider, const std::string& a, const std::string& b);
+void draw_split(Ui& ui, const Rect& image, const Divider& divider, const SplitLabels& labels);
 
 }  // namespace tyndall

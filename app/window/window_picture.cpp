@@ -43,7 +43,7 @@ void MainWindow::draw_halves(const Layout& layout) {
     std::snprintf(seconds, sizeof seconds, "A %.2f B %.2f", shown_kept_->seconds, shown_->seconds);
     log_->changed("halves", seconds);
   }
-  draw_split(ui_, layout.image, divider_, text(Half::kept, shown_kept_.get()), text(Half::current, shown_.get()));
+  draw_split(ui_, layout.image, divider_, {text(Half::kept, shown_kept_.get()), text(Half::current, shown_.get())});
 }
 
 void MainWindow::upload_pictures() {

@@ -48,7 +48,8 @@ struct Watched {
 
   Watched() { accuracy.set_scene(Half::current, scene_with(40)); }
   void show(const std::shared_ptr<Frame>& frame, Half half = Half::current, bool resting = true) {
-    accuracy.shown(half, frame, "mis", true, resting);
+    accuracy.set_resting(resting);
+    accuracy.shown(half, frame, "mis", true);
   }
   template <class Condition>
   bool comes_true(const Condition& condition) {
@@ -116,7 +117,7 @@ TEST_CASE("a reference of another scene stays, but is no truth; other methods ar
 TEST_CASE("a picture of the scene before is not measured against the reference of this one") {
   Watched w;
   w.accuracy.set_reference(reference(1, scene_with(40, 9)));
-  w.accuracy.shown(Half::current, picture(1.5f, 1, 1), "mis", false, true);
+  w.accuracy.shown(Half::current, picture(1.5f, 1, 1), "mis", false);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   w.accuracy.collect();
   CHECK_FALSE(w.accuracy.pair().flip);
