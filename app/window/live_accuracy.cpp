@@ -88,6 +88,12 @@ void LiveAccuracy::shown(Half half, std::shared_ptr<const Frame> frame, const st
   consider();
 }
 
+bool LiveAccuracy::collect() {
+  quick_jobs_.collect();
+  slow_jobs_.collect();
+  return std::exchange(news_, false);
+}
+
 const Convergence& LiveAccuracy::curves(Half half) const { return is_true() ? side(half).truth : side(half).estimated; }
 
 bool LiveAccuracy::wanted(Task task) const {
@@ -182,6 +188,7 @@ void LiveAccuracy::start(Task task, double now) {
 }
 
 void LiveAccuracy::take(Task task, const ComparisonOrder& order, const std::string& method, ComparisonResult result) {
+  news_ = news_ || resting_ || !result.map.empty();
   const Frame& frame = *order.frame;
   const bool truth = task == truth_task || task == kept_truth_task;
   if (truth) {

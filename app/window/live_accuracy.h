@@ -54,8 +54,8 @@ class LiveAccuracy {
   void set_resting(bool resting);
   /// A picture is on the screen. newest: of the scene that was set last.
   void shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest);
-  /// Takes what was measured.
-  void collect() { quick_jobs_.collect(), slow_jobs_.collect(); }
+  /// Takes what was measured. Whether it is to be shown before the next picture comes: a map, or the last numbers.
+  bool collect();
 
   /// True errors are shown, else estimated ones.
   bool is_true() const;
@@ -105,7 +105,7 @@ class LiveAccuracy {
 
   std::shared_ptr<const Reference> reference_;
   ErrorView view_ = ErrorView::none;
-  bool split_ = false, resting_ = false;
+  bool split_ = false, resting_ = false, news_ = false;
   int threads_ = 1;
   std::uint64_t generation_ = 0;  ///< results of earlier ones are dropped
   std::array<Side, 2> sides_;

@@ -48,6 +48,7 @@ void MainWindow::run() {
     if (events.any || session_.collect()) pacing_.on_event();
     take_input(events);
     const double now = clock_seconds();
+    if (session_.collect_errors()) pacing_.wake_at(now);
     session_.send(now);
     if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);

@@ -34,7 +34,7 @@ Session::Session(const WindowOptions& options, std::function<void()> wake, std::
         on_frame();
       }),
       history_(document_of(options.scene)),
-      accuracy_([this] { came_ = true, wake_(); }),
+      accuracy_(wake_),
       threads_(options.threads > 0 ? options.threads
                                    : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
       renderer_({options.threads, options.isa}, on_frame_),
@@ -228,7 +228,6 @@ void Session::set_threads(int threads) {
 
 bool Session::collect() {
   const bool came = came_.exchange(false);
-  accuracy_.collect();
   loading_.collect();
   saving_.collect();
   if (file_changed_.exchange(false)) reload();

@@ -95,6 +95,8 @@ class Session {
   /// Whether there is something to measure the picture against.
   bool can_show_errors() const;
 
+  /// Takes what was measured in the background. Whether it is to be shown before the next picture comes.
+  bool collect_errors() { return accuracy_.collect(); }
   /// Takes what the background has done, a changed file, a problem of the renderer. Whether anything came.
   bool collect();
 

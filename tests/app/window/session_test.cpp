@@ -58,6 +58,7 @@ class Opened {
   bool comes_true(const Condition& condition) {
     for (int k = 0; k < 1000 && !condition(); ++k) {
       session->collect();
+      session->collect_errors();
       session->send(1e9);  // out of patience
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
