@@ -1,15 +1,10 @@
 #pragma once
 #include "core/film/image_io.h"
 
-#include <array>
 #include <vector>
 
 /// Errors of pixels as a picture.
 namespace tyndall {
-
-/// Linear colour of a value in [0, 1], clipped: black, violet, red, orange, white; brighter all the way, so that it
-/// also reads in grey.
-std::array<float, 3> heat(float value);
 
 /// Rows beneath a heat map for its scale.
 inline constexpr int heat_scale_rows = 26;

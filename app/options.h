@@ -30,10 +30,11 @@ struct SceneRequest {
 
 struct ViewCommand {
   SceneRequest scene;
-  std::vector<std::string> words;  ///< as they were given, to say what does the same without a window
-  int threads = 0;                 ///< 0: all cores
-  std::string isa;                 ///< "": the best
-  std::filesystem::path ui_log;    ///< diagnostic of the window, for tests; empty: none
+  std::vector<std::string> words;   ///< as they were given, to say what does the same without a window
+  int threads = 0;                  ///< 0: all cores
+  std::string isa;                  ///< "": the best
+  std::filesystem::path reference;  ///< image that errors are measured against; empty: none
+  std::filesystem::path ui_log;     ///< diagnostic of the window, for tests; empty: none
 };
 
 struct RenderCommand {

@@ -142,6 +142,8 @@ Command read_view(const std::vector<std::string>& words) {
   add_method_options(line, command.scene);
   add_adaptive(line, command.scene);
   add_machine_options(line, command.threads, command.isa);
+  line.value("--reference", "FILE", "an image of the same scene and size, to show the true error against",
+             [&](Text t) { command.reference = t; });
   line.value("--ui-log", "FILE",
              "for tests: write what is on the screen and how long things took;\n- for standard output",
              [&](Text t) { command.ui_log = t; });

@@ -4,6 +4,7 @@
 #include "core/film/error.h"
 #include "core/render/render.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -90,14 +91,14 @@ std::optional<double> seconds_to(const ChartCurve& curve, double rel_mse) {
 
 std::optional<double> bias_of(const ChartCurve& curve, const ChartReference& reference) {
   if (curve.points.size() < 4) return std::nullopt;
-  const auto rest = [&curve](std::size_t from_end) {
-    const ChartPoint& p = curve.points[curve.points.size() - from_end];
-    return p.rel_mse - p.noise;
-  };
-  // What stays from one power of two to the next, and is more than the noise: heavy tails fall, bias does not.
   const ChartPoint& last = curve.points.back();
-  const double bias = rest(1);
-  const bool stays = bias > 0.7 * rest(2) && bias > 0.5 * last.noise;
+  const auto before = std::find_if(curve.points.rbegin(), curve.points.rend(),
+                                   [&](const ChartPoint& p) { return 2 * p.spp <= last.spp; });
+  if (before == curve.points.rend()) return std::nullopt;
+  const auto rest = [](const ChartPoint& p) { return p.rel_mse - p.noise; };
+  // What stays from one power of two to the next, and is more than the noise: heavy tails fall, bias does not.
+  const double bias = rest(last);
+  const bool stays = bias > 0.7 * rest(*before) && bias > 0.5 * last.noise;
   return stays && bias > least_measurable(reference) ? std::optional(bias) : std::nullopt;
 }
 

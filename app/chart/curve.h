@@ -38,7 +38,7 @@ struct ChartPoint {
 
 struct ChartCurve {
   std::string method;
-  std::vector<ChartPoint> points;  ///< spp doubles from point to point
+  std::vector<ChartPoint> points;  ///< spp grows
 };
 
 /// Error below which the reference's own noise would show.
@@ -47,8 +47,8 @@ double least_measurable(const ChartReference& reference);
 /// Seconds at which the curve crosses an error, between its points on logarithmic scales; nothing if it does not.
 std::optional<double> seconds_to(const ChartCurve& curve, double rel_mse);
 
-/// The error that does not go away with samples, from the last points: what the noise does not explain. Nothing where
-/// it cannot be told from noise.
+/// The error that does not go away when the samples double, from the last points: what the noise does not explain.
+/// Nothing where it cannot be told from noise.
 std::optional<double> bias_of(const ChartCurve& curve, const ChartReference& reference);
 
 struct ChartRun {

@@ -26,7 +26,12 @@ std::string headless_command(const ViewCommand& command) {
   std::string text = "tyndall render";
   if (command.words.empty() || command.words.front() != command.scene.what)
     text += " " + shell_word(command.scene.what);
-  for (const std::string& word : command.words) text += " " + shell_word(word);
+  for (std::size_t i = 0; i < command.words.size(); ++i) {
+    const std::string& word = command.words[i];
+    const bool of_window = word.starts_with("--reference") || word.starts_with("--ui-log");
+    if (!of_window) text += " " + shell_word(word);
+    if (of_window && word.find('=') == std::string::npos) ++i;  // its value
+  }
   const std::string name = std::filesystem::path(command.scene.what).stem().string();
   return text + " -o " + shell_word((name == "-" ? "image" : name) + ".png");
 }
@@ -46,7 +51,7 @@ int run(const ViewCommand& command) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
 #ifdef TYNDALL_WINDOW
   try {
-    return run_window({loaded, open, command.threads, command.isa, command.ui_log});
+    return run_window({loaded, open, command.threads, command.isa, command.reference, command.ui_log});
   } catch (const IoError& error) {
     throw IoError(error.what() + instead);
   }

@@ -15,6 +15,26 @@ std::string method_of(const RenderSettings& settings) {
   return method;
 }
 
+std::string method_of(const RenderSettings& settings, const RenderSettings& file) {
+  std::string method = method_of(settings);
+  if (settings.max_depth != file.max_depth) method += " · depth " + std::to_string(settings.max_depth);
+  if (settings.seed != file.seed) method += " · seed " + std::to_string(settings.seed);
+  return method;
+}
+
+std::optional<ConvergencePoint> point_at(const ConvergenceRun& run, double seconds) {
+  const auto& points = run.points;
+  if (points.empty() || seconds < points.front().seconds || seconds > points.back().seconds) return {};
+  const auto after = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.seconds >= seconds; });
+  if (after == points.begin()) return *after;
+  const ConvergencePoint &a = after[-1], &b = *after;
+  const double part = std::log(seconds / a.seconds) / std::log(b.seconds / a.seconds);
+  const auto between = [part](double from, double to) { return from * std::pow(to / from, part); };
+  const double spp = between(std::max(1.0, static_cast<double>(a.spp)), std::max(1.0, static_cast<double>(b.spp)));
+  return ConvergencePoint{seconds, between(a.rel_mse, b.rel_mse), static_cast<std::uint32_t>(std::lround(spp)),
+                          b.noise};
+}
+
 void Convergence::add(std::uint64_t edit, const std::string& method, ConvergencePoint point) {
   if (edit != current_.edit || (!current_.points.empty() && point.seconds < current_.points.back().seconds)) {
     keep_current();
@@ -38,6 +58,17 @@ void Convergence::keep_current() {
   std::erase_if(earlier_, [&](const ConvergenceRun& run) { return run.method == current_.method; });
   earlier_.push_back(std::move(current_));
   if (earlier_.size() > most_earlier) earlier_.erase(earlier_.begin());
+}
+
+std::vector<NamedRun> named_runs(const Convergence& runs, const Convergence* kept) {
+  using Role = NamedRun::Role;
+  std::vector<NamedRun> named;
+  const std::string& now = runs.current().method;
+  for (const ConvergenceRun& run : runs.earlier())
+    named.push_back({Role::earlier, &run, run.method == now ? now + " before" : run.method});
+  if (kept) named.push_back({Role::kept, &kept->current(), "A: " + kept->current().method});
+  named.push_back({Role::current, &runs.current(), kept ? "B: " + now : now});
+  return named;
 }
 
 double seconds_to(double target, const ConvergencePoint& known, double seconds) {

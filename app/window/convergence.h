@@ -2,6 +2,7 @@
 #include "core/scene/scene.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@
 namespace tyndall {
 
 struct ConvergencePoint {
-  double seconds = 0;  ///< of rendering since the edit, > 0
-  double rel_mse = 0;  ///< estimated: the square of the relative error, > 0
+  double seconds = 0;     ///< of rendering since the edit, > 0
+  double rel_mse = 0;     ///< the square of the relative error, > 0
+  std::uint32_t spp = 0;  ///< samples that every pixel had
+  double noise = 0;       ///< the part of rel_mse that is noise, as the picture's halves tell
 };
 
 struct ConvergenceRun {
@@ -21,6 +24,11 @@ struct ConvergenceRun {
 
 /// "mis · sobol", with "· schlick" where that approximation is on.
 std::string method_of(const RenderSettings& settings);
+/// The same, with depth and seed where they are not those of the file.
+std::string method_of(const RenderSettings& settings, const RenderSettings& file);
+
+/// The curve at that time, between its points on logarithmic scales; nothing before its first and after its last point.
+std::optional<ConvergencePoint> point_at(const ConvergenceRun& run, double seconds);
 
 class Convergence {
  public:
@@ -44,6 +52,16 @@ class Convergence {
   ConvergenceRun current_;
   std::vector<ConvergenceRun> earlier_;
 };
+
+/// A curve and what it is called in the chart and in files.
+struct NamedRun {
+  enum class Role { earlier, kept, current } role = Role::earlier;
+  const ConvergenceRun* run = nullptr;
+  std::string name;
+};
+
+/// All curves, the current one last. kept: of the other half of a split view, null: there is none.
+std::vector<NamedRun> named_runs(const Convergence& runs, const Convergence* kept);
 
 /// Seconds of rendering from `seconds` on until the relative error is `target`, if its square falls as 1/time from
 /// what is known; 0 when it is reached.

@@ -5,6 +5,7 @@
 
 #include <glad/gl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -82,11 +83,11 @@ void FrameDisplay::resize(int width, int height) {
   height_ = height;
 }
 
-void FrameDisplay::upload(const Frame& frame) {
-  if (frame.width != width_ || frame.height != height_) resize(frame.width, frame.height);
+void FrameDisplay::upload(int width, int height, const std::vector<float>& rgba) {
+  if (width != width_ || height != height_) resize(width, height);
   glBindTexture(GL_TEXTURE_2D, light_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, frame.rgba.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, rgba.data());
   fresh_ = true;
 }
 
@@ -108,7 +109,7 @@ void FrameDisplay::tone_map(const Look& look) {
   fresh_ = false;
 }
 
-void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Look& look) {
+void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Look& look, const Rect& clip) {
   if (empty() || where.width() < 1 || where.height() < 1) return;
   if (fresh_ || !(look == look_)) tone_map(look);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
@@ -117,7 +118,11 @@ void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Look& l
             bottom = framebuffer_height - whole(where.y1);
   // Whole multiples show the pixels as they are.
   const bool multiple = (x1 - x0) % width_ == 0 && (top - bottom) % height_ == 0;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(whole(clip.x0), framebuffer_height - whole(clip.y1), std::max(0, whole(clip.x1) - whole(clip.x0)),
+            std::max(0, whole(clip.y1) - whole(clip.y0)));
   glBlitFramebuffer(0, 0, width_, height_, x0, top, x1, bottom, GL_COLOR_BUFFER_BIT, multiple ? GL_NEAREST : GL_LINEAR);
+  glDisable(GL_SCISSOR_TEST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 

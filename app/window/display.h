@@ -1,6 +1,8 @@
 #pragma once
 #include "app/window/layout.h"
-#include "core/render/renderer.h"
+#include "core/scene/scene.h"
+
+#include <vector>
 
 namespace tyndall {
 
@@ -21,10 +23,11 @@ class FrameDisplay {
   FrameDisplay(const FrameDisplay&) = delete;
   FrameDisplay& operator=(const FrameDisplay&) = delete;
 
-  /// Takes a new frame. Throws IoError if it is larger than the display can show.
-  void upload(const Frame& frame);
-  /// Draws the frame into `where`, in pixels of the framebuffer, y down; tone-maps first if frame or look are new.
-  void draw(const Rect& where, int framebuffer_height, const Look& look);
+  /// Takes a new picture, 4 floats a pixel. Throws IoError if it is larger than the display can show.
+  void upload(int width, int height, const std::vector<float>& rgba);
+  /// Draws the frame into `where`, in pixels of the framebuffer, y down, as far as it is within `clip`; tone-maps first
+  /// if frame or look are new.
+  void draw(const Rect& where, int framebuffer_height, const Look& look, const Rect& clip);
   bool empty() const { return width_ == 0; }
 
  private:

@@ -3,9 +3,8 @@
 #include "app/window/camera_control.h"
 #include "app/window/clock.h"
 #include "app/window/display_lost.h"
+#include "app/window/open_document.h"
 #include "core/scene/error.h"
-
-#include <time.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -13,12 +12,6 @@
 
 namespace tyndall {
 namespace {
-
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
@@ -31,7 +24,7 @@ std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
 
 }  // namespace
 
-MainWindow::MainWindow(const WindowOptions& options)
+MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference)
     : log_(open_log(options.ui_log)),
       platform_(options.scene.scene.width, options.scene.scene.height),
       session_(
@@ -43,7 +36,8 @@ MainWindow::MainWindow(const WindowOptions& options)
       scenes_(built_in_scenes()) {
   ui_.log = log_.get();
   panels_.scenes = &scenes_;
-  panels_.convergence = &session_.convergence();
+  panels_.accuracy = &session_.accuracy();
+  if (reference) session_.set_reference(std::move(reference));
 }
 
 void MainWindow::run() {
@@ -54,16 +48,26 @@ void MainWindow::run() {
     if (events.any || session_.collect()) pacing_.on_event();
     take_input(events);
     const double now = clock_seconds();
+    if (session_.collect_errors()) pacing_.wake_at(now);
     session_.send(now);
     if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
   }
+  platform_.hide();  // a comparison or a snapshot may still take a second
+}
+
+/// A frame that is not on the screen, the last one of a render if there is one; null: there is none.
+std::shared_ptr<const Frame> MainWindow::unseen() const {
+  const auto latest = session_.latest(), kept = session_.latest_kept();
+  const bool new_kept = kept && kept != shown_kept_;
+  if (latest && latest != shown_ && (latest->finished || !new_kept)) return latest;
+  return new_kept ? kept : nullptr;
 }
 
 bool MainWindow::picture_due(double now) const {
-  const auto latest = session_.latest();
-  if (!latest || latest == shown_ || now < pacing_.next_drawing()) return false;
-  return now >= pacing_.picture_due() || latest->finished;
+  const auto frame = unseen();
+  if (!frame || now < pacing_.next_drawing()) return false;
+  return now >= pacing_.picture_due() || frame->finished;
 }
 
 bool MainWindow::hidden() const { return platform_.framebuffer_width() <= 0 || platform_.framebuffer_height() <= 0; }
@@ -78,11 +82,10 @@ double MainWindow::waiting_time(double now) {
   // and one that comes between is seen when its time has come.
   const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
   due_ = due;
-  const auto latest = session_.latest();
+  const auto frame = unseen();
   double wait = pacing_.wait(now);
-  const bool waits = latest && latest != shown_;
-  if (waits)
-    wait = std::min(wait, std::max(0.0, (latest->finished ? pacing_.next_drawing() : due) - now));
+  if (frame)
+    wait = std::min(wait, std::max(0.0, (frame->finished ? pacing_.next_drawing() : due) - now));
   else if (due > now)
     wait = std::min(wait, due - now);
   return std::min(wait, sends);
@@ -108,10 +111,7 @@ void MainWindow::draw(double now) {
   ui_.problem.clear();
   count_gestures(now);
   const bool fresh = picture_due(now);
-  if (fresh) {
-    shown_ = session_.latest();
-    session_.shown(*shown_);
-  }
+  if (fresh) take_pictures();
   // The old picture keeps its shape until the new one is there.
   const Scene& scene = session_.scene();
   const Layout layout =
@@ -121,7 +121,7 @@ void MainWindow::draw(double now) {
   pointer(layout, now);
   fly(now);
   apply_panels(now);
-  show_picture(layout, fresh);
+  show_picture(layout);
   finish_drawing(now, cpu_before, fresh);
 }
 
@@ -131,15 +131,24 @@ void MainWindow::draw_interface(const Layout& layout) {
   panels_.title = session_.document().origin->title;
   panels_.paused = session_.paused();
   panels_.threads = session_.threads();
+  panels_.kept_method = session_.split() ? session_.method(Half::kept) : "";
+  panels_.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
   if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
   draw_column(ui_, panels_, layout.column);
   draw_outline(ui_, layout.image, outline(panels_.scene, panels_.selected));
+  draw_halves(layout);
   draw_status(ui_, layout.status,
-              status_cells(shown_.get(), session_.convergence().current(), session_.document(), session_.paused()));
+              status_cells(shown_.get(), session_.accuracy().curves(Half::current).current(), session_.document(),
+                           {session_.paused(), session_.accuracy().is_true(), session_.split()}));
   draw_message(ui_, layout.area, session_.message());
   if (help_) draw_help(ui_, layout.area, help_);
+  const ReferenceWish reference =
+      draw_reference_dialog(ui_, layout.area, dialog_, session_.accuracy().reference() != nullptr);
+  if (reference.file) session_.open_reference(*reference.file);
+  if (reference.keep) session_.keep_as_reference();
+  if (reference.drop) session_.drop_reference();
   if (const auto file = draw_dialog(ui_, layout.area, dialog_, session_.document())) session_.save(*file);
   if (ui_.log) {
     ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
@@ -151,8 +160,14 @@ void MainWindow::apply_panels(double now) {
   session_.edit(panels_.scene, gesture_);
   if (!ui_.problem.empty()) session_.say(ui_.problem, true);
   if (panels_.wishes.open) session_.open(*panels_.wishes.open);
+  if (panels_.wishes.export_chart) session_.export_chart();
+  if (panels_.wishes.split) {
+    session_.set_split(*panels_.wishes.split);
+    pacing_.on_new_start(now);
+  }
+  if (panels_.wishes.reference) ask_reference(dialog_);
   if (panels_.wishes.threads) session_.set_threads(*panels_.wishes.threads);
-  select_view(panels_.view);
+  select_view(panels_.view < error_view || session_.can_show_errors() ? panels_.view : 0);
   session_.send(now);
   if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
   const Message& message = session_.message();
@@ -170,29 +185,13 @@ void MainWindow::apply_panels(double now) {
   if (title != window_title_) platform_.set_title(window_title_ = title);
 }
 
-void MainWindow::show_picture(const Layout& layout, bool fresh) {
-  try {
-    if (fresh) display_.upload(*shown_);
-  } catch (const IoError& error) {
-    session_.say(error.what(), true);
-  }
-  platform_.clear();
-  const float dots =
-      static_cast<float>(platform_.framebuffer_width()) / static_cast<float>(std::max(1, platform_.width()));
-  const Rect& r = layout.image;
-  const Display& display = session_.scene().display;
-  const bool beauty = !shown_ || shown_->view == View::beauty;
-  const Look look = beauty ? Look{display.exposure, display.tone_map} : Look{};
-  display_.draw({r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}, platform_.framebuffer_height(), look);
-  platform_.end_frame();
-}
-
 void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   pacing_.on_drawn(now);
   const double after = clock_seconds();
-  if (fresh) pacing_.on_picture(shown_->edit, after);
+  const bool shown = fresh && shown_;
+  if (shown) pacing_.on_picture(shown_->edit, after);
   if (!log_) return;
-  if (fresh) log_->shown(*shown_, after);
+  if (shown) log_->shown(*shown_, after);
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }
 
@@ -200,7 +199,10 @@ int run_window(const WindowOptions& options) {
   // GLFW is not touched without a display: its error would say less.
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
     throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
-  MainWindow window(options);
+  std::shared_ptr<const Reference> reference;
+  if (!options.reference.empty())
+    reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));
+  MainWindow window(options, std::move(reference));
   end_when_display_is_lost();
   window.run();
   return 0;

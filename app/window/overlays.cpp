@@ -131,17 +131,23 @@ Decision replace_question(Ui& ui, Dialog& dialog) {
 
 }  // namespace
 
-std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
-  if (dialog.kind == Dialog::Kind::none) return {};
+void begin_dialog(Ui& ui, const Rect& area) {
   begin_box(ui, "##dialog", middle(area), {0.5f, 0.5f}, 0);
   if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+}
+
+void end_dialog() { end_box(); }
+
+std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
+  if (dialog.kind == Dialog::Kind::none || dialog.kind == Dialog::Kind::reference) return {};
+  begin_dialog(ui, area);
   Decision decision;
   const Dialog::Kind shown = dialog.kind;
   if (shown == Dialog::Kind::comments) decision = comments_question(ui, dialog, document);
   if (shown == Dialog::Kind::save_as) decision = name_question(ui, dialog);
   if (shown == Dialog::Kind::replace) decision = replace_question(ui, dialog);
   if (dialog.kind == shown) dialog.fresh = false;
-  end_box();
+  end_dialog();
   return decision;
 }
 

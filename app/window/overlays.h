@@ -19,9 +19,15 @@ struct StatusCell {
   bool warning = false;
 };
 
+struct StatusState {
+  bool paused = false;
+  bool is_true = false;  ///< errors are against a reference, not estimated
+  bool split = false;    ///< the frame is the right half, B
+};
+
 /// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.
 std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
-                                     bool paused);
+                                     StatusState state);
 
 /// Which cells fit: drops those of the highest rank, last ones first, until the rest is at most `room` wide.
 std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,
@@ -39,7 +45,7 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
 
 /// A question that waits for an answer.
 struct Dialog {
-  enum class Kind { none, comments, save_as, replace } kind = Kind::none;
+  enum class Kind { none, comments, save_as, replace, reference } kind = Kind::none;
   char name[512] = {};  ///< of the file that is typed
   bool fresh = false;   ///< it was opened in this drawing
 };
@@ -48,5 +54,19 @@ void ask_comments(Dialog& dialog);
 void ask_name(Dialog& dialog, const std::filesystem::path& suggestion);
 /// Draws the question; returns the file to write once that is decided. empty path: the document's own.
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
+
+/// What is to become of the reference; at most one of them.
+struct ReferenceWish {
+  std::optional<std::filesystem::path> file;  ///< read it
+  bool keep = false;                          ///< the picture on the screen
+  bool drop = false;                          ///< none any more
+};
+
+void ask_reference(Dialog& dialog);
+ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bool has_reference);
+
+/// A box with round corners in the middle of the area, for a question.
+void begin_dialog(Ui& ui, const Rect& area);
+void end_dialog();
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/convergence.h"
+#include "app/window/live_accuracy.h"
 #include "app/window/selection.h"
 #include "app/window/shortcuts.h"
 #include "app/window/widgets.h"
@@ -13,8 +13,8 @@
 /// The column of panels. Panels change the scene that they are given (a copy) and leave wishes; they start nothing.
 namespace tyndall {
 
-/// The seventh view is not one of the renderer's.
-inline constexpr int view_count = 7;
+/// The first six views are the renderer's; the last two are pictures of differences.
+inline constexpr int view_count = 9, cost_view = 6, error_view = 7, flip_view = 8;
 extern const char* const view_names[view_count];
 
 /// What panels ask the window to do.
@@ -23,6 +23,9 @@ struct Wishes {
   std::optional<std::string> open;     ///< a scene by what load_scene takes
   std::optional<std::string> save_as;  ///< a file's name
   std::optional<int> threads;
+  bool export_chart = false;  ///< the chart's curves as files
+  bool reference = false;     ///< ask for one
+  std::optional<bool> split;
 };
 
 struct PanelState {
@@ -32,7 +35,9 @@ struct PanelState {
   Wishes wishes;        ///< out
   // What is shown.
   std::shared_ptr<const Frame> frame;  ///< null before the first
-  const Convergence* convergence = nullptr;
+  const LiveAccuracy* accuracy = nullptr;
+  std::string kept_method;       ///< of the left half of a split view; "": there is no split view
+  bool can_show_errors = false;  ///< there is something to measure the picture against
   const std::vector<BuiltIn>* scenes = nullptr;
   std::string title;  ///< of the open scene
   bool paused = false;
@@ -49,8 +54,15 @@ void image_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);
+/// What is measured, a line for each thing that there is.
+struct AccuracyLine {
+  std::string text;
+  bool warning = false;
+};
+std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy);
+
 /// height: of the chart itself.
-void chart_panel(Ui& ui, const PanelState& state, float height);
+void chart_panel(Ui& ui, PanelState& state, float height);
 
 /// Texture, or colour, of a material or medium, with the fields of the texture.
 void colour_rows(Ui& ui, Scene& scene, ColourOrTexture& colour, const Row& row);

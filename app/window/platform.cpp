@@ -98,6 +98,8 @@ InputEvents Platform::take_events() { return std::exchange(state_->events, {}); 
 bool Platform::closing() const { return glfwWindowShouldClose(state_->window); }
 void Platform::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
 
+void Platform::hide() { glfwHideWindow(state_->window); }
+
 int Platform::width() const {
   int width = 0, height = 0;
   glfwGetWindowSize(state_->window, &width, &height);

@@ -40,6 +40,8 @@ class Platform {
   InputEvents take_events();
   bool closing() const;
   void close();
+  /// Takes the window off the screen: what is left to be done needs none.
+  void hide();
 
   /// Sizes now: window units and pixels of the framebuffer; 0 while minimised.
   int width() const, height() const, framebuffer_width() const, framebuffer_height() const;

@@ -9,7 +9,8 @@
 
 namespace tyndall {
 
-const char* const view_names[view_count] = {"beauty", "albedo", "normal", "depth", "noise", "samples", "cost"};
+const char* const view_names[view_count] = {"beauty",  "albedo", "normal", "depth", "noise",
+                                            "samples", "cost",   "error",  "FLIP"};
 
 namespace {
 
@@ -47,6 +48,18 @@ std::string share_cut_off(const Frame* frame) {
   char text[64];
   std::snprintf(text, sizeof text, "%.2g %% of the paths cut off", 100 * share);
   return text;
+}
+
+const char* view_meaning(const PanelState& state) {
+  if (state.view >= error_view && !state.accuracy->map()) return "is being computed";
+  switch (state.view) {
+    case error_view:
+      return "white: wrong by 100 % and more";
+    case flip_view:
+      return "what an eye sees; bright: much";
+    default:
+      return "";
+  }
 }
 
 /// A slider over whole numbers.
@@ -89,6 +102,22 @@ void limit_rows(Ui& ui, PanelState& state) {
     state.wishes.threads = threads;
 }
 
+void split_row(Ui& ui, PanelState& state) {
+  static constexpr Choice choices[] = {{"off"}, {"on"}};
+  int chosen = state.kept_method.empty() ? 0 : 1;
+  const std::string meaning = chosen == 0 ? "" : "A keeps " + state.kept_method + "; above: B";
+  if (choice_row(ui,
+                 {"split",
+                  "Split",
+                  {},
+                  {},
+                  "",
+                  "A keeps these settings, B takes what you change: side by side, as many core-seconds each",
+                  meaning},
+                 choices, chosen))
+    state.wishes.split = chosen == 1;
+}
+
 /// "7 spheres, 1 quad, 1 medium, 1 light".
 std::string contents_text(const Scene& scene) {
   const Contents contents = contents_of(scene);
@@ -120,8 +149,10 @@ void image_panel(Ui& ui, PanelState& state) {
             display.tone_map);
   Choice views[view_count];
   for (int k = 0; k < view_count; ++k) views[k] = {view_names[k], nullptr};
-  views[view_count - 1].missing = "this view is not built yet";
-  choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 7", ""}, views, state.view, 4);
+  views[cost_view].missing = "this view is not built yet";
+  if (!state.can_show_errors)
+    for (const int k : {error_view, flip_view}) views[k].missing = "needs a reference: see Speed and accuracy";
+  choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, views, state.view, 3);
   ui.scope.clear();
 }
 
@@ -139,6 +170,7 @@ void render_panel(Ui& ui, PanelState& state) {
     note(ui, "approximation: wrong by up to 0.93", true, palette::amber);
   }
   adaptive_row(ui, render.adaptive);
+  split_row(ui, state);
   limit_rows(ui, state);
   note(ui, contents_text(state.scene), false);
   ui.scope.clear();

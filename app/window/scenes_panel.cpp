@@ -91,7 +91,8 @@ void scenes_panel(Ui& ui, PanelState& state) {
 
 void draw_column(Ui& ui, PanelState& state, const Rect& column) {
   if (column.width() <= 0 || column.height() <= 0) return;
-  const float chart = 150 * ui.scale, foot = chart + 48 * ui.scale;
+  const auto lines = static_cast<float>(accuracy_lines(*state.accuracy).size());
+  const float chart = 150 * ui.scale, foot = chart + 80 * ui.scale + lines * line_of_note_height(ui);
   const bool fixed_chart = column.height() > 2.2f * foot;
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;

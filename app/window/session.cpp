@@ -25,18 +25,31 @@ bool same_picture(const Scene& a, const Scene& b) {
 
 Session::Session(const WindowOptions& options, std::function<void()> wake, std::function<void()> on_frame, UiLog* log)
     : reload_(options.reload),
+      isa_(options.isa),
       reloads_(options.scene.source),
       log_(log),
       wake_(std::move(wake)),
+      on_frame_([this, on_frame = std::move(on_frame)] {
+        share_.on_frame();
+        on_frame();
+      }),
       history_(document_of(options.scene)),
+      accuracy_(wake_),
       threads_(options.threads > 0 ? options.threads
                                    : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-      renderer_({options.threads, options.isa}, std::move(on_frame)),
+      renderer_({options.threads, options.isa}, on_frame_),
       loading_([this] { came_ = true, wake_(); }),
       saving_([this] { came_ = true, wake_(); }) {
+  share_.set_threads(threads_);
+  accuracy_.set_threads(threads_);
   picture_changed();
   submit(clock_seconds());
   watch();
+}
+
+Session::~Session() {
+  closing_ = true;
+  share_.share_with(nullptr);  // the second renderer goes first
 }
 
 void Session::picture_changed() {
@@ -60,6 +73,8 @@ bool Session::send(double now) {
 void Session::submit(double now) {
   const std::uint64_t before = edit_;
   edit_ = renderer_.submit(scene());
+  if (edit_ != before) accuracy_.set_scene(Half::current, scene());
+  if (second_) submit_kept();
   if (log_ && edit_ != before) log_->submitted(edit_, changed_at_);
   changed_at_ = -1;
   sent_at_ = now;
@@ -99,35 +114,46 @@ void Session::show(Document next, bool own_file) {
   }
   history_.record(std::move(next), 0);
   if (!same) {
-    if (!own_file) convergence_.clear();
+    if (!own_file) accuracy_.clear(), set_split(false);
     picture_changed();
   }
   watch();
   say((own_file ? "read again: " : "opened ") + document().origin->title);
 }
 
-void Session::open(const std::string& what) {
-  loading_.run([this, what]() -> JobQueue::Result {
+void Session::read_in_background(const std::function<JobQueue::Result()>& read) {
+  loading_.run([this, read]() -> JobQueue::Result {
     try {
-      return [this, next = document_of(load_scene(what))] { show(next, false); };
+      return read();
     } catch (const std::exception& error) {
       return [this, text = std::string(error.what())] { say(text, true); };
     }
   });
 }
 
+void Session::open(const std::string& what) {
+  read_in_background([this, what]() -> JobQueue::Result {
+    return [this, next = document_of(load_scene(what))] { show(next, false); };
+  });
+}
+
+void Session::open_dropped(const fs::path& file) {
+  read_in_background([this, file, document = document()]() -> JobQueue::Result {
+    if (!shows_no_scene(file)) return [this, file] { open(file.string()); };
+    return [this, reference = std::make_shared<const Reference>(read_reference(file, document))] {
+      set_reference(reference);
+    };
+  });
+}
+
 void Session::reload() {
   const fs::path file = document().origin->file;
   const bool first = reload_ && file == reloads_;
-  loading_.run([this, file, first]() -> JobQueue::Result {
-    try {
-      Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
-      return [this, file, next = std::move(next)] {
-        if (document().origin->file == file) show(next, true);
-      };
-    } catch (const std::exception& error) {
-      return [this, text = std::string(error.what())] { say(text, true); };
-    }
+  read_in_background([this, file, first]() -> JobQueue::Result {
+    Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
+    return [this, file, next = std::move(next)] {
+      if (document().origin->file == file) show(next, true);
+    };
   });
 }
 
@@ -155,9 +181,12 @@ void Session::snapshot() {
   const auto frame = latest();
   if (!frame) return say("there is no picture yet");
   if (changed_at_ >= 0) submit(clock_seconds());  // what is saved is what is edited
-  Snapshot snapshot{document(), snapshot_base(fs::current_path(), stem_of(document().origin->title), snapshots_ + 1),
-                    frame->isa, frame->lanes, frame->threads};
-  snapshots_ = snapshot_number(snapshot.base);
+  std::error_code gone;                           // the current folder may be; writing then says so
+  const fs::path folder = fs::current_path(gone);
+  const std::string stem = stem_of(document().origin->title);
+  Snapshot snapshot{document(), numbered_base(folder, stem, snapshots_ + 1, {".png", ".exr"}), frame->isa, frame->lanes,
+                    frame->threads};
+  snapshots_ = number_of(snapshot.base);
   say("saving " + snapshot.base.filename().string() + " …");
   saving_.run([this, snapshot = std::move(snapshot), edit = edit_number()]() -> JobQueue::Result {
     std::string text;
@@ -179,15 +208,22 @@ void Session::snapshot() {
   });
 }
 
+void Session::pause(bool paused) {
+  paused_ = paused;
+  share_.pause(paused);
+  accuracy_.set_resting(resting());
+}
+
+void Session::restart() {
+  renderer_.restart();
+  if (second_) second_->restart();
+}
+
 void Session::set_threads(int threads) {
   if (threads == threads_) return;
   threads_ = threads;
-  renderer_.set_threads(threads);
-}
-
-void Session::shown(const Frame& frame) {
-  const double error = frame.relative_error;
-  convergence_.add(frame.edit, method_of(scene().render), {frame.seconds, error * error});
+  share_.set_threads(threads);
+  accuracy_.set_threads(threads);
 }
 
 bool Session::collect() {

@@ -1,7 +1,8 @@
 #pragma once
-#include "app/window/convergence.h"
+#include "app/window/fair_share.h"
 #include "app/window/history.h"
 #include "app/window/job_queue.h"
+#include "app/window/live_accuracy.h"
 #include "app/window/ui_log.h"
 #include "app/window/watch.h"
 #include "app/window/window.h"
@@ -32,7 +33,7 @@ class Session {
   /// log: may be null.
   Session(const WindowOptions& options, std::function<void()> wake, std::function<void()> on_frame, UiLog* log);
   /// Finishes what is being saved.
-  ~Session() { closing_ = true; }
+  ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -46,22 +47,29 @@ class Session {
 
   /// Opens what load_scene takes, in the background.
   void open(const std::string& what);
+  /// A file that was dropped: a scene, an image with a scene in it, or an image that becomes the reference.
+  void open_dropped(const std::filesystem::path& file);
   /// Writes the scene to its own file, or to another one; says how it went. An existing file is replaced.
   void save(std::filesystem::path file);
   /// Writes the picture as numbered files into the current folder, in the background.
   void snapshot();
+  /// Writes the chart's curves as numbered files beside the snapshots, in the background.
+  void export_chart();
 
-  void pause(bool paused) { renderer_.pause(paused); }
-  bool paused() const { return renderer_.paused(); }
-  void restart() { renderer_.restart(); }
+  void pause(bool paused);
+  bool paused() const { return paused_; }
+  void restart();
   void set_threads(int threads);
   int threads() const { return threads_; }
-  void set_view(View view) { renderer_.set_view(view); }
+  /// error: a picture of differences instead of the view.
+  void set_view(View view, ErrorView error);
   Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
 
   std::shared_ptr<const Frame> latest() const { return renderer_.latest(); }
+  /// Of the left half of a split view; null: there is none.
+  std::shared_ptr<const Frame> latest_kept() const { return second_ ? second_->latest() : nullptr; }
   /// A frame is on the screen: for the chart.
-  void shown(const Frame& frame);
+  void shown(Half half, const std::shared_ptr<const Frame>& frame);
   /// Number of the newest edit that went to the renderer.
   std::uint64_t edit_number() const { return edit_; }
   /// Hands the newest scene to the renderer once the one before it has been seen: while something is dragged, each
@@ -69,8 +77,26 @@ class Session {
   bool send(double now);
   /// When send() will not wait any longer for a picture; infinite: nothing is to be sent.
   double send_time() const;
-  const Convergence& convergence() const { return convergence_; }
 
+  // session_accuracy.cpp
+  const LiveAccuracy& accuracy() const { return accuracy_; }
+  /// Reads an image, in the background, that errors are measured against.
+  void open_reference(const std::filesystem::path& file);
+  void set_reference(std::shared_ptr<const Reference> reference);
+  /// The picture that is on the screen becomes the reference.
+  void keep_as_reference();
+  void drop_reference();
+  /// Side by side: on the left the settings that the scene has now, on the right those that it will have, each for as
+  /// many core-seconds. Both start anew.
+  void set_split(bool split);
+  bool split() const { return second_ != nullptr; }
+  /// Of the left half, and of the right half or the only picture.
+  std::string method(Half half) const;
+  /// Whether there is something to measure the picture against.
+  bool can_show_errors() const;
+
+  /// Takes what was measured in the background. Whether it is to be shown before the next picture comes.
+  bool collect_errors() { return accuracy_.collect(); }
   /// Takes what the background has done, a changed file, a problem of the renderer. Whether anything came.
   bool collect();
 
@@ -82,24 +108,34 @@ class Session {
   void show(Document document, bool own_file);
   void picture_changed();
   void submit(double now);
+  void submit_kept();
+  bool resting() const;
   void watch();
   void reload();
+  void read_in_background(const std::function<JobQueue::Result()>& read);
 
   std::function<LoadedScene()> reload_;
+  std::string isa_;
   std::filesystem::path reloads_;  ///< the file that reload_ reads
   UiLog* log_;
-  std::function<void()> wake_;
+  std::function<void()> wake_, on_frame_;
   History history_;
-  Convergence convergence_;
+  LiveAccuracy accuracy_;
   Message message_;
-  int threads_ = 1, snapshots_ = 0;
+  int threads_ = 1, snapshots_ = 0, charts_ = 0;
   std::atomic<std::uint64_t> edit_ = 0;
   std::uint64_t problem_edit_ = 0;
-  double changed_at_ = -1;  ///< since when the picture differs from what was sent; < 0: it does not
+  bool paused_ = false;
+  View view_ = View::beauty;
+  RenderSettings kept_;          ///< of the left half of a split view
+  std::uint64_t kept_edit_ = 0;  ///< number of its newest edit
+  double changed_at_ = -1;       ///< since when the picture differs from what was sent; < 0: it does not
   double sent_at_ = 0;
   std::atomic<bool> file_changed_ = false, came_ = false, closing_ = false;
   std::filesystem::path watched_;
+  FairShare share_{renderer_};
   Renderer renderer_;
+  std::shared_ptr<Renderer> second_;  ///< of the left half; null: there is no split view
   std::unique_ptr<FileWatch> watch_;
   JobQueue loading_, saving_;  // last: their jobs use the others
 };

@@ -25,6 +25,8 @@ enum class Action {
   view_noise,
   view_samples,
   view_cost,
+  view_error,
+  view_flip,
   panels,
   full_screen,
   quit

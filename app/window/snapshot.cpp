@@ -8,6 +8,7 @@
 #include "core/compile/compile.h"
 #include "core/film/plan.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
@@ -17,7 +18,8 @@ namespace tyndall {
 
 namespace fs = std::filesystem;
 
-fs::path snapshot_base(const fs::path& folder, const std::string& stem, int least) {
+fs::path numbered_base(const fs::path& folder, const std::string& stem, int least,
+                       std::initializer_list<const char*> endings) {
   for (int number = least;; ++number) {
     char text[16];
     std::snprintf(text, sizeof text, "-%03d", number);
@@ -26,11 +28,11 @@ fs::path snapshot_base(const fs::path& folder, const std::string& stem, int leas
     const auto taken = [&](const char* ending) {
       return fs::symlink_status(base.string() + ending, ignored).type() != fs::file_type::not_found;
     };
-    if (!taken(".png") && !taken(".exr")) return base;
+    if (std::none_of(endings.begin(), endings.end(), taken)) return base;
   }
 }
 
-int snapshot_number(const fs::path& base) {
+int number_of(const fs::path& base) {
   const std::string name = base.filename().string();
   return std::atoi(name.c_str() + name.rfind('-') + 1);
 }

@@ -38,12 +38,15 @@ std::string time_left(const Frame& frame, const ConvergenceRun& run) {
 }  // namespace
 
 std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
-                                     bool paused) {
-  std::vector<StatusCell> cells{{"", state_of(frame, paused), 0}};
+                                     StatusState state) {
+  std::vector<StatusCell> cells{{state.split ? "B" : "", state_of(frame, state.paused), 0}};
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : printed("1/%d", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
-    cells.push_back({"error", percent(frame->relative_error), 1});
+    const bool measured = state.is_true && run.edit == frame->edit && !run.points.empty();
+    if (state.is_true)
+      cells.push_back({"true error", measured ? percent(std::sqrt(run.points.back().rel_mse)) : "?", 1});
+    cells.push_back({state.is_true ? "estimated" : "error", percent(frame->relative_error), state.is_true ? 3 : 1});
     cells.push_back({"to 1 %", time_left(*frame, run), 2});
     cells.push_back({"", printed(frame->mrays_per_s < 10 ? "%.1f Mrays/s" : "%.0f Mrays/s", frame->mrays_per_s), 3});
     cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),

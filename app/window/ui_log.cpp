@@ -82,6 +82,8 @@ void UiLog::submitted(std::uint64_t edit, double now) {
 }
 
 void UiLog::shown(const Frame& frame, double now) {
+  if (frame.pass > 0 && frame.pass == pass_) return;  // drawn again beside another picture
+  pass_ = frame.pass;
   const std::uint64_t edit = frame.edit;
   const auto found = submits_.find(edit);
   const double ms = found != submits_.end() ? 1e3 * (now - found->second) : 0;

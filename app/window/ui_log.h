@@ -21,6 +21,10 @@ namespace tyndall {
 ///                                    renderer took for the edit's first picture
 ///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
 ///   state rendering|paused|finished
+///   reading CURVE: SECONDS RELMSE    what the chart says under the mouse
+///   accuracy TEXT                    the lines beneath the chart
+///   halves A SECONDS B SECONDS       of rendering, in a split view
+///   cursor plain|divider
 ///   message TEXT                     what the user is told
 ///   saved FILE
 /// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms.
@@ -58,7 +62,7 @@ class UiLog {
   std::map<std::string, std::string> last_;
   std::map<std::uint64_t, double> submits_;  ///< of the edit that is shown and newer ones
   std::vector<double> latencies_, cpu_picture_, cpu_plain_;
-  std::uint64_t drawing_ = 1, shown_ = 0;
+  std::uint64_t drawing_ = 1, shown_ = 0, pass_ = 0;
 };
 
 /// The value below which a share q in [0, 1] of the values lies; 0 for none. Sorts.

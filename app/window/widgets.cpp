@@ -75,6 +75,19 @@ void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
   ImGui::PopFont();
 }
 
+void line_of_note(Ui& ui, const std::string& text, Tone colour) {
+  const float top = ImGui::GetCursorPosY();
+  compat::push_font(ui.fonts.small);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  clipped_text(text, right_edge() - ImGui::GetCursorPosX());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  tooltip(ui, text);
+  ImGui::SetCursorPosY(top + line_of_note_height(ui));
+}
+
+float line_of_note_height(const Ui& ui) { return 19 * ui.scale; }
+
 bool section(Ui& ui, const std::string& name, const std::string& note_text) {
   const bool open = !ui.folded.contains(name);
   ImGui::Dummy({0, 1 * ui.scale});

@@ -81,6 +81,9 @@ void text_row(Ui& ui, const Row& row, const std::string& text);
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width = 0);
 /// Grey small text, wrapped. indent: start in the column of the values.
 void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = palette::dim);
+/// The same on one line, cut where it does not fit, with all of it in a tooltip; and the height that this takes.
+void line_of_note(Ui& ui, const std::string& text, Tone colour);
+float line_of_note_height(const Ui& ui);
 
 /// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);

@@ -12,6 +12,7 @@ struct WindowOptions {
   std::function<LoadedScene()> reload;  ///< reads the scene again, as the command line asked for it; may be empty
   int threads = 0;                      ///< 0: all cores
   std::string isa;                      ///< "": the best
+  std::filesystem::path reference;      ///< image that errors are measured against; empty: none
   std::filesystem::path ui_log;         ///< diagnostic, see ui_log.h; empty: none, "-": standard output
 };
 

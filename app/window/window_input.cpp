@@ -20,7 +20,7 @@ void MainWindow::take_input(const InputEvents& events) {
     if (!action || (press.typing && !asked) || (asked && action != Action::deselect)) continue;
     act(*action);
   }
-  for (const std::filesystem::path& file : events.dropped) session_.open(std::filesystem::absolute(file).string());
+  for (const std::filesystem::path& file : events.dropped) session_.open_dropped(std::filesystem::absolute(file));
 }
 
 void MainWindow::act(Action action) {
@@ -98,12 +98,14 @@ void MainWindow::save() {
 }
 
 void MainWindow::select_view(int view) {
-  constexpr int of_renderer = view_count - 1;
-  if (view >= of_renderer) return session_.say("the cost view is not built yet");
+  if (view == cost_view) return session_.say("the cost view is not built yet");
+  if (view >= error_view && !session_.can_show_errors())
+    return session_.say("load a reference first: see Speed and accuracy");
   panels_.view = view;
   if (view == shown_view_) return;
   shown_view_ = view;
-  session_.set_view(static_cast<View>(view));
+  const ErrorView error = view == error_view ? ErrorView::error : view == flip_view ? ErrorView::flip : ErrorView::none;
+  session_.set_view(view < cost_view ? static_cast<View>(view) : View::beauty, error);
   pacing_.on_new_start(clock_seconds());
 }
 
@@ -136,6 +138,7 @@ void MainWindow::count_gestures(double now) {
 }
 
 void MainWindow::pointer(const Layout& layout, double now) {
+  if (drag_divider(layout)) return;
   const ImGuiIO& io = ImGui::GetIO();
   const bool over = !io.WantCaptureMouse && layout.area.contains(io.MousePos.x, io.MousePos.y);
   if (pointer_.button < 0 && over && dialog_.kind == Dialog::Kind::none)
@@ -153,6 +156,22 @@ void MainWindow::pointer(const Layout& layout, double now) {
   if (io.MouseDown[pointer_.button]) return;
   if (!pointer_.moved && pointer_.button == 0) click(layout);
   pointer_ = {};
+}
+
+/// Whether the mouse has the divider of a split view; it is then no one else's.
+bool MainWindow::drag_divider(const Layout& layout) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool free = pointer_.button < 0 && !io.WantCaptureMouse && dialog_.kind == Dialog::Kind::none;
+  const bool at = shows_halves() && free && divider_.is_at(layout.image, io.MousePos.x, io.MousePos.y, 6 * ui_.scale);
+  // Where drawing is slow, the mouse may have left when its press is seen.
+  if ((at || divider_.hovered) && free && ImGui::IsMouseClicked(0)) divider_.dragged = true;
+  divider_.hovered = at;
+  if (divider_.dragged && io.MouseDown[0]) divider_.drag_to(layout.image, io.MousePos.x);
+  if (at || divider_.dragged) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ui_.log) ui_.log->changed("cursor", at || divider_.dragged ? "divider" : "plain");
+  const bool has_it = divider_.dragged;
+  divider_.dragged = divider_.dragged && io.MouseDown[0] && shows_halves();
+  return has_it;
 }
 
 void MainWindow::drag(const Layout& layout, float dx, float dy) {

@@ -139,17 +139,12 @@ void sum_window(Sum* numbers, int count, std::size_t stride, int reach, std::vec
   }
 }
 
-}  // namespace
-
-std::vector<float> pixel_relative_error(const Film& film) {
+/// For each pixel the root of the mean over the 7 x 7 pixels around it, less those that are infinite.
+std::vector<float> root_window_means(const std::vector<double>& squares, int width, int height) {
   constexpr int reach = 3;
-  const int width = film.region.width(), height = film.region.height();
   std::vector<Sum> sums, row;
-  sums.reserve(film.pixels.size());
-  for (const FilmPixel& pixel : film.pixels) {
-    const double error = squared_relative_error(film, pixel);
-    sums.push_back(error == infinity ? Sum{} : Sum{error, 1});
-  }
+  sums.reserve(squares.size());
+  for (const double error : squares) sums.push_back(error == infinity ? Sum{} : Sum{error, 1});
   const auto stride = static_cast<std::size_t>(width);
   for (int y = 0; y < height; ++y) sum_window(&sums[static_cast<std::size_t>(y) * stride], width, 1, reach, row);
   for (int x = 0; x < width; ++x) sum_window(&sums[static_cast<std::size_t>(x)], height, stride, reach, row);
@@ -159,6 +154,42 @@ std::vector<float> pixel_relative_error(const Film& film) {
     errors.push_back(static_cast<float>(sum.count == 0 ? infinity : std::sqrt(sum.value / sum.count)));
   }
   return errors;
+}
+
+/// (x - ref)² / (ref² + 0.01): relMSE is its mean.
+double squared_error(float image, float reference) {
+  const double x = static_cast<double>(image), ref = static_cast<double>(reference);
+  return square(x - ref) / (square(ref) + floor_of_square);
+}
+
+}  // namespace
+
+std::vector<float> pixel_relative_error(const Film& film) {
+  std::vector<double> squares;
+  squares.reserve(film.pixels.size());
+  for (const FilmPixel& pixel : film.pixels) squares.push_back(squared_relative_error(film, pixel));
+  return root_window_means(squares, film.region.width(), film.region.height());
+}
+
+std::vector<float> pixel_relative_error(const std::vector<float>& image, const std::vector<float>& reference, int width,
+                                        int height) {
+  assert(image.size() == reference.size());
+  assert(image.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::vector<double> squares;
+  squares.reserve(image.size() / 3);
+  for (std::size_t i = 0; i < image.size(); i += 3) {
+    double sum = 0;
+    for (std::size_t k = i; k < i + 3; ++k) sum += squared_error(image[k], reference[k]);
+    squares.push_back(sum / 3);
+  }
+  return root_window_means(squares, width, height);
+}
+
+double relative_mse(const std::vector<float>& image, const std::vector<float>& reference) {
+  assert(!image.empty() && image.size() == reference.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < image.size(); ++i) sum += squared_error(image[i], reference[i]);
+  return sum / static_cast<double>(image.size());
 }
 
 namespace {
@@ -179,7 +210,7 @@ ImageError image_error(const std::vector<float>& image, const std::vector<float>
   for (std::size_t i = 0; i < image.size(); ++i) {
     const double x = static_cast<double>(image[i]), ref = static_cast<double>(reference[i]);
     error.mse += square(x - ref);
-    error.rel_mse += square(x - ref) / (square(ref) + floor_of_square);
+    error.rel_mse += squared_error(image[i], reference[i]);
     displayed_mse += square(displayed(image[i]) - displayed(reference[i]));
     sum_image[i % 3] += x;
     sum_reference[i % 3] += ref;

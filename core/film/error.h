@@ -23,6 +23,11 @@ bool rests_on_few_pixels(const Film& film, Crew* crew = nullptr);
 /// half; infinite where none is left.
 std::vector<float> pixel_relative_error(const Film& film);
 
+/// The true relative error of each pixel of an image, from the 7 x 7 pixels around it, by the formula of relMSE. Both 3
+/// floats a pixel, linear.
+std::vector<float> pixel_relative_error(const std::vector<float>& image, const std::vector<float>& reference, int width,
+                                        int height);
+
 /// The mean over a film's pixels and channels, and its standard error from the differences of the two halves: they are
 /// independent randomisations, so it holds for any sampler, also where pixels show different things.
 struct FilmMean {
@@ -40,5 +45,7 @@ struct ImageError {
 };
 /// Both 3 floats a pixel, linear, of equal and nonzero size.
 ImageError image_error(const std::vector<float>& image, const std::vector<float>& reference);
+/// relMSE alone, which is quicker.
+double relative_mse(const std::vector<float>& image, const std::vector<float>& reference);
 
 }  // namespace tyndall

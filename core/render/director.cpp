@@ -209,6 +209,7 @@ void Director::publish() {
   frame->width = film_.width, frame->height = film_.height;
   const Clock::time_point start = Clock::now();
   draw(frame->rgba);
+  if (view_ != View::beauty && taken_ > 0) beauty_rgba(film_, 1, *crew_, frame->beauty);
   picture_seconds_ = seconds_between(start, Clock::now());
   if (first_picture_due_) first_picture_ms_ = 1000 * seconds_between(submitted_, Clock::now());
   first_picture_due_ = false;

@@ -18,6 +18,8 @@ struct Frame {
   std::uint64_t pass = 0;  ///< counts up with every frame
   int width = 0, height = 0;
   std::vector<float> rgba;  ///< 4 floats a pixel, top row first, linear; holes of a coarse pass are filled
+  std::vector<float>
+      beauty;  ///< the same of the picture itself while `view` is another, without coarse passes; or empty
   View view = View::beauty;
   int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
   std::uint32_t spp = 0;      ///< samples that every pixel has, or with adaptive sampling their mean; the same film

@@ -44,6 +44,12 @@ TEST_CASE("chart: a floor is bias, noise and heavy tails are not") {
   ChartCurve tail = curve("heavy tail", 1, 0);
   for (ChartPoint& p : tail.points) p.noise *= 0.6;  // the halves see too little, ever less of it
   CHECK_FALSE(bias_of(tail, reference));
+  ChartCurve often{"heavy tail, measured often", {}};
+  for (double spp = 16; spp < 4096; spp *= 1.05)
+    often.points.push_back({static_cast<std::uint32_t>(spp), 1e-3 * spp, 1 / spp, 0.4 / spp});
+  CHECK_FALSE(bias_of(often, reference));
+  for (ChartPoint& p : often.points) p.rel_mse += 0.004;
+  CHECK(bias_of(often, reference).value() == doctest::Approx(0.004).epsilon(0.1));
 }
 
 TEST_CASE("chart: the books' method first, each improvement in turn, what a scene has no use for left out") {

@@ -1,9 +1,13 @@
 #include "app/heat_map.h"
 
+#include "app/heat.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <limits>
 
 using namespace tyndall;
 
@@ -49,4 +53,10 @@ TEST_CASE("heat map: the scale's ends and middle are marked, as far as there is 
   CHECK(lit(200, 8, 80) == 0);
   CHECK(lit(40, 8, 30) == 0);
   CHECK(lit(1, 0, 1) > 0);
+}
+
+TEST_CASE("heat: what is not a number stands out") {
+  const auto bad = heat(std::numeric_limits<float>::quiet_NaN());
+  CHECK(bad[1] > 0.9f);
+  CHECK(bad[0] + bad[2] < 0.1f);
 }

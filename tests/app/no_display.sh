@@ -7,6 +7,8 @@ expect 3 "$tyndall"
 complains 'tyndall render showroom -o showroom.png'
 expect 3 "$tyndall" view cornell-box --seed 3
 complains 'tyndall render cornell-box --seed 3 -o cornell-box.png'
+expect 3 "$tyndall" view cornell-box --reference a.exr --seed 3 --ui-log=log
+complains 'tyndall render cornell-box --seed 3 -o cornell-box.png'
 cp "$source_root/assets/scenes/quads.json" 'my quads.json'
 expect 3 "$tyndall" 'my quads.json'
 complains "tyndall render 'my quads.json' -o 'my quads.png'"

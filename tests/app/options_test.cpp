@@ -37,6 +37,7 @@ TEST_CASE("without a command: the window") {
   CHECK(std::get<ViewCommand>(read_command({"cornell-box"})).scene.what == "cornell-box");
   CHECK(std::get<ViewCommand>(read_command({"view"})).scene.what == "showroom");
   CHECK(std::get<ViewCommand>(read_command({"-"})).scene.what == "-");
+  CHECK(std::get<ViewCommand>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
   const auto view = std::get<ViewCommand>(read_command({"--seed", "7", "a.json", "-t", "2"}));
   CHECK(view.scene.what == "a.json");
   CHECK(view.scene.seed == 7u);

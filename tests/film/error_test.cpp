@@ -167,3 +167,28 @@ TEST_CASE("few pixels: noise of known size does not rest on them, one bright sam
   Crew crew(2);
   CHECK(rests_on_few_pixels(film, &crew));
 }
+
+TEST_CASE("relMSE alone is that of all the errors") {
+  std::vector<float> image, reference;
+  for (int i = 0; i < 300; ++i) {
+    image.push_back(0.01f * static_cast<float>(i % 37));
+    reference.push_back(0.02f * static_cast<float>(i % 11));
+  }
+  CHECK(relative_mse(image, reference) == image_error(image, reference).rel_mse);
+  CHECK(relative_mse(image, image) == 0);
+}
+
+TEST_CASE("the error of each pixel against a reference: by the reference's size, spread over 7 x 7") {
+  constexpr int columns = 20, rows = 15;
+  constexpr auto at = [](int x, int y) { return static_cast<std::size_t>(3 * (y * columns + x)); };
+  std::vector<float> reference(3 * columns * rows, 1.0f), image = reference;
+  for (std::size_t k = 0; k < 3; ++k) image[at(10, 7) + k] = 1.5f;
+  const std::vector<float> errors = pixel_relative_error(image, reference, columns, rows);
+  REQUIRE(errors.size() == columns * rows);
+  const double peak = std::sqrt(0.25 / 1.01 / 49);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const bool near = std::abs(x - 10) <= 3 && std::abs(y - 7) <= 3;
+      CHECK(errors[at(x, y) / 3] == doctest::Approx(near ? peak : 0.0));
+    }
+}

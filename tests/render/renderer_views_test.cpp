@@ -58,6 +58,8 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
   CHECK(pixel(*depth, 27, 30).x == doctest::Approx(2.5 / 4).epsilon(0.02));
   CHECK(pixel(*shown(View::samples), 3, 3) == Vec3f{1, 1, 1});
   const FramePointer noise = shown(View::noise);
+  CHECK(noise->beauty == beauty->rgba);
+  CHECK(beauty->beauty.empty());
   CHECK(pixel(*noise, 27, 30).x > 0.01f);
   CHECK(pixel(*noise, 27, 30).x < 1.0f);
   const FramePointer back = shown(View::beauty);

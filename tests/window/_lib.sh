@@ -17,7 +17,7 @@ if [ -z "${IN_XVFB:-}" ]; then
     exit 77
   done
   rm -rf "${scratch:?}"/* && mkdir -p "$scratch/screen"
-  IN_XVFB=1 exec xvfb-run -a -s "-screen 0 1280x1660x24 -nolisten tcp -fbdir $scratch/screen" \
+  IN_XVFB=1 exec xvfb-run -a -s "-screen 0 1280x1820x24 -nolisten tcp -fbdir $scratch/screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 
@@ -66,7 +66,7 @@ start() {
   wait_for '^frame 1 '
   window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
   # All of the column is on the screen.
-  xdotool windowsize --sync "$window" 1280 1620
+  xdotool windowsize --sync "$window" 1280 1780
   xdotool mousemove 5 5
   wait_for '^widget scenes.cover '
 }

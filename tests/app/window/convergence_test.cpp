@@ -72,3 +72,32 @@ TEST_CASE("an error that was not estimated anew is no point") {
   REQUIRE(runs.current().points.size() == 2);
   CHECK(runs.current().points[1].seconds == doctest::Approx(5));
 }
+
+TEST_CASE("curves have names of their own: two of one method, and the halves of a split view") {
+  Convergence runs, kept;
+  run(runs, 1, "mis", 3);
+  run(runs, 2, "path", 3);
+  run(runs, 3, "mis", 3);
+  run(runs, 4, "path", 3);
+  run(kept, 1, "nee", 1);
+  const auto names = [](const std::vector<NamedRun>& named) {
+    std::string text;
+    for (const NamedRun& one : named) text += one.name + ";";
+    return text;
+  };
+  CHECK(names(named_runs(runs, nullptr)) == "path before;mis;path;");
+  const auto named = named_runs(runs, &kept);
+  CHECK(names(named) == "path before;mis;A: nee;B: path;");
+  CHECK(named[2].run == &kept.current());
+  CHECK(named.back().role == NamedRun::Role::current);
+}
+
+TEST_CASE("methods are named by what differs from the file's") {
+  RenderSettings file, settings;
+  file.max_depth = settings.max_depth = 50;
+  CHECK(method_of(settings, file) == "mis · sobol");
+  settings.max_depth = 5;
+  settings.seed = 3;
+  settings.fresnel = FresnelKind::schlick;
+  CHECK(method_of(settings, file) == "mis · sobol · schlick · depth 5 · seed 3");
+}

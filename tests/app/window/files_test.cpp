@@ -69,12 +69,12 @@ TEST_CASE("names for snapshots: numbered, never one that exists") {
   CHECK(stem_of("showroom-012.png") == "showroom");
   CHECK(stem_of("my-scene.json") == "my-scene");
   CHECK(stem_of("-") == "scene");
-  CHECK(snapshot_base(folder, "a", 1) == folder / "a-001");
+  CHECK(numbered_base(folder, "a", 1, {".png", ".exr"}) == folder / "a-001");
   write(folder / "a-001.png", "");
   write(folder / "a-002.exr", "");
   fs::create_symlink("nowhere", folder / "a-003.png");
-  CHECK(snapshot_base(folder, "a", 1) == folder / "a-004");
-  CHECK(snapshot_number(snapshot_base(folder, "a", 7)) == 7);
+  CHECK(numbered_base(folder, "a", 1, {".png", ".exr"}) == folder / "a-004");
+  CHECK(number_of(numbered_base(folder, "a", 7, {".png", ".exr"})) == 7);
 }
 
 TEST_CASE("a snapshot opens again as the scene that made it") {

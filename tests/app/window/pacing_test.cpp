@@ -126,7 +126,7 @@ TEST_CASE("each shortcut has one action, with exactly its modifiers") {
   for (int key = 32; key < 350; ++key)
     for (int mods = 0; mods < 4; ++mods)
       if (const auto action = action_of(key, {(mods & 1) != 0, (mods & 2) != 0, false})) seen.insert(*action);
-  CHECK(seen.size() == 21);
+  CHECK(seen.size() == 23);
 }
 
 TEST_CASE("flight keys are three opposite pairs") {

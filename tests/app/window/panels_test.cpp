@@ -22,7 +22,7 @@ class Column {
                            {"bubble", Solid3d{Sphere<>{{2, 0, 0}, -0.9, {}}, 1}, {RotateY{30}}},
                            {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
     state.scene.camera.look_from = {0, 1, 6};
-    state.convergence = &runs_;
+    state.accuracy = &accuracy_;
     state.scenes = &scenes_;
     scenes_ = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
     state.title = "showroom";
@@ -84,7 +84,7 @@ class Column {
  private:
   NullImGui imgui_{372, 2400};
   UiLog log_;
-  Convergence runs_;
+  LiveAccuracy accuracy_{[] {}};
   std::vector<BuiltIn> scenes_;
 };
 

@@ -1,5 +1,7 @@
 #include "app/window/session.h"
 
+#include "core/film/image_io.h"
+
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -56,6 +58,7 @@ class Opened {
   bool comes_true(const Condition& condition) {
     for (int k = 0; k < 1000 && !condition(); ++k) {
       session->collect();
+      session->collect_errors();
       session->send(1e9);  // out of patience
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
@@ -197,6 +200,103 @@ TEST_CASE("a snapshot holds the newest edit, also when it was not sent yet, and 
   opened.session->snapshot();
   opened.session.reset();
   CHECK(fs::exists("scene-002.png"));
+}
+
+TEST_CASE("the picture on the screen as reference: of other scenes after an edit, the old one again after undo") {
+  Opened opened("reference");
+  REQUIRE(opened.finishes());
+  const LiveAccuracy& accuracy = opened.session->accuracy();
+  CHECK_FALSE(opened.session->can_show_errors());
+  opened.session->keep_as_reference();
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::same_samples);
+  CHECK(opened.session->can_show_errors());
+  opened.set_fuzz(0.5);
+  REQUIRE(opened.finishes());
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::other_scene);
+  opened.session->undo();
+  Scene scene = opened.session->scene();
+  scene.render.seed = 4;
+  opened.session->edit(scene, 0);
+  REQUIRE(opened.finishes());
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::fits);
+  opened.session->shown(Half::current, opened.session->latest());
+  REQUIRE(opened.comes_true([&] { return accuracy.pair().flip.has_value(); }));
+  opened.session->drop_reference();
+  CHECK_FALSE(opened.session->can_show_errors());
+}
+
+TEST_CASE("references from files: read in the background, refused with a reason, dropped images too") {
+  Opened opened("reference_file");
+  REQUIRE(opened.finishes());
+  write_pfm("good.pfm", {8, 8, std::vector<float>(192, 1.0f)});
+  write_pfm("small.pfm", {4, 8, std::vector<float>(96, 1.0f)});
+  opened.session->open_reference("small.pfm");
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  CHECK(opened.session->message().text == "small.pfm: found 4x8 pixels, expected 8x8 as the picture has");
+  CHECK_FALSE(opened.session->accuracy().reference());
+  opened.session->open_dropped(fs::absolute("good.pfm"));
+  REQUIRE(opened.comes_true([&] { return opened.session->accuracy().reference() != nullptr; }));
+  CHECK(opened.session->accuracy().is_true());
+  Opened::write(0.125, "other.json");
+  opened.session->open_dropped(fs::absolute("other.json"));
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  CHECK_FALSE(opened.session->accuracy().is_true());
+}
+
+TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
+  Opened opened("export");
+  opened.session->export_chart();
+  CHECK(opened.session->message().text == "there is no curve yet");
+  REQUIRE(opened.finishes());
+  opened.session->shown(Half::current, opened.session->latest());
+  opened.session->export_chart();
+  opened.session->export_chart();
+  REQUIRE(opened.comes_true([&] { return fs::exists("scene-chart-002.svg"); }));
+  CHECK(fs::exists("scene-chart-001.csv"));
+  const fs::path folder = fs::current_path();
+  fs::remove_all(folder);
+  opened.session->export_chart();
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  CHECK(opened.session->message().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
+  opened.session->dismiss();
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  fs::create_directories(folder);
+}
+
+TEST_CASE("a split view keeps the settings on its left, and follows edits of the scene with both") {
+  Opened opened("split");
+  REQUIRE(opened.finishes());
+  Session& session = *opened.session;
+  CHECK_FALSE(session.latest_kept());
+  session.set_split(true);
+  session.set_split(false);
+  session.set_split(true);
+  Scene scene = session.scene();
+  scene.render.fresnel = FresnelKind::schlick;
+  scene.render.sampler = SamplerKind::sobol;
+  session.edit(scene, 0);
+  const auto both_finish = [&] {
+    return opened.finishes() && opened.comes_true([&] {
+      const auto kept = session.latest_kept();
+      return kept && kept->finished;
+    });
+  };
+  REQUIRE(both_finish());
+  CHECK(session.method(Half::kept) == "path · random");
+  CHECK(session.method(Half::current) == "path · sobol · schlick");
+  session.shown(Half::kept, session.latest_kept());
+  session.shown(Half::current, session.latest());
+  REQUIRE(opened.comes_true([&] { return session.accuracy().pair().flip.has_value(); }));
+  const auto before = session.latest_kept();
+  opened.set_fuzz(1);
+  REQUIRE(opened.finishes());
+  REQUIRE(opened.comes_true([&] { return session.latest_kept() != before && session.latest_kept()->finished; }));
+  CHECK(session.latest_kept()->rgba != before->rgba);
+  Opened::write(0.125, "other.json");
+  session.open(fs::absolute("other.json").string());
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  CHECK_FALSE(session.split());
 }
 
 TEST_CASE("two scenes give the same picture if they differ in name and display only") {

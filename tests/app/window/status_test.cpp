@@ -32,10 +32,9 @@ TEST_CASE("the status line tells what is on the screen") {
   frame.lanes = 32;
   frame.threads = 2;
   frame.film_bytes = 103'000'000;
-  const std::string text = text_of(status_cells(&frame, {0, "", {{10, 1.23e-4}}}, document(), false));
-  for (const char* part :
-       {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;", "avx512 x32=2 threads;",
-        "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
+  const std::string text = text_of(status_cells(&frame, {0, "", {{10, 1.23e-4}}}, document(), {}));
+  for (const char* part : {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;",
+                           "avx512 x32=2 threads;", "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
 }
 
@@ -43,10 +42,10 @@ TEST_CASE("what is not known yet is not made up") {
   Frame frame;
   frame.step = 8;
   frame.relative_error = std::numeric_limits<double>::infinity();
-  const std::string text = text_of(status_cells(&frame, {}, document(), true));
+  const std::string text = text_of(status_cells(&frame, {}, document(), {true}));
   for (const char* part : {"=paused;", "spp=1/64;", "error=?;", "to 1 %=?;"})
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
-  CHECK(text_of(status_cells(nullptr, {}, document(), false)).find("=starting;") == 0);
+  CHECK(text_of(status_cells(nullptr, {}, document(), {})).find("=starting;") == 0);
 }
 
 TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
@@ -56,15 +55,29 @@ TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
   Document edited_document = document();
   edited_document.scene.render.fresnel = FresnelKind::schlick;
   int warnings = 0;
-  const std::vector<StatusCell> cells = status_cells(&frame, {}, edited_document, false);
+  const std::vector<StatusCell> cells = status_cells(&frame, {}, edited_document, {});
   for (const StatusCell& cell : cells) warnings += cell.warning;
   CHECK(warnings == 2);
   frame.cut_throughput = 0.02;
-  CHECK(text_of(status_cells(&frame, {}, edited_document, false)).find("cut off=2 %;") != std::string::npos);
+  CHECK(text_of(status_cells(&frame, {}, edited_document, {})).find("cut off=2 %;") != std::string::npos);
   frame.cut_throughput = 1e-5;
-  CHECK(text_of(status_cells(&frame, {}, edited_document, false)).find("cut off") == std::string::npos);
+  CHECK(text_of(status_cells(&frame, {}, edited_document, {})).find("cut off") == std::string::npos);
   CHECK(cells.front().value == "finished");
   CHECK(cells.back().value == "edited");
+}
+
+TEST_CASE("against a reference the true error is told, and what is only estimated") {
+  Frame frame;
+  frame.edit = 3;
+  frame.spp = 64;
+  frame.relative_error = 0.011;
+  const ConvergenceRun run{3, "", {{1, 4e-4}}};
+  std::string text = text_of(status_cells(&frame, run, document(), {false, true}));
+  CHECK(text.find("true error=2 %;estimated=1.1 %;") != std::string::npos);
+  frame.edit = 4;  // not measured yet
+  text = text_of(status_cells(&frame, run, document(), {false, true}));
+  CHECK(text.find("true error=?;estimated=1.1 %;") != std::string::npos);
+  CHECK(text_of(status_cells(&frame, run, document(), {false, false, true})).find("B=rendering;") == 0);
 }
 
 TEST_CASE("cells go by rank when there is no room, the state stays") {

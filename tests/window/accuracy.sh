@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# True errors against a reference image: loaded, refused, seen as a picture, of another scene after an edit, exported.
+. "$(dirname "$0")/_lib.sh"
+
+write_scene scene.json 0.3 100000
+"$tyndall" render scene.json --seed 5 --spp 64 -o reference.pfm -q
+"$tyndall" render scene.json --size 100x60 --spp 1 -o small.pfm -q
+start scene.json
+lines=$(here)
+click chart.reference
+wait_for '^widget dialog.name' "$lines"
+xdotool type --delay 40 small.pfm
+key Return
+wait_for '^message small.pfm: found 100x60 pixels, expected 320x200 as the picture has' "$lines"
+key Escape
+
+lines=$(here)
+click chart.reference
+wait_for '^widget dialog.load' "$lines"
+xdotool type --delay 40 reference.pfm
+click dialog.load
+wait_for '^message reference: reference.pfm' "$lines"
+wait_for '^accuracy against reference.pfm · FLIP 0\.[0-9]+ at [0-9,]+ spp' "$lines"
+key r # so that the curve begins at the first sample
+sleep 2
+lines=$(here)
+point chart 60 55
+wait_for '^reading path · random: ' "$lines"
+
+# The error is a picture; nothing starts over for it.
+bright=$(brightness picture)
+lines=$(here)
+key 8
+wait_for '^widget image.view.error .* on' "$lines"
+sleep 1
+dark=$(brightness picture)
+python3 -c "import sys; sys.exit(not $dark < 0.7 * $bright)" || fail "error map: $dark, picture: $bright"
+key 9
+sleep 2
+[ "$(brightness picture)" != "$dark" ] || fail 'FLIP looks like the error'
+key 1
+sleep 0.5
+python3 -c "import sys; sys.exit(not abs($(brightness picture) - $bright) < 2)" || fail 'the picture does not come back'
+[ "$(submits)" = 1 ] || fail "$(submits) submits instead of 1"
+
+for number in 001 002; do
+  lines=$(here)
+  click chart.export
+  wait_for "^saved .*scene-chart-$number" "$lines"
+done
+[ "$(head -1 scene-chart-001.csv)" = method,spp,seconds,relmse ] || fail 'the CSV has no head'
+grep -q 'scene: true error against reference.pfm' scene-chart-001.svg || fail 'the SVG does not say what it shows'
+python3 - scene-chart-002.csv <<'PY' || fail 'the curve does not fall to the noise of the reference'
+import csv, sys
+rows = [(float(r["spp"]), float(r["relmse"])) for r in csv.DictReader(open(sys.argv[1]))]
+first, last = rows[-1], rows[-1]
+for row in reversed(rows):  # the newest curve
+    if row[0] > first[0]:
+        break
+    first = row
+print(len(rows), "points, from", first, "to", last)
+sys.exit(first[0] > 100 or last[0] < 300 or not last[1] < 0.3 * first[1])
+PY
+
+# An edit makes it a reference of another scene; undone, it fits again.
+lines=$(here)
+type_value gold.fuzz.value 0.5
+wait_for '^accuracy reference of another scene: reference.pfm' "$lines"
+key 8
+wait_for '^widget image.view.error .* on' "$lines"
+lines=$(here)
+chord ctrl z
+wait_for '^accuracy against reference.pfm' "$lines"
+
+# Dropped: estimated again, and no view of errors any more.
+lines=$(here)
+click chart.reference
+wait_for '^widget dialog.drop' "$lines"
+click dialog.drop
+wait_for '^widget image.view.beauty .* on' "$lines"
+wait_for '^accuracy $' "$lines"
+finish
+
+# The same from the command line.
+start scene.json --reference reference.pfm
+wait_for '^accuracy against reference.pfm'
+finish
+status=0
+"$tyndall" view scene.json --reference small.pfm 2>errors || status=$?
+[ "$status" = 2 ] || fail "a reference of another size: exit code $status"
+grep -q 'small.pfm: found 100x60 pixels, expected 320x200' errors || fail 'it is not said'
