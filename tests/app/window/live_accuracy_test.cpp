@@ -121,6 +121,7 @@ TEST_CASE("a picture of the scene before is not measured against the reference o
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   w.accuracy.collect();
   CHECK_FALSE(w.accuracy.pair().flip);
+  CHECK(w.points().empty());
   w.show(picture(1.1f, 2, 1));
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().flip && !w.points().empty(); }));
   CHECK(w.accuracy.curves(Half::current).earlier().empty());

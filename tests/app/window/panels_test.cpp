@@ -38,6 +38,9 @@ class Column {
       log_.end_of_widgets();
       if (!ui.problem.empty()) problem = ui.problem;
       if (state.wishes.open) opened = *state.wishes.open;
+      if (state.wishes.split) split = *state.wishes.split;
+      exported = exported || state.wishes.export_chart;
+      asked = asked || state.wishes.reference;
     });
   }
   bool has(const std::string& name) const { return log_.find(name).has_value(); }
@@ -80,6 +83,7 @@ class Column {
   Ui ui;
   PanelState state;
   std::string problem, opened;
+  bool split = false, exported = false, asked = false;
 
  private:
   NullImGui imgui_{372, 2400};
@@ -204,6 +208,31 @@ TEST_CASE("choices change what they say, and only that") {
   CHECK(column.problem == "cost: this view is not built yet");
   column.click("scenes.cover");
   CHECK(column.opened == "cover");
+}
+
+TEST_CASE("what the accuracy's controls ask for") {
+  Column column;
+  column.click("chart.export");
+  column.click("chart.reference");
+  CHECK(column.exported);
+  CHECK(column.asked);
+  column.click("render.split.on");
+  CHECK(column.split);
+  column.state.kept_method = "path";
+  column.click("render.split.off");
+  CHECK_FALSE(column.split);
+}
+
+TEST_CASE("errors are seen only where there is something to measure against") {
+  Column column;
+  column.click("image.view.error");
+  CHECK(column.state.view == 0);
+  CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
+  column.state.can_show_errors = true;
+  column.click("image.view.FLIP");
+  CHECK(column.state.view == flip_view);
+  column.click("image.view.error");
+  CHECK(column.state.view == error_view);
 }
 
 TEST_CASE("selecting in the list shows the object whole, and again nothing") {
