@@ -34,6 +34,13 @@ struct Event {
   F g;
 };
 
+/// Density per steradian with which a medium scatters from one direction into another.
+template <class F>
+TYNDALL_INLINE F phase_density(const auto& s, F g, Vec3<F> before, Vec3<F> after) {
+  if (!s.needs.phase_functions) return F(static_cast<float>(0.25 / pi));  // what the formula gives for g = 0
+  return henyey_greenstein_density(g, dot(before, after));
+}
+
 /// Which light an event asks for, and how the event was found.
 template <class F>
 struct LightAsked {
@@ -55,7 +62,7 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   F scattered = F(0.0f);
   if (any(e.surface)) scattered = density_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
   if (s.has_media() && any(e.medium))
-    scattered = select(e.medium, henyey_greenstein_density(e.g, dot(p.ray.direction, sample.direction)), scattered);
+    scattered = select(e.medium, phase_density(s, e.g, p.ray.direction, sample.direction), scattered);
   const F chosen = sample.density * choice.probability;
   const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered), less(F(0.0f), chosen)));
   if (!any(useful)) return zero3<F>();
@@ -148,7 +155,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
     Vec3<F> direction = unit;
     if (s.needs.phase_functions) direction = scatter_in_medium(e.g, before, unit, u);
     p.ray.direction = select(e.medium, direction, p.ray.direction);
-    p.density = select(e.medium, henyey_greenstein_density(e.g, dot(before, direction)), p.density);
+    p.density = select(e.medium, phase_density(s, e.g, before, direction), p.density);
   }
   return goes_on;
 }

@@ -55,11 +55,12 @@ template <class F>
 TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, const Interval<F>& inside,
                                     MaskOf<F> lanes) {
   const F begin = max(inside.near, F(0.0f));
+  const Vec3<F> point = along(ray.origin, select(lanes, begin, F(0.0f)), ray.direction);
+  const auto dense = mask_and(lanes, less(F(0x1p14f), splat<F>(m.density) * inside.far));
+  if (!any(dense)) return point;
   const Start<F> start = start_on<F>(ray.from, m.first, m.count);
   const auto on_surface = mask_and(start.here, equal(ray.from & IntOf<F>(3), IntOf<F>(1)));
-  const auto dense = less(F(0x1p14f), splat<F>(m.density) * inside.far);
-  const auto inexact = mask_and(mask_and(lanes, dense), mask_or(on_surface, less(F(0.0f), begin)));
-  const Vec3<F> point = along(ray.origin, select(lanes, begin, F(0.0f)), ray.direction);
+  const auto inexact = mask_and(dense, mask_or(on_surface, less(F(0.0f), begin)));
   if (!any(inexact)) return point;
   const Interval<F> again = medium_interval(m, point, ray.direction, IntOf<F>(from_nowhere));
   return along(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
@@ -68,8 +69,8 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
 /// The nearest of the media's independent exponential flights, if it ends before the surface: right for media that
 /// overlap, whose densities add. Shortens `nearest` to it.
 template <class F>
-TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>& ray, const Dice<F>& dice,
-                                                MaskOf<F> active, F& nearest) {
+TYNDALL_INLINE MediumEvent<F> fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
+                                                F& nearest) {
   const F infinity = F(__builtin_inff());
   MediumEvent<F> event = no_event(ray);
   for (int k = 0; k < s.medium_count; ++k) {
@@ -90,8 +91,8 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const SceneView& s, const Ray<F>
     event.begin = select(here, begin, event.begin), event.far = select(here, inside.far, event.far);
     event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
     event.albedo = select(here, splat<F>(m.albedo), event.albedo);
-    event.texture = select(here, IntOf<F>(m.texture), event.texture);
-    event.g = select(here, splat<F>(m.g), event.g);
+    if (s.has_textures()) event.texture = select(here, IntOf<F>(m.texture), event.texture);
+    if (s.needs.phase_functions) event.g = select(here, splat<F>(m.g), event.g);
   }
   return event;
 }
