@@ -89,6 +89,14 @@ std::optional<double> seconds_to(const ChartCurve& curve, double rel_mse) {
   return std::nullopt;
 }
 
+std::optional<double> speed_against(const ChartCurve& first, const ChartCurve& curve) {
+  if (first.points.empty() || curve.points.empty()) return std::nullopt;
+  const double error = std::max(first.points.back().rel_mse, curve.points.back().rel_mse);
+  const auto slow = seconds_to(first, error), fast = seconds_to(curve, error);
+  if (!(error > 0) || !slow || !fast) return std::nullopt;
+  return *slow / *fast;
+}
+
 std::optional<double> bias_of(const ChartCurve& curve, const ChartReference& reference) {
   if (curve.points.size() < 4) return std::nullopt;
   const ChartPoint& last = curve.points.back();

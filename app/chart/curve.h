@@ -47,6 +47,10 @@ double least_measurable(const ChartReference& reference);
 /// Seconds at which the curve crosses an error, between its points on logarithmic scales; nothing if it does not.
 std::optional<double> seconds_to(const ChartCurve& curve, double rel_mse);
 
+/// How many times less time a curve takes than the first one to the least error that both reach; nothing if there is
+/// none. The answer depends on the error: Sobol' points gain on random numbers the lower it is.
+std::optional<double> speed_against(const ChartCurve& first, const ChartCurve& curve);
+
 /// The error that does not go away when the samples double, from the last points: what the noise does not explain.
 /// Nothing where it cannot be told from noise.
 std::optional<double> bias_of(const ChartCurve& curve, const ChartReference& reference);

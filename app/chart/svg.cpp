@@ -211,11 +211,9 @@ std::string chart_table(const Chart& chart) {
   const ChartCurve* first = chart.curves.empty() ? nullptr : &chart.curves.front();
   for (const ChartCurve& curve : chart.curves) {
     const auto bias = bias_of(curve, chart.reference);
-    // Error times seconds at the ends: what a curve costs, wherever it ends.
-    const auto cost = [](const ChartCurve& c) { return c.points.back().rel_mse * c.points.back().seconds; };
-    const bool known = !curve.points.empty() && !first->points.empty() && !bias && cost(curve) > 0;
+    const auto speed = bias ? std::nullopt : speed_against(*first, curve);
     out += padded(curve.method, longest + 2) + padded(time(curve, 0.01), 11) + padded(time(curve, 0.001), 11) +
-           padded(known ? format("%.3gx", cost(*first) / cost(curve)) : "-", 10) +
+           padded(speed ? format("%.3gx", *speed) : "-", 10) +
            (bias ? format("%.2g", *bias) : std::string("none seen")) + "\n";
   }
   return out;

@@ -20,7 +20,7 @@ std::string chart_svg(const Chart& chart);
 /// method,spp,seconds,relmse with a line for each point.
 std::string chart_csv(const Chart& chart);
 
-/// For each method: seconds to relMSE 0.01 and 0.001, times the first method's speed, bias.
+/// For each method: seconds to relMSE 0.01 and 0.001, how many times faster than the first it is, bias.
 std::string chart_table(const Chart& chart);
 
 }  // namespace tyndall

@@ -86,6 +86,16 @@ TEST_CASE("chart: SVG and CSV hold every curve and every point") {
   CHECK(count(chart_svg(many), "class=\"curve s1 again") == 1);  // the tenth has the second's colour, dashed
 }
 
+TEST_CASE("chart: speed is that to the least error that both curves reach") {
+  const ChartCurve slow{"slow", {{1, 1, 0.1, 0}, {2, 10, 0.01, 0}}};
+  CHECK(speed_against(slow, slow) == doctest::Approx(1));
+  CHECK(speed_against(slow, {"fast", {{1, 0.01, 0.1, 0}, {2, 0.1, 0.01, 0}, {4, 1, 0.001, 0}}}) ==
+        doctest::Approx(100));
+  CHECK(speed_against(slow, {"short", {{1, 0.01, 1, 0}, {2, 0.1, 0.1, 0}}}) == doctest::Approx(10));
+  CHECK_FALSE(speed_against(slow, {"empty", {}}));
+  CHECK_FALSE(speed_against({"exact", {{1, 1, 0, 0}}}, {"exact", {{1, 1, 0, 0}}}));
+}
+
 TEST_CASE("chart: no points, and points at zero, make a chart all the same") {
   Chart chart{"", "", {}, reference};
   CHECK(chart_svg(chart).find("nan") == std::string::npos);
