@@ -1,6 +1,7 @@
 #include "core/film/plan.h"
 #include "core/render/pass.h"
 #include "tests/support/statistics.h"
+#include "tests/support/stopping.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -79,22 +80,6 @@ TEST_CASE("adaptive: by long and short passes, continued, and given up at any po
     CHECK(stops > 1);
   }
 }
-
-namespace {
-
-/// Renders units until there have been enough, then has the pass given up.
-struct Stop {
-  Kernels real{};
-  std::atomic<int> units_left = 0;
-  std::atomic<bool> give_up = false;
-} stop;
-
-void stopping_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts) {
-  stop.real.render_unit(scene, unit, film_unit, pixels, counts);
-  if (--stop.units_left == 0) stop.give_up = true;
-}
-
-}  // namespace
 
 TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the same film") {
   const RenderScene& scene = scene_of("showroom");

@@ -1,6 +1,7 @@
 #include "core/film/merge.h"
 #include "core/render/pass.h"
 #include "tests/support/pictures.h"
+#include "tests/support/stopping.h"
 
 #include <doctest/doctest.h>
 
@@ -39,18 +40,6 @@ Film shard(const RenderScene& scene, const Kernels& kernels, std::uint32_t first
   options.first_sample = first;
   options.tile = tile;
   return render(scene, options).film;
-}
-
-/// Renders units until there have been enough, then has the pass given up.
-struct Stop {
-  Kernels real{};
-  std::atomic<int> units_left = 0;
-  std::atomic<bool> give_up = false;
-} stop;
-
-void stopping_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts) {
-  stop.real.render_unit(scene, unit, film_unit, pixels, counts);
-  if (--stop.units_left == 0) stop.give_up = true;
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+#pragma once
+#include "core/kernel/kernels.h"
+
+#include <atomic>
+
+/// A unit of work that has the pass given up after some more.
+namespace tyndall::test {
+
+struct Stop {
+  Kernels real{};
+  std::atomic<int> units_left = 0;
+  std::atomic<bool> give_up = false;
+};
+inline Stop stop;
+
+inline void stopping_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                          UnitCounts& counts) {
+  stop.real.render_unit(scene, unit, film_unit, pixels, counts);
+  if (--stop.units_left == 0) stop.give_up = true;
+}
+
+}  // namespace tyndall::test
