@@ -53,6 +53,8 @@ std::string share_cut_off(const Frame* frame) {
 const char* view_meaning(const PanelState& state) {
   if (state.view >= error_view && !state.accuracy->map()) return "is being computed";
   switch (state.view) {
+    case cost_view:
+      return "rays of a path; white: most";
     case error_view:
       return "white: wrong by 100 % and more";
     case flip_view:
@@ -149,7 +151,6 @@ void image_panel(Ui& ui, PanelState& state) {
             display.tone_map);
   Choice views[view_count];
   for (int k = 0; k < view_count; ++k) views[k] = {view_names[k], nullptr};
-  views[cost_view].missing = "this view is not built yet";
   if (!state.can_show_errors)
     for (const int k : {error_view, flip_view}) views[k].missing = "needs a reference: see Speed and accuracy";
   choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, views, state.view, 3);

@@ -98,14 +98,13 @@ void MainWindow::save() {
 }
 
 void MainWindow::select_view(int view) {
-  if (view == cost_view) return session_.say("the cost view is not built yet");
   if (view >= error_view && !session_.can_show_errors())
     return session_.say("load a reference first: see Speed and accuracy");
   panels_.view = view;
   if (view == shown_view_) return;
   shown_view_ = view;
   const ErrorView error = view == error_view ? ErrorView::error : view == flip_view ? ErrorView::flip : ErrorView::none;
-  session_.set_view(view < cost_view ? static_cast<View>(view) : View::beauty, error);
+  session_.set_view(view <= cost_view ? static_cast<View>(view) : View::beauty, error);
   pacing_.on_new_start(clock_seconds());
 }
 

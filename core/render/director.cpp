@@ -98,6 +98,7 @@ void Director::take_scene(Scene scene, Clock::time_point before) {
     scene_view_ = std::make_unique<SceneViewOf>(*compiled_);
     scene_ = std::move(scene);
     first_hits_.clear();
+    costs_.clear();
     chance_of_caustics_.reset();
     start_over();
     const std::lock_guard lock(mail_.mutex);
@@ -192,6 +193,10 @@ void Director::draw(std::vector<float>& rgba) {
       return;
     case View::samples:
       rgba = taken_ == 0 ? grey_rgba(film_.pixels.size(), 0) : samples_rgba(film_);
+      return;
+    case View::cost:
+      if (costs_.empty()) costs_ = find_costs(kernels_, scene_view_->view(), *crew_, mail_.give_up);
+      rgba = costs_.empty() ? grey_rgba(film_.pixels.size(), 0) : relative_rgba(costs_);
       return;
     case View::albedo:
     case View::normal:

@@ -81,6 +81,7 @@ class Director {
   std::optional<double> chance_of_caustics_;  ///< of this scene, once it was asked for
   bool rare_bright_paths_ = false;
   std::vector<FirstHit> first_hits_;  ///< found when a view asks
+  std::vector<float> costs_;          ///< likewise
 
   // its samples
   Film film_;

@@ -92,6 +92,37 @@ std::vector<float> samples_rgba(const Film& film) {
   return rgba;
 }
 
+std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
+                              const std::atomic<bool>& give_up) {
+  constexpr int edge = 4, samples = 4;
+  std::vector<float> costs(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
+  const auto find = [&](const Region& cell) {
+    FilmPixel pixels[edge * edge] = {};
+    UnitCounts counts;
+    kernels.render_unit(scene, {.tile = cell, .first = 0, .last = samples}, 1, pixels, counts);
+    const float cost = static_cast<float>(counts.rays) / static_cast<float>(samples * cell.width() * cell.height());
+    for (int y = cell.y0; y < cell.y1; ++y)
+      for (int x = cell.x0; x < cell.x1; ++x) costs[offset(scene.width, x, y)] = cost;
+  };
+  crew.for_each((scene.height + edge - 1) / edge, [&](int row) {
+    for (int x = 0; x < scene.width && !give_up; x += edge)
+      find({x, edge * row, std::min(x + edge, scene.width), std::min(edge * (row + 1), scene.height)});
+  });
+  if (give_up) costs.clear();
+  return costs;
+}
+
+std::vector<float> relative_rgba(const std::vector<float>& values) {
+  float most = 1e-37f;
+  for (const float value : values) most = std::max(most, value);
+  std::vector<float> rgba(4 * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float share = values[i] / most;
+    put(rgba, i, {share, share, share});
+  }
+  return rgba;
+}
+
 std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view) {
   float farthest = 1e-37f;
   for (const FirstHit& hit : hits) farthest = std::max(farthest, hit.depth);

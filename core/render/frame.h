@@ -4,6 +4,7 @@
 #include "core/kernel/kernels.h"
 #include "core/render/renderer.h"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -37,6 +38,14 @@ std::vector<float> noise_rgba(const Film& film);
 
 /// Samples of each pixel over the most any pixel has, as grey.
 std::vector<float> samples_rgba(const Film& film);
+
+/// Rays of a path through each pixel, a mean over cells of 4 x 4 pixels and their first samples, which are taken once
+/// more for it. Empty if `give_up` was set meanwhile.
+std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
+                              const std::atomic<bool>& give_up);
+
+/// Numbers >= 0 as grey, 1 for the largest.
+std::vector<float> relative_rgba(const std::vector<float>& values);
 
 /// Albedo, normal (x, y, z in [0, 1]) or depth (grey; 1 at the farthest) of what is first seen. hits: a frame's worth.
 std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view);

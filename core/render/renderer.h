@@ -10,7 +10,7 @@
 namespace tyndall {
 
 /// What a frame shows besides the beauty image.
-enum class View { beauty, albedo, normal, depth, noise, samples };
+enum class View { beauty, albedo, normal, depth, noise, samples, cost };
 
 /// One finished pass, ready to be shown. Never changes after it was published.
 struct Frame {

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <ctime>
 
 /// Views, picking, films, and doing nothing when there is nothing to do.
@@ -57,6 +58,13 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
   CHECK(pixel(*depth, 50, 10).x == doctest::Approx(1));
   CHECK(pixel(*depth, 27, 30).x == doctest::Approx(2.5 / 4).epsilon(0.02));
   CHECK(pixel(*shown(View::samples), 3, 3) == Vec3f{1, 1, 1});
+  const FramePointer cost = shown(View::cost);
+  float most = 0;
+  for (int y = 0; y < cost->height; ++y)
+    for (int x = 0; x < cost->width; ++x) most = std::max(most, pixel(*cost, x, y).x);
+  CHECK(most == 1);
+  CHECK(pixel(*cost, 88, 30).x > 0);
+  CHECK(pixel(*cost, 88, 30).x < 0.7f * pixel(*cost, 50, 10).x);  // the sky and the wall
   const FramePointer noise = shown(View::noise);
   CHECK(noise->beauty == beauty->rgba);
   CHECK(beauty->beauty.empty());
@@ -64,7 +72,7 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
   CHECK(pixel(*noise, 27, 30).x < 1.0f);
   const FramePointer back = shown(View::beauty);
   CHECK(back->rgba == beauty->rgba);
-  for (const FramePointer& frame : {albedo, normal, depth, noise, back}) {
+  for (const FramePointer& frame : {albedo, normal, depth, cost, noise, back}) {
     CHECK(frame->spp == 8);
     CHECK(frame->finished);
     CHECK(frame->edit == edit);

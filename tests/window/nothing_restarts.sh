@@ -18,7 +18,7 @@ settle
 bright=$(brightness picture)
 python3 -c "import sys; sys.exit(not $bright > $dark + 10)" || fail "exposure: $dark, then $bright"
 click image.tone_map.aces
-for view in albedo normal depth noise samples beauty; do
+for view in albedo normal depth noise samples cost beauty; do
   lines=$(here)
   click image.view.$view
   wait_for '^frame' "$lines"
@@ -27,7 +27,7 @@ lines=$(here)
 xdotool key 3
 wait_for '^widget image.view.normal .* on' "$lines"
 xdotool key 7
-wait_for '^message the cost view' "$lines"
+wait_for '^widget image.view.cost .* on' "$lines"
 xdotool key 1
 wait_for '^widget image.view.beauty .* on' "$lines"
 

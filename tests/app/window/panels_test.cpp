@@ -204,8 +204,10 @@ TEST_CASE("choices change what they say, and only that") {
   column.click("image.view.normal");
   CHECK(column.state.view == 2);
   column.click("image.view.cost");
-  CHECK(column.state.view == 2);
-  CHECK(column.problem == "cost: this view is not built yet");
+  CHECK(column.state.view == cost_view);
+  column.click("image.view.FLIP");
+  CHECK(column.state.view == cost_view);
+  CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
   column.click("scenes.cover");
   CHECK(column.opened == "cover");
 }
