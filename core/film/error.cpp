@@ -56,29 +56,30 @@ struct Spread {
 
 constexpr int block_edge = 8;
 
-Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
-
 void add_block(const Film& film, const Region& block, Spread& to) {
-  Vec3d around;
-  double count = 0;
-  const auto each = [&](auto&& use) {
-    for (int y = block.y0; y < block.y1; ++y)
-      for (int x = block.x0; x < block.x1; ++x) {
-        const FilmPixel& pixel = film.at(x, y);
-        if (counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0) use(pixel, to_double(mean(film, pixel)));
+  double own[block_edge * block_edge][3], apart[block_edge * block_edge][3], around[3] = {};
+  int count = 0;
+  for (int y = block.y0; y < block.y1; ++y)
+    for (int x = block.x0; x < block.x1; ++x) {
+      const FilmPixel& pixel = film.at(x, y);
+      const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
+      if (count_a == 0 || count_b == 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        const double a = pixel.sum[0][k].value(), b = pixel.sum[1][k].value();
+        own[count][k] = (a + b) * film.unit / (count_a + count_b);
+        apart[count][k] = (a / count_a - b / count_b) * film.unit;
+        around[k] += own[count][k];
       }
-  };
-  each([&](const FilmPixel&, Vec3d own) { around = around + own, ++count; });
-  each([&](const FilmPixel& pixel, Vec3d own) {
-    const Vec3d others = (1 / std::max(count - 1, 1.0)) * (around - own);
-    const Vec3d apart = to_double(half_mean(film, pixel, 0)) - to_double(half_mean(film, pixel, 1));
-    const auto channel = [](double difference, double a, double b) {
-      return square(difference / 2) / (square(std::min(a, b)) + floor_of_square);
-    };
-    const double error =
-        channel(apart.x, own.x, others.x) + channel(apart.y, own.y, others.y) + channel(apart.z, own.z, others.z);
+      ++count;
+    }
+  for (int i = 0; i < count; ++i) {
+    double error = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double others = (around[k] - own[i][k]) / std::max(count - 1, 1);
+      error += square(apart[i][k] / 2) / (square(std::min(own[i][k], others)) + floor_of_square);
+    }
     to.sum += error, to.squares += square(error);
-  });
+  }
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ void Director::take_scene(Scene scene, Clock::time_point before) {
     scene_view_ = std::make_unique<SceneViewOf>(*compiled_);
     scene_ = std::move(scene);
     first_hits_.clear();
-    costs_.clear();
+    costs_due_ = true;
     chance_of_caustics_.reset();
     start_over();
     const std::lock_guard lock(mail_.mutex);
@@ -130,6 +130,7 @@ void Director::start_over() {
   rejected_ = truncated_ = 0;
   error_ = std::numeric_limits<double>::infinity();
   rare_bright_paths_ = false;
+  next_rare_check_ = 8;
   next_estimate_ = Clock::now();
   first_picture_due_ = true;
   step_ = preview_step(pixels(), first_paths_per_second_, std::max(budget_ - picture_seconds_, budget_ / 4), step_);
@@ -176,11 +177,27 @@ void Director::finish_pass(double seconds) {
   pass_.reset();
   if (taken_ >= 2 && (taken_ < 16 || Clock::now() >= next_estimate_ || taken_ >= limit_)) {
     error_ = estimated_relative_error(film_, crew_.get());
-    if (!chance_of_caustics_) chance_of_caustics_ = chance_of_caustics(scene_);
-    rare_bright_paths_ = has_rare_bright_paths(film_, taken_, *chance_of_caustics_, crew_.get());
     next_estimate_ = Clock::now() + std::chrono::milliseconds(400);
   }
+  look_for_rare_paths();
   publish();
+}
+
+/// Whenever the samples have doubled: it takes longer than the estimate.
+void Director::look_for_rare_paths() {
+  if (taken_ < next_rare_check_) return;
+  if (!chance_of_caustics_) chance_of_caustics_ = chance_of_caustics(scene_);
+  rare_bright_paths_ = has_rare_bright_paths(film_, taken_, *chance_of_caustics_, crew_.get());
+  next_rare_check_ = 2 * taken_;
+}
+
+/// Until they are found, the old ones are shown: edits that follow each other closely interrupt this.
+void Director::find_due_costs() {
+  if (!costs_due_) return;
+  std::vector<float> found = find_costs(kernels_, scene_view_->view(), *crew_, mail_.give_up);
+  if (found.empty()) return;
+  costs_ = std::move(found);
+  costs_due_ = false;
 }
 
 void Director::draw(std::vector<float>& rgba) {
@@ -195,8 +212,8 @@ void Director::draw(std::vector<float>& rgba) {
       rgba = taken_ == 0 ? grey_rgba(film_.pixels.size(), 0) : samples_rgba(film_);
       return;
     case View::cost:
-      if (costs_.empty()) costs_ = find_costs(kernels_, scene_view_->view(), *crew_, mail_.give_up);
-      rgba = costs_.empty() ? grey_rgba(film_.pixels.size(), 0) : relative_rgba(costs_);
+      find_due_costs();
+      rgba = costs_.size() == film_.pixels.size() ? relative_rgba(costs_) : grey_rgba(film_.pixels.size(), 0);
       return;
     case View::albedo:
     case View::normal:

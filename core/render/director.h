@@ -60,6 +60,8 @@ class Director {
   std::unique_ptr<Pass> further_pass();
   void finish_pass(double seconds);
   void publish();
+  void look_for_rare_paths();
+  void find_due_costs();
   void draw(std::vector<float>& rgba);
   bool has_work() const;
   std::int64_t pixels() const { return static_cast<std::int64_t>(compiled_->width) * compiled_->height; }
@@ -80,8 +82,10 @@ class Director {
   View view_ = View::beauty;
   std::optional<double> chance_of_caustics_;  ///< of this scene, once it was asked for
   bool rare_bright_paths_ = false;
-  std::vector<FirstHit> first_hits_;  ///< found when a view asks
-  std::vector<float> costs_;          ///< likewise
+  std::uint32_t next_rare_check_ = 0;  ///< samples at which to look for them again
+  std::vector<FirstHit> first_hits_;   ///< found when a view asks
+  std::vector<float> costs_;           ///< likewise; an older scene's while costs_due_
+  bool costs_due_ = true;
 
   // its samples
   Film film_;
