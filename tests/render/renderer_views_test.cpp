@@ -5,7 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
+#include <thread>
 
 /// Views, picking, films, and doing nothing when there is nothing to do.
 using namespace tyndall;
@@ -77,6 +79,27 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
     CHECK(frame->finished);
     CHECK(frame->edit == edit);
   }
+}
+
+TEST_CASE("views: the costs of the last scene stay until those of the new one are found") {
+  Scene scene = wall_and_ball();
+  scene.width = 900, scene.height = 600;
+  WatchedRenderer renderer;
+  renderer->set_view(View::cost);
+  std::uint64_t edit = renderer->submit(scene);
+  const auto is_there = [](const Frame& f) {
+    return std::any_of(f.rgba.begin(), f.rgba.end(), [i = 0](float v) mutable { return i++ % 4 == 0 && v == 1; });
+  };
+  renderer.wait_for([&](const Frame& f) { return f.view == View::cost && is_there(f); });
+  const std::size_t before = renderer.frames().size();
+  for (int i = 0; i < 30; ++i) {
+    scene.camera.look_at.x += 0.01;
+    edit = renderer->submit(scene);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.finished; }, before);
+  const auto frames = renderer.frames();
+  for (std::size_t i = before; i < frames.size(); ++i) CHECK(is_there(*frames[i]));
 }
 
 TEST_CASE("pick: the object's path, how deep it is, and where") {
