@@ -192,7 +192,8 @@ template <Plain F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return *from;
 }
-/// The first `count` of as many values as there are lanes, which need not be readable beyond; 0 in the other lanes.
+/// The first `count` >= 0 of as many values as there are lanes, which need not be readable beyond; 0 in the other
+/// lanes.
 template <Plain F>
 TYNDALL_INLINE F load_some(const float* from, int count) {
   return count > 0 ? static_cast<F>(*from) : F(0);

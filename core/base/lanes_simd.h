@@ -90,32 +90,19 @@ TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from);
   return r;
 }
+// From AVX2 on, where there are loads that stop early.
 template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE F load_some(const float* from, int count) {
-  namespace hn = HWY_NAMESPACE::hn;
+requires(lanes_of<F> >= 8) TYNDALL_INLINE F load_some(const float* from, int count) {
   F r;
-#if HWY_TARGET == HWY_SSE4  // without a load that stops early
-  float values[lanes_of<F>] = {};
-  for (int i = 0; i < count && i < lanes_of<F>; ++i) values[i] = from[i];
-  r.v = hn::LoadU(HWY_NAMESPACE::TagF(), values);
-#else
   const HWY_NAMESPACE::TagF tag;
-  r.v = hn::MaskedLoad(hn::FirstN(tag, count > 0 ? static_cast<std::size_t>(count) : 0), tag, from);
-#endif
+  r.v = HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
   return r;
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
-  namespace hn = HWY_NAMESPACE::hn;
+requires(lanes_of<F> >= 8) TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
   IntOf<F> r;
-#if HWY_TARGET == HWY_SSE4
-  std::int32_t values[lanes_of<F>] = {};
-  for (int i = 0; i < count && i < lanes_of<F>; ++i) values[i] = from[i];
-  r.v = hn::LoadU(HWY_NAMESPACE::TagI(), values);
-#else
   const HWY_NAMESPACE::TagI tag;
-  r.v = hn::MaskedLoad(hn::FirstN(tag, count > 0 ? static_cast<std::size_t>(count) : 0), tag, from);
-#endif
+  r.v = HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
   return r;
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>

@@ -203,16 +203,6 @@ TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
   return {load_int<HalfOf<F>>(from), load_int<HalfOf<F>>(from + lanes_of<HalfOf<F>>)};
 }
 template <Doubled F>
-TYNDALL_INLINE F load_some(const float* from, int count) {
-  constexpr int half = lanes_of<HalfOf<F>>;
-  return {load_some<HalfOf<F>>(from, count), load_some<HalfOf<F>>(from + half, count - half)};
-}
-template <Doubled F>
-TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
-  constexpr int half = lanes_of<HalfOf<F>>;
-  return {load_some_int<HalfOf<F>>(from, count), load_some_int<HalfOf<F>>(from + half, count - half)};
-}
-template <Doubled F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return {load_uint<HalfOf<F>>(from), load_uint<HalfOf<F>>(from + lanes_of<HalfOf<F>>)};
 }
