@@ -1,9 +1,9 @@
-#include "app/commands/commands.h"
-#include "app/options.h"
-#include "app/standard_streams.h"
+#include "app/cli/commands.h"
+#include "app/cli/options.h"
+#include "app/text/standard_streams.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/film/merge.h"
-#include "core/scene/error.h"
-#include "core/scene/text.h"
 
 #include <exception>
 #include <new>

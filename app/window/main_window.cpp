@@ -1,10 +1,10 @@
 #include "app/window/main_window.h"
 
-#include "app/window/camera_control.h"
-#include "app/window/clock.h"
-#include "app/window/display_lost.h"
-#include "app/window/open_document.h"
-#include "core/scene/error.h"
+#include "app/window/document/open_document.h"
+#include "app/window/system/clock.h"
+#include "app/window/system/display_lost.h"
+#include "app/window/tools/camera_control.h"
+#include "core/base/error.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,11 +1,11 @@
 #pragma once
-#include "app/window/display.h"
 #include "app/window/overlays.h"
-#include "app/window/pacing.h"
-#include "app/window/panels.h"
-#include "app/window/platform.h"
+#include "app/window/panels/panels.h"
+#include "app/window/panels/split_view.h"
 #include "app/window/session.h"
-#include "app/window/split_view.h"
+#include "app/window/system/display.h"
+#include "app/window/system/pacing.h"
+#include "app/window/system/platform.h"
 
 #include <atomic>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "app/window/overlays.h"
 
-#include "app/window/imgui_compat.h"
-#include "app/window/shortcuts.h"
+#include "app/window/system/imgui_compat.h"
+#include "app/window/system/shortcuts.h"
 
 #include <algorithm>
 #include <cstring>

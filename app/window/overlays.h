@@ -1,8 +1,8 @@
 #pragma once
-#include "app/window/document.h"
-#include "app/window/outline.h"
+#include "app/window/document/document.h"
+#include "app/window/panels/widgets.h"
 #include "app/window/session.h"
-#include "app/window/widgets.h"
+#include "app/window/tools/outline.h"
 
 #include <filesystem>
 #include <optional>

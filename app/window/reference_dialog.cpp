@@ -1,5 +1,5 @@
-#include "app/window/imgui_compat.h"
 #include "app/window/overlays.h"
+#include "app/window/system/imgui_compat.h"
 
 /// The question which picture errors are measured against.
 namespace tyndall {

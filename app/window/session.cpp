@@ -1,10 +1,10 @@
 #include "app/window/session.h"
 
-#include "app/window/clock.h"
-#include "app/window/open_document.h"
-#include "app/window/snapshot.h"
+#include "app/window/document/open_document.h"
+#include "app/window/document/snapshot.h"
+#include "app/window/system/clock.h"
+#include "core/base/error.h"
 #include "core/scene/check.h"
-#include "core/scene/error.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,10 +1,10 @@
 #pragma once
-#include "app/window/fair_share.h"
-#include "app/window/history.h"
-#include "app/window/job_queue.h"
-#include "app/window/live_accuracy.h"
-#include "app/window/ui_log.h"
-#include "app/window/watch.h"
+#include "app/files/watch.h"
+#include "app/window/accuracy/fair_share.h"
+#include "app/window/accuracy/live_accuracy.h"
+#include "app/window/document/history.h"
+#include "app/window/document/job_queue.h"
+#include "app/window/system/ui_log.h"
 #include "app/window/window.h"
 #include "core/render/renderer.h"
 

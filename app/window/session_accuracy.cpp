@@ -1,7 +1,7 @@
-#include "app/window/chart_export.h"
-#include "app/window/open_document.h"
+#include "app/curves/chart_export.h"
+#include "app/window/document/open_document.h"
+#include "app/window/document/snapshot.h"
 #include "app/window/session.h"
-#include "app/window/snapshot.h"
 
 #include <exception>
 #include <utility>

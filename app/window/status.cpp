@@ -1,6 +1,6 @@
-#include "app/progress.h"
-#include "app/window/imgui_compat.h"
+#include "app/text/progress.h"
 #include "app/window/overlays.h"
+#include "app/window/system/imgui_compat.h"
 
 #include <algorithm>
 #include <cmath>

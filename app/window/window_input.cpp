@@ -1,8 +1,8 @@
-#include "app/window/camera_control.h"
-#include "app/window/clock.h"
+#include "app/window/document/open_document.h"
 #include "app/window/main_window.h"
-#include "app/window/medium_pick.h"
-#include "app/window/open_document.h"
+#include "app/window/system/clock.h"
+#include "app/window/tools/camera_control.h"
+#include "app/window/tools/medium_pick.h"
 #include "core/base/math.h"
 
 #include <imgui.h>

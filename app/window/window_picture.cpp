@@ -1,6 +1,6 @@
+#include "app/text/numbers.h"
 #include "app/window/main_window.h"
-#include "app/window/numbers.h"
-#include "core/scene/error.h"
+#include "core/base/error.h"
 
 #include <algorithm>
 #include <cmath>

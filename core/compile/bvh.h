@@ -1,25 +1,10 @@
 #pragma once
-#include "core/base/vec.h"
+#include "core/compile/bvh_input.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tyndall {
-
-struct Bounds {
-  Vec3f low, high;
-  bool operator==(const Bounds&) const = default;
-};
-
-/// Kinds of primitives in leaves.
-enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box };
-
-/// A primitive as the builder sees it.
-struct BvhInput {
-  Bounds bounds;  ///< finite; exact or wider
-  PrimitiveKind kind;
-  bool operator==(const BvhInput&) const = default;
-};
 
 inline constexpr int bvh_width = 8;
 inline constexpr int bvh_most_primitives = 1 << 24;

@@ -2,7 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/film/tonemap.h"
+#include "core/image/tonemap.h"
 
 #include <cmath>
 

@@ -1,9 +1,8 @@
 #include "core/render/director.h"
 
-#include "core/compile/caustics.h"
-#include "core/film/error.h"
-#include "core/film/plan.h"
-#include "core/render/frame.h"
+#include "core/accuracy/error.h"
+#include "core/render/caustics.h"
+#include "core/render/plan.h"
 #include "core/render/preview.h"
 #include "core/render/rare.h"
 

@@ -2,7 +2,7 @@
 #include "core/compile/compile.h"
 #include "core/render/frame.h"
 #include "core/render/pass.h"
-#include "core/render/renderer.h"
+#include "core/render/pictures.h"
 
 #include <chrono>
 #include <condition_variable>

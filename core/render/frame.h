@@ -1,56 +1,44 @@
 #pragma once
-#include "core/base/crew.h"
-#include "core/film/film.h"
-#include "core/kernel/kernels.h"
-#include "core/render/renderer.h"
-
-#include <atomic>
-#include <memory>
-#include <mutex>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
-/// From a film to what is shown. Values are linear; exposure and tone mapping are the display's.
+/// What the renderer hands out after a pass.
 namespace tyndall {
 
-/// RGBA of a film's means, in `rgba`. step > 1: only every step-th pixel has samples; the others are filled in between
-/// (bilinear), in the picture only.
-void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
+/// What a frame shows besides the beauty image.
+enum class View { beauty, albedo, normal, depth, noise, samples, cost };
 
-/// Memory of frames that nobody looks at any more: fresh memory costs more than the picture that is written to it.
-class FrameMemory {
- public:
-  /// A frame with what a former one's `rgba` held. Keep this object for as long as there are frames.
-  std::shared_ptr<Frame> take();
-
- private:
-  struct Spare {
-    std::mutex mutex;
-    std::vector<std::vector<float>> rgba;
-  };
-  std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+/// One finished pass, ready to be shown. Never changes after it was published.
+struct Frame {
+  std::uint64_t edit = 0;  ///< number of the edit (Renderer::submit) that it shows
+  std::uint64_t pass = 0;  ///< counts up with every frame
+  int width = 0, height = 0;
+  std::vector<float> rgba;  ///< 4 floats a pixel, top row first, linear; holes of a coarse pass are filled
+  std::vector<float>
+      beauty;  ///< the same of the picture itself while `view` is another, without coarse passes; or empty
+  View view = View::beauty;
+  int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
+  std::uint32_t spp = 0;      ///< samples that every pixel has, or with adaptive sampling their mean; the same film
+                              ///< as render() makes for that number; 0 while only a coarse pass is there
+  bool finished = false;      ///< the limit is reached
+  double relative_error = 0;  ///< estimated; infinite before two samples
+  bool rare_bright_paths = false;  ///< the estimate says too little: see has_rare_bright_paths
+  double seconds = 0;              ///< rendering time since the edit, pauses left out
+  double mrays_per_s = 0;          ///< of the last pass
+  double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it
+  std::uint64_t rejected = 0, truncated = 0;
+  double cut_throughput = 0;  ///< see FilmTotals
+  std::size_t film_bytes = 0;
+  std::string isa;
+  int lanes = 1, threads = 1;
 };
 
-/// A picture of one grey.
-std::vector<float> grey_rgba(std::size_t pixels, float grey);
-
-/// Estimated relative error of each pixel (see pixel_relative_error) as grey: 1 is 100 % and more.
-std::vector<float> noise_rgba(const Film& film);
-
-/// Samples of each pixel over the most any pixel has, as grey.
-std::vector<float> samples_rgba(const Film& film);
-
-/// Rays of a path through each pixel, a mean over cells of 4 x 4 pixels and their first samples, which are taken once
-/// more for it. Empty if `give_up` was set meanwhile.
-std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
-                              const std::atomic<bool>& give_up);
-
-/// Numbers >= 0 as grey, 1 for the largest.
-std::vector<float> relative_rgba(const std::vector<float>& values);
-
-/// Albedo, normal (x, y, z in [0, 1]) or depth (grey; 1 at the farthest) of what is first seen. hits: a frame's worth.
-std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view);
-
-/// What is first seen through every pixel of the image.
-std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, Crew& crew);
+/// An edit that cannot be shown (compile failed); the last good picture stays.
+struct RenderProblem {
+  std::uint64_t edit = 0;
+  std::string what;
+};
 
 }  // namespace tyndall

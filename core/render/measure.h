@@ -1,5 +1,5 @@
 #pragma once
-#include "core/film/error.h"
+#include "core/accuracy/error.h"
 #include "core/render/render.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "core/render/rare.h"
 
-#include "core/film/error.h"
+#include "core/accuracy/error.h"
 
 namespace tyndall {
 

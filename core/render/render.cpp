@@ -1,9 +1,9 @@
 #include "core/render/render.h"
 
-#include "core/film/error.h"
-#include "core/film/plan.h"
+#include "core/accuracy/error.h"
 #include "core/render/level.h"
 #include "core/render/pass.h"
+#include "core/render/plan.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,8 @@
 #include "core/scene/check.h"
 
+#include "core/base/text.h"
 #include "core/scene/names.h"
 #include "core/scene/place.h"
-#include "core/scene/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,10 @@
 #pragma once
+#include "core/scene/place.h"
 #include "core/scene/scene.h"
 
 #include <optional>
-#include <string>
 
 namespace tyndall {
-
-/// A rule between values that is broken, at a JSON pointer.
-struct Broken {
-  std::string where, found, expected;
-};
 
 /// The first broken rule of a scene, or nothing. Rules that no single value shows: degenerate quads, boxes with
 /// min >= max, media with moving or inward boundaries, image textures on media, camera without a direction or parallel

@@ -1,5 +1,5 @@
+#include "core/base/text.h"
 #include "core/scene/json.h"
-#include "core/scene/text.h"
 
 namespace tyndall {
 namespace {

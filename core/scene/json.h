@@ -1,5 +1,5 @@
 #pragma once
-#include "core/scene/error.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
 
 #include <filesystem>

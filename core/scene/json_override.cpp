@@ -1,6 +1,6 @@
+#include "core/base/text.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
-#include "core/scene/text.h"
 
 #include <algorithm>
 #include <charconv>

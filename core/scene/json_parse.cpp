@@ -1,7 +1,7 @@
+#include "core/base/text.h"
 #include "core/scene/json_syntax.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
-#include "core/scene/text.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include "core/scene/json_read.h"
 
-#include "core/film/image_io.h"
+#include "core/image/image_io.h"
+#include "core/scene/check.h"
 
 #include <map>
 #include <system_error>

@@ -1,6 +1,6 @@
 #include "core/scene/json_tree.h"
 
-#include "core/scene/text.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 

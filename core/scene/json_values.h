@@ -1,8 +1,8 @@
 #pragma once
+#include "core/base/text.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/names.h"
 #include "core/scene/place.h"
-#include "core/scene/text.h"
 
 #include <cstdint>
 #include <optional>

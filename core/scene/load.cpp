@@ -1,9 +1,9 @@
 #include "core/scene/load.h"
 
-#include "core/film/image_io.h"
+#include "core/base/text.h"
+#include "core/image/image_io.h"
 #include "core/scene/check.h"
 #include "core/scene/json_tree.h"
-#include "core/scene/text.h"
 
 #include <algorithm>
 #include <cerrno>

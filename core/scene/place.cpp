@@ -1,6 +1,6 @@
 #include "core/scene/place.h"
 
-#include "core/scene/text.h"
+#include "core/base/text.h"
 
 #include <cmath>
 #include <utility>

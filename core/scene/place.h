@@ -1,6 +1,5 @@
 #pragma once
 #include "core/base/fields.h"
-#include "core/scene/check.h"
 
 #include <cstddef>
 #include <string>
@@ -8,6 +7,11 @@
 
 /// Where a value stands in a scene, and what is said when it is wrong there. Reading and checking share these words.
 namespace tyndall {
+
+/// A rule between values that is broken, at a JSON pointer.
+struct Broken {
+  std::string where, found, expected;
+};
 
 /// A place in a scene, as a step from the place that holds it: costs nothing until somebody asks for its pointer.
 struct Place {

@@ -1,5 +1,5 @@
+#include "core/accuracy/error.h"
 #include "core/compile/compile.h"
-#include "core/film/error.h"
 #include "core/render/render.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"

@@ -1,4 +1,4 @@
-#include "core/scene/error.h"
+#include "core/base/error.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/options.h"
 

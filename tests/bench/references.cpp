@@ -1,8 +1,8 @@
 #include "tests/bench/references.h"
 
+#include "core/accuracy/error.h"
 #include "core/compile/compile.h"
-#include "core/film/error.h"
-#include "core/film/image_io.h"
+#include "core/image/image_io.h"
 #include "core/render/render.h"
 #include "core/scene/json.h"
 

@@ -1,7 +1,7 @@
 #include "core/base/math.h"
 #include "core/compile/compile.h"
 #include "core/compile/flatten.h"
-#include "core/film/tonemap.h"
+#include "core/image/tonemap.h"
 #include "core/kernel/kernels.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-#include "core/film/plan.h"
 #include "core/render/pass.h"
+#include "core/render/plan.h"
 #include "tests/support/statistics.h"
 #include "tests/support/stopping.h"
 #include "tests/support/watched_renderer.h"

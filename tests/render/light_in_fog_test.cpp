@@ -1,4 +1,4 @@
-#include "core/film/error.h"
+#include "core/accuracy/error.h"
 #include "tests/support/pictures.h"
 #include "tests/support/probe.h"
 

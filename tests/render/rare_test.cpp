@@ -1,7 +1,7 @@
 #include "core/render/rare.h"
 
-#include "core/compile/caustics.h"
 #include "core/compile/compile.h"
+#include "core/render/caustics.h"
 #include "core/render/render.h"
 #include "core/scene/json.h"
 #include "core/scene/load.h"

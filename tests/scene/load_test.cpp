@@ -1,6 +1,6 @@
 #include "core/scene/load.h"
 
-#include "core/film/image_io.h"
+#include "core/image/image_io.h"
 #include "tests/scene/files.h"
 
 #include <doctest/doctest.h>

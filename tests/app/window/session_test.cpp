@@ -1,6 +1,6 @@
 #include "app/window/session.h"
 
-#include "core/film/image_io.h"
+#include "core/image/image_io.h"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,131 @@
+#include "app/cli/accuracy.h"
+
+#include "app/files/open_scene.h"
+#include "app/text/standard_streams.h"
+#include "core/base/text.h"
+#include "core/compile/compile.h"
+#include "core/image/tonemap.h"
+#include "core/render/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tyndall {
+namespace {
+
+constexpr int pixels = 96 * 72;  // about: pictures keep their shape
+constexpr std::uint32_t spp = 256;
+
+Film film_of(const Scene& scene, bool reference = false) {
+  RenderOptions options;
+  options.spp = spp;
+  if (reference) options.isa = "double";
+  return render(compile(scene), options).film;
+}
+
+/// Mean and standard error of squared relative differences, one a pixel, as a root.
+Shift root_of_mean(const std::vector<double>& squares) {
+  const auto n = static_cast<double>(squares.size());
+  double sum = 0, spread = 0;
+  for (const double s : squares) sum += s;
+  const double mean = sum / n;
+  for (const double s : squares) spread += (s - mean) * (s - mean);
+  const double error = std::sqrt(spread / (n * (n - 1))), rms = std::sqrt(std::max(mean, 0.0));
+  return {rms, rms > 0 ? std::min(error / (2 * rms), std::sqrt(error)) : std::sqrt(error)};
+}
+
+/// Mean over the channels of product(channel) / (mean² + 0.01), the scale of relMSE.
+template <class Product>
+double relative(Vec3f mean, Product product) {
+  double sum = 0;
+  for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+    const auto m = static_cast<double>(mean.*channel);
+    sum += product(channel) / (m * m + 0.01) / 3;
+  }
+  return sum;
+}
+
+/// The halves have independent noise: the mean of the product of their differences is that of the shift's square.
+Shift shift(const Film& exact, const Film& other) {
+  std::vector<double> squares;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    const FilmPixel &a = exact.pixels[i], &b = other.pixels[i];
+    const Vec3f even = half_mean(other, b, 0) - half_mean(exact, a, 0);
+    const Vec3f odd = half_mean(other, b, 1) - half_mean(exact, a, 1);
+    squares.push_back(relative(mean(exact, a), [&](float Vec3f::*channel) {
+      return static_cast<double>(even.*channel) * static_cast<double>(odd.*channel);
+    }));
+  }
+  return root_of_mean(squares);
+}
+
+Shift shift_of_bytes(const Film& film) {
+  std::vector<double> squares;
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f value = mean(film, pixel);
+    squares.push_back(relative(value, [&](float Vec3f::*channel) {
+      const float clipped = std::clamp(value.*channel, 0.0f, 1.0f);
+      const float back = srgb_decode(static_cast<float>(std::lround(255 * srgb_encode(clipped))) / 255);
+      return static_cast<double>(back - clipped) * static_cast<double>(back - clipped);
+    }));
+  }
+  return root_of_mean(squares);
+}
+
+Shift shift_of_depth(Scene scene, const Film& exact, int depth) {
+  scene.render.max_depth = depth;
+  return shift(exact, film_of(scene));
+}
+
+/// 16 letters wide.
+std::string cell(const Shift& s) {
+  char text[40];
+  if (s.rms == 0 && s.error == 0)
+    std::snprintf(text, sizeof text, "%7s%9s", "0", "");
+  else if (s.rms > s.error)
+    std::snprintf(text, sizeof text, "%7.2g ± %-6.1g", 100 * s.rms, 100 * s.error);
+  else
+    std::snprintf(text, sizeof text, "%7s %-8.1g", "<", 100 * (s.rms + 2 * s.error));
+  return text;
+}
+
+const char* heading =
+    "relative RMS difference in %, ± standard error, from exact Fresnel terms, 1000 events, linear floats\n"
+    "scene                       schlick         depth 5         depth 10  "
+    "      depth 50        float lanes     8 bit\n";
+
+std::string row(const std::string& name, const Accuracy& a) {
+  std::string text = name + std::string(name.size() < 25 ? 25 - name.size() : 1, ' ');
+  for (const Shift& s : {a.schlick, a.depth5, a.depth10, a.depth50, a.single, a.bytes}) text += cell(s);
+  return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+}
+
+}  // namespace
+
+Accuracy measure_accuracy(Scene scene) {
+  const double scale = std::sqrt(static_cast<double>(pixels) / (static_cast<double>(scene.width) * scene.height));
+  scene.width = std::max(static_cast<int>(std::lround(scene.width * scale)), 1);
+  scene.height = std::max(static_cast<int>(std::lround(scene.height * scale)), 1);
+  scene.render.fresnel = FresnelKind::exact;
+  scene.render.max_depth = 1000;
+  const Film exact = film_of(scene);
+  Scene books = scene;
+  books.render.fresnel = FresnelKind::schlick;
+  return {shift(exact, film_of(books)),     shift_of_depth(scene, exact, 5),    shift_of_depth(scene, exact, 10),
+          shift_of_depth(scene, exact, 50), shift(film_of(scene, true), exact), shift_of_bytes(exact)};
+}
+
+int print_accuracy(const SceneRequest& request) {
+  write_standard_output(heading);
+  if (!request.what.empty()) {
+    const LoadedScene loaded = open_scene(request);
+    write_standard_output(row(printable(loaded.name), measure_accuracy(loaded.scene)));
+    return 0;
+  }
+  for (const BuiltIn& built_in : built_in_scenes())
+    write_standard_output(row(built_in.name, measure_accuracy(load_scene(built_in.name).scene)));
+  return 0;
+}
+
+}  // namespace tyndall

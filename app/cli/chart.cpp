@@ -1,0 +1,152 @@
+#include "app/cli/commands.h"
+#include "app/cli/render_setup.h"
+#include "app/cli/signals.h"
+#include "app/curves/svg.h"
+#include "app/files/open_scene.h"
+#include "app/files/outputs.h"
+#include "app/text/progress.h"
+#include "app/text/standard_streams.h"
+#include "core/accuracy/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace tyndall {
+namespace {
+
+constexpr double share_of_reference = 0.4;  // of the time
+constexpr double most_pixels = 256 * 256;   // unless a size is asked for: error a pixel does not depend on it
+
+/// The scenes of `chart all`: the light, the fog, the sky, the texture, the glass.
+constexpr const char* gallery[] = {"cornell-box", "cornell-smoke", "cover", "simple-light", "hollow-glass", "showroom"};
+
+void make_small(Scene& scene) {
+  const double pixels = static_cast<double>(scene.width) * scene.height;
+  if (pixels <= most_pixels) return;
+  const double scale = std::sqrt(most_pixels / pixels);
+  scene.width = std::max(1, static_cast<int>(scene.width * scale));
+  scene.height = std::max(1, static_cast<int>(scene.height * scale));
+}
+
+/// Settings of --method: the scene's own, and what its flags change.
+ChartMethod method_of(const MethodRequest& request, const Scene& scene) {
+  ChartMethod method{request.name, scene.render, request.isa};
+  find_kernels(request.isa);
+  RenderSettings& s = method.settings;
+  s.integrator = request.scene.integrator.value_or(s.integrator);
+  s.sampler = request.scene.sampler.value_or(s.sampler);
+  s.fresnel = request.scene.fresnel.value_or(s.fresnel);
+  s.max_depth = request.scene.max_depth.value_or(s.max_depth);
+  s.seed = request.scene.seed.value_or(s.seed);
+  s.adaptive = s.adaptive || request.scene.adaptive;
+  return method;
+}
+
+class ChartJob {
+ public:
+  ChartJob(const ChartCommand& command, const SignalWatch& signals)
+      : command_(command), signals_(signals), report_(command.progress) {}
+
+  Chart make(const SceneRequest& request) {
+    LoadedScene loaded = open_scene(request);
+    Scene& scene = loaded.scene;
+    if (!request.size) make_small(scene);
+    std::vector<ChartMethod> methods;
+    for (const MethodRequest& m : command_.methods) methods.push_back(method_of(m, scene));
+    if (methods.empty()) methods = default_methods(scene);
+    const double budget = command_.budget;
+    Chart chart;
+    chart.reference = command_.reference.empty() ? rendered(scene, share_of_reference * budget) : read(scene);
+    const double left = command_.reference.empty() ? (1 - share_of_reference) * budget : budget;
+    for (std::size_t i = 0; i < methods.size() && !stopped(); ++i)
+      chart.curves.push_back(measure_curve(scene, methods[i], chart.reference,
+                                           left / static_cast<double>(methods.size()), run(methods[i].name)));
+    chart.title = scene.name.empty() ? loaded.name : scene.name;
+    const int threads = command_.threads > 0 ? command_.threads : static_cast<int>(std::thread::hardware_concurrency());
+    chart.subtitle = std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + std::to_string(threads) +
+                     (threads == 1 ? " thread" : " threads") + "; reference: " + chart.reference.about;
+    return chart;
+  }
+  bool stopped() const { return signals_.received() != 0; }
+  void finish(const std::string& summary) { report_.finish(summary); }
+
+ private:
+  ChartReference rendered(const Scene& scene, double seconds) {
+    return render_reference(scene, seconds, run("reference"));
+  }
+  ChartReference read(const Scene& scene) const {
+    const std::filesystem::path& file = command_.reference;
+    ChartReference reference{read_image(file), 0, file.filename().string()};
+    if (reference.image.width != scene.width || reference.image.height != scene.height)
+      throw UsageError("--reference: found " + std::to_string(reference.image.width) + "x" +
+                       std::to_string(reference.image.height) + " pixels, expected " + std::to_string(scene.width) +
+                       "x" + std::to_string(scene.height) + " as the charted picture has (see --size)");
+    if (is_exr(file))
+      if (const auto film = read_film(file)) {
+        const double error = estimated_relative_error(*film);
+        if (std::isfinite(error)) reference.rel_mse = error * error;
+      }
+    return reference;
+  }
+  ChartRun run(const std::string& what) {
+    return {command_.threads, [this, what](double) {
+              const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+              report_.show(seconds, std::min(seconds / command_.budget, 1.0), what);
+              return !stopped();
+            }};
+  }
+
+  using Clock = std::chrono::steady_clock;
+  const ChartCommand& command_;
+  const SignalWatch& signals_;
+  ProgressReport report_;
+  Clock::time_point start_ = Clock::now();
+};
+
+std::filesystem::path csv_beside(std::filesystem::path svg) { return svg.replace_extension(".csv"); }
+
+void write(const Chart& chart, const std::filesystem::path& file) {
+  write_text_file(file, chart_svg(chart));
+  write_text_file(csv_beside(file), chart_csv(chart));
+}
+
+int chart_all(const ChartCommand& command, const SignalWatch& signals) {
+  for (const char* name : gallery) {
+    const std::filesystem::path file = command.output / (std::string(name) + ".svg");
+    check_can_write(file);
+    ChartJob job(command, signals);
+    SceneRequest request = command.scene;
+    request.what = name;
+    const Chart chart = job.make(request);
+    if (chart.curves.empty()) break;
+    job.finish(std::string("charted ") + name);
+    write(chart, file);
+    write_standard_output(std::string(name) + "\n" + chart_table(chart) + "\n");
+    if (job.stopped()) break;
+  }
+  return signals.received() ? 128 + signals.received() : 0;
+}
+
+}  // namespace
+
+int run(const ChartCommand& command) {
+  const SignalWatch signals;
+  if (command.scene.what == "all") return chart_all(command, signals);
+  check_can_write(command.output);
+  check_can_write(csv_beside(command.output));
+  ChartJob job(command, signals);
+  const Chart chart = job.make(command.scene);
+  const int code = signals.received() ? 128 + signals.received() : 0;
+  if (chart.curves.empty() || chart.curves.front().points.empty()) {
+    complain("interrupted before the first point: nothing written");
+    return code;
+  }
+  job.finish("charted " + command.scene.what);
+  write(chart, command.output);
+  write_standard_output(chart_table(chart));
+  return code;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,151 @@
+#include "app/cli/accuracy.h"
+#include "app/cli/commands.h"
+#include "app/cli/render_setup.h"
+#include "app/files/open_scene.h"
+#include "app/report/contents.h"
+#include "app/report/kernel_gain.h"
+#include "app/text/standard_streams.h"
+#include "core/base/text.h"
+#include "core/compile/compile.h"
+#include "core/film/film.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <optional>
+
+namespace tyndall {
+namespace {
+
+struct Report {
+  LoadedScene loaded;
+  Contents contents;
+  RenderScene compiled;
+  std::size_t film_bytes = 0;
+  std::optional<KernelGain> gain;
+};
+
+Report examine(const InspectCommand& command) {
+  Report report{open_scene(command.scene), {}, {}, 0, {}};
+  const Scene& scene = report.loaded.scene;
+  report.contents = contents_of(scene);
+  report.compiled = compile(scene);
+  if (command.measure) report.gain = measure_kernel_gain(report.compiled, find_kernels(command.isa).isa);
+  report.film_bytes =
+      sizeof(FilmPixel) * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  return report;
+}
+
+nlohmann::ordered_json json_of(const KernelGain& gain) {
+  return {{"isa", gain.isa},   {"gain", gain.gain},   {"least", gain.least},
+          {"most", gain.most}, {"pairs", gain.pairs}, {"same_picture", gain.same_picture}};
+}
+
+std::string json_text(const Report& report) {
+  const Scene& scene = report.loaded.scene;
+  const Contents& c = report.contents;
+  nlohmann::ordered_json json;
+  json["scene"] = report.loaded.name;
+  json["name"] = scene.name;
+  json["comments"] = leading_comments(report.loaded.text);
+  json["width"] = scene.width;
+  json["height"] = scene.height;
+  json["spp"] = scene.render.spp ? nlohmann::ordered_json(*scene.render.spp) : nlohmann::ordered_json();
+  json["max_depth"] = scene.render.max_depth;
+  json["shapes"] = nlohmann::ordered_json::object();
+  for (const auto& [type, count] : c.shapes) json["shapes"][type] = count;
+  json["materials"] = nlohmann::ordered_json::object();
+  for (const auto& [type, count] : c.materials) json["materials"][type] = count;
+  json["textures"] = nlohmann::ordered_json::object();
+  for (const auto& [type, count] : c.textures) json["textures"][type] = count;
+  json["media"] = c.media;
+  json["phase_functions"] = c.phase_functions;
+  json["lights"] = c.lights;
+  json["background"] = c.background;
+  json["motion"] = c.motion;
+  json["defocus"] = c.defocus;
+  json["primitives"] = report.compiled.primitives();
+  json["tree"] = report.compiled.bvh != nullptr;
+  json["kernel_features"] = names_of(report.compiled.needs);
+  json["kernel"] = name_of(report.compiled.kernel);
+  if (report.gain) json["kernel_gain"] = json_of(*report.gain);
+  json["scene_bytes"] = bytes_of(report.compiled);
+  json["film_bytes"] = report.film_bytes;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// "1 box", "2 boxes".
+std::string count_of(int count, const std::string& noun) {
+  const char* plural = count == 1 ? "" : noun.back() == 'x' ? "es" : "s";
+  return std::to_string(count) + " " + noun + plural;
+}
+
+std::string listed(const std::map<std::string, int>& counts, bool nouns) {
+  std::string text;
+  for (const auto& [type, count] : counts)
+    text += (text.empty() ? "" : ", ") + (nouns ? count_of(count, type) : std::to_string(count) + " " + type);
+  return text.empty() ? "none" : text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+std::string bytes_text(std::size_t bytes) {
+  char text[40];
+  if (bytes < 100'000)
+    std::snprintf(text, sizeof text, "%.1f kB", static_cast<double>(bytes) / 1e3);
+  else
+    std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) / 1e6);
+  return text;
+}
+
+std::string gain_text(const KernelGain& gain) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %.2f times as fast as the full kernel (%.2f to %.2f in %d pairs), %s",
+                gain.isa.c_str(), gain.gain, gain.least, gain.most, gain.pairs,
+                gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
+  return text;
+}
+
+std::string table(const Report& report) {
+  const Scene& scene = report.loaded.scene;
+  const Contents& c = report.contents;
+  std::string text = printable(report.loaded.name) + (scene.name.empty() ? "" : ": " + printable(scene.name)) + "\n";
+  for (const std::string& line : leading_comments(report.loaded.text)) text += "  " + printable(line) + "\n";
+  const auto row = [&text](const std::string& name, const std::string& value) {
+    text += name + std::string(12 - name.size(), ' ') + value + "\n";
+  };
+  const auto spp = scene.render.spp ? std::to_string(*scene.render.spp) + " spp, " : std::string();
+  row("image", std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + spp + "max depth " +
+                   std::to_string(scene.render.max_depth));
+  row("shapes", listed(c.shapes, true));
+  row("materials", listed(c.materials, false));
+  row("textures", listed(c.textures, false));
+  const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
+  row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
+  row("lights", c.lights == 0 ? "none" : count_of(c.lights, "emitting primitive"));
+  row("background", c.background);
+  row("motion", c.motion ? "yes" : "no");
+  row("defocus", c.defocus ? "yes" : "no");
+  row("primitives", std::to_string(report.compiled.primitives()) +
+                        (report.compiled.bvh ? ", in a tree" : ", each tested for every ray"));
+  row("models", listed(names_of(report.compiled.needs)));
+  row("kernel", name_of(report.compiled.kernel));
+  if (report.gain) row("", gain_text(*report.gain));
+  row("memory", "scene " + bytes_text(bytes_of(report.compiled)) + ", film " + bytes_text(report.film_bytes));
+  return text;
+}
+
+}  // namespace
+
+int run(const InspectCommand& command) {
+  if (command.accuracy) return print_accuracy(command.scene);
+  const Report report = examine(command);
+  write_standard_output(command.json ? json_text(report) : table(report));
+  return report.gain && !report.gain->same_picture ? 1 : 0;
+}
+
+}  // namespace tyndall

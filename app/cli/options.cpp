@@ -1,0 +1,166 @@
+#include "app/cli/options.h"
+
+#include "app/cli/options_render.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tyndall {
+namespace {
+
+using Text = const std::string&;
+using Words = const std::vector<std::string>&;
+
+Command read_compare(Words words) {
+  CompareCommand command;
+  CommandLine line("compare IMAGE REFERENCE [options]",
+                   "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
+                   "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+                   "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
+                   "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
+                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
+                   "Two EXR files that Tyndall made hold their noise too: then z-scores of blocks of 8x8 pixels say\n"
+                   "whether the difference is more than that.",
+                   "Exit code 1: an error is above its --max-..., or not a number.");
+  std::string image, reference;
+  line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
+  line.argument("REFERENCE", "what it should be; of the same size", reference);
+  line.value("--heatmap", "FILE.png", "write FLIP of each pixel, in colours whose scale is beneath",
+             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
+  line.flag("--json", "print JSON", command.json);
+  line.group("Checks");
+  const auto limit = [&line](const char* name, const char* help, std::optional<double>& value) {
+    line.value(name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
+  };
+  limit("--max-rmse", "fail if RMSE is above X", command.max_rmse);
+  limit("--max-relmse", "fail if relMSE is above X", command.max_rel_mse);
+  limit("--max-flip", "fail if FLIP is above X", command.max_flip);
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!image.empty(), "IMAGE");
+  line.require(!reference.empty(), "REFERENCE");
+  command.image = image;
+  command.reference = reference;
+  return command;
+}
+
+Command read_merge(Words words) {
+  MergeCommand command;
+  CommandLine line("merge PART... -o FILE [options]",
+                   "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for\n"
+                   "bit, the film of one render of all the samples.",
+                   "Example:\n"
+                   "  tyndall render fog.json --samples 0:64 -o a.exr\n"
+                   "  tyndall render fog.json --samples 64:128 -o b.exr\n"
+                   "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
+  std::vector<std::string> parts;
+  line.arguments("PART", "EXR files that hold films of the same scene, in any order", parts);
+  line.values("-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
+              [&](Text t) { command.outputs.push_back(t); });
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!parts.empty(), "PART");
+  line.require(!command.outputs.empty(), "an output (-o FILE)");
+  command.parts.assign(parts.begin(), parts.end());
+  return command;
+}
+
+Command read_inspect(Words words) {
+  InspectCommand command;
+  command.scene.what.clear();
+  CommandLine line("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.", "");
+  add_scene(line, command.scene);
+  line.flag("--json", "print JSON", command.json);
+  line.flag("--measure", "measure what the kernel gains over the full one (2 s)", command.measure);
+  line.flag("--accuracy",
+            "print what each approximation costs: the books' Fresnel rule,\n"
+            "limits of depth, float lanes, 8 bits; without SCENE: in all\n"
+            "built-in scenes",
+            command.accuracy);
+  add_isa(line, command.isa);
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(command.accuracy || !command.scene.what.empty(), "SCENE");
+  if (!command.isa.empty() && !command.measure) throw UsageError("--isa is of use with --measure only");
+  if (command.accuracy && (command.json || command.measure))
+    throw UsageError(std::string("--accuracy and ") + (command.json ? "--json" : "--measure") + " exclude each other");
+  return command;
+}
+
+Command read_scenes(Words words) {
+  CommandLine line("scenes", "Lists the built-in scenes. Every command takes their names in place of a file.", "");
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  return ScenesCommand{};
+}
+
+Command read_convert(Words words) {
+  ConvertCommand command;
+  command.scene.what.clear();
+  CommandLine line("convert SCENE -o FILE.json [options]",
+                   "Writes a scene in normal form: every value that is not its default, keys in the format's order,\n"
+                   "without comments. Also gets the scene out of an image that Tyndall made.",
+                   "Example:\n  tyndall convert snapshot.png -o snapshot.json");
+  add_scene(line, command.scene);
+  line.value("-o,--output", "FILE.json", "where to; - for standard output; required",
+             [&](Text t) { command.output = t == "-" ? std::filesystem::path(t) : read_file_name(t, ".json"); });
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!command.scene.what.empty(), "SCENE");
+  line.require(!command.output.empty(), "an output (-o FILE.json)");
+  return command;
+}
+
+struct Entry {
+  const char* name;
+  const char* about;
+  Command (*read)(Words words);
+};
+
+constexpr Entry entries[] = {
+    {"view", "open a scene in the window (also without this word; default: the showroom)", read_view},
+    {"render", "render without a window and write images", read_render},
+    {"compare", "how far an image is from a reference", read_compare},
+    {"chart", "speed against accuracy: error over time of several methods", read_chart},
+    {"verify", "check the renderer against known answers", read_verify},
+    {"merge", "add films of neighbouring sample ranges", read_merge},
+    {"inspect", "what a scene contains and which models it needs", read_inspect},
+    {"scenes", "list the built-in scenes", read_scenes},
+    {"convert", "write a scene in normal form, also from an image", read_convert},
+};
+
+std::string overview() {
+  std::string text =
+      "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
+      "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
+  for (const Entry& entry : entries)
+    text += "  " + std::string(entry.name) + std::string(10 - std::string(entry.name).size(), ' ') + entry.about + "\n";
+  return text +
+         "\nOptions:\n"
+         "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
+         "  --version     show the version\n\n"
+         "Exit codes: 0 done; 1 a check failed; 2 wrong usage or a scene that cannot be read;\n"
+         "3 input, output or display error; 130 Ctrl-C; 143 SIGTERM.\n";
+}
+
+/// Throws if a word that was not taken for a command must have been meant as one.
+void refuse_misspelt_command(Text word, bool alone) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  const std::string hint = suggestion(word, names);
+  if ((hint.empty() && alone) || word[0] == '-' || word.find_first_of("./") != std::string::npos) return;
+  std::error_code error;
+  if (hint.empty() || std::filesystem::exists(word, error)) return;
+  throw UsageError("unknown command " + in_quotes(word) + hint);
+}
+
+}  // namespace
+
+Command read_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return ViewCommand{};
+  const std::string& first = arguments.front();
+  if (first == "-h" || first == "--help" || first == "help") return PrintCommand{overview()};
+  if (first == "--version") return PrintCommand{"tyndall " TYNDALL_VERSION "\n"};
+  for (const Entry& entry : entries)
+    if (first == entry.name) return entry.read({arguments.begin() + 1, arguments.end()});
+  refuse_misspelt_command(first, arguments.size() == 1);
+  return read_view(arguments);
+}
+
+}  // namespace tyndall

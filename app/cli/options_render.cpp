@@ -1,0 +1,204 @@
+#include "app/cli/options_render.h"
+
+#include "core/scene/names.h"
+
+namespace tyndall {
+namespace {
+
+using Text = const std::string&;
+
+template <class E, std::size_t n>
+E read_named(Text text, const Named<E> (&table)[n]) {
+  const std::vector<std::string_view> names = names_in(table);
+  return table[static_cast<std::size_t>(read_name(text, {names.begin(), names.end()}))].value;
+}
+
+void add_image_options(CommandLine& line, SceneRequest& scene) {
+  line.group("Image");
+  line.value("--size", "WxH", "image size in pixels [from the scene]", [&](Text t) { scene.size = read_size(t); });
+  line.value("--exposure", "EV",
+             "stops, of PNG and window only: light times 2^EV\n"
+             "[from the scene, else 0]",
+             [&](Text t) { scene.exposure = read_number(t, between(-100, 100), "a number of stops, -100 to 100"); });
+  line.value("--tone-map", "NAME", "of PNG and window only: srgb or aces [from the scene, else srgb]",
+             [&](Text t) { scene.tone_map = read_named(t, tone_maps); });
+}
+
+void add_limits(CommandLine& line, RenderCommand& command) {
+  line.group("Limits (the first one reached ends the render)");
+  line.value("--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
+             [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, most_samples)); });
+  line.value("--samples", "A:B",
+             "exactly the samples A <= i < B of each pixel, for shards that\n"
+             "'tyndall merge' adds; not with --spp, --time or --target-error",
+             [&](Text t) { command.samples = read_samples(t); });
+  line.value("--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
+             [&](Text t) { command.time_limit = read_number(t, above(0), "a number of seconds > 0"); });
+  line.value("--target-error", "E", "estimated relative error; its square estimates relMSE",
+             [&](Text t) { command.target_error = read_number(t, above(0), "a number > 0"); });
+}
+
+void add_output(CommandLine& line, RenderCommand& command) {
+  line.group("Output");
+  line.values("-o,--output", "FILE",
+              ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
+              "itself; .pfm, .hdr: float, linear; repeatable; required",
+              [&](Text t) { command.outputs.push_back(t); });
+  line.value("--region", "X0,Y0,X1,Y1",
+             "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
+             "PNG, PFM and HDR get the region's size, EXR a data window",
+             [&](Text t) { command.region = read_region(t); });
+  line.value("--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
+  line.value("--replay", "X,Y,SAMPLE",
+             "write no image; print the path of this sample of this pixel,\n"
+             "vertex by vertex, as --isa scalar follows it",
+             [&](Text t) { command.replay = read_sample_key(t); });
+  line.flag("--resume", "go on from the film in the .exr output, if there is one", command.resume);
+  add_progress(line, command.progress);
+}
+
+void refuse_conflicts(const RenderCommand& c) {
+  if (c.replay && !c.outputs.empty()) throw UsageError("--replay and -o exclude each other: a replay writes no image");
+  if (!c.samples) return;
+  const char* other = c.spp                  ? "--spp"
+                      : c.time_limit < 1e300 ? "--time"
+                      : c.target_error > 0   ? "--target-error"
+                                             : nullptr;
+  if (other)
+    throw UsageError("--samples and " + std::string(other) +
+                     " exclude each other: --samples names exactly what to take");
+}
+
+}  // namespace
+
+void add_method_options(CommandLine& line, SceneRequest& scene) {
+  line.group("Method");
+  line.value("--integrator", "NAME",
+             "mis: light sampling, weighted; nee: without the weights;\n"
+             "path: no light sampling [from the scene, else mis]",
+             [&](Text t) { scene.integrator = read_named(t, integrators); });
+  line.value("--sampler", "NAME", "sobol (scrambled) or random [from the scene, else sobol]",
+             [&](Text t) { scene.sampler = read_named(t, samplers); });
+  line.value("--fresnel", "NAME",
+             "exact, or schlick: the books' rule, wrong by up to 0.93 inside\n"
+             "glass, for comparison [from the scene, else exact]",
+             [&](Text t) { scene.fresnel = read_named(t, fresnel_rules); });
+  line.value("--max-depth", "N",
+             "longest path in scattering events; 0: lights and background\n"
+             "only [from the scene, else 1000]",
+             [&](Text t) { scene.max_depth = static_cast<int>(read_whole(t, 0, 1'000'000'000)); });
+  line.value("--seed", "N", "of the random numbers [from the scene, else 0]",
+             [&](Text t) { scene.seed = static_cast<std::uint32_t>(read_whole(t, 0, 0xffffffff)); });
+}
+
+void add_adaptive(CommandLine& line, SceneRequest& scene) {
+  line.flag("--adaptive",
+            "more samples where the estimated error is, fewer elsewhere:\n"
+            "--spp is their mean then, never exceeded; not with --samples,\n"
+            "--resume or merge [from the scene, else off]",
+            scene.adaptive);
+}
+
+void add_machine_options(CommandLine& line, int& threads, std::string& isa) {
+  line.group("Machine");
+  line.value("-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
+             [&](Text t) { threads = static_cast<int>(read_whole(t, 1, 4096)); });
+  add_isa(line, isa);
+}
+
+void add_isa(CommandLine& line, std::string& isa) {
+  line.value("--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
+    read_name(t, {"scalar", "sse4", "avx2", "avx512"});
+    isa = t;
+  });
+}
+
+void add_progress(CommandLine& line, ProgressStyle& style) {
+  line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
+    style = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
+  });
+}
+
+void add_scene(CommandLine& line, SceneRequest& scene, const std::string& note) {
+  line.argument("SCENE",
+                "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
+                "by Tyndall, or - for standard input" +
+                    note,
+                scene.what);
+  line.values("--set", "POINTER=VALUE",
+              "override one value of the scene's JSON before it is checked, e.g.\n"
+              "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"
+              "repeatable, in order",
+              [&scene](Text t) { scene.overrides.push_back(read_override(t)); });
+}
+
+Command read_view(const std::vector<std::string>& words) {
+  ViewCommand command;
+  command.words = words;
+  CommandLine line("view [SCENE] [options]",
+                   "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.", "");
+  add_scene(line, command.scene, " [showroom]");
+  add_image_options(line, command.scene);
+  add_method_options(line, command.scene);
+  add_adaptive(line, command.scene);
+  add_machine_options(line, command.threads, command.isa);
+  line.value("--reference", "FILE", "an image of the same scene and size, to show the true error against",
+             [&](Text t) { command.reference = t; });
+  line.value("--ui-log", "FILE",
+             "for tests: write what is on the screen and how long things took;\n- for standard output",
+             [&](Text t) { command.ui_log = t; });
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!command.scene.what.empty(), "SCENE");
+  return command;
+}
+
+Command read_render(const std::vector<std::string>& words) {
+  RenderCommand command;
+  command.scene.what.clear();
+  CommandLine line("render SCENE -o FILE [options]", "Renders a scene without a window and writes the image.",
+                   "Examples:\n"
+                   "  tyndall render cornell-box -o box.png\n"
+                   "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"
+                   "  tyndall render box.png --set /camera/vfov=30 -o closer.png");
+  bool quiet = false;
+  add_scene(line, command.scene);
+  add_output(line, command);
+  line.flag("-q,--quiet", "no progress", quiet);
+  add_limits(line, command);
+  add_image_options(line, command.scene);
+  add_method_options(line, command.scene);
+  add_adaptive(line, command.scene);
+  add_machine_options(line, command.threads, command.isa);
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  line.require(!command.scene.what.empty(), "SCENE");
+  line.require(command.replay || !command.outputs.empty(), "an output (-o FILE)");
+  refuse_conflicts(command);
+  if (quiet) command.progress = ProgressStyle::none;
+  return command;
+}
+
+Command read_verify(const std::vector<std::string>& words) {
+  VerifyCommand command;
+  CommandLine line("verify [NAME...] [options]",
+                   "Measures pictures whose mean radiance is known, with the kernels that draw, and prints a table:\n"
+                   "expected and from where, measured, standard error, deviation in standard errors (z), verdict.\n\n"
+                   "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
+                   "errors that are too good are errors too. Exit code 1 if anything fails.",
+                   "Examples:\n"
+                   "  tyndall verify\n"
+                   "  tyndall verify plate fog-ball/ --isa scalar\n"
+                   "  tyndall verify plate --fresnel schlick      # the books' rule fails");
+  bool quiet = false;
+  line.arguments("NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
+  line.flag("--thorough", "standard errors of at most 1e-4 of the value instead of 1e-3", command.thorough);
+  line.flag("--json", "print JSON", command.json);
+  add_progress(line, command.progress);
+  line.flag("-q,--quiet", "no progress", quiet);
+  add_method_options(line, command.method);
+  add_machine_options(line, command.threads, command.isa);
+  if (auto help = line.read(words)) return PrintCommand{*help};
+  if (quiet) command.progress = ProgressStyle::none;
+  return command;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,11 @@
+#include "app/cli/commands.h"
+#include "app/text/standard_streams.h"
+
+namespace tyndall {
+
+int run(const PrintCommand& command) {
+  write_standard_output(command.text);
+  return 0;
+}
+
+}  // namespace tyndall

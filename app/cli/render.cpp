@@ -1,0 +1,172 @@
+#include "app/cli/commands.h"
+#include "app/cli/render_setup.h"
+#include "app/cli/signals.h"
+#include "app/files/film_files.h"
+#include "app/files/layers.h"
+#include "app/files/open_scene.h"
+#include "app/files/outputs.h"
+#include "app/files/stats.h"
+#include "app/report/replay.h"
+#include "app/text/standard_streams.h"
+#include "core/accuracy/error.h"
+#include "core/base/text.h"
+#include "core/compile/compile.h"
+#include "core/render/caustics.h"
+#include "core/render/plan.h"
+#include "core/render/rare.h"
+
+#include <chrono>
+#include <cstdio>
+#include <new>
+
+namespace tyndall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// One headless render from command to files.
+struct Job {
+  const RenderCommand& command;
+  Clock::time_point start = Clock::now();
+  LoadedScene loaded{};
+  RenderOptions options{};
+  Film film{};  ///< to go on from; empty: none
+  RenderScene compiled{};
+  RenderResult result{};
+  std::uint64_t samples_before = 0;
+  double seconds_build = 0;
+  bool rare_bright_paths = false;
+};
+
+/// Finds everything that can be wrong before the first sample.
+void prepare(Job& job) {
+  const RenderCommand& command = job.command;
+  check_image_names(command.outputs);
+  if (is_image_output(command.stats))
+    throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
+  find_kernels(command.isa);
+  job.loaded = open_scene(command.scene);
+  job.options = render_options(command, job.loaded);
+  for (const auto& file : command.outputs) check_can_write(file);
+  if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
+  job.film = film_to_resume(command, job.loaded, job.options);
+  job.samples_before = totals(job.film).samples;
+}
+
+/// What the picture lacks, if it lacks anything.
+std::string losses(const FilmTotals& sum) {
+  std::string text;
+  if (sum.rejected > 0) text += ", " + std::to_string(sum.rejected) + " samples rejected";
+  if (sum.truncated == 0) return text;
+  char part[80];
+  std::snprintf(part, sizeof part, ", %.2g %% of the throughput cut at the longest path", 100 * sum.cut_throughput);
+  return text + part;
+}
+
+std::string outcome(const Job& job) {
+  const RenderResult& r = job.result;
+  const RenderProgress end{labelled_spp(r.film), r.seconds,
+                           r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
+                           estimated_relative_error(r.film)};
+  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(totals(r.film));
+}
+
+void render(Job& job, const SignalWatch& signals) {
+  const Clock::time_point start = Clock::now();
+  job.compiled = compile(job.loaded.scene);
+  job.seconds_build = seconds_since(start);
+  const bool counted = *job.options.spp < most_samples;
+  ProgressReport report(job.command.progress, {totals(job.film).least_taken, counted ? *job.options.spp : 0,
+                                               job.command.time_limit, job.command.target_error});
+  const auto progress = [&](const RenderProgress& now) {
+    report.show(now);
+    return signals.received() == 0;
+  };
+  try {
+    job.result = render(job.compiled, job.options, progress, std::move(job.film));
+  } catch (const std::bad_alloc&) {
+    const Region& r = *job.options.region;
+    char text[120];
+    std::snprintf(text, sizeof text, "not enough memory: a film of %dx%d pixels takes %.3g GB", r.width(), r.height(),
+                  1e-9 * sizeof(FilmPixel) * r.width() * r.height());
+    throw IoError(text);
+  }
+  job.rare_bright_paths =
+      has_rare_bright_paths(job.result.film, totals(job.result.film).least_taken, chance_of_caustics(job.loaded.scene));
+  report.finish(outcome(job));
+}
+
+RunFigures figures(const Job& job) {
+  return {job.loaded.name,   job.loaded.scene,         job.compiled,         job.result, job.samples_before,
+          job.seconds_build, seconds_since(job.start), job.rare_bright_paths};
+}
+
+/// Writes all that can be written; false if something could not.
+bool write(const Job& job) {
+  const auto embedded = [&job](const std::filesystem::path& file) {
+    return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, job.result.film, file),
+                    embedded_stats_text(figures(job))};
+  };
+  const auto layers = [&job] { return layers_of(job.compiled, job.result.film, find_kernels(job.command.isa)); };
+  auto problems = write_images({job.result.film, job.loaded.scene.display, embedded, layers}, job.command.outputs);
+  const std::filesystem::path& stats = job.command.stats;
+  try {
+    if (stats == "-")
+      write_standard_output(stats_text(figures(job)));
+    else if (!stats.empty())
+      write_text_file(stats, stats_text(figures(job)));
+  } catch (const std::exception& error) {
+    problems.emplace_back(error.what());
+  }
+  for (const std::string& problem : problems) complain(problem);
+  return problems.empty();
+}
+
+void warn(const Job& job) {
+  if (job.command.progress == ProgressStyle::none) return;
+  if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
+  const FilmTotals sum = totals(job.result.film);
+  if (sum.rejected == 0) return;
+  std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
+                     " samples were rejected: not finite, or brighter than any light of the scene explains";
+  for (const RejectedSample& r : job.result.first_rejected)
+    text += (&r == job.result.first_rejected.data() ? "; the first are (pixel and index) " : " ") +
+            std::to_string(r.x) + "," + std::to_string(r.y) + "," + std::to_string(r.sample);
+  complain(text);
+}
+
+int print_replay(const RenderCommand& command) {
+  const LoadedScene loaded = open_scene(command.scene);
+  const SampleKey& key = *command.replay;
+  const Scene& scene = loaded.scene;
+  if (key.x >= scene.width || key.y >= scene.height)
+    throw UsageError("--replay: found pixel " + std::to_string(key.x) + "," + std::to_string(key.y) +
+                     ", expected one of an image of " + std::to_string(scene.width) + "x" +
+                     std::to_string(scene.height));
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  write_standard_output(replay_text(scene, compiled, replay(view.view(), key.x, key.y, key.sample)));
+  return 0;
+}
+
+}  // namespace
+
+int run(const RenderCommand& command) {
+  constexpr int output_failed = 3;
+  if (command.replay) return print_replay(command);
+  Job job{command};
+  prepare(job);
+  const SignalWatch signals;
+  render(job, signals);
+  const int code = job.result.interrupted ? 128 + signals.received() : 0;
+  if (totals(job.result.film).most_taken == 0) {
+    complain("interrupted before the first samples: nothing written");
+    return code;
+  }
+  warn(job);
+  return write(job) ? code : output_failed;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,103 @@
+#pragma once
+#include "app/files/scene_request.h"
+#include "app/text/progress.h"
+#include "app/text/values.h"
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What the user asked for, one struct a command. The command line is turned into one of them in options.h and nowhere
+/// else.
+namespace tyndall {
+
+struct ViewCommand {
+  SceneRequest scene;
+  std::vector<std::string> words;   ///< as they were given, to say what does the same without a window
+  int threads = 0;                  ///< 0: all cores
+  std::string isa;                  ///< "": the best
+  std::filesystem::path reference;  ///< image that errors are measured against; empty: none
+  std::filesystem::path ui_log;     ///< diagnostic of the window, for tests; empty: none
+};
+
+struct RenderCommand {
+  SceneRequest scene;
+  std::vector<std::filesystem::path> outputs;
+  std::optional<std::uint32_t> spp;
+  std::optional<SampleRange> samples;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+  double target_error = 0;                                      ///< 0: none
+  std::optional<Region> region;
+  std::optional<SampleKey> replay;  ///< print this sample's path instead of rendering
+  int threads = 0;                  ///< 0: all cores
+  std::string isa;                  ///< "": the best
+  std::filesystem::path stats;      ///< empty: none
+  bool resume = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+struct CompareCommand {
+  std::filesystem::path image, reference;
+  std::filesystem::path heatmap;  ///< empty: none
+  std::optional<double> max_rmse, max_rel_mse, max_flip;
+  bool json = false;
+};
+
+struct VerifyCommand {
+  std::vector<std::string> names;  ///< beginnings of the cases' names; none: all cases
+  SceneRequest method;             ///< what is the same for all scenes; its `what` and overrides are the cases'
+  bool thorough = false;           ///< standard errors of 1e-4 instead of 1e-3
+  bool json = false;
+  int threads = 0;  ///< 0: all cores
+  std::string isa;  ///< "": the best
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+/// One curve of a chart: the scene's own settings and what its flags change.
+struct MethodRequest {
+  std::string name;
+  SceneRequest scene;  ///< only its integrator, sampler, Fresnel rule, depth, seed and adaptive
+  std::string isa;     ///< "": the best
+};
+
+struct ChartCommand {
+  SceneRequest scene;                  ///< "all": a gallery
+  std::filesystem::path output;        ///< the SVG; for "all" a folder
+  std::filesystem::path reference;     ///< empty: rendered
+  std::vector<MethodRequest> methods;  ///< none: the default ones
+  double budget = 50;                  ///< seconds, the reference included; for "all" of each chart
+  int threads = 0;                     ///< 0: all cores
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+struct MergeCommand {
+  std::vector<std::filesystem::path> parts, outputs;
+};
+
+struct InspectCommand {
+  SceneRequest scene;  ///< with `accuracy`, no name: all built-in scenes
+  bool json = false;
+  bool measure = false;   ///< what the chosen kernel gains
+  std::string isa;        ///< "": the best; with measure
+  bool accuracy = false;  ///< what each approximation costs
+};
+
+struct ScenesCommand {};
+
+struct ConvertCommand {
+  SceneRequest scene;
+  std::filesystem::path output;  ///< "-": standard output
+};
+
+/// Only this text is asked for: help or the version.
+struct PrintCommand {
+  std::string text;
+};
+
+using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,
+                             InspectCommand, ScenesCommand, ConvertCommand, PrintCommand>;
+
+}  // namespace tyndall

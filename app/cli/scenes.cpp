@@ -1,0 +1,41 @@
+#include "app/cli/commands.h"
+#include "app/text/standard_streams.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/scene/load.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace tyndall {
+namespace {
+
+/// What a scene is, in one line: the first sentence of the comments at its top, else its name.
+std::string about(const BuiltIn& scene) {
+  std::ifstream file(scene.path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string comments;
+  for (const std::string& line : leading_comments(text)) comments += (comments.empty() ? "" : " ") + line;
+  if (comments.empty()) return scene.title;
+  constexpr std::size_t longest = 110;
+  std::string sentence = comments.substr(0, comments.find(". "));
+  if (sentence.back() == '.') sentence.pop_back();
+  return printable(shortened(sentence, longest));
+}
+
+}  // namespace
+
+int run(const ScenesCommand&) {
+  const std::vector<BuiltIn> scenes = built_in_scenes();
+  if (scenes.empty()) throw IoError("no built-in scenes were found (TYNDALL_ASSETS names the folder that has scenes/)");
+  std::size_t width = 0;
+  for (const BuiltIn& scene : scenes) width = std::max(width, scene.name.size());
+  std::string text;
+  for (const BuiltIn& scene : scenes)
+    text += scene.name + std::string(width + 2 - scene.name.size(), ' ') + about(scene) + "\n";
+  write_standard_output(text);
+  return 0;
+}
+
+}  // namespace tyndall

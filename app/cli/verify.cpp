@@ -1,0 +1,96 @@
+#include "app/cli/commands.h"
+#include "app/cli/render_setup.h"
+#include "app/cli/signals.h"
+#include "app/cli/verify_report.h"
+#include "app/files/open_scene.h"
+#include "app/text/progress.h"
+#include "app/text/standard_streams.h"
+#include "core/compile/compile.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Tells cases apart, whatever else is in the table. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
+std::uint32_t seed_of(const std::string& name) {
+  std::uint32_t hash = 0x811c9dc5u;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
+  return hash;
+}
+
+/// A case's scene with the command's method.
+Scene scene_of(const VerifyCommand& command, const VerifyCase& what) {
+  SceneRequest request = command.method;
+  request.what = what.scene.string();
+  request.overrides = what.overrides;
+  request.seed = seed_of(what.name) + most_rounds * command.method.seed.value_or(0);
+  return open_scene(request).scene;
+}
+
+class Verification {
+ public:
+  Verification(const VerifyCommand& command, std::vector<VerifyCase> cases)
+      : command_(command), cases_(std::move(cases)), report_(command.progress) {
+    run_.precision = command.thorough ? 1e-4 : 1e-3;
+    run_.isa = find_kernels(command.isa).isa;
+    run_.threads = Crew(command.threads).size();
+  }
+
+  VerifyRun run() {
+    for (const VerifyCase& what : cases_) {
+      const Scene scene = scene_of(command_, what);
+      VerifyRow row{what, scene.render};
+      if (what.needs_light_sampling && scene.render.integrator == Integrator::path) {
+        run_.rows.push_back(row);
+        continue;
+      }
+      const Measured measured = measure(scene, what);
+      if (measured.interrupted) break;
+      run_.rows.push_back(judge(row, measured, run_.precision));
+    }
+    run_.seconds = seconds_since(start_);
+    run_.interrupted = signals_.received() != 0;
+    report_.finish(std::to_string(run_.rows.size()) + " cases done, " + duration(run_.seconds));
+    return run_;
+  }
+  int signal() const { return signals_.received(); }
+
+ private:
+  Measured measure(const Scene& scene, const VerifyCase& what) {
+    const MeasureOptions options{command_.threads, command_.isa, run_.precision * std::abs(what.expected),
+                                 what.expected};
+    const auto done = static_cast<double>(run_.rows.size()), all = static_cast<double>(cases_.size());
+    return measure_mean(compile(scene), options, [&](const RenderProgress&) {
+      report_.show(seconds_since(start_), done / all,
+                   std::to_string(run_.rows.size()) + "/" + std::to_string(cases_.size()) + " " + what.name + ", " +
+                       duration(seconds_since(start_)));
+      return signals_.received() == 0;
+    });
+  }
+
+  const VerifyCommand& command_;
+  std::vector<VerifyCase> cases_;
+  ProgressReport report_;
+  SignalWatch signals_;
+  Clock::time_point start_ = Clock::now();
+  VerifyRun run_;
+};
+
+}  // namespace
+
+int run(const VerifyCommand& command) {
+  const auto table = assets_folder() / "verify" / "cases.json";
+  Verification verification(command, chosen_cases(read_verify_cases(table), command.names));
+  const VerifyRun run = verification.run();
+  write_standard_output(command.json ? verify_json(run) : verify_table(run));
+  if (run.interrupted) return 128 + verification.signal();
+  return passed(run) ? 0 : 1;
+}
+
+}  // namespace tyndall

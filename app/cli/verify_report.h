@@ -1,0 +1,53 @@
+#pragma once
+#include "app/cli/verify_cases.h"
+#include "core/render/measure.h"
+
+#include <string>
+#include <vector>
+
+/// What `tyndall verify` found out, and how it says it.
+namespace tyndall {
+
+enum class Verdict {
+  ok,
+  fail,     ///< more than 4 standard errors off, or samples were rejected
+  vague,    ///< the standard error stayed above what was asked for
+  skipped,  ///< cannot be measured without light sampling
+};
+
+struct VerifyRow {
+  VerifyCase what;
+  RenderSettings method;
+  Measured measured{};
+  double z = 0;
+  Verdict verdict = Verdict::skipped;
+};
+
+/// The row with a measurement, judged. precision: largest standard error, as a share of what is expected.
+VerifyRow judge(VerifyRow row, const Measured& measured, double precision);
+
+struct VerifyRun {
+  std::vector<VerifyRow> rows;
+  double precision = 0;
+  double seconds = 0;
+  std::string isa;
+  int threads = 0;
+  bool interrupted = false;
+};
+
+/// Mean square of the z-scores whose standard error is above the rounding, against what chance allows.
+struct ZStatistic {
+  int count = 0;
+  double mean_square = 0;
+  SquareBand band;
+  bool ok() const { return count == 0 || (mean_square >= band.low && mean_square <= band.high); }
+};
+ZStatistic z_statistic(const std::vector<VerifyRow>& rows);
+
+/// Nothing failed, nothing stayed vague, and the z-scores are as large as they should be.
+bool passed(const VerifyRun& run);
+
+std::string verify_table(const VerifyRun& run);
+std::string verify_json(const VerifyRun& run);
+
+}  // namespace tyndall

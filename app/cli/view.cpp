@@ -1,0 +1,63 @@
+#include "app/cli/commands.h"
+#include "app/cli/render_setup.h"
+#include "app/files/open_scene.h"
+#include "core/base/error.h"
+
+#ifdef TYNDALL_WINDOW
+#include "app/window/window.h"
+#endif
+
+#include <cstdlib>
+
+namespace tyndall {
+namespace {
+
+/// The word as a shell needs it.
+std::string shell_word(const std::string& word) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The render command that makes the picture which the window would show.
+std::string headless_command(const ViewCommand& command) {
+  std::string text = "tyndall render";
+  if (command.words.empty() || command.words.front() != command.scene.what)
+    text += " " + shell_word(command.scene.what);
+  for (std::size_t i = 0; i < command.words.size(); ++i) {
+    const std::string& word = command.words[i];
+    const bool of_window = word.starts_with("--reference") || word.starts_with("--ui-log");
+    if (!of_window) text += " " + shell_word(word);
+    if (of_window && word.find('=') == std::string::npos) ++i;  // its value
+  }
+  const std::string name = std::filesystem::path(command.scene.what).stem().string();
+  return text + " -o " + shell_word((name == "-" ? "image" : name) + ".png");
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+}  // namespace
+
+int run(const ViewCommand& command) {
+  const auto open = [request = command.scene] { return open_scene(request); };
+  const LoadedScene loaded = open();
+  find_kernels(command.isa);
+  const std::string instead = "; the same picture without a window: " + headless_command(command);
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
+#ifdef TYNDALL_WINDOW
+  try {
+    return run_window({loaded, open, command.threads, command.isa, command.reference, command.ui_log});
+  } catch (const IoError& error) {
+    throw IoError(error.what() + instead);
+  }
+#else
+  throw IoError("this build has no window" + instead);
+#endif
+}
+
+}  // namespace tyndall

@@ -1,0 +1,42 @@
+#include "app/curves/curve.h"
+#include "core/compile/compile.h"
+#include "core/kernel/kernels.h"
+
+#include <string_view>
+
+namespace tyndall {
+
+std::vector<ChartMethod> default_methods(const Scene& scene) {
+  const Needs needs = compile(scene).needs;
+  std::vector<ChartMethod> methods;
+  RenderSettings settings = scene.render;
+  settings.spp.reset();
+  settings.adaptive = false;
+  settings.integrator = Integrator::path;
+  settings.sampler = SamplerKind::random;
+  settings.fresnel = needs.dielectric ? FresnelKind::schlick : FresnelKind::exact;
+  methods.push_back({"the books' method", settings, "scalar"});
+  const auto switch_on = [&](const char* name, auto change) {
+    change(settings);
+    methods.push_back({name, settings, "scalar"});
+  };
+  if (needs.dielectric) switch_on("+ exact Fresnel", [](RenderSettings& s) { s.fresnel = FresnelKind::exact; });
+  if (needs.lights) {
+    switch_on("+ light sampling", [](RenderSettings& s) { s.integrator = Integrator::nee; });
+    switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
+  }
+  switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
+  for (const Kernels& kernels : available_kernels())
+    if (std::string_view(kernels.isa) != "scalar")
+      methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});
+  settings.adaptive = true;
+  methods.push_back({"+ adaptive", settings, ""});
+  settings.adaptive = false;
+  if (needs.dielectric) {
+    settings.fresnel = FresnelKind::schlick;
+    methods.push_back({"Schlick", settings, ""});
+  }
+  return methods;
+}
+
+}  // namespace tyndall

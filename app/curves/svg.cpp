@@ -1,0 +1,222 @@
+#include "app/curves/svg.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace tyndall {
+namespace {
+
+constexpr double width = 960, height = 600, left = 78, right = 230, top = 64, bottom = 62;
+constexpr std::size_t colours = 8;
+
+constexpr const char* style =
+    "<style>"
+    "text{font-family:system-ui,sans-serif;font-size:13px;fill:#3a4150}"
+    ".title{font-size:18px;font-weight:600;fill:#1c222d}.dim{fill:#727a88;font-size:12px}"
+    ".paper{fill:#ffffff}.grid{stroke:#dfe3e8;stroke-width:1}.minor{stroke:#eef0f3;stroke-width:1}"
+    ".guide{stroke:#727a88;stroke-dasharray:2 5;fill:none}.mark{stroke:#727a88;stroke-width:1}"
+    ".curve{fill:none;stroke-width:2.2;stroke-linejoin:round}.lead{stroke-width:1;opacity:.55;fill:none}"
+    ".again{stroke-dasharray:9 4}.bias{stroke-width:1.4;stroke-dasharray:6 4;fill:none}"
+    ".s0{stroke:#3a4150}.s1{stroke:#e69f00}.s2{stroke:#56b4e9}.s3{stroke:#009e73}.s4{stroke:#cc79a7}"
+    ".s5{stroke:#0072b2}.s6{stroke:#d55e00}.s7{stroke:#8a6d3b}"
+    ".f0{fill:#3a4150}.f1{fill:#b97f00}.f2{fill:#2f8fc7}.f3{fill:#008060}.f4{fill:#b0568a}"
+    ".f5{fill:#0072b2}.f6{fill:#d55e00}.f7{fill:#8a6d3b}"
+    "@media(prefers-color-scheme:dark){"
+    "text{fill:#c3cad6}.title{fill:#eef1f6}.dim{fill:#8b94a3}.paper{fill:#12161d}.grid{stroke:#2a313c}"
+    ".minor{stroke:#1c222b}.guide,.mark{stroke:#8b94a3}"
+    ".s0{stroke:#d5dae3}.s3{stroke:#1fc79a}.s4{stroke:#e39ac5}.s5{stroke:#4aa3e0}.s6{stroke:#ff8a4c}.s7{stroke:#c9a566}"
+    ".f0{fill:#d5dae3}.f1{fill:#e69f00}.f2{fill:#7cc5ef}.f3{fill:#1fc79a}.f4{fill:#e39ac5}"
+    ".f5{fill:#4aa3e0}.f6{fill:#ff8a4c}.f7{fill:#c9a566}}"
+    "</style>";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+  return out;
+}
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+std::string text_at(double x, double y, const std::string& attributes, const std::string& words) {
+  return format("<text x=\"%.1f\" y=\"%.1f\" ", x, y) + attributes + ">" + escaped(words) + "</text>\n";
+}
+std::string line(double x0, double y0, double x1, double y1, const std::string& kind) {
+  return format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"%s\"/>\n", x0, y0, x1, y1, kind.c_str());
+}
+
+/// Whole decades that hold all points, and where things are in them.
+struct Plot {
+  int x0 = 0, x1 = 1, y0 = -3, y1 = 0;
+
+  explicit Plot(const std::vector<ChartCurve>& curves) {
+    double first = 1e300, last = 0, least = 1e-2, most = 1e-1;
+    for (const ChartCurve& curve : curves)
+      for (const ChartPoint& p : curve.points) {
+        first = std::min(first, p.seconds), last = std::max(last, p.seconds);
+        if (p.rel_mse > 0) least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
+      }
+    if (last <= 0) return;
+    x0 = static_cast<int>(std::floor(std::log10(first))), x1 = static_cast<int>(std::ceil(std::log10(last)));
+    y0 = static_cast<int>(std::floor(std::log10(least))), y1 = static_cast<int>(std::ceil(std::log10(most)));
+    x1 = std::max(x1, x0 + 1);
+  }
+  double x(double seconds) const { return left + (std::log10(seconds) - x0) / (x1 - x0) * (width - left - right); }
+  double y(double error) const {
+    return height - bottom - (std::log10(error) - y0) / (y1 - y0) * (height - top - bottom);
+  }
+};
+
+std::string seconds_text(int exponent) {
+  return exponent < 0 ? format("%g ms", std::pow(10.0, exponent + 3)) : format("%g s", std::pow(10.0, exponent));
+}
+
+std::string grid(const Plot& plot) {
+  std::string out;
+  for (int e = plot.x0; e <= plot.x1; ++e) {
+    for (int m = 2; m < 10 && e < plot.x1; ++m)
+      out += line(plot.x(m * std::pow(10.0, e)), top, plot.x(m * std::pow(10.0, e)), height - bottom, "minor");
+    const double x = plot.x(std::pow(10.0, e));
+    out += line(x, top, x, height - bottom, "grid");
+    out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"", seconds_text(e));
+  }
+  for (int e = plot.y0; e <= plot.y1; ++e) {
+    const double y = plot.y(std::pow(10.0, e));
+    out += line(left, y, width - right, y, "grid");
+    out += text_at(left - 8, y + 4, "text-anchor=\"end\"", format("%g", std::pow(10.0, e)));
+  }
+  out +=
+      text_at((left + width - right) / 2, height - 16, "text-anchor=\"middle\" class=\"dim\"", "seconds of rendering");
+  return out +
+         format(
+             "<text transform=\"translate(20 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"dim\">relMSE</text>\n",
+             (top + height - bottom) / 2);
+}
+
+/// The line along which error times seconds stays what it is: what more samples alone buy.
+std::string slope_guide(const Plot& plot, const std::vector<ChartCurve>& curves) {
+  double best = 1e300;
+  for (const ChartCurve& curve : curves)
+    for (const ChartPoint& p : curve.points)
+      if (p.rel_mse > 0) best = std::min(best, p.rel_mse * p.seconds);
+  if (best > 1e299) return "";
+  best *= 0.6;
+  const double high = std::pow(10.0, plot.y1), low = std::pow(10.0, plot.y0);
+  const double from = std::max(best / high, std::pow(10.0, plot.x0)),
+               to = std::min(best / low, std::pow(10.0, plot.x1));
+  if (from >= to) return "";
+  const double x = plot.x(from), y = plot.y(best / from);
+  return line(x, y, plot.x(to), plot.y(best / to), "guide") + text_at(x + 6, y + 14, "class=\"dim\"", "slope -1");
+}
+
+std::string curve_lines(const Plot& plot, const ChartCurve& curve, const std::optional<double>& bias, std::size_t i) {
+  std::string points, dots;
+  for (const ChartPoint& p : curve.points) {
+    if (!(p.rel_mse > 0)) continue;
+    points += format("%.1f,%.1f ", plot.x(p.seconds), plot.y(p.rel_mse));
+    dots += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.6\" class=\"f%zu\"/>\n", plot.x(p.seconds), plot.y(p.rel_mse),
+                   i % colours);
+  }
+  std::string out = format("<polyline class=\"curve s%zu%s\" points=\"", i % colours, i < colours ? "" : " again") +
+                    points + "\"/>\n" + dots;
+  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), format("bias s%zu", i % colours));
+  return out;
+}
+
+/// Against a picture whose noise is not known, a floor may be that.
+const char* floor_name(const Chart& chart) { return chart.reference.rel_mse > 0 ? "bias" : "floor"; }
+
+/// Names in the right margin at the height of the curves' ends, pushed apart.
+std::string names(const Plot& plot, const Chart& chart) {
+  constexpr double apart = 17;
+  std::vector<std::size_t> order;
+  std::vector<double> at(chart.curves.size());
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const auto& points = chart.curves[i].points;
+    if (points.empty() || !(points.back().rel_mse > 0)) continue;
+    at[i] = plot.y(points.back().rel_mse);
+    order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
+  const double room = static_cast<double>(order.size()) * apart;
+  double next = top + 4;
+  std::string out;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t i = order[k];
+    const double latest = height - bottom - (static_cast<double>(order.size() - k) - 1) * apart;
+    const double y = std::min(std::max(at[i], next), std::max(latest, height - bottom - room));
+    next = y + apart;
+    const ChartCurve& curve = chart.curves[i];
+    const ChartPoint& end = curve.points.back();
+    const std::size_t colour = i % colours;
+    out += format("<polyline class=\"lead s%zu\" points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\"/>\n", colour,
+                  plot.x(end.seconds) + 5, plot.y(end.rel_mse), width - right + 4, y, width - right + 12, y);
+    const auto bias = bias_of(curve, chart.reference);
+    out += text_at(width - right + 16, y + 4, format("class=\"f%zu\"", colour),
+                   curve.method + (bias ? format(" (%s %.2g)", floor_name(chart), *bias) : ""));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string chart_svg(const Chart& chart) {
+  const Plot plot(chart.curves);
+  std::string out = format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" width=\"%g\" height=\"%g\" "
+      "role=\"img\">\n",
+      width, height, width, height);
+  out += std::string("<title>") + escaped(chart.title) + "</title>\n" + style + "\n";
+  out += format("<rect class=\"paper\" width=\"%g\" height=\"%g\"/>\n", width, height);
+  out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
+  out += grid(plot) + slope_guide(plot, chart.curves);
+  for (std::size_t i = 0; i < chart.curves.size(); ++i)
+    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference), i);
+  return out + names(plot, chart) + "</svg>\n";
+}
+
+std::string chart_csv(const Chart& chart) {
+  std::string out = "method,spp,seconds,relmse\n";
+  for (const ChartCurve& curve : chart.curves) {
+    std::string name = curve.method;
+    if (name.find_first_of(",\"\n") != std::string::npos) {
+      std::string quoted;
+      for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+      name = '"' + quoted + '"';
+    }
+    for (const ChartPoint& p : curve.points) out += name + format(",%u,%.6g,%.6g\n", p.spp, p.seconds, p.rel_mse);
+  }
+  return out;
+}
+
+std::string chart_table(const Chart& chart) {
+  const auto time = [](const ChartCurve& curve, double error) {
+    const auto seconds = seconds_to(curve, error);
+    return seconds ? format("%.3g s", *seconds) : std::string("-");
+  };
+  std::size_t longest = 6;
+  for (const ChartCurve& curve : chart.curves) longest = std::max(longest, curve.method.size());
+  const auto padded = [](std::string text, std::size_t to) {
+    return text += std::string(to - std::min(to, text.size()), ' ');
+  };
+  std::string out = padded("method", longest + 2) + "to 0.01    to 0.001   speed     " + floor_name(chart) + "\n";
+  const ChartCurve* first = chart.curves.empty() ? nullptr : &chart.curves.front();
+  for (const ChartCurve& curve : chart.curves) {
+    const auto bias = bias_of(curve, chart.reference);
+    const auto speed = bias ? std::nullopt : speed_against(*first, curve);
+    out += padded(curve.method, longest + 2) + padded(time(curve, 0.01), 11) + padded(time(curve, 0.001), 11) +
+           padded(speed ? format("%.3gx", *speed) : "-", 10) +
+           (bias ? format("%.2g", *bias) : std::string("none seen")) + "\n";
+  }
+  return out;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,11 @@
+#pragma once
+#include "app/files/scene_request.h"
+#include "core/scene/load.h"
+
+namespace tyndall {
+
+/// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
+/// again. Throws SceneError.
+LoadedScene open_scene(const SceneRequest& request);
+
+}  // namespace tyndall

@@ -1,0 +1,78 @@
+#include "app/files/outputs.h"
+
+#include "app/text/values.h"
+#include "core/base/text.h"
+#include "core/image/image_io_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <span>
+
+namespace tyndall {
+namespace {
+
+std::string ending(const std::filesystem::path& file) {
+  std::string text = file.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+ToneCurve curve(ToneMap map) { return map == ToneMap::aces ? ToneCurve::aces : ToneCurve::srgb; }
+
+}  // namespace
+
+bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
+
+void check_image_names(const std::vector<std::filesystem::path>& files) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string name = "--output: found " + in_quotes(files[i].string());
+    if (!is_image_output(files[i])) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
+    if (is_exr(files[i]) && !has_openexr())
+      throw UsageError(name + ", expected .png, .pfm or .hdr: this build has no OpenEXR");
+    const auto same = [&](const auto& other) { return other.lexically_normal() == files[i].lexically_normal(); };
+    if (std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), same))
+      throw UsageError(name + " twice");
+  }
+}
+
+void check_can_write(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    throw IoError(file.string() + ": cannot write: there is no folder " + folder.string());
+  WholeFile probe(file);  // removed again, as it is not committed
+}
+
+std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> problems;
+  const Region& region = picture.film.region;
+  std::optional<LinearImage> image;
+  for (const std::filesystem::path& file : files) {
+    try {
+      const std::string kind = ending(file);
+      if (kind != ".exr" && !image) image = LinearImage{region.width(), region.height(), resolve(picture.film)};
+      if (kind == ".exr")
+        write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded(file));
+      else if (kind == ".png")
+        write_png(file, *image, picture.display.exposure, curve(picture.display.tone_map), picture.embedded(file));
+      else if (kind == ".pfm")
+        write_pfm(file, *image);
+      else
+        write_hdr(file, *image);
+    } catch (const std::bad_alloc&) {
+      problems.push_back(file.string() + ": cannot write: not enough memory");
+    } catch (const std::exception& error) {
+      problems.emplace_back(error.what());
+    }
+  }
+  return problems;
+}
+
+void write_text_file(const std::filesystem::path& file, const std::string& text) {
+  WholeFile out(file);
+  out.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  out.commit();
+}
+
+}  // namespace tyndall

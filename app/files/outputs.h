@@ -1,0 +1,36 @@
+#pragma once
+#include "core/image/image_io.h"
+#include "core/scene/scene.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// The files that a command writes.
+namespace tyndall {
+
+/// Throws UsageError for an ending that is no image's, EXR in a build without it, or a file named twice.
+void check_image_names(const std::vector<std::filesystem::path>& files);
+
+/// True for names that end in .exr (any case).
+bool is_exr(const std::filesystem::path& file);
+
+/// Throws IoError unless the file could be written now: its folder exists and takes new files. Leaves nothing behind.
+void check_can_write(const std::filesystem::path& file);
+
+/// What becomes image files.
+struct Picture {
+  const Film& film;
+  Display display;                                                      ///< for PNG
+  std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
+  std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty
+};
+
+/// Writes all files that can be written; returns what went wrong, a line each.
+std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files);
+
+/// Writes text as a whole file or not at all. Throws ImageFileError.
+void write_text_file(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace tyndall

@@ -1,0 +1,110 @@
+#include "app/files/stats.h"
+
+#include "core/accuracy/error.h"
+#include "core/render/plan.h"
+#include "core/scene/names.h"
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+namespace tyndall {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hash_text(const Film& film) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(image_hash(film.region.width(), film.region.height(), resolve(film))));
+  return text;
+}
+
+/// Infinite and undefined numbers as null: JSON has no others.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double per_second(std::uint64_t count, double seconds) {
+  return seconds > 0 ? static_cast<double>(count) / seconds / 1e6 : 0;
+}
+
+void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
+  const RenderSettings& settings = run.settings.render;
+  json["isa"] = run.result.isa;
+  json["lanes"] = run.result.lanes;
+  json["kernel_features"] = names_of(run.compiled.needs);
+  json["integrator"] = name_of(integrators, settings.integrator);
+  json["sampler"] = name_of(samplers, settings.sampler);
+  json["fresnel"] = name_of(fresnel_rules, settings.fresnel);
+  json["relative_error_estimate"] = number(estimated_relative_error(run.result.film));
+  json["rejected_samples"] = sum.rejected;
+  json["truncated_paths"] = sum.truncated;
+}
+
+/// What came after the first version of the figures, whose order stays.
+void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
+  json["truncated_throughput"] = sum.cut_throughput;
+  json["first_rejected"] = Json::array();
+  for (const RejectedSample& r : run.result.first_rejected) json["first_rejected"].push_back({r.x, r.y, r.sample});
+  json["adaptive"] = run.settings.render.adaptive;
+  json["least_spp"] = sum.least_taken;
+  json["most_spp"] = sum.most_taken;
+  json["rare_bright_paths"] = run.rare_bright_paths;
+}
+
+}  // namespace
+
+std::string stats_text(const RunFigures& run) {
+  const Film& film = run.result.film;
+  const FilmTotals sum = totals(film);
+  Json json;
+  json["scene"] = run.scene;
+  json["width"] = film.region.width();
+  json["height"] = film.region.height();
+  json["spp"] = labelled_spp(film);
+  json["samples"] = sum.samples;
+  json["rays"] = run.result.rays;
+  json["shadow_rays"] = run.result.shadow_rays;
+  json["seconds_render"] = run.result.seconds;
+  json["seconds_total"] = run.seconds_total;
+  json["seconds_build"] = run.seconds_build;
+  json["mrays_per_s"] = per_second(run.result.rays, run.result.seconds);
+  json["msamples_per_s"] = per_second(sum.samples - run.samples_before, run.result.seconds);
+  json["threads"] = run.result.threads;
+  add_method(json, run, sum);
+  json["peak_memory_bytes"] = peak_memory();
+  json["image_hash"] = hash_text(film);
+  json["version"] = TYNDALL_VERSION;
+  add_losses(json, run, sum);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string embedded_stats_text(const RunFigures& run) {
+  const Film& film = run.result.film;
+  const FilmTotals sum = totals(film);
+  Json json;
+  json["version"] = TYNDALL_VERSION;
+  json["region"] = {film.region.x0, film.region.y0, film.region.x1, film.region.y1};
+  json["first_sample"] = film.first_sample;
+  json["spp"] = labelled_spp(film);
+  add_method(json, run, sum);
+  json["image_hash"] = hash_text(film);
+  add_losses(json, run, sum);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::size_t peak_memory() {
+  // ru_maxrss may be what the process had before it became this program; the kernel's own mark is not.
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    unsigned long long kilobytes = 0;
+    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kilobytes) == 1) return kilobytes * 1024;
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace tyndall

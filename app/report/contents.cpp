@@ -1,0 +1,63 @@
+#include "app/report/contents.h"
+
+#include <type_traits>
+#include <variant>
+
+namespace tyndall {
+namespace {
+
+bool emits(const Scene& scene, int material) {
+  return std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(material)].kind);
+}
+
+void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
+  const int lights = emits(scene, solid.material) ? 1 : 0;
+  if (const auto* sphere = std::get_if<Sphere<>>(&solid.shape)) {
+    ++contents.shapes[sphere->center_end ? "moving sphere" : "sphere"];
+    contents.lights += lights;
+  } else if (std::holds_alternative<Quad<>>(solid.shape)) {
+    ++contents.shapes["quad"];
+    contents.lights += lights;
+  } else {
+    ++contents.shapes["box"];
+    contents.lights += 6 * lights;
+  }
+}
+
+void count(const Scene& scene, const std::vector<Object>& objects, Contents& contents) {
+  for (const Object& object : objects) {
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
+    if (const auto* group = std::get_if<Group>(&object.kind)) count(scene, group->objects, contents);
+    if (const auto* volume = std::get_if<Volume>(&object.kind)) {
+      ++contents.media;
+      if (volume->medium.g != 0) ++contents.phase_functions;
+    }
+  }
+}
+
+template <class Kinds>
+const char* type_of(const Kinds& kind) {
+  return std::visit([](const auto& k) { return std::decay_t<decltype(k)>::type; }, kind);
+}
+
+std::string background_of(const Scene& scene) {
+  if (std::holds_alternative<Gradient>(scene.background)) return Gradient::type;
+  if (std::holds_alternative<Hemispheres>(scene.background)) return Hemispheres::type;
+  return std::get<Vec3d>(scene.background) == Vec3d{} ? "none" : "constant";
+}
+
+}  // namespace
+
+Contents contents_of(const Scene& scene) {
+  Contents contents;
+  count(scene, scene.objects, contents);
+  for (const Material& material : scene.materials) ++contents.materials[type_of(material.kind)];
+  for (const Texture& texture : scene.textures) ++contents.textures[type_of(texture.kind)];
+  contents.motion =
+      contents.shapes.count("moving sphere") > 0 && scene.camera.shutter_close > scene.camera.shutter_open;
+  contents.defocus = scene.camera.defocus_angle > 0;
+  contents.background = background_of(scene);
+  return contents;
+}
+
+}  // namespace tyndall

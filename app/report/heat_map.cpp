@@ -1,0 +1,84 @@
+#include "app/report/heat_map.h"
+
+#include "app/report/heat.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace tyndall {
+namespace {
+
+// Of the scale, in pixels: a gap, the colours, marks, and text.
+constexpr int gap = 4, bar = 8, mark = 3, dot = 2;
+static_assert(gap + bar + mark + 5 * dot + 1 == heat_scale_rows);
+
+/// 3 x 5 dots, row by row, of the few signs that the scale needs.
+std::array<std::string_view, 5> dots_of(char sign) {
+  switch (sign) {
+    case '0':
+      return {"###", "# #", "# #", "# #", "###"};
+    case '1':
+      return {" # ", "## ", " # ", " # ", "###"};
+    case '5':
+      return {"###", "#  ", "###", "  #", "###"};
+    default:
+      return {"   ", "   ", "   ", "   ", " # "};
+  }
+}
+
+class Canvas {
+ public:
+  explicit Canvas(LinearImage& image) : image_(image) {}
+  void set(int x, int y, const std::array<float, 3>& colour) {
+    if (x < 0 || x >= image_.width || y < 0 || y >= image_.height) return;
+    const auto at =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x));
+    std::copy(colour.begin(), colour.end(), image_.rgb.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  void write(int left, int top, std::string_view text) {
+    for (const char sign : text) {
+      const auto rows = dots_of(sign);
+      for (int y = 0; y < 5 * dot; ++y)
+        for (int x = 0; x < 3 * dot; ++x)
+          if (rows[static_cast<std::size_t>(y / dot)][static_cast<std::size_t>(x / dot)] == '#')
+            set(left + x, top + y, {0.8f, 0.8f, 0.8f});
+      left += 4 * dot;
+    }
+  }
+
+ private:
+  LinearImage& image_;
+};
+
+int width_of(std::string_view text) { return (4 * static_cast<int>(text.size()) - 1) * dot; }
+
+void draw_scale(LinearImage& image, int top) {
+  Canvas canvas(image);
+  const int last = image.width - 1;
+  for (int y = 0; y < bar; ++y)
+    for (int x = 0; x <= last; ++x)
+      canvas.set(x, top + gap + y, heat(static_cast<float>(x) / static_cast<float>(std::max(last, 1))));
+  const auto label = [&](int x, int left, std::string_view text) {
+    for (int y = 0; y < mark; ++y) canvas.set(x, top + gap + bar + y, {0.8f, 0.8f, 0.8f});
+    canvas.write(left, top + gap + bar + mark + 1, text);
+  };
+  label(0, 0, "0");
+  if (last > 80) label(last / 2, last / 2 - width_of("0.5") / 2, "0.5");
+  if (last > 20) label(last, last + 1 - width_of("1"), "1");
+}
+
+}  // namespace
+
+LinearImage heat_map(const std::vector<float>& values, int width, int height) {
+  LinearImage image{width, height + heat_scale_rows, {}};
+  for (const float value : values) {
+    const auto colour = heat(value);
+    image.rgb.insert(image.rgb.end(), colour.begin(), colour.end());
+  }
+  image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(image.height));
+  draw_scale(image, height);
+  return image;
+}
+
+}  // namespace tyndall

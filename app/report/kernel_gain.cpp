@@ -1,0 +1,51 @@
+#include "app/report/kernel_gain.h"
+
+#include "core/render/render.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace tyndall {
+namespace {
+
+constexpr int pairs = 9;
+constexpr double seconds_each = 0.1;
+
+RenderResult timed(const RenderScene& scene, const std::string& isa, std::uint32_t spp) {
+  RenderOptions options;
+  options.threads = 1;
+  options.isa = isa;
+  options.spp = spp;
+  return render(scene, options);
+}
+
+/// Samples a pixel that take about `seconds_each`.
+std::uint32_t enough_samples(const RenderScene& scene, const std::string& isa) {
+  std::uint32_t spp = 1;
+  while (spp < 4096 && timed(scene, isa, spp).seconds < seconds_each / 2) spp *= 2;
+  return spp;
+}
+
+}  // namespace
+
+KernelGain measure_kernel_gain(const RenderScene& scene, const std::string& isa) {
+  RenderScene full = scene;
+  full.kernel = KernelSet::everything;
+  const std::uint32_t spp = enough_samples(scene, isa);
+  KernelGain result;
+  std::vector<double> gains;
+  for (result.pairs = 0; result.pairs < pairs; ++result.pairs) {
+    const bool own_first = result.pairs % 2 == 0;
+    const RenderResult first = timed(own_first ? scene : full, isa, spp);
+    const RenderResult second = timed(own_first ? full : scene, isa, spp);
+    gains.push_back(own_first ? second.seconds / first.seconds : first.seconds / second.seconds);
+    result.same_picture &= resolve(first.film) == resolve(second.film);
+    result.isa = first.isa;
+  }
+  std::sort(gains.begin(), gains.end());
+  result.gain = gains[pairs / 2];
+  result.least = gains.front(), result.most = gains.back();
+  return result;
+}
+
+}  // namespace tyndall

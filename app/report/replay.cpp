@@ -1,0 +1,112 @@
+#include "app/report/replay.h"
+
+#include "core/base/random.h"
+#include "core/base/text.h"
+
+#include <cstdio>
+
+namespace tyndall {
+namespace {
+
+Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
+
+std::string text_of(Vec3d v) {
+  char text[100];
+  std::snprintf(text, sizeof text, "%.9g %.9g %.9g", v.x, v.y, v.z);
+  return text;
+}
+
+/// The innermost object on a path of indices, and its place in the file.
+struct Named {
+  const Object* object;
+  std::string pointer;
+};
+Named object_at(const Scene& scene, const std::vector<int>& path) {
+  const std::vector<Object>* list = &scene.objects;
+  Named named{nullptr, ""};
+  for (const int index : path) {
+    named.object = &(*list)[static_cast<std::size_t>(index)];
+    named.pointer += "/objects/" + std::to_string(index);
+    if (const auto* group = std::get_if<Group>(&named.object->kind)) list = &group->objects;
+  }
+  return named;
+}
+
+/// `"ball" (glass)`.
+std::string object_text(const Scene& scene, const std::vector<int>& path) {
+  const Named named = object_at(scene, path);
+  const std::string name = named.object->name.empty() ? named.pointer : in_quotes(named.object->name);
+  const auto* solid = std::get_if<Solid3d>(&named.object->kind);
+  if (!solid) return printable(name);
+  return printable(name + " (" + scene.materials[static_cast<std::size_t>(solid->material)].name + ")");
+}
+
+/// The paths of all media with a density, in the order in which they are compiled.
+void list_media(const std::vector<Object>& objects, std::vector<int> path, std::vector<std::vector<int>>& out) {
+  path.push_back(0);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    path.back() = static_cast<int>(i);
+    if (const auto* group = std::get_if<Group>(&objects[i].kind)) list_media(group->objects, path, out);
+    const auto* volume = std::get_if<Volume>(&objects[i].kind);
+    if (volume && volume->medium.density > 0) out.push_back(path);
+  }
+}
+
+std::string medium_text(const Scene& scene, int medium) {
+  std::vector<std::vector<int>> media;
+  list_media(scene.objects, {}, media);
+  return object_text(scene, media[static_cast<std::size_t>(medium)]);
+}
+
+const char* fate_text(Fate fate) {
+  switch (fate) {
+    case Fate::goes_on:
+      return "goes on";
+    case Fate::ends_at_light:
+      return "ends there";
+    case Fate::escapes:
+      return "escapes";
+    case Fate::absorbed:
+      return "is absorbed";
+    case Fate::roulette:
+      return "is ended by roulette";
+    case Fate::cut:
+      return "is cut at max_depth";
+    case Fate::lost:
+      return "is no number any more: rejected";
+  }
+  return "";
+}
+
+std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
+  const std::string fate = fate_text(v.fate);
+  if (v.met == Met::nothing) return v.fate == Fate::escapes ? fate : "meets nothing, " + fate;
+  const std::string what = v.met == Met::medium
+                               ? "the medium " + medium_text(scene, v.medium)
+                               : object_text(scene, compiled.elements.object[static_cast<std::size_t>(v.element)]);
+  char distance[40];
+  std::snprintf(distance, sizeof distance, "after %.9g ", static_cast<double>(v.distance));
+  return distance + ("meets " + what) + ", " + fate + (v.inside ? " on its inner side" : "");
+}
+
+}  // namespace
+
+std::string replay_text(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
+  std::string text;
+  const auto row = [&text](const char* name, Vec3d v) { text += std::string("    ") + name + text_of(v) + "\n"; };
+  text += "0 camera\n";
+  row("point       ", exact(path.origin) + compiled.origin);
+  int number = 0;
+  for (const PathVertex& v : path.vertices) {
+    text += std::to_string(++number) + " " + heading(scene, compiled, v) + "\n";
+    if (v.met != Met::nothing) row("point       ", exact(v.point) + compiled.origin);
+    row("came by     ", exact(v.direction));
+    row("throughput  ", exact(v.throughput));
+    row("radiance    ", exact(v.radiance));
+    text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
+            std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
+  }
+  return text + "sample " + text_of(exact(path.radiance)) + "\n";
+}
+
+}  // namespace tyndall

@@ -1,0 +1,123 @@
+#include "app/text/progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace tyndall {
+namespace {
+
+template <class... T>
+std::string format(const char* pattern, T... values) {
+  char text[128];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+bool smart_terminal() {
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) && term && std::strcmp(term, "dumb") != 0;
+}
+
+int terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+double progress_fraction(const RenderProgress& now, const ProgressGoal& goal) {
+  double part = 0;
+  if (goal.spp > goal.spp_before && now.spp > goal.spp_before)
+    part = static_cast<double>(now.spp - goal.spp_before) / (goal.spp - goal.spp_before);
+  if (std::isfinite(goal.time_limit)) part = std::max(part, now.seconds / goal.time_limit);
+  if (goal.target_error > 0 && std::isfinite(now.relative_error)) {
+    const double ratio = goal.target_error / std::max(now.relative_error, 1e-300);
+    part = std::max(part, ratio * ratio);
+  }
+  return std::min(part, 1.0);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 59.95) return format("%.1f s", seconds);
+  if (seconds >= 1e9) return "years";
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return format("%ld:%02ld", whole / 60, whole % 60);
+  return format("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string progress_text(const RenderProgress& now, const ProgressGoal& goal) {
+  std::string text = std::to_string(now.spp);
+  if (goal.spp > 0) text += "/" + std::to_string(goal.spp);
+  text += " spp";
+  if (now.mrays_per_s > 0) text += format(", %.3g Mrays/s", now.mrays_per_s);
+  if (std::isfinite(now.relative_error)) text += format(", error %.2g", now.relative_error);
+  text += ", " + duration(now.seconds);
+  const double part = progress_fraction(now, goal);
+  if (part > 0) text += ", " + duration(now.seconds * (1 - part) / part) + " left";
+  return text;
+}
+
+ProgressReport::ProgressReport(ProgressStyle style, ProgressGoal goal) : goal_(goal) {
+  if (style == ProgressStyle::none) return;
+  form_ = style == ProgressStyle::automatic && smart_terminal() ? Form::bar : Form::lines;
+  colour_ = form_ == Form::bar && !is_set("NO_COLOR");
+  next_ = form_ == Form::bar ? 0.1 : 2;
+}
+
+ProgressReport::~ProgressReport() { clear_bar(); }
+
+void ProgressReport::show(const RenderProgress& now) {
+  show(now.seconds, progress_fraction(now, goal_), progress_text(now, goal_));
+}
+
+void ProgressReport::show(double seconds, double part, const std::string& text) {
+  if (form_ == Form::none || seconds < next_) return;
+  if (form_ == Form::bar) {
+    draw_bar(part, text);
+    next_ = seconds + 0.1;
+  } else {
+    std::fprintf(stderr, "tyndall: %s\n", text.c_str());
+    next_ = seconds + std::clamp(0.25 * seconds, 2.0, 60.0);
+  }
+  said_ = true;
+}
+
+void ProgressReport::draw_bar(double part, const std::string& text) {
+  constexpr int text_columns = 60;  // kept free, so that the bar keeps its length
+  const int columns = terminal_columns() - 1;
+  const int cells = std::clamp(columns - text_columns, 0, 40);
+  std::string bar;
+  if (cells >= 8) {
+    const auto full = static_cast<std::size_t>(std::lround(part * cells));
+    bar = "[" + std::string(colour_ ? "\x1b[36m" : "") + std::string(full, '#') + (colour_ ? "\x1b[0m" : "") +
+          std::string(static_cast<std::size_t>(cells) - full, '.') + "] ";
+  }
+  std::fprintf(stderr, "\r\x1b[2K%s%s", bar.c_str(), text.substr(0, static_cast<std::size_t>(columns)).c_str());
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressReport::clear_bar() {
+  if (!drawn_) return;
+  std::fputs("\r\x1b[2K", stderr);
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+void ProgressReport::finish(const std::string& summary) {
+  clear_bar();
+  if (said_) std::fprintf(stderr, "tyndall: %s\n", summary.c_str());
+}
+
+}  // namespace tyndall

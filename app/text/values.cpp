@@ -1,0 +1,110 @@
+#include "app/text/values.h"
+
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text, const std::string& expected) {
+  throw UsageError("found " + in_quotes(printable(text)) + ", expected " + expected);
+}
+
+template <class T>
+bool read_all(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// The parts of text between separators.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t at = 0;;) {
+    const std::size_t end = text.find(separator, at);
+    parts.push_back(text.substr(at, end - at));
+    if (end == std::string_view::npos) return parts;
+    at = end + 1;
+  }
+}
+
+}  // namespace
+
+std::int64_t read_whole(const std::string& text, std::int64_t low, std::int64_t high) {
+  std::int64_t value = 0;
+  if (!read_all(text, value) || value < low || value > high)
+    refuse(text, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  return value;
+}
+
+double read_number(const std::string& text, Valid valid, const std::string& expected) {
+  double value = 0;
+  if (!read_all(text, value) || !std::isfinite(value) || !valid.contains(value)) refuse(text, expected);
+  return value;
+}
+
+Size read_size(const std::string& text) {
+  const auto parts = split(text, 'x');
+  Size size;
+  if (parts.size() != 2 || !read_all(parts[0], size.width) || !read_all(parts[1], size.height) || size.width < 1 ||
+      size.height < 1)
+    refuse(text, "WIDTHxHEIGHT in pixels, such as 800x450");
+  return size;
+}
+
+SampleRange read_samples(const std::string& text) {
+  const auto parts = split(text, ':');
+  SampleRange range;
+  if (parts.size() != 2 || !read_all(parts[0], range.first) || !read_all(parts[1], range.last) ||
+      range.first >= range.last)
+    refuse(text, "A:B with whole numbers 0 <= A < B, such as 0:64");
+  if (range.last - range.first > most_samples) refuse(text, "at most " + std::to_string(most_samples) + " samples");
+  return range;
+}
+
+Region read_region(const std::string& text) {
+  const auto parts = split(text, ',');
+  Region r;
+  if (parts.size() != 4 || !read_all(parts[0], r.x0) || !read_all(parts[1], r.y0) || !read_all(parts[2], r.x1) ||
+      !read_all(parts[3], r.y1) || r.x0 < 0 || r.y0 < 0 || r.x0 >= r.x1 || r.y0 >= r.y1)
+    refuse(text, "X0,Y0,X1,Y1 in pixels with 0 <= X0 < X1 and 0 <= Y0 < Y1");
+  return r;
+}
+
+SampleKey read_sample_key(const std::string& text) {
+  const auto parts = split(text, ',');
+  SampleKey key;
+  if (parts.size() != 3 || !read_all(parts[0], key.x) || !read_all(parts[1], key.y) ||
+      !read_all(parts[2], key.sample) || key.x < 0 || key.y < 0)
+    refuse(text, "X,Y,SAMPLE with whole numbers >= 0, such as 12,40,7");
+  return key;
+}
+
+Override read_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || text.front() != '/')
+    refuse(text, "POINTER=VALUE, such as /materials/gold/fuzz=0.2");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::filesystem::path read_file_name(const std::string& text, const std::string& ending) {
+  std::string tail = std::filesystem::path(text).extension().string();
+  std::transform(tail.begin(), tail.end(), tail.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (tail != ending) refuse(text, "a name that ends in " + ending);
+  return text;
+}
+
+std::size_t read_name(const std::string& text, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) refuse(text, one_of({names.begin(), names.end()}) + suggestion(text, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  return did_you_mean(word, {names.begin(), names.end()});
+}
+
+}  // namespace tyndall

@@ -1,0 +1,51 @@
+#pragma once
+#include "app/window/accuracy/reference.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace tyndall {
+
+/// Pictures of differences, beside the views of the renderer.
+enum class ErrorView { none, error, flip };
+
+/// Two pictures of one size: a frame and what it is measured against.
+struct ComparisonOrder {
+  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const Frame> kept;  ///< the left half of a split view; null: the reference counts
+  std::shared_ptr<const Reference> reference;
+  ErrorView map = ErrorView::none;
+  bool flip = false;        ///< also FLIP
+  bool independent = true;  ///< of the reference's random numbers: its own noise is taken off, where that is known
+};
+
+struct ComparisonResult {
+  double rel_mse = 0;          ///< <= 0: less than the reference's own noise
+  std::optional<double> flip;  ///< mean; as `tyndall compare` says it
+  std::vector<float> map;      ///< 4 floats a pixel; empty: none was asked for
+  double cpu_seconds = 0;      ///< what this took
+};
+
+/// Whether both pictures are there and have one size.
+bool can_compare(const ComparisonOrder& order);
+
+/// Takes milliseconds, with FLIP a second. The error map is grey: 1 is 100 % and more, as in the noise view; the FLIP
+/// map has the colours of `tyndall compare --heatmap`.
+ComparisonResult compare(const ComparisonOrder& order);
+
+/// Keeps work to a share of the time that processors have.
+class ProcessorShare {
+ public:
+  explicit ProcessorShare(double share) : share_(share) {}
+  bool due(double now) const { return now >= next_; }
+  /// Work that began at `start` took so much of one of `processors`.
+  void spent(double start, double cpu_seconds, int processors) { next_ = start + cpu_seconds / (share_ * processors); }
+  /// Due at once: the user waits for it.
+  void renew() { next_ = 0; }
+
+ private:
+  double share_, next_ = 0;
+};
+
+}  // namespace tyndall

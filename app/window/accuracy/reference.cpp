@@ -1,0 +1,93 @@
+#include "app/window/accuracy/reference.h"
+
+#include "app/text/numbers.h"
+#include "app/text/values.h"
+#include "core/accuracy/error.h"
+#include "core/image/image_io_file.h"
+#include "core/scene/load.h"
+
+#include <cmath>
+#include <exception>
+#include <optional>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+/// The scene in an image that Tyndall made, its textures as the document would name them.
+std::optional<Scene> scene_in(const fs::path& file, const Document& document) {
+  try {
+    if (!read_embedded_scene(file)) return {};
+    const LoadedScene loaded = load_scene(fs::absolute(file).string());
+    return move_textures(loaded.scene, loaded.folder, document.origin->folder);
+  } catch (const std::exception&) {
+    return {};  // the picture is of use without
+  }
+}
+
+/// What is rendered, but for the method.
+Scene without_method(Scene scene) {
+  scene.render = {};
+  scene.display = {};
+  scene.name.clear();
+  return scene;
+}
+
+}  // namespace
+
+void check_size(const std::string& name, const LinearImage& image, const Scene& scene) {
+  if (image.width == scene.width && image.height == scene.height) return;
+  throw UsageError(name + ": found " + size_text(image.width, image.height) + " pixels, expected " +
+                   size_text(scene.width, scene.height) + " as the picture has");
+}
+
+Reference read_reference(const fs::path& file, const Document& document) {
+  Reference reference{read_image(file), 0, file.filename().string(), document.scene};
+  check_size(file.string(), reference.image, document.scene);
+  const ImageKind kind = image_kind(read_bytes(file, 16));
+  if (kind == ImageKind::png || kind == ImageKind::jpeg) reference.about += " (8 bit)";
+  if (const auto scene = scene_in(file, document)) reference.scene = *scene, reference.known_method = true;
+  if (kind != ImageKind::exr) return reference;
+  if (const auto film = read_film(file)) {
+    const double error = estimated_relative_error(*film);
+    if (std::isfinite(error)) reference.rel_mse = error * error;
+  }
+  return reference;
+}
+
+bool shows_no_scene(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  return image_kind(read_bytes(file, 16)) != ImageKind::unknown && !read_embedded_scene(file);
+}
+
+Reference reference_of(const Frame& frame, const Scene& scene) {
+  const double noise = std::isfinite(frame.relative_error) ? frame.relative_error * frame.relative_error : 0;
+  return {{frame.width, frame.height, picture_of(frame)},
+          noise,
+          "the picture at " + format_count(frame.spp) + " spp",
+          scene,
+          true};
+}
+
+ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
+  if (reference.image.width != scene.width || reference.image.height != scene.height) return ReferenceFit::other_size;
+  if (!(without_method(reference.scene) == without_method(scene))) return ReferenceFit::other_scene;
+  const RenderSettings &one = reference.scene.render, &other = scene.render;
+  const bool same = reference.known_method && one.seed == other.seed && one.sampler == other.sampler;
+  return same ? ReferenceFit::same_samples : ReferenceFit::fits;
+}
+
+std::vector<float> picture_of(const Frame& frame) {
+  const std::vector<float>& rgba = frame.view == View::beauty ? frame.rgba : frame.beauty;
+  std::vector<float> rgb(rgba.size() / 4 * 3);
+  for (std::size_t from = 0, to = 0; from < rgba.size(); from += 4, to += 3)
+    for (std::size_t k = 0; k < 3; ++k) rgb[to + k] = rgba[from + k];
+  return rgb;
+}
+
+}  // namespace tyndall

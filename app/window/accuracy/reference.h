@@ -1,0 +1,45 @@
+#pragma once
+#include "app/window/document/document.h"
+#include "core/image/image_io.h"
+#include "core/render/renderer.h"
+
+#include <filesystem>
+#include <string>
+
+namespace tyndall {
+
+/// A picture that the window's own is measured against.
+struct Reference {
+  LinearImage image;
+  double rel_mse = 0;         ///< its own noise, the part of measured errors that is due to it; 0: not known
+  std::string about;          ///< "sky.exr", "the picture at 512 spp"
+  Scene scene;                ///< what it shows: the scene in its file, else the one that it was loaded for
+  bool known_method = false;  ///< the scene's method is that of the picture
+};
+
+/// Reads an image file, and the scene and film that it may hold. document: what it is for. Throws ImageFileError, and
+/// UsageError for another size than the document's picture has.
+Reference read_reference(const std::filesystem::path& file, const Document& document);
+
+/// Whether this is an image that holds no scene.
+bool shows_no_scene(const std::filesystem::path& file);
+
+/// The picture that is on the screen. frame: its `view` may be any, its `spp` is not 0.
+Reference reference_of(const Frame& frame, const Scene& scene);
+
+/// Throws UsageError unless the sizes are equal.
+void check_size(const std::string& name, const LinearImage& image, const Scene& scene);
+
+/// How a reference goes with a scene.
+enum class ReferenceFit {
+  fits,          ///< the same scene, perhaps rendered by another method: what differs is error
+  same_samples,  ///< it fits, but has the same random numbers: noise looks too small
+  other_scene,   ///< camera, objects, materials, ... differ
+  other_size
+};
+ReferenceFit fit_of(const Reference& reference, const Scene& scene);
+
+/// Linear RGB, 3 floats a pixel, of a frame's picture; empty where the frame has none (a view's coarse pass).
+std::vector<float> picture_of(const Frame& frame);
+
+}  // namespace tyndall

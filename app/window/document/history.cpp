@@ -1,0 +1,45 @@
+#include "app/window/document/history.h"
+
+#include <utility>
+
+namespace tyndall {
+
+History::History(Document start) { steps_.push_back(std::move(start)); }
+
+bool History::record(Document next, std::uint64_t gesture) {
+  if (next == current()) return false;
+  steps_.resize(at_ + 1);
+  if (open_ && gesture != 0 && gesture == gesture_) {
+    steps_[at_] = std::move(next);
+    return true;
+  }
+  steps_.push_back(std::move(next));
+  if (steps_.size() > most_steps) steps_.erase(steps_.begin());
+  at_ = steps_.size() - 1;
+  gesture_ = gesture;
+  open_ = true;
+  return true;
+}
+
+void History::set_origin(const std::shared_ptr<const Origin>& origin) {
+  // Every step of the same file is now compared with what was saved.
+  const auto before = current().origin;
+  for (Document& step : steps_)
+    if (step.origin == before) step.origin = origin;
+}
+
+bool History::undo() {
+  open_ = false;
+  if (!can_undo()) return false;
+  --at_;
+  return true;
+}
+
+bool History::redo() {
+  open_ = false;
+  if (!can_redo()) return false;
+  ++at_;
+  return true;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,37 @@
+#pragma once
+#include "app/window/document/document.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tyndall {
+
+/// Undo and redo: a list of copies. Never empty.
+class History {
+ public:
+  explicit History(Document start);
+
+  const Document& current() const { return steps_[at_]; }
+  /// Makes `next` the current document and forgets what was undone; nothing happens if it equals the current one.
+  /// Edits of the same gesture (a drag, a turn of the wheel; 0: none) that follow each other are one step. Returns
+  /// whether it differs.
+  bool record(Document next, std::uint64_t gesture);
+  /// The file was written: all steps that came from it are from now on compared with what it holds. No step.
+  void set_origin(const std::shared_ptr<const Origin>& origin);
+  /// False at the end of the list.
+  bool undo();
+  bool redo();
+  bool can_undo() const { return at_ > 0; }
+  bool can_redo() const { return at_ + 1 < steps_.size(); }
+
+  /// Older steps are forgotten.
+  static constexpr std::size_t most_steps = 200;
+
+ private:
+  std::vector<Document> steps_;
+  std::size_t at_ = 0;
+  std::uint64_t gesture_ = 0;
+  bool open_ = false;  ///< the newest step may still take edits of gesture_
+};
+
+}  // namespace tyndall

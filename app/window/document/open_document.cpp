@@ -1,0 +1,54 @@
+#include "app/window/document/open_document.h"
+
+#include "app/files/outputs.h"
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+bool has_comments(std::string_view text) {
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      in_string = !in_string;
+    else if (!in_string && text[i] == '/')
+      return true;  // nothing else in JSON has a slash
+  }
+  return false;
+}
+
+Document document_of(const LoadedScene& loaded) {
+  auto origin = std::make_shared<Origin>();
+  origin->title = fs::path(loaded.name).filename().string();
+  origin->file = loaded.source;
+  origin->folder = loaded.folder;
+  origin->comments = !loaded.source.empty() && has_comments(loaded.text);
+  origin->saved = loaded.scene;
+  return {loaded.scene, std::move(origin)};
+}
+
+std::shared_ptr<const Origin> save_document(const Document& document, const fs::path& file) {
+  const fs::path folder = fs::absolute(file).parent_path();
+  const Scene scene = move_textures(document.scene, document.origin->folder, folder);
+  write_text_file(file, write_scene(scene));
+  auto origin = std::make_shared<Origin>(*document.origin);
+  origin->title = file.filename().string();
+  origin->file = file;
+  origin->folder = folder;
+  origin->comments = false;
+  origin->saved = scene;
+  return origin;
+}
+
+std::string stem_of(const std::string& title) {
+  std::string stem = fs::path(title).stem().string();
+  const std::size_t dash = stem.rfind('-');
+  const bool numbered = dash != std::string::npos && dash > 0 && stem.size() - dash >= 4 &&
+                        stem.find_first_not_of("0123456789", dash + 1) == std::string::npos;
+  if (numbered) stem.resize(dash);
+  return stem.empty() || stem == "-" ? "scene" : stem;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,23 @@
+#pragma once
+#include "app/window/document/document.h"
+#include "core/scene/load.h"
+
+#include <string>
+#include <string_view>
+
+namespace tyndall {
+
+/// A loaded scene as a document without edits.
+Document document_of(const LoadedScene& loaded);
+
+/// Whether a scene file's text has comments, // or /* */.
+bool has_comments(std::string_view text);
+
+/// Writes the document's scene to a file and returns where it comes from now. Image textures are respelt for the new
+/// place. Throws ImageFileError or IoError: one line.
+std::shared_ptr<const Origin> save_document(const Document& document, const std::filesystem::path& file);
+
+/// "showroom" of "showroom.json" or "showroom-003.png": what snapshots and copies are named after.
+std::string stem_of(const std::string& title);
+
+}  // namespace tyndall

@@ -1,0 +1,75 @@
+#include "app/window/document/snapshot.h"
+
+#include "app/files/film_files.h"
+#include "app/files/layers.h"
+#include "app/files/outputs.h"
+#include "app/files/stats.h"
+#include "app/window/system/clock.h"
+#include "core/compile/compile.h"
+#include "core/render/plan.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+#include <utility>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+fs::path numbered_base(const fs::path& folder, const std::string& stem, int least,
+                       std::initializer_list<const char*> endings) {
+  for (int number = least;; ++number) {
+    char text[16];
+    std::snprintf(text, sizeof text, "-%03d", number);
+    fs::path base = folder / (stem + text);
+    std::error_code ignored;
+    const auto taken = [&](const char* ending) {
+      return fs::symlink_status(base.string() + ending, ignored).type() != fs::file_type::not_found;
+    };
+    if (std::none_of(endings.begin(), endings.end(), taken)) return base;
+  }
+}
+
+int number_of(const fs::path& base) {
+  const std::string name = base.filename().string();
+  return std::atoi(name.c_str() + name.rfind('-') + 1);
+}
+
+std::string write_snapshot(const Snapshot& snapshot, Film film) {
+  const Scene& scene = snapshot.document.scene;
+  const RenderScene compiled = compile(scene);
+  RenderResult result;
+  result.film = std::move(film);
+  result.threads = snapshot.threads;
+  result.isa = snapshot.isa.c_str();
+  result.lanes = snapshot.lanes;
+  const std::string stats = embedded_stats_text({snapshot.document.origin->title, scene, compiled, result, 0, 0, 0});
+  const Picture picture{
+      result.film, scene.display,
+      [&](const fs::path& file) {
+        return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file), stats};
+      },
+      [&] { return layers_of(compiled, result.film, choose_kernels(snapshot.isa).value()); }};
+  std::vector<fs::path> files{snapshot.base.string() + ".png"};
+  if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
+  const std::vector<std::string> problems = write_images(picture, files);
+  if (!problems.empty()) throw ImageFileError(problems.front());
+  return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +
+         std::to_string(labelled_spp(result.film)) + " spp";
+}
+
+Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,
+                   const std::function<bool()>& patient) {
+  for (const double end = clock_seconds() + 20; clock_seconds() < end;) {
+    Film now = film();
+    if (!current()) return {};
+    if (!now.pixels.empty() && totals(now).least_taken > 0) return now;
+    if (!patient()) return {};
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return {};
+}
+
+}  // namespace tyndall

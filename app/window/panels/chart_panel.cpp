@@ -1,0 +1,204 @@
+#include "app/window/panels/chart_plot.h"
+#include "app/window/panels/panels.h"
+#include "app/window/system/imgui_compat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+/// The live chart: estimated relMSE over seconds of rendering, both logarithmic, drawn with the draw list only.
+namespace tyndall {
+namespace {
+
+/// A curve as it is drawn.
+struct ChartLine {
+  const ConvergenceRun* run;
+  std::string name;
+  ImU32 colour;
+  float width;  ///< in units of the design
+};
+
+ChartLine line_of(const NamedRun& named) {
+  switch (named.role) {
+    case NamedRun::Role::earlier:
+      break;
+    case NamedRun::Role::kept:
+      return {named.run, named.name, shade(palette::amber), 2};
+    case NamedRun::Role::current:
+      return {named.run, named.name, shade(palette::blue), 2.5f};
+  }
+  return {named.run, named.name, shade(palette::dim, 0.7f), 1.5f};
+}
+
+/// Where the chart is on the screen.
+struct Plot {
+  ImDrawList* draw;
+  const Ui& ui;
+  std::vector<ChartLine> lines;
+  std::vector<const ConvergenceRun*> runs;  ///< of the lines
+  ChartAxes axes;
+
+  Plot(const Ui& the_ui, const std::vector<NamedRun>& named, const Rect& frame)
+      : draw(ImGui::GetWindowDrawList()), ui(the_ui) {
+    for (const NamedRun& run : named) lines.push_back(line_of(run)), runs.push_back(run.run);
+    axes = {decades_of(runs), frame};
+  }
+  ImVec2 at(const ConvergencePoint& p) const { return {axes.x(p.seconds), axes.y(p.rel_mse)}; }
+  void text(ImVec2 at, ImU32 colour, const std::string& words) const { draw->AddText(at, colour, words.c_str()); }
+};
+
+std::string decade_text(int exponent, const char* unit) {
+  char text[32];
+  if (exponent >= -2 && exponent <= 3)
+    std::snprintf(text, sizeof text, "%g%s", std::pow(10.0, exponent), unit);
+  else
+    std::snprintf(text, sizeof text, "1e%d%s", exponent, unit);
+  return text;
+}
+
+void draw_grid(const Plot& plot) {
+  const Rect& f = plot.axes.frame;
+  const Decades& decades = plot.axes.decades;
+  const float line = ImGui::GetFontSize();
+  const int every = decades.y1 - decades.y0 > 5 ? 2 : 1;
+  for (int e = decades.y0; e <= decades.y1; ++e) {
+    const float y = plot.axes.y(std::pow(10.0, e));
+    plot.draw->AddLine({f.x0, y}, {f.x1, y}, shade(palette::line));
+    if ((e - decades.y0) % every != 0) continue;
+    const std::string text = decade_text(e, "");
+    plot.text({f.x0 - ImGui::CalcTextSize(text.c_str()).x - 6 * plot.ui.scale, y - line / 2}, shade(palette::dim),
+              text);
+  }
+  for (int e = decades.x0; e <= decades.x1; ++e) {
+    const float x = plot.axes.x(std::pow(10.0, e));
+    plot.draw->AddLine({x, f.y0}, {x, f.y1}, shade(palette::line));
+    const std::string text = decade_text(e, " s");
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    plot.text({std::min(x - width / 2, f.x1 + 8 * plot.ui.scale - width), f.y1 + 4 * plot.ui.scale},
+              shade(palette::dim), text);
+  }
+}
+
+/// The target, and through the newest point the line that the error follows if nothing is wrong.
+void draw_guides(const Plot& plot, const ConvergenceRun& run) {
+  const Rect& f = plot.axes.frame;
+  const float y = plot.axes.y(target_rel_mse);
+  plot.draw->AddLine({f.x0, y}, {f.x1, y}, shade(palette::blue, 0.35f));
+  plot.text({f.x0 + 5 * plot.ui.scale, y - ImGui::GetFontSize() - 1}, shade(palette::blue, 0.9f), "1 % error");
+  if (run.points.empty()) return;
+  const ConvergencePoint last = run.points.back();
+  const double end = std::pow(10.0, plot.axes.decades.x1 + 1);
+  const ImVec2 a = plot.at(last), b = plot.at({end, last.rel_mse * last.seconds / end});
+  const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 4 * plot.ui.scale;
+  for (float s = 0; s < length; s += 2 * dash) {
+    const float t0 = s / length, t1 = std::min(s + dash, length) / length;
+    plot.draw->AddLine({a.x + t0 * (b.x - a.x), a.y + t0 * (b.y - a.y)},
+                       {a.x + t1 * (b.x - a.x), a.y + t1 * (b.y - a.y)}, shade(palette::blue, 0.45f));
+  }
+}
+
+void draw_curve(const Plot& plot, const ChartLine& line) {
+  std::vector<ImVec2> points;
+  for (const ConvergencePoint& p : line.run->points) points.push_back(plot.at(p));
+  if (points.size() > 1)
+    plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
+}
+
+/// A curve's name beneath its end, where a falling curve leaves room, off the words that are there.
+void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
+  if (curve.run->points.empty()) return;
+  const Rect& f = plot.axes.frame;
+  const float line = ImGui::GetFontSize(), s = plot.ui.scale;
+  const ImVec2 end = plot.at(curve.run->points.back());
+  const float width = ImGui::CalcTextSize(curve.name.c_str()).x;
+  const float x = std::clamp(end.x - width - 2 * s, f.x0 + 4 * s, std::max(f.x0 + 4 * s, f.x1 - width));
+  float y = end.y + 5 * s;
+  for (std::size_t tries = 0; tries <= words.size(); ++tries)
+    for (const Rect& other : words)
+      if (x < other.x1 && x + width > other.x0 && std::abs(other.y0 - y) < line) y = other.y1;
+  if (y + line > f.y1) return;
+  words.push_back({x, y, x + width, y + line});
+  plot.text({x, y}, curve.colour, curve.name);
+}
+
+void draw_lines(const Plot& plot) {
+  const Rect& f = plot.axes.frame;
+  const ConvergenceRun& current = *plot.runs.back();
+  plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
+  draw_guides(plot, current);
+  for (const ChartLine& line : plot.lines) draw_curve(plot, line);
+  const float target = plot.axes.y(target_rel_mse);
+  std::vector<Rect> words{{f.x0, target - ImGui::GetFontSize() - 1, f.x0 + 64 * plot.ui.scale, target - 1}};
+  for (auto line = plot.lines.rbegin(); line != plot.lines.rend(); ++line) draw_name(plot, *line, words);
+  plot.draw->PopClipRect();
+  if (!current.points.empty())
+    plot.draw->AddCircleFilled(plot.at(current.points.back()), 4 * plot.ui.scale, shade(palette::blue));
+}
+
+std::string printed(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// The curve next to the mouse, marked, and its numbers.
+void read_out(Ui& ui, const Plot& plot) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!ImGui::IsItemHovered() || !plot.axes.frame.contains(mouse.x, mouse.y)) return;
+  const auto found = nearest_curve(plot.runs, plot.axes, mouse.x, mouse.y, 14 * ui.scale);
+  if (!found) return;
+  const ChartLine& line = plot.lines[found->run];
+  const ConvergencePoint& p = found->at;
+  plot.draw->AddCircleFilled(plot.at(p), 4.5f * ui.scale, shade(palette::ink));
+  plot.draw->AddCircle(plot.at(p), 4.5f * ui.scale, shade(palette::text), 0, 1.5f * ui.scale);
+  const std::string numbers = printed("%.2g s, ", p.seconds) + format_count(p.spp) + " spp\nrelMSE " +
+                              printed("%.2g", p.rel_mse) + ", error " + printed("%.2g %%", 100 * std::sqrt(p.rel_mse));
+  compat::push_font(ui.fonts.small);
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted(line.name.c_str());
+  ImGui::TextColored(palette::dim, "%s", numbers.c_str());
+  ImGui::EndTooltip();
+  ImGui::PopFont();
+  if (ui.log) ui.log->changed("reading", line.name + ": " + printed("%.4g s ", p.seconds) + printed("%.4g", p.rel_mse));
+}
+
+void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
+  const float s = ui.scale;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("chart", size);
+  const LiveAccuracy& accuracy = *state.accuracy;
+  const Convergence& runs = accuracy.curves(Half::current);
+  log_item(ui, "chart", runs.current().method);
+  compat::push_font(ui.fonts.small);
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, shade(palette::ink), 6 * s);
+  const Rect frame{at.x + 38 * s, at.y + 10 * s, at.x + size.x - 14 * s, at.y + size.y - 22 * s};
+  const Plot plot(ui, named_runs(runs, accuracy.split() ? &accuracy.curves(Half::kept) : nullptr), frame);
+  draw_grid(plot);
+  draw_lines(plot);
+  ImGui::PopFont();
+  read_out(ui, plot);
+}
+
+}  // namespace
+
+void chart_panel(Ui& ui, PanelState& state, float height) {
+  const char* about = state.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
+  if (!section(ui, "Speed and accuracy", about)) return;
+  const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
+  if (width < 80 * ui.scale) return;
+  draw_chart(ui, state, {width, height});
+  std::string all;
+  for (const AccuracyLine& line : accuracy_lines(*state.accuracy)) {
+    line_of_note(ui, line.text, line.warning ? palette::amber : palette::dim);
+    all += (all.empty() ? "" : " | ") + line.text;
+  }
+  if (ui.log) ui.log->changed("accuracy", all);
+  if (small_button(ui, "chart.reference", "Reference…")) state.wishes.reference = true;
+  tooltip(ui, "an image to measure the true error against");
+  ImGui::SameLine();
+  if (small_button(ui, "chart.export", "Export CSV, SVG")) state.wishes.export_chart = true;
+  tooltip(ui, "the curves, as numbered files in the current folder");
+}
+
+}  // namespace tyndall

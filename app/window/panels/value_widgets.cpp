@@ -1,0 +1,204 @@
+#include "app/window/panels/widgets.h"
+#include "app/window/system/imgui_compat.h"
+#include "core/image/tonemap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace tyndall {
+namespace {
+
+Tone frame_colour() {
+  return ImGui::IsItemActive()    ? palette::field_active
+         : ImGui::IsItemHovered() ? palette::field_hovered
+                                  : palette::field;
+}
+
+void draw_frame(const Ui& ui) {
+  ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(frame_colour()),
+                                            4 * ui.scale);
+}
+
+/// Sets value to `wanted`, kept within what is valid; open ends cannot be reached.
+bool accept(const Row& row, double wanted, double& value) {
+  wanted = std::clamp(row.whole ? std::round(wanted) : wanted, row.valid.low, row.valid.high);
+  if (wanted == value || !row.valid.contains(wanted)) return false;
+  value = wanted;
+  return true;
+}
+
+std::string shown_text(const Row& row, double value, bool fixed_digits) {
+  if (row.whole) return std::to_string(std::llround(value)) + row.unit;
+  return (fixed_digits ? format_value(row.slider, value) : format_short(value)) + row.unit;
+}
+
+void begin_edit(Ui& ui, ImGuiID id, const std::string& text) {
+  ui.edit = {};
+  ui.edit.id = id;
+  ui.edit.start = text;
+  std::strncpy(ui.edit.text, text.c_str(), sizeof ui.edit.text - 1);
+}
+
+/// Takes what was typed. Text that was not touched changes nothing, though the number has more digits than it shows.
+bool finish_edit(Ui& ui, const Row& row, double& value) {
+  const std::string text = ui.edit.text;
+  const bool touched = text != ui.edit.start;
+  ui.edit = {};
+  double typed = 0;
+  if (!touched) return false;
+  const bool number = parse_number(text, row.unit, typed) && (!row.whole || typed == std::round(typed));
+  if (!number || !row.valid.contains(typed)) {
+    ui.problem = row.name + ": found " + text + ", expected " + describe(row.valid, row.whole);
+    return false;
+  }
+  const bool changed = typed != value;
+  value = typed;
+  return changed;
+}
+
+bool edit_box(Ui& ui, const Row& row, double& value, float width) {
+  ImGui::SetNextItemWidth(width);
+  compat::push_font(ui.fonts.mono);
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, palette::field_active);
+  if (ui.edit.waited == 0) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##typed", ui.edit.text, sizeof ui.edit.text, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  const bool active = ImGui::IsItemActive();
+  const bool tab = active && compat::tab_pressed();
+  ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(palette::blue, 0.8f),
+                                      4 * ui.scale);
+  ui.edit.started = ui.edit.started || active;
+  ++ui.edit.waited;
+  if (!active) ui.wake_in = 0;  // the keyboard reaches it a frame later
+  if (active && !tab) return false;
+  if (!ui.edit.started && ui.edit.waited < 6) return false;
+  const bool changed = finish_edit(ui, row, value);
+  ui.edit.next = tab;
+  return changed;
+}
+
+/// sRGB's bytes as the eye sees the colour; what is brighter than 1 is scaled.
+ImVec4 swatch_colour(Vec3d c) {
+  const double scale = 1 / std::max(1.0, max_component(c));
+  const auto encode = [&](double x) { return srgb_encode(static_cast<float>(std::max(0.0, scale * x))); };
+  return {encode(c.x), encode(c.y), encode(c.z), 1};
+}
+
+bool colour_picker(Ui& ui, Vec3d& value) {
+  if (!ImGui::BeginPopup("picker")) return false;
+  const double scale = std::max(1.0, max_component(value));
+  const ImVec4 now = swatch_colour(value);
+  float rgb[3] = {now.x, now.y, now.z};
+  ImGui::SetNextItemWidth(220 * ui.scale);
+  const bool changed =
+      ImGui::ColorPicker3("##picker", rgb, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs);
+  const auto decode = [&](float x) { return std::round(1e3 * scale * static_cast<double>(srgb_decode(x))) / 1e3; };
+  if (changed) value = {decode(rgb[0]), decode(rgb[1]), decode(rgb[2])};
+  ImGui::EndPopup();
+  return changed;
+}
+
+/// Three boxes in `width`, named x y z or r g b.
+bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* const names[3], bool fixed_digits) {
+  const float space = 4 * ui.scale;
+  bool changed = false;
+  double* components[3] = {&value.x, &value.y, &value.z};
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) ImGui::SameLine(0, space);
+    changed = value_box(ui, names[k], row, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
+  }
+  return changed;
+}
+
+}  // namespace
+
+bool slider(Ui& ui, const Row& row, double& value, float width) {
+  const float height = ImGui::GetFrameHeight();
+  ImGui::InvisibleButton("slider", {std::max(width, 8.0f), height});
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  const float grab = 14 * ui.scale, pad = 2 * ui.scale, first = a.x + pad + grab / 2, way = b.x - a.x - 2 * pad - grab;
+  const Slider range =
+      ImGui::IsItemActive() && !ImGui::IsItemActivated() ? ui.drag_range : widened(row.slider, row.valid, value);
+  const auto place_of = [&](double v) { return first + way * static_cast<float>(slider_position(range, v)); };
+  const float mouse = ImGui::GetIO().MousePos.x;
+  if (ImGui::IsItemActivated()) {
+    ui.drag_range = range;
+    ui.drag_offset = std::abs(mouse - place_of(value)) <= grab / 2 ? mouse - place_of(value) : 0.0f;
+    ui.drag_start = static_cast<double>(mouse);
+  }
+  bool changed = false;
+  // A press on the grab moves nothing until the mouse does.
+  const bool moved = ui.drag_offset == 0 || static_cast<double>(mouse) != ui.drag_start;
+  if (ImGui::IsItemActive() && moved && way > 0)
+    changed =
+        accept(row, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value), value);
+  draw_frame(ui);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float at = place_of(value), from = range.low < 0 && !range.logarithmic ? place_of(0) : a.x + pad;
+  draw->AddRectFilled({std::min(at, from), a.y + pad}, {std::max(at, from), b.y - pad}, shade(palette::blue, 0.20f),
+                      3 * ui.scale);
+  if (range.low < 0 && !range.logarithmic)
+    draw->AddRectFilled({from - 0.5f, b.y - 6 * ui.scale}, {from + 0.5f, b.y - pad}, shade(palette::dim));
+  draw->AddRectFilled({at - grab / 2, a.y + pad}, {at + grab / 2, b.y - pad},
+                      shade(ImGui::IsItemActive() ? palette::amber : palette::blue), 4 * ui.scale);
+  return changed;
+}
+
+bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits) {
+  const ImGuiID item = ImGui::GetID(id);
+  const std::string text = shown_text(row, value, fixed_digits);
+  if (ui.edit.next && ui.edit.id == 0) begin_edit(ui, item, text);
+  if (ui.edit.id == item) {
+    const bool typed = edit_box(ui, row, value, width);
+    log_item(ui, row.name + "." + id, "typing");
+    return typed;
+  }
+  ImGui::InvisibleButton(id, {width, ImGui::GetFrameHeight()});
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActivated()) ui.drag_start = value, ui.drag_moved = false;
+  bool changed = false;
+  if (ImGui::IsItemActive() && (ui.drag_moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
+    ui.drag_moved = true;
+    const double steps =
+        static_cast<double>((io.MousePos.x - io.MouseClickedPos[0].x) / ui.scale) * (io.KeyShift ? 0.1 : 1.0);
+    changed = accept(row, dragged(row.slider, ui.drag_start, steps), value);
+  }
+  if (ImGui::IsItemDeactivated() && !ui.drag_moved) begin_edit(ui, item, text);
+  draw_frame(ui);
+  compat::push_font(ui.fonts.mono);
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 at{std::max(a.x + 2, (a.x + b.x - size.x) / 2), (a.y + b.y - size.y) / 2};
+  ImGui::GetWindowDrawList()->PushClipRect(a, b, true);
+  ImGui::GetWindowDrawList()->AddText(at, shade(palette::text), text.c_str());
+  ImGui::GetWindowDrawList()->PopClipRect();
+  ImGui::PopFont();
+  log_item(ui, row.name + "." + id, format_short(value));
+  return changed;
+}
+
+bool vector_row(Ui& ui, const Row& row, Vec3d& value) {
+  static constexpr const char* names[3] = {"x", "y", "z"};
+  begin_row(ui, row);
+  const bool changed = three_boxes(ui, row, value, value_width(ui), names, false);
+  end_row(ui, row);
+  return changed;
+}
+
+bool colour_row(Ui& ui, const Row& row, Vec3d& value) {
+  static constexpr const char* names[3] = {"r", "g", "b"};
+  begin_row(ui, row);
+  const float side = ImGui::GetFrameHeight(), space = 6 * ui.scale;
+  bool changed = three_boxes(ui, row, value, value_width(ui) - side - space, names, true);
+  ImGui::SameLine(0, space);
+  if (ImGui::ColorButton("##swatch", swatch_colour(value), ImGuiColorEditFlags_NoTooltip, {side, side}))
+    ImGui::OpenPopup("picker");
+  log_item(ui, row.name + ".swatch", "button");
+  changed = colour_picker(ui, value) || changed;
+  end_row(ui, row);
+  return changed;
+}
+
+}  // namespace tyndall

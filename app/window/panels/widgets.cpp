@@ -1,0 +1,228 @@
+#include "app/window/panels/widgets.h"
+
+#include "app/window/system/imgui_compat.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr float label_column = 124, box_width = 68, gap = 8;  // units of the design; the first from the window's edge
+
+Rect item_rect() {
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  return {a.x, a.y, b.x, b.y};
+}
+
+float right_edge() { return ImGui::GetWindowContentRegionMax().x; }
+
+/// Text that ends in ".." where it does not fit.
+void clipped_text(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return ImGui::TextUnformatted(text.c_str());
+  std::string cut = text;
+  while (cut.size() > 1 && ImGui::CalcTextSize((cut + "..").c_str()).x > width) {
+    do cut.pop_back();
+    while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80);
+    if (static_cast<unsigned char>(cut.back()) >= 0xc0) cut.pop_back();
+  }
+  ImGui::TextUnformatted((cut + "..").c_str());
+}
+
+}  // namespace
+
+float value_width(const Ui& ui) { return right_edge() - label_column * ui.scale; }
+
+void log_item(Ui& ui, const std::string& name, const std::string& value) {
+  if (!ui.log) return;
+  const ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 low = draw->GetClipRectMin(), high = draw->GetClipRectMax();
+  Rect rect = item_rect();
+  rect = {std::max(rect.x0, low.x), std::max(rect.y0, low.y), std::min(rect.x1, high.x), std::min(rect.y1, high.y)};
+  if (rect.width() > 0 && rect.height() > 0) ui.log->widget(ui.scope + name, rect, value);
+}
+
+void tooltip(Ui& ui, const std::string& text) {
+  constexpr double delay = 0.5;
+  if (text.empty() || !ImGui::IsItemHovered()) return;
+  const ImGuiID id = ImGui::GetID(text.c_str());
+  if (ui.hovered != id) ui.hovered_since = ImGui::GetTime();
+  ui.hovered = id;
+  const double waited = ImGui::GetTime() - ui.hovered_since;
+  if (ImGui::IsMouseDown(0)) ui.hovered_since = ImGui::GetTime();
+  if (waited < delay) {
+    ui.wake_in = std::min(ui.wake_in, delay - waited);
+    return;
+  }
+  compat::push_font(ui.fonts.small);
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(300 * ui.scale);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopFont();
+}
+
+void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
+  if (text.empty()) return;
+  if (indent) ImGui::SetCursorPosX(label_column * ui.scale);
+  compat::push_font(ui.fonts.small);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(right_edge());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+void line_of_note(Ui& ui, const std::string& text, Tone colour) {
+  const float top = ImGui::GetCursorPosY();
+  compat::push_font(ui.fonts.small);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  clipped_text(text, right_edge() - ImGui::GetCursorPosX());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  tooltip(ui, text);
+  ImGui::SetCursorPosY(top + line_of_note_height(ui));
+}
+
+float line_of_note_height(const Ui& ui) { return 19 * ui.scale; }
+
+bool section(Ui& ui, const std::string& name, const std::string& note_text) {
+  const bool open = !ui.folded.contains(name);
+  ImGui::Dummy({0, 1 * ui.scale});
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float height = ImGui::GetTextLineHeight() + 5 * ui.scale;
+  ImGui::PushID(name.c_str());
+  if (ImGui::InvisibleButton("section", {std::max(1.0f, right_edge() - at.x), height})) {
+    if (open)
+      ui.folded.insert(name);
+    else
+      ui.folded.erase(name);
+  }
+  const bool hovered = ImGui::IsItemHovered();
+  log_item(ui, "section." + name, open ? "open" : "folded");
+  ImGui::PopID();
+  const ImVec2 after = ImGui::GetCursorPos();
+  ImGui::SetCursorPos({at.x, at.y + 3 * ui.scale});
+  compat::push_font(ui.fonts.strong);
+  ImGui::PushStyleColor(ImGuiCol_Text, open ? palette::text : palette::dim);
+  clipped_text(name, 0.6f * (right_edge() - at.x));
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  compat::push_font(ui.fonts.small);
+  const std::string shown = hovered ? (open ? "fold" : "unfold") : open ? note_text : "…";
+  ImGui::SetCursorPos({right_edge() - ImGui::CalcTextSize(shown.c_str()).x, at.y + 5 * ui.scale});
+  ImGui::TextColored(palette::dim, "%s", shown.c_str());
+  ImGui::PopFont();
+  ImGui::SetCursorPos({after.x, after.y - 4 * ui.scale});
+  ImGui::Separator();
+  return open;
+}
+
+void begin_row(Ui& ui, const Row& row) {
+  ImGui::PushID(row.name.c_str());
+  ImGui::AlignTextToFramePadding();
+  clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
+  tooltip(ui, row.help);
+  ImGui::SameLine(label_column * ui.scale);
+}
+
+void end_row(Ui& ui, const Row& row) {
+  ImGui::PopID();
+  if (row.meaning.empty()) return;
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
+  note(ui, row.meaning);
+}
+
+bool slider_row(Ui& ui, const Row& row, double& value) {
+  begin_row(ui, row);
+  bool changed = slider(ui, row, value, value_width(ui) - (box_width + gap) * ui.scale);
+  log_item(ui, row.name, format_short(value));
+  tooltip(ui, row.help);
+  ImGui::SameLine(0, gap * ui.scale);
+  changed = value_box(ui, "value", row, value, box_width * ui.scale, true) || changed;
+  end_row(ui, row);
+  return changed;
+}
+
+bool number_row(Ui& ui, const Row& row, double& value) {
+  begin_row(ui, row);
+  const bool changed = value_box(ui, "value", row, value, value_width(ui), false);
+  end_row(ui, row);
+  return changed;
+}
+
+namespace {
+
+/// A button of a choice; whether it was pressed though it was not on.
+bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2 size) {
+  constexpr Tone chosen{0.24f, 0.40f, 0.56f, 1}, other{0.72f, 0.75f, 0.79f, 1}, missing{0.42f, 0.45f, 0.49f, 1};
+  ImGui::PushStyleColor(ImGuiCol_Button, on ? chosen : palette::field);
+  ImGui::PushStyleColor(ImGuiCol_Text, on ? palette::text : choice.missing ? missing : other);
+  const bool pressed = ImGui::Button(choice.name, size);
+  ImGui::PopStyleColor(2);
+  log_item(ui, row.name + "." + choice.name, on ? "on" : choice.missing ? "missing" : "off");
+  if (!choice.missing) return pressed && !on;
+  tooltip(ui, choice.missing);
+  if (pressed) ui.problem = std::string(choice.name) + ": " + choice.missing;
+  return false;
+}
+
+}  // namespace
+
+bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen, int columns) {
+  begin_row(ui, row);
+  const int count = static_cast<int>(choices.size()), per_line = columns > 0 ? columns : count;
+  const float space = 2 * ui.scale, left = ImGui::GetCursorPosX();
+  const float width = (value_width(ui) - space * static_cast<float>(per_line - 1)) / static_cast<float>(per_line);
+  bool changed = false;
+  compat::push_font(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * ui.scale, 2 * ui.scale});
+  for (int k = 0; k < count; ++k) {
+    if (k % per_line != 0) ImGui::SameLine();
+    if (k > 0 && k % per_line == 0) ImGui::SetCursorPosX(left);
+    const ImVec2 size{width, ImGui::GetFontSize() + 10 * ui.scale};
+    if (choice_button(ui, row, choices[static_cast<std::size_t>(k)], k == chosen, size)) chosen = k, changed = true;
+  }
+  ImGui::PopStyleVar(2);
+  ImGui::PopFont();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
+  end_row(ui, row);
+  return changed;
+}
+
+bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen) {
+  begin_row(ui, row);
+  ImGui::SetNextItemWidth(value_width(ui));
+  bool changed = false;
+  const bool open = ImGui::BeginCombo("##list", names[static_cast<std::size_t>(chosen)].c_str());
+  log_item(ui, row.name, names[static_cast<std::size_t>(chosen)]);
+  if (open) {
+    for (int k = 0; k < static_cast<int>(names.size()); ++k)
+      if (ImGui::Selectable((names[static_cast<std::size_t>(k)] + "##" + std::to_string(k)).c_str(), k == chosen))
+        changed = changed || k != chosen, chosen = k;
+    ImGui::EndCombo();
+  }
+  end_row(ui, row);
+  return changed;
+}
+
+void text_row(Ui& ui, const Row& row, const std::string& text) {
+  begin_row(ui, row);
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  clipped_text(text, value_width(ui));
+  ImGui::PopStyleColor();
+  end_row(ui, row);
+}
+
+bool small_button(Ui& ui, const std::string& name, const std::string& label, float width) {
+  compat::push_font(ui.fonts.small);
+  const bool pressed = ImGui::Button((label + "##" + name).c_str(), {width, ImGui::GetFontSize() + 10 * ui.scale});
+  ImGui::PopFont();
+  log_item(ui, name, "button");
+  return pressed;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,101 @@
+#pragma once
+#include "app/text/numbers.h"
+#include "app/window/system/style.h"
+#include "app/window/system/ui_log.h"
+#include "core/base/vec.h"
+
+#include <imgui.h>
+
+#include <set>
+#include <span>
+#include <string>
+
+/// The controls that panels are made of: each a row with a label on the left and, beneath it, what the value means.
+namespace tyndall {
+
+/// The number that is being typed.
+struct TextEdit {
+  ImGuiID id = 0;     ///< of its box; 0: none
+  std::string start;  ///< text when it began; unchanged text changes nothing
+  char text[64] = {};
+  bool started = false;  ///< the keyboard has reached it
+  int waited = 0;        ///< frames until then
+  bool next = false;     ///< Tab: the next box in the column is typed into
+};
+
+/// What all controls share. One per window; lives as long as it.
+struct Ui {
+  Fonts fonts;
+  float scale = 1;       ///< window units per unit of the design
+  UiLog* log = nullptr;  ///< null: none
+  std::string scope;     ///< prefix of names in the log: "gold." or ""
+  double size = 10;      ///< of the scene: dragging a coordinate by 200 units of the design changes it by this much
+  TextEdit edit;
+  double drag_start = 0;  ///< value when the drag of the active control began
+  Slider drag_range;      ///< range of the slider that is dragged
+  float drag_offset = 0;  ///< from the mouse to the middle of the grab
+  bool drag_moved = false;
+  ImGuiID hovered = 0;  ///< for the delay of tooltips
+  double hovered_since = 0;
+  double wake_in = 1e300;        ///< seconds until something appears by itself
+  std::string problem;           ///< why a typed value was refused: one line; "": it was not
+  std::set<std::string> folded;  ///< sections that are closed
+};
+
+/// What a row of a number shows.
+struct Row {
+  std::string name;  ///< in the log and in messages: "fuzz"
+  std::string label;
+  Valid valid;
+  Slider slider;
+  const char* unit = "";
+  std::string help;     ///< tooltip
+  std::string meaning;  ///< grey line beneath; "": none
+  bool whole = false;   ///< whole numbers only
+};
+
+/// A heading with a note on the right; a click folds the section. Returns whether it is open.
+bool section(Ui& ui, const std::string& name, const std::string& note);
+
+/// Label, slider, typed value. Returns whether the value changed; it is then in row.valid.
+bool slider_row(Ui& ui, const Row& row, double& value);
+/// Label and three numbers to drag or type.
+bool vector_row(Ui& ui, const Row& row, Vec3d& value);
+/// Label, three numbers and a swatch that opens a picker. Linear RGB; radiance may exceed 1.
+bool colour_row(Ui& ui, const Row& row, Vec3d& value);
+/// Label and a number to drag or type, without a slider.
+bool number_row(Ui& ui, const Row& row, double& value);
+/// One of the buttons of a choice.
+struct Choice {
+  const char* name;
+  const char* missing = nullptr;  ///< not null: it cannot be chosen, and why
+};
+/// Label and buttons side by side, one of them chosen; names are also the log's. In several lines if `columns` > 0 is
+/// less than their number. What is missing is grey and says why.
+bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen, int columns = 0);
+/// Label and a list that drops down.
+bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen);
+/// Label and text.
+void text_row(Ui& ui, const Row& row, const std::string& text);
+/// A small button in the label's column or anywhere; logged as `name`.
+bool small_button(Ui& ui, const std::string& name, const std::string& label, float width = 0);
+/// Grey small text, wrapped. indent: start in the column of the values.
+void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = palette::dim);
+/// The same on one line, cut where it does not fit, with all of it in a tooltip; and the height that this takes.
+void line_of_note(Ui& ui, const std::string& text, Tone colour);
+float line_of_note_height(const Ui& ui);
+
+/// Parts that rows are made of.
+bool slider(Ui& ui, const Row& row, double& value, float width);
+bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits);
+void begin_row(Ui& ui, const Row& row);
+void end_row(Ui& ui, const Row& row);
+/// Shows a tooltip over the last item after a moment.
+void tooltip(Ui& ui, const std::string& text);
+/// Tells the log about the last item, if any of it is on the screen.
+void log_item(Ui& ui, const std::string& name, const std::string& value);
+
+/// Width of what lies right of the label.
+float value_width(const Ui& ui);
+
+}  // namespace tyndall

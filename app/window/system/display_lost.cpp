@@ -1,0 +1,31 @@
+#include "app/window/system/display_lost.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace tyndall {
+namespace {
+
+using Handler = int (*)(void* display);
+
+/// Must not return. No destructors: they would talk to the server.
+int on_lost(void*) {
+  constexpr char text[] = "tyndall: the display went away\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
+  _exit(3);
+}
+
+}  // namespace
+
+void end_when_display_is_lost() {
+  std::signal(SIGPIPE, SIG_IGN);  // the connection breaks with it first
+  // The window library loads X by itself; linking it here would tie the program to it.
+  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+  if (!library) return;
+  const auto set_handler = reinterpret_cast<Handler (*)(Handler)>(dlsym(library, "XSetIOErrorHandler"));
+  if (set_handler) set_handler(on_lost);
+}
+
+}  // namespace tyndall

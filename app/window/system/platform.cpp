@@ -1,0 +1,189 @@
+#include "app/window/system/platform.h"
+
+#include "app/window/system/platform_events.h"
+#include "app/window/system/style.h"
+#include "core/base/error.h"
+
+#include <glad/gl.h>
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tyndall {
+
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+/// Room on the screen for a window, without its frame.
+std::pair<int, int> screen_room() {
+  int x = 0, y = 0, width = 0, height = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  return width > 0 && height > 0 ? std::pair{width, height} : std::pair{1280, 800};
+}
+
+GLFWwindow* open_window(int image_width, int image_height) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  float sx = 1, sy = 1;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &sx, &sy);
+  const auto [room_width, room_height] = screen_room();
+  // Room for the column and the status line, though the image may be smaller.
+  constexpr float least_width = 640, least_height = 720;
+  const auto room = [&](int image, float least, float more) {
+    return std::max(image, static_cast<int>(std::lround(least * sx))) + static_cast<int>(std::lround(more * sx));
+  };
+  const int width = room(image_width, least_width, column_width);
+  const int height = room(image_height, least_height, status_height);
+  return glfwCreateWindow(std::min(width, room_width), std::min(height, room_height), "Tyndall", nullptr, nullptr);
+}
+
+}  // namespace
+
+Platform::Platform(int image_width, int image_height) : state_(std::make_unique<WindowState>()) {
+  if (!glfwInit()) throw IoError("the display cannot be used: " + last_glfw_error());
+  state_->window = open_window(image_width, image_height);
+  if (!state_->window) {
+    const std::string why = last_glfw_error();
+    glfwTerminate();
+    throw IoError("no window with OpenGL 3.3: " + why);
+  }
+  glfwMakeContextCurrent(state_->window);
+  if (!gladLoadGL(glfwGetProcAddress)) {
+    glfwTerminate();
+    throw IoError("no window: OpenGL's functions cannot be loaded");
+  }
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(state_->window, state_.get());
+  glfwSetWindowSizeLimits(state_->window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+  install_callbacks(state_->window);
+}
+
+Platform::~Platform() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwTerminate();
+}
+
+void Platform::wait(double seconds) {
+  if (seconds <= 0)
+    glfwPollEvents();
+  else if (seconds > 1e6)
+    glfwWaitEvents();
+  else
+    glfwWaitEventsTimeout(seconds);
+}
+
+void Platform::wake() { glfwPostEmptyEvent(); }
+
+InputEvents Platform::take_events() { return std::exchange(state_->events, {}); }
+
+bool Platform::closing() const { return glfwWindowShouldClose(state_->window); }
+void Platform::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
+
+void Platform::hide() { glfwHideWindow(state_->window); }
+
+int Platform::width() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return width;
+}
+int Platform::height() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return height;
+}
+int Platform::framebuffer_width() const {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(state_->window, &width, &height);
+  return glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) ? 0 : width;
+}
+int Platform::framebuffer_height() const {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(state_->window, &width, &height);
+  return glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) ? 0 : height;
+}
+
+float Platform::pixels() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(state_->window, &x, &y);
+  return std::clamp(x, 0.5f, 8.0f);
+}
+
+float Platform::scale() const {
+  // Where the system counts the window in points, a framebuffer of more pixels makes up for the density already.
+  const float points = static_cast<float>(std::max(1, width())), dots = static_cast<float>(framebuffer_width());
+  return dots > 0 ? pixels() * points / dots : pixels();
+}
+
+const std::set<int>& Platform::held() const { return state_->held; }
+bool Platform::shift_held() const {
+  return state_->held.contains(GLFW_KEY_LEFT_SHIFT) || state_->held.contains(GLFW_KEY_RIGHT_SHIFT);
+}
+
+void Platform::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+
+void Platform::toggle_full_screen() {
+  GLFWwindow* window = state_->window;
+  if (glfwGetWindowMonitor(window)) {
+    const Rect& r = state_->windowed;
+    const auto whole = [](float v) { return static_cast<int>(v); };
+    glfwSetWindowMonitor(window, nullptr, whole(r.x0), whole(r.y0), whole(r.width()), whole(r.height()),
+                         GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (!mode) return;
+  int x = 0, y = 0;
+  glfwGetWindowPos(window, &x, &y);
+  const auto real = [](int v) { return static_cast<float>(v); };
+  state_->windowed = {real(x), real(y), real(x + width()), real(y + height())};
+  glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Platform::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Platform::clear() {
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, framebuffer_width(), framebuffer_height());
+  glClearColor(palette::ink.x, palette::ink.y, palette::ink.z, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void Platform::end_frame() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(state_->window);
+  send_late_releases(state_->window);
+}
+
+void Platform::renew_fonts() {
+#if IMGUI_VERSION_NUM < 19200
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+#endif
+}
+
+}  // namespace tyndall

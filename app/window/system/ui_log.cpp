@@ -1,0 +1,115 @@
+#include "app/window/system/ui_log.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+template <class... Arguments>
+std::string printed(const char* format, Arguments... arguments) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, arguments...);
+  return text;
+}
+
+}  // namespace
+
+double quantile(std::vector<double>& values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const double at = std::ceil(q * static_cast<double>(values.size())) - 1;
+  return values[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(values.size() - 1)))];
+}
+
+UiLog::UiLog(const std::filesystem::path& file) {
+  stream_ = file == "-" ? stdout : std::fopen(file.c_str(), "w");
+  if (!stream_) throw IoError(file.string() + ": cannot write: " + std::strerror(errno));
+}
+
+UiLog::~UiLog() {
+  summary("latency", latencies_);
+  summary("cpu picture", cpu_picture_);
+  summary("cpu plain", cpu_plain_);
+  if (stream_ != stdout) std::fclose(stream_);
+}
+
+void UiLog::line(const std::string& text) {
+  std::fprintf(stream_, "%s\n", text.c_str());
+  std::fflush(stream_);
+}
+
+void UiLog::widget(const std::string& name, const Rect& rect, const std::string& value) {
+  Widget& known = widgets_[name];
+  const bool same = known.drawing != 0 && known.rect == rect && known.value == value;
+  known = {rect, value, drawing_};
+  if (same) return;
+  std::string word = name;
+  std::replace(word.begin(), word.end(), ' ', '_');
+  line("widget " + word +
+       printed(" %.0f %.0f %.0f %.0f ", static_cast<double>(rect.x0), static_cast<double>(rect.y0),
+               static_cast<double>(rect.x1), static_cast<double>(rect.y1)) +
+       value);
+}
+
+std::optional<Rect> UiLog::find(const std::string& name) const {
+  const auto found = widgets_.find(name);
+  return found == widgets_.end() ? std::nullopt : std::optional(found->second.rect);
+}
+
+void UiLog::end_of_widgets() {
+  for (auto it = widgets_.begin(); it != widgets_.end();) {
+    if (it->second.drawing == drawing_) {
+      ++it;
+      continue;
+    }
+    std::string word = it->first;
+    std::replace(word.begin(), word.end(), ' ', '_');
+    line("gone " + word);
+    it = widgets_.erase(it);
+  }
+  ++drawing_;
+}
+
+void UiLog::submitted(std::uint64_t edit, double now) {
+  if (!submits_.emplace(edit, now).second) return;
+  line("submit " + std::to_string(edit));
+}
+
+void UiLog::shown(const Frame& frame, double now) {
+  if (frame.pass > 0 && frame.pass == pass_) return;  // drawn again beside another picture
+  pass_ = frame.pass;
+  const std::uint64_t edit = frame.edit;
+  const auto found = submits_.find(edit);
+  const double ms = found != submits_.end() ? 1e3 * (now - found->second) : 0;
+  if (edit != shown_) latencies_.push_back(ms);
+  shown_ = edit;
+  if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
+  line("frame " + std::to_string(edit) +
+       printed(" %u %d %.1f %.1f", frame.spp, frame.step, ms, frame.first_picture_ms));
+}
+
+void UiLog::drawn(double cpu_seconds, bool picture) {
+  (picture ? cpu_picture_ : cpu_plain_).push_back(1e3 * cpu_seconds);
+  line(printed("drawn %.2f %d", 1e3 * cpu_seconds, picture ? 1 : 0));
+}
+
+void UiLog::changed(const std::string& kind, const std::string& value) {
+  std::string& last = last_[kind];
+  if (last == value) return;
+  last = value;
+  line(kind + " " + value);
+}
+
+void UiLog::summary(const char* what, std::vector<double> values) {
+  const double middle = quantile(values, 0.5), p95 = quantile(values, 0.95), p99 = quantile(values, 0.99);
+  line(std::string(what) +
+       printed(" n %zu p50 %.1f p95 %.1f p99 %.1f max %.1f ms", values.size(), middle, p95, p99, quantile(values, 1)));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,71 @@
+#pragma once
+#include "app/window/system/layout.h"
+#include "core/render/renderer.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// A diagnostic for tests and measurements (`view --ui-log FILE`): what is on the screen and how long things took, one
+/// line each, written at once. Spaces in names become '_'.
+///   widget NAME X0 Y0 X1 Y1 VALUE    a control appeared, moved or has a new value; window coordinates
+///   gone NAME                        it is no longer there
+///   submit EDIT                      the scene went to the renderer
+///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the edit; FIRST_MS: what the
+///                                    renderer took for the edit's first picture
+///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
+///   state rendering|paused|finished
+///   reading CURVE: SECONDS RELMSE    what the chart says under the mouse
+///   accuracy TEXT                    the lines beneath the chart
+///   halves A SECONDS B SECONDS       of rendering, in a split view
+///   cursor plain|divider
+///   message TEXT                     what the user is told
+///   saved FILE
+/// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms.
+class UiLog {
+ public:
+  /// file: "-" is standard output. Throws IoError.
+  explicit UiLog(const std::filesystem::path& file);
+  ~UiLog();
+  UiLog(const UiLog&) = delete;
+  UiLog& operator=(const UiLog&) = delete;
+
+  void line(const std::string& text);
+  void widget(const std::string& name, const Rect& rect, const std::string& value);
+  /// Where a widget is; nothing if it is not on the screen.
+  std::optional<Rect> find(const std::string& name) const;
+  /// After all widgets of a drawing: tells which have gone.
+  void end_of_widgets();
+  void submitted(std::uint64_t edit, double now);
+  /// now: seconds, after the picture was put on the screen.
+  void shown(const Frame& frame, double now);
+  void drawn(double cpu_seconds, bool picture);
+  /// A line that is written only when it differs from the last one of the same kind.
+  void changed(const std::string& kind, const std::string& value);
+
+ private:
+  struct Widget {
+    Rect rect;
+    std::string value;
+    std::uint64_t drawing = 0;
+  };
+  void summary(const char* what, std::vector<double> values);
+
+  std::FILE* stream_ = nullptr;
+  std::map<std::string, Widget> widgets_;
+  std::map<std::string, std::string> last_;
+  std::map<std::uint64_t, double> submits_;  ///< of the edit that is shown and newer ones
+  std::vector<double> latencies_, cpu_picture_, cpu_plain_;
+  std::uint64_t drawing_ = 1, shown_ = 0, pass_ = 0;
+};
+
+/// The value below which a share q in [0, 1] of the values lies; 0 for none. Sorts.
+double quantile(std::vector<double>& values, double q);
+
+}  // namespace tyndall

@@ -1,0 +1,125 @@
+#include "app/window/tools/camera_control.h"
+
+#include "core/base/math.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double degree = pi / 180;
+
+double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }
+
+/// Steps that print short: powers of ten, divided rather than multiplied by where they are below 1.
+double tidy_number(double value, double size) {
+  const double digits = std::floor(std::log10(size)) - 5;
+  if (digits >= 0) return rounded(value, std::pow(10.0, digits));
+  const double per_unit = std::pow(10.0, -digits);
+  return std::round(value * per_unit) / per_unit + 0.0;
+}
+
+Vec3d tidy_vector(Vec3d v, double size) {
+  return {tidy_number(v.x, size), tidy_number(v.y, size), tidy_number(v.z, size)};
+}
+
+Camera tidy(Camera camera) {
+  const double size = target_distance(camera);
+  camera.look_from = tidy_vector(camera.look_from, size);
+  camera.look_at = tidy_vector(camera.look_at, size);
+  return camera;
+}
+
+/// v turned about the unit axis by an angle: Rodrigues' formula.
+Vec3d turned(Vec3d v, Vec3d axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;
+}
+
+double half_tangent(const Camera& camera) { return std::tan(0.5 * degree * camera.vfov); }
+
+}  // namespace
+
+CameraAxes axes_of(const Camera& camera) {
+  const Vec3d forward = normalize(camera.look_at - camera.look_from);
+  const Vec3d right = normalize(cross(forward, camera.vup));
+  return {right, cross(right, forward), forward};
+}
+
+double target_distance(const Camera& camera) { return length(camera.look_at - camera.look_from); }
+
+double focus_distance(const Camera& camera) { return camera.focus_distance.value_or(target_distance(camera)); }
+
+Camera orbit(const Camera& camera, double yaw, double pitch) {
+  const Vec3d pole = normalize(camera.vup);
+  const CameraAxes axes = axes_of(camera);
+  Vec3d eye = camera.look_from - camera.look_at;
+  const double from_pole = std::acos(std::clamp(dot(normalize(eye), pole), -1.0, 1.0));
+  const double wanted = std::clamp(from_pole - pitch, degree, pi - degree);
+  // The eye itself may start closer to a pole than it may be turned to.
+  const double allowed = pitch == 0 ? 0.0 : from_pole - wanted;
+  eye = turned(turned(eye, axes.right, -allowed), pole, -yaw);
+  Camera result = camera;
+  result.look_from = camera.look_at + eye;
+  return tidy(result);
+}
+
+Camera pan(const Camera& camera, double right, double up) {
+  const double height = 2 * half_tangent(camera) * target_distance(camera);
+  return fly(camera, right * height, up * height, 0);
+}
+
+Camera dolly(const Camera& camera, double factor) {
+  Camera result = camera;
+  result.look_from = camera.look_at + factor * (camera.look_from - camera.look_at);
+  const double distance = target_distance(result), least = 1e-9 * std::max(1.0, length(camera.look_at)), most = 1e12;
+  if (distance < least || distance > most) return camera;
+  return tidy(result);
+}
+
+Camera zoom(const Camera& camera, double factor) {
+  Camera result = camera;
+  const double wanted = 2 / degree * std::atan(factor * half_tangent(camera));
+  const double limited =
+      factor > 1 ? std::min(wanted, std::max(170.0, camera.vfov)) : std::max(wanted, std::min(0.1, camera.vfov));
+  result.vfov = std::round(limited * 1e4) / 1e4;
+  return result;
+}
+
+Camera fly(const Camera& camera, double right, double up, double forward) {
+  const CameraAxes axes = axes_of(camera);
+  const Vec3d step = right * axes.right + up * axes.up + forward * axes.forward;
+  Camera result = camera;
+  result.look_from = camera.look_from + step;
+  result.look_at = camera.look_at + step;
+  return tidy(result);
+}
+
+Camera focus(const Camera& camera, double depth, bool keep_blur) {
+  Camera result = camera;
+  result.focus_distance = tidy_number(depth, depth);
+  if (!keep_blur && camera.defocus_angle > 0) {
+    const double lens = focus_distance(camera) * std::tan(0.5 * degree * camera.defocus_angle);
+    result.defocus_angle = tidy_number(2 / degree * std::atan(lens / depth), camera.defocus_angle);
+  }
+  return result;
+}
+
+Camera frame_ball(const Camera& camera, Vec3d center, double radius, double aspect) {
+  const double tangent = half_tangent(camera) * std::min(1.0, aspect);
+  const double distance = 1.15 * radius * std::sqrt(1 + 1 / (tangent * tangent));
+  const Vec3d forward = axes_of(camera).forward;
+  Camera result = camera;
+  result.look_at = center;
+  result.look_from = center - distance * forward;
+  return tidy(result);
+}
+
+Vec3d in_camera_frame(const Camera& camera, Vec3d point) {
+  const CameraAxes axes = axes_of(camera);
+  const Vec3d v = point - camera.look_from;
+  return {dot(v, axes.right), dot(v, axes.up), dot(v, axes.forward)};
+}
+
+}  // namespace tyndall

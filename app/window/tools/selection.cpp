@@ -1,0 +1,156 @@
+#include "app/window/tools/selection.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+using Shape = std::variant<Sphere<>, Quad<>, Box<>>;
+
+Shape shape_of(const Volume& volume) {
+  return std::visit([](const auto& boundary) { return Shape{boundary}; }, volume.boundary);
+}
+
+Ball own_ball(const Sphere<>& sphere) {
+  if (!sphere.center_end) return {sphere.center, std::abs(sphere.radius)};
+  const Vec3d way = *sphere.center_end - sphere.center;
+  return {sphere.center + 0.5 * way, std::abs(sphere.radius) + 0.5 * length(way)};
+}
+Ball own_ball(const Quad<>& quad) {
+  return {quad.corner + 0.5 * (quad.u + quad.v), 0.5 * std::max(length(quad.u + quad.v), length(quad.u - quad.v))};
+}
+Ball own_ball(const Box<>& box) { return {0.5 * (box.min + box.max), 0.5 * length(box.max - box.min)}; }
+
+Ball ball_of(const Shape& shape, const Placement& placement) {
+  Ball ball = std::visit([](const auto& s) { return own_ball(s); }, shape);
+  ball.center = place(placement, ball.center);
+  return ball;
+}
+
+/// A ball around two.
+Ball joined(const Ball& a, const Ball& b) {
+  const double apart = length(b.center - a.center);
+  if (apart + b.radius <= a.radius) return a;
+  if (apart + a.radius <= b.radius) return b;
+  const double radius = 0.5 * (apart + a.radius + b.radius);
+  return {a.center + ((radius - a.radius) / apart) * (b.center - a.center), radius};
+}
+
+void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    path.push_back(static_cast<int>(i));
+    if (const Group* group = std::get_if<Group>(&objects[i].kind))
+      add_leaves(group->objects, path, out);
+    else
+      out.push_back(path);
+    path.pop_back();
+  }
+}
+
+}  // namespace
+
+const Object* find_object(const Scene& scene, const ObjectPath& path) {
+  const std::vector<Object>* objects = &scene.objects;
+  const Object* object = nullptr;
+  for (const int index : path) {
+    if (!objects || index < 0 || static_cast<std::size_t>(index) >= objects->size()) return nullptr;
+    object = &(*objects)[static_cast<std::size_t>(index)];
+    const Group* group = std::get_if<Group>(&object->kind);
+    objects = group ? &group->objects : nullptr;
+  }
+  return object;
+}
+
+Object* find_object(Scene& scene, const ObjectPath& path) {
+  return const_cast<Object*>(find_object(static_cast<const Scene&>(scene), path));
+}
+
+const char* kind_name(const Object& object) {
+  if (std::holds_alternative<Volume>(object.kind)) return "medium";
+  if (std::holds_alternative<Group>(object.kind)) return "group";
+  return std::visit([](const auto& shape) { return shape.type; }, std::get<Solid3d>(object.kind).shape);
+}
+
+const char* material_name(const Material& material) {
+  return std::visit([](const auto& kind) { return kind.type; }, material.kind);
+}
+
+std::string title_of(const Scene& scene, const ObjectPath& path) {
+  const Object* object = find_object(scene, path);
+  if (!object) return "";
+  std::string title = object->name;
+  if (title.empty()) title = std::string(kind_name(*object)) + " " + std::to_string(path.back() + 1);
+  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+  return title;
+}
+
+const Material* material_of(const Scene& scene, const Object& object) {
+  const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
+  return solid ? &scene.materials[static_cast<std::size_t>(solid->material)] : nullptr;
+}
+
+int users_of(const Scene& scene, int material) {
+  int users = 0;
+  for (const ObjectPath& path : leaves(scene)) {
+    const Solid3d* solid = std::get_if<Solid3d>(&find_object(scene, path)->kind);
+    users += solid && solid->material == material;
+  }
+  return users;
+}
+
+std::vector<ObjectPath> leaves(const Scene& scene) {
+  std::vector<ObjectPath> out;
+  ObjectPath path;
+  add_leaves(scene.objects, path, out);
+  return out;
+}
+
+Placement placement_at(const Scene& scene, const ObjectPath& path) {
+  Placement result;
+  ObjectPath here;
+  for (const int index : path) {
+    here.push_back(index);
+    const Object& object = *find_object(scene, here);
+    result = compose(result, placement_of(object.transform));
+    if (const Volume* volume = std::get_if<Volume>(&object.kind))
+      result = compose(result, placement_of(volume->boundary_transform));
+  }
+  return result;
+}
+
+std::optional<Ball> ball_around(const Scene& scene, const ObjectPath& path) {
+  const Object* object = find_object(scene, path);
+  if (!object) return {};
+  if (const Solid3d* solid = std::get_if<Solid3d>(&object->kind))
+    return ball_of(solid->shape, placement_at(scene, path));
+  if (const Volume* volume = std::get_if<Volume>(&object->kind))
+    return ball_of(shape_of(*volume), placement_at(scene, path));
+  std::optional<Ball> all;
+  ObjectPath child = path;
+  child.push_back(0);
+  const auto count = static_cast<int>(std::get<Group>(object->kind).objects.size());
+  for (; child.back() < count; ++child.back())
+    if (const auto ball = ball_around(scene, child)) all = all ? joined(*all, *ball) : *ball;
+  return all;
+}
+
+std::vector<ObjectPath> interesting(const Scene& scene) {
+  const std::vector<ObjectPath> all = leaves(scene);
+  const auto first = [&](const char* kind, std::vector<ObjectPath>& out) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ObjectPath& path) {
+      const Object& object = *find_object(scene, path);
+      const Material* material = material_of(scene, object);
+      return std::string(material ? material_name(*material) : kind_name(object)) == kind;
+    });
+    if (found != all.end()) out.push_back(*found);
+  };
+  std::vector<ObjectPath> out;
+  for (const char* kind : {"metal", "dielectric", "medium"}) first(kind, out);
+  if (out.empty())
+    for (const char* kind : {"light", "lambertian"}) first(kind, out);
+  return out;
+}
+
+}  // namespace tyndall

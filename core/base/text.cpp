@@ -1,0 +1,147 @@
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
+
+void append_hex(std::string& out, unsigned char c) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  out += digits[c >> 4];
+  out += digits[c & 15];
+}
+
+void append_escaped(std::string& out, unsigned char c) {
+  if (c == '\n') {
+    out += "\\n";
+  } else if (c == '\t') {
+    out += "\\t";
+  } else if (c == '\r') {
+    out += "\\r";
+  } else {
+    append_hex(out += "\\u00", c);
+  }
+}
+
+/// Bytes of the UTF-8 letter at the beginning of a text, 1 to 4; 0 if they are none. (Unicode, table 3-7.)
+std::size_t letter_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto continues = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
+  const unsigned first = byte(0), second = byte(1);
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first < 0xe0) return continues(1) ? 2 : 0;
+  if (first >= 0xe0 && first < 0xf0) {
+    const bool too_long = first == 0xe0 && second < 0xa0, surrogate = first == 0xed && second >= 0xa0;
+    return continues(1) && continues(2) && !too_long && !surrogate ? 3 : 0;
+  }
+  const bool too_long = first == 0xf0 && second - 0x80 < 0x10;
+  const bool too_large = first > 0xf4 || (first == 0xf4 && second >= 0x90);
+  return first >= 0xf0 && continues(1) && continues(2) && continues(3) && !too_long && !too_large ? 4 : 0;
+}
+
+/// Edits (a letter added, left out, replaced, or two neighbours swapped) that turn a into b.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t limit) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    if (out.size() >= limit) return out + "…";
+    const std::string_view rest = text.substr(i);
+    const std::size_t size = letter_size(rest);
+    const auto first = static_cast<unsigned char>(rest[0]);
+    if (size == 0) {
+      append_hex(out += "\\x", first);
+    } else if (is_control(first)) {
+      append_escaped(out, first);
+    } else if (size == 2 && first == 0xc2 && static_cast<unsigned char>(rest[1]) < 0xa0) {
+      append_escaped(out, static_cast<unsigned char>(rest[1]));  // U+0080 … U+009F, which some terminals obey
+    } else {
+      out += rest.substr(0, size);
+    }
+    i += std::max<std::size_t>(size, 1);
+  }
+  return out;
+}
+
+std::string shortened(std::string_view text, std::size_t limit) {
+  if (text.size() <= limit) return std::string(text);
+  while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0) == 0x80) --limit;
+  return std::string(text.substr(0, limit)) + "…";
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (is_control(static_cast<unsigned char>(c))) {
+      append_escaped(out, static_cast<unsigned char>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+  if (value == 0) return std::signbit(value) ? "-0.0" : "0";
+  const double size = std::abs(value);
+  const auto format = size >= 1e-5 && size < 1e17 ? std::chars_format::fixed : std::chars_format::scientific;
+  std::array<char, 64> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, format).ptr;
+  return {digits.data(), end};
+}
+
+std::string_view closest(std::string_view name, const std::vector<std::string_view>& candidates) {
+  if (name.empty() || name.size() > 64) return {};
+  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;
+  std::string_view found;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t longer = std::max(name.size(), candidate.size()),
+                      shorter = std::min(name.size(), candidate.size());
+    if (longer - shorter >= best) continue;
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < best) {
+      best = distance;
+      found = candidate;
+    }
+  }
+  return found;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const std::string_view meant = closest(name, candidates);
+  return meant.empty() ? "" : " (did you mean " + in_quotes(meant) + "?)";
+}
+
+std::string one_of(const std::vector<std::string_view>& names) {
+  if (names.size() == 1) return in_quotes(names[0]);
+  std::string out = "one of ";
+  for (std::size_t i = 0; i < names.size(); ++i) out += (i ? ", " : "") + in_quotes(names[i]);
+  return out;
+}
+
+}  // namespace tyndall

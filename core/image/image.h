@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// Images in memory, and what goes with them into files.
+namespace tyndall {
+
+/// An image file that cannot be read or written. One line: "FILE: why".
+struct ImageFileError : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+/// Linear Rec.709 RGB, 3 floats a pixel, top row first.
+struct LinearImage {
+  int width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+/// A further picture of the same size for EXR: "albedo" (R, G, B), "normal" (X, Y, Z), "depth" (Z).
+struct Layer {
+  std::string name;
+  std::vector<std::string> channels;
+  std::vector<float> values;  ///< channels interleaved
+};
+
+/// What PNG and EXR carry so that the picture can be opened again as the scene that made it: the scene file's text.
+struct Embedded {
+  std::string scene;  ///< JSON; empty: none
+  std::string stats;  ///< JSON; empty: none
+};
+
+/// 8-bit RGB, top row first, as it stands in the file: for textures. channels: 3.
+struct Rgb8Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+}  // namespace tyndall

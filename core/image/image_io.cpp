@@ -1,0 +1,52 @@
+#include "core/image/image_io.h"
+
+#include "core/image/image_io_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace tyndall {
+
+namespace {
+
+LinearImage to_linear(const Rgb8Image& image) {
+  std::array<float, 256> linear;
+  for (int i = 0; i < 256; ++i) linear[static_cast<std::size_t>(i)] = srgb_decode(static_cast<float>(i) / 255);
+  LinearImage decoded{image.width, image.height, {}};
+  decoded.rgb.reserve(image.rgb.size());
+  for (const std::uint8_t value : image.rgb) decoded.rgb.push_back(linear[value]);
+  return decoded;
+}
+
+}  // namespace
+
+LinearImage read_image(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> start = read_bytes(file, 16);
+  const ImageKind kind = image_kind(start);
+  if (kind == ImageKind::exr) return read_exr(file);
+  if (kind == ImageKind::unknown) cannot_read(file, "found no image, expected PNG, JPEG, PFM, HDR or EXR");
+  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  if (kind == ImageKind::pfm) return read_pfm(file, bytes);
+  if (kind == ImageKind::hdr) return read_hdr(file, bytes);
+  return to_linear(decode_rgb8(file, bytes));
+}
+
+std::optional<std::string> read_embedded_scene(const std::filesystem::path& file) {
+  // A pipe may hold a scene and can be read only once.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};
+  const ImageKind kind = image_kind(read_bytes(file, 16));
+  if (kind == ImageKind::png) return png_text(file, read_bytes(file), "tyndall:scene");
+  if (kind == ImageKind::exr) return exr_text(file, "tyndall:scene");
+  return {};
+}
+
+bool is_image_output(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".png" || ending == ".exr" || ending == ".pfm" || ending == ".hdr";
+}
+
+}  // namespace tyndall

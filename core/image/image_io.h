@@ -1,0 +1,39 @@
+#pragma once
+#include "core/film/film.h"
+#include "core/image/image.h"
+#include "core/image/tonemap.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Image files. Every writer writes a whole file or none: it writes beside the target and renames, and removes what it
+/// began when something fails. All throw ImageFileError.
+namespace tyndall {
+
+void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneCurve curve,
+               const Embedded& embedded);
+/// Bottom row first, scale -1.0 (little endian). Carries nothing hidden.
+void write_pfm(const std::filesystem::path& file, const LinearImage& image);
+/// Radiance RGBE. Carries nothing hidden.
+void write_hdr(const std::filesystem::path& file, const LinearImage& image);
+/// Float RGB, layers, the film itself in channels film.*, data window = the film's region. Throws if built without
+/// OpenEXR.
+void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
+               const Embedded& embedded);
+bool has_openexr();
+
+/// PNG (8-bit, sRGB decoded to linear), JPEG, PFM, HDR, EXR by content.
+LinearImage read_image(const std::filesystem::path& file);
+/// The film in an EXR that Tyndall wrote; nothing if it holds none.
+std::optional<Film> read_film(const std::filesystem::path& file);
+/// The scene text in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
+std::optional<std::string> read_embedded_scene(const std::filesystem::path& file);
+
+Rgb8Image read_rgb8(const std::filesystem::path& file);
+
+/// True for an ending that write_* knows: .png .exr .pfm .hdr (any case).
+bool is_image_output(const std::filesystem::path& file);
+
+}  // namespace tyndall

@@ -1,0 +1,44 @@
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
+
+#include <stb_image.h>
+
+#include <memory>
+
+namespace tyndall {
+
+namespace {
+
+struct Release {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+}  // namespace
+
+Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  const ImageKind kind = image_kind(bytes);
+  if (kind == ImageKind::pfm || kind == ImageKind::hdr || kind == ImageKind::exr) {
+    cannot_read(file, "found floating-point pixels, expected 8-bit ones (PNG, JPEG, BMP, TGA)");
+  }
+  // stb calls a PNG that is too large one of unknown type: look at its header here.
+  if (kind == ImageKind::png && bytes.size() >= 24) {
+    check_readable(file, get_u32(bytes.subspan(16)), get_u32(bytes.subspan(20)));
+  }
+  const int size = static_cast<int>(bytes.size());
+  Rgb8Image image;
+  int channels = 0;
+  if (stbi_info_from_memory(bytes.data(), size, &image.width, &image.height, &channels) == 0) {
+    cannot_read(file, std::string("expected PNG, JPEG, BMP or TGA: ") + stbi_failure_reason());
+  }
+  check_readable(file, image.width, image.height);
+  const std::unique_ptr<stbi_uc, Release> pixels(
+      stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 3));
+  if (!pixels) cannot_read(file, std::string("damaged: ") + stbi_failure_reason());
+  const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  image.rgb.assign(pixels.get(), pixels.get() + 3 * count);
+  return image;
+}
+
+Rgb8Image read_rgb8(const std::filesystem::path& file) { return decode_rgb8(file, read_bytes(file)); }
+
+}  // namespace tyndall

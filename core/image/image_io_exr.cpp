@@ -1,0 +1,162 @@
+#include "core/image/image_io_exr.h"
+#include "core/image/image_io.h"
+
+#include "core/image/image_io_file.h"
+
+#ifdef TYNDALL_OPENEXR
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <bit>
+#include <cassert>
+#include <exception>
+
+namespace tyndall {
+
+bool has_openexr() { return true; }
+
+std::vector<FilmChannel> film_channels() {
+  static_assert(std::endian::native == std::endian::little, "the low word of a limb comes first");
+  std::vector<FilmChannel> channels;
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const std::string name = std::string("film.") + "AB"[half] + '.' + "RGB"[channel] + '.';
+      const std::size_t sum = offsetof(FilmPixel, sum) + (half * 3 + channel) * sizeof(ExactSum);
+      channels.push_back({name + "high0", sum + offsetof(ExactSum, high)});
+      channels.push_back({name + "high1", sum + offsetof(ExactSum, high) + 4});
+      channels.push_back({name + "low0", sum + offsetof(ExactSum, low)});
+      channels.push_back({name + "low1", sum + offsetof(ExactSum, low) + 4});
+    }
+  }
+  channels.push_back({"film.taken", offsetof(FilmPixel, taken)});
+  channels.push_back({"film.rejectedA", offsetof(FilmPixel, rejected)});
+  channels.push_back({"film.rejectedB", offsetof(FilmPixel, rejected) + 4});
+  channels.push_back({"film.truncated", offsetof(FilmPixel, truncated)});
+  return channels;
+}
+
+namespace {
+
+/// OpenEXR's door to a file. It drops errors when it finishes a file, so the first one is kept.
+class Stream : public Imf::OStream {
+ public:
+  Stream(WholeFile& out, const std::string& name) : OStream(name.c_str()), out_(out) {}
+
+  void write(const char bytes[], int count) override {
+    guard(
+        [&] { out_.write(std::span(reinterpret_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(count))); });
+  }
+  std::uint64_t tellp() override { return out_.position(); }
+  void seekp(std::uint64_t position) override {
+    guard([&] { out_.seek(position); });
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  template <class Action>
+  void guard(Action action) {
+    try {
+      action();
+    } catch (...) {
+      if (!error_) error_ = std::current_exception();
+      throw;
+    }
+  }
+
+  WholeFile& out_;
+  std::exception_ptr error_;
+};
+
+Imf::Header make_header(const Film& film, const Embedded& embedded) {
+  const Region& r = film.region;
+  const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1}), data({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
+  Imf::Header header(display, data);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = 1;  // half of the film is noise that no level makes smaller
+  header.insert(exr_name::width, Imf::IntAttribute(film.width));
+  header.insert(exr_name::height, Imf::IntAttribute(film.height));
+  header.insert(exr_name::first_sample, Imf::DoubleAttribute(film.first_sample));
+  header.insert(exr_name::unit, Imf::DoubleAttribute(film.unit));
+  const ExactSum& cut = film.cut_throughput;
+  header.insert(exr_name::cut_throughput,
+                Imf::StringAttribute(std::to_string(cut.high) + " " + std::to_string(cut.low)));
+  if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
+  if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
+  return header;
+}
+
+/// Adds channels to header and frame buffer: they are written from where they lie in memory.
+struct Picture {
+  Imf::Header header;
+  Imf::FrameBuffer buffer;
+
+  void add(const std::string& name, Imf::PixelType type, const void* first, std::size_t stride) {
+    header.channels().insert(name, Imf::Channel(type));
+    buffer.insert(name, Imf::Slice::Make(type, first, header.dataWindow(), stride));
+  }
+  void add_floats(const std::string& prefix, const std::vector<std::string>& channels,
+                  const std::vector<float>& values) {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      add(prefix + channels[i], Imf::FLOAT, values.data() + i, channels.size() * sizeof(float));
+    }
+  }
+};
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
+               const Embedded& embedded) {
+  check_writable(file, film.region.width(), film.region.height());
+  const std::vector<float> rgb = resolve(film);
+  Picture picture{make_header(film, embedded), {}};
+  picture.add_floats("", {"R", "G", "B"}, rgb);
+  for (const Layer& layer : layers) {
+    assert(layer.values.size() == film.pixels.size() * layer.channels.size());
+    picture.add_floats(layer.name + ".", layer.channels, layer.values);
+  }
+  const char* pixels = reinterpret_cast<const char*>(film.pixels.data());
+  for (const FilmChannel& channel : film_channels()) {
+    picture.add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
+  }
+  WholeFile out(file);
+  Stream stream(out, file.string());
+  try {
+    Imf::OutputFile exr(stream, picture.header);
+    exr.setFrameBuffer(picture.buffer);
+    exr.writePixels(film.region.height());
+  } catch (const std::exception& error) {
+    stream.rethrow();
+    cannot_write(file, error.what());
+  }
+  stream.rethrow();
+  out.commit();
+}
+
+}  // namespace tyndall
+
+#else
+
+namespace tyndall {
+
+namespace {
+constexpr const char* missing = "this build has no EXR images (OpenEXR was not found when it was configured)";
+}
+
+bool has_openexr() { return false; }
+
+void write_exr(const std::filesystem::path& file, const Film&, const std::vector<Layer>&, const Embedded&) {
+  cannot_write(file, missing);
+}
+
+}  // namespace tyndall
+
+#endif

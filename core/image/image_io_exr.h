@@ -1,0 +1,27 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// How an EXR carries a film: each field of FilmPixel as channels of 32-bit words.
+namespace tyndall {
+
+/// One channel of a film in an EXR.
+struct FilmChannel {
+  std::string name;    ///< film.A.R.high0 ...: half A or B, channel, limb, word (0: the low half of the limb)
+  std::size_t offset;  ///< of the word in FilmPixel, bytes
+};
+std::vector<FilmChannel> film_channels();
+
+// Names of the header's attributes.
+namespace exr_name {
+inline constexpr const char* scene = "tyndall:scene";
+inline constexpr const char* stats = "tyndall:stats";
+inline constexpr const char* width = "tyndall:width";                // of the full image
+inline constexpr const char* height = "tyndall:height";              // of the full image
+inline constexpr const char* first_sample = "tyndall:first_sample";  // a double, to hold all of 32 bits
+inline constexpr const char* unit = "tyndall:unit";
+inline constexpr const char* cut_throughput = "tyndall:cut_throughput";  // both limbs in decimal, high first
+}  // namespace exr_name
+
+}  // namespace tyndall

@@ -1,0 +1,196 @@
+#include "core/image/image_io.h"
+#include "core/image/image_io_exr.h"
+#include "core/image/image_io_file.h"
+
+#ifdef TYNDALL_OPENEXR
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace tyndall {
+
+namespace {
+
+/// Runs `read` on an open EXR and names the file in whatever goes wrong.
+template <class Read>
+auto with_exr(const std::filesystem::path& file, Read read) {
+  try {
+    Imf::InputFile exr(file.c_str());
+    return read(exr);
+  } catch (const ImageFileError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    cannot_read(file, "not enough memory");
+  } catch (const std::exception& error) {
+    cannot_read(file, error.what());
+  }
+}
+
+/// Channels to read, and where to put them.
+struct Target {
+  Imf::FrameBuffer buffer;
+  Imath::Box2i window;
+
+  void add(const std::string& name, Imf::PixelType type, void* first, std::size_t stride) {
+    buffer.insert(name, Imf::Slice::Make(type, first, window, stride));
+  }
+  void read(Imf::InputFile& exr) {
+    exr.setFrameBuffer(buffer);
+    exr.readPixels(window.min.y, window.max.y);
+  }
+};
+
+/// The size of the data window.
+std::pair<int, int> size_of(const std::filesystem::path& file, const Imath::Box2i& window) {
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  check_readable(file, width, height);
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+LinearImage read_rgb(const std::filesystem::path& file, Imf::InputFile& exr) {
+  const Imf::ChannelList& channels = exr.header().channels();
+  const bool colour = channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B");
+  if (!colour && !channels.findChannel("Y")) cannot_read(file, "found no channels R, G and B");
+  Target target{{}, exr.header().dataWindow()};
+  const auto [width, height] = size_of(file, target.window);
+  LinearImage image{width, height, {}};
+  image.rgb.resize(std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const std::size_t stride = 3 * sizeof(float);
+  target.add(colour ? "R" : "Y", Imf::FLOAT, image.rgb.data(), stride);
+  if (colour) target.add("G", Imf::FLOAT, image.rgb.data() + 1, stride);
+  if (colour) target.add("B", Imf::FLOAT, image.rgb.data() + 2, stride);
+  target.read(exr);
+  for (std::size_t i = 0; !colour && i < image.rgb.size(); i += 3) image.rgb[i + 1] = image.rgb[i + 2] = image.rgb[i];
+  return image;
+}
+
+[[noreturn]] void damaged_film(const std::filesystem::path& file, const std::string& what) {
+  cannot_read(file, "its film is damaged: " + what);
+}
+
+template <class Attribute>
+auto value_of(const std::filesystem::path& file, const Imf::Header& header, const char* name) {
+  const auto* attribute = header.findTypedAttribute<Attribute>(name);
+  if (attribute == nullptr) damaged_film(file, std::string("no ") + name);
+  return attribute->value();
+}
+
+ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Header& header) {
+  std::istringstream text(value_of<Imf::StringAttribute>(file, header, exr_name::cut_throughput));
+  ExactSum sum;
+  if (!(text >> sum.high >> sum.low)) damaged_film(file, std::string(exr_name::cut_throughput) + " is no sum");
+  return sum;
+}
+
+/// The film's frame, without pixels.
+Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
+  const Imath::Box2i window = header.dataWindow();
+  const auto [region_width, region_height] = size_of(file, window);
+  Film film;
+  film.width = value_of<Imf::IntAttribute>(file, header, exr_name::width);
+  film.height = value_of<Imf::IntAttribute>(file, header, exr_name::height);
+  if (window.min.x < 0 || window.min.y < 0 || window.max.x >= film.width || window.max.y >= film.height) {
+    damaged_film(file, "its data window is not within the image");
+  }
+  film.region = {window.min.x, window.min.y, window.min.x + region_width, window.min.y + region_height};
+  const double first = value_of<Imf::DoubleAttribute>(file, header, exr_name::first_sample);
+  if (!(first >= 0 && first <= std::numeric_limits<std::uint32_t>::max() && first == std::floor(first))) {
+    damaged_film(file, std::string(exr_name::first_sample) + " is no sample index");
+  }
+  film.first_sample = static_cast<std::uint32_t>(first);
+  film.unit = value_of<Imf::DoubleAttribute>(file, header, exr_name::unit);
+  int exponent = 0;
+  if (!(film.unit > 0) || !std::isfinite(film.unit) || std::frexp(film.unit, &exponent) != 0.5) {
+    damaged_film(file, std::string(exr_name::unit) + " is no power of two");
+  }
+  film.cut_throughput = read_cut_throughput(file, header);
+  return film;
+}
+
+/// Refuses counts that contradict each other: they would wrap around.
+void check_counts(const std::filesystem::path& file, const Film& film) {
+  for (FilmPixel pixel : film.pixels) {
+    const std::uint32_t rejected[2] = {pixel.rejected[0], pixel.rejected[1]};
+    pixel.rejected[0] = pixel.rejected[1] = 0;
+    const bool good = rejected[0] <= counted(film, pixel, 0) && rejected[1] <= counted(film, pixel, 1) &&
+                      pixel.taken <= std::numeric_limits<std::uint32_t>::max() - film.first_sample;
+    if (!good) damaged_film(file, "its counts contradict each other");
+  }
+}
+
+std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFile& exr) {
+  const Imf::ChannelList& present = exr.header().channels();
+  if (!present.findChannel("film.taken")) return {};
+  Film film = read_frame(file, exr.header());
+  const auto count = static_cast<std::size_t>(film.region.width()) * static_cast<std::size_t>(film.region.height());
+  // Deflate shrinks at most 1032 times: a small file must not ask for gigabytes.
+  if (count * sizeof(FilmPixel) / 1100 > std::filesystem::file_size(file)) damaged_film(file, "most of it is missing");
+  film.pixels.resize(count);
+  Target target{{}, exr.header().dataWindow()};
+  char* pixels = reinterpret_cast<char*>(film.pixels.data());
+  for (const FilmChannel& channel : film_channels()) {
+    const Imf::Channel* found = present.findChannel(channel.name);
+    if (found == nullptr || found->type != Imf::UINT)
+      damaged_film(file, "no channel " + channel.name + " of type uint");
+    target.add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
+  }
+  target.read(exr);
+  check_counts(file, film);
+  return film;
+}
+
+}  // namespace
+
+LinearImage read_exr(const std::filesystem::path& file) {
+  return with_exr(file, [&](Imf::InputFile& exr) { return read_rgb(file, exr); });
+}
+
+std::optional<Film> read_film(const std::filesystem::path& file) {
+  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
+  return with_exr(file, [&](Imf::InputFile& exr) { return read_film_of(file, exr); });
+}
+
+std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name) {
+  return with_exr(file, [&](Imf::InputFile& exr) -> std::optional<std::string> {
+    const auto* text = exr.header().findTypedAttribute<Imf::StringAttribute>(name);
+    if (text == nullptr) return {};
+    return text->value();
+  });
+}
+
+}  // namespace tyndall
+
+#else
+
+namespace tyndall {
+
+namespace {
+
+[[noreturn]] void missing(const std::filesystem::path& file) {
+  cannot_read(file, "this build has no EXR images (OpenEXR was not found when it was configured)");
+}
+
+}  // namespace
+
+LinearImage read_exr(const std::filesystem::path& file) { missing(file); }
+
+std::optional<Film> read_film(const std::filesystem::path& file) {
+  if (image_kind(read_bytes(file, 16)) == ImageKind::exr) missing(file);
+  return {};
+}
+
+std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) { missing(file); }
+
+}  // namespace tyndall
+
+#endif

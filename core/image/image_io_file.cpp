@@ -1,0 +1,143 @@
+#include "core/image/image_io_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+
+namespace tyndall {
+
+namespace {
+
+std::string error_text(int number) { return std::generic_category().message(number); }
+
+/// Closes at the end of a scope; for reading, where closing cannot fail.
+struct Closer {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using ReadStream = std::unique_ptr<std::FILE, Closer>;
+
+}  // namespace
+
+void cannot_read(const std::filesystem::path& file, const std::string& why) {
+  throw ImageFileError(file.string() + ": cannot read: " + why);
+}
+
+void cannot_write(const std::filesystem::path& file, const std::string& why) {
+  throw ImageFileError(file.string() + ": cannot write: " + why);
+}
+
+namespace {
+
+bool is_valid_size(std::int64_t width, std::int64_t height) {
+  return width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width;
+}
+
+std::string size_problem(std::int64_t width, std::int64_t height) {
+  return "found an image of " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels, expected 1 to 2^28 in all";
+}
+
+}  // namespace
+
+void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
+  if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
+}
+
+void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
+  if (!is_valid_size(width, height)) cannot_write(file, size_problem(width, height));
+}
+
+void check_writable(const std::filesystem::path& file, const LinearImage& image) {
+  check_writable(file, image.width, image.height);
+  assert(image.rgb.size() ==
+         std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+}
+
+WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), target_(file) {
+  std::error_code error;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(target_, error); ++links) {
+    target_ = target_.parent_path() / std::filesystem::read_symlink(target_, error);
+    if (error) cannot_write(file_, error.message());
+  }
+  const std::filesystem::file_status status = std::filesystem::status(target_, error);
+  if (std::filesystem::is_directory(status)) cannot_write(file_, error_text(EISDIR));
+  // Renaming would replace a device by a file.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    cannot_write(file_, "not an ordinary file");
+  }
+  temporary_ = target_;
+  temporary_ += ".tmp-" + std::to_string(getpid());
+  std::filesystem::remove(temporary_, error);  // of a process that was killed
+  stream_ = std::fopen(temporary_.c_str(), "wbx");
+  if (stream_ == nullptr) cannot_write(file_, error_text(errno));
+}
+
+WholeFile::~WholeFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+  std::error_code ignored;
+  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+}
+
+void WholeFile::write(const void* data, std::size_t size) {
+  if (std::fwrite(data, 1, size, stream_) != size) cannot_write(file_, error_text(errno));
+}
+
+void WholeFile::write(std::span<const std::uint8_t> bytes) { write(bytes.data(), bytes.size()); }
+void WholeFile::write(std::span<const float> values) { write(values.data(), values.size_bytes()); }
+
+void WholeFile::seek(std::uint64_t position) {
+  if (fseeko(stream_, static_cast<off_t>(position), SEEK_SET) != 0) cannot_write(file_, error_text(errno));
+}
+
+std::uint64_t WholeFile::position() const {
+  const off_t position = ftello(stream_);
+  if (position < 0) cannot_write(file_, error_text(errno));
+  return static_cast<std::uint64_t>(position);
+}
+
+void WholeFile::commit() {
+  std::FILE* stream = stream_;
+  stream_ = nullptr;
+  if (std::fclose(stream) != 0) cannot_write(file_, error_text(errno));
+  std::error_code error;
+  std::filesystem::rename(temporary_, target_, error);
+  if (error) cannot_write(file_, error.message());
+  temporary_.clear();
+}
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::size_t limit) {
+  const ReadStream stream(std::fopen(file.c_str(), "rb"));
+  if (!stream) cannot_read(file, error_text(errno));
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t size = 0, want = 0; size == want && size < limit;) {
+    want = std::min(limit, std::max<std::size_t>(2 * size, 65536));
+    bytes.resize(want);
+    size += std::fread(bytes.data() + size, 1, want - size, stream.get());
+    if (std::ferror(stream.get()) != 0) cannot_read(file, error_text(errno));
+    bytes.resize(size);
+  }
+  return bytes;
+}
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
+  std::vector<std::uint8_t> bytes = read_bytes(file, max_file_size + 1);
+  if (bytes.size() > max_file_size) cannot_read(file, "longer than 2 GiB");
+  return bytes;
+}
+
+ImageKind image_kind(std::span<const std::uint8_t> start) {
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+  if (text.starts_with("\x89PNG\r\n\x1a\n")) return ImageKind::png;
+  if (text.starts_with("\xff\xd8\xff")) return ImageKind::jpeg;
+  if (text.starts_with("\x76\x2f\x31\x01")) return ImageKind::exr;
+  if (text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n")) return ImageKind::hdr;
+  if (text.size() > 2 && (text.starts_with("PF") || text.starts_with("Pf")) && text[2] <= ' ') return ImageKind::pfm;
+  return ImageKind::unknown;
+}
+
+}  // namespace tyndall

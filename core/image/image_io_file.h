@@ -1,0 +1,73 @@
+#pragma once
+#include "core/image/image.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+/// What the readers and writers of image files share.
+namespace tyndall {
+
+/// Images of more pixels are neither read nor written.
+inline constexpr std::int64_t max_image_pixels = std::int64_t{1} << 28;
+
+/// Throws ImageFileError "FILE: cannot read: WHY" or "FILE: cannot write: WHY".
+[[noreturn]] void cannot_read(const std::filesystem::path& file, const std::string& why);
+[[noreturn]] void cannot_write(const std::filesystem::path& file, const std::string& why);
+
+/// A file that appears under its name, replacing what was there, only when it is whole: written beside it and renamed.
+/// A symbolic link is followed. Throws ImageFileError.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::filesystem::path& file);
+  ~WholeFile();  ///< removes what was written unless it was committed
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::span<const std::uint8_t> bytes);
+  void write(std::span<const float> values);  ///< as they are in memory
+  void seek(std::uint64_t position);
+  std::uint64_t position() const;
+  /// Puts the file in its place.
+  void commit();
+
+ private:
+  void write(const void* data, std::size_t size);
+
+  std::filesystem::path file_, target_, temporary_;
+  std::FILE* stream_ = nullptr;
+};
+
+/// The longest file that is read into memory: what stb can take.
+inline constexpr std::size_t max_file_size = 0x7fffffff;
+/// The first `limit` bytes of a file, or all if it is shorter.
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::size_t limit);
+/// A whole file; refuses longer ones than max_file_size.
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file);
+
+enum class ImageKind { unknown, png, jpeg, pfm, hdr, exr };
+/// From the first bytes of a file.
+ImageKind image_kind(std::span<const std::uint8_t> start);
+
+// Readers by kind, from a file's bytes.
+LinearImage read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+LinearImage read_hdr(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+LinearImage read_exr(const std::filesystem::path& file);
+Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+/// The number at the start of these 4 bytes or more, highest byte first.
+std::uint32_t get_u32(std::span<const std::uint8_t> from);
+/// The text with that keyword in a PNG's iTXt chunks.
+std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,
+                                    const std::string& keyword);
+/// The string attribute with that name in an EXR's header.
+std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name);
+
+/// Throws for an image without pixels or with more than max_image_pixels.
+void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
+void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
+void check_writable(const std::filesystem::path& file, const LinearImage& image);
+
+}  // namespace tyndall

@@ -1,0 +1,95 @@
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+namespace tyndall {
+
+static_assert(std::endian::native == std::endian::little, "PFM is written as it is in memory");
+
+void write_pfm(const std::filesystem::path& file, const LinearImage& image) {
+  check_writable(file, image);
+  const std::string header = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+  const auto row = 3 * static_cast<std::size_t>(image.width);
+  WholeFile out(file);
+  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
+  for (std::size_t left = image.rgb.size(); left > 0; left -= row) {
+    out.write(std::span<const float>(image.rgb).subspan(left - row, row));
+  }
+  out.commit();
+}
+
+namespace {
+
+struct PfmHeader {
+  int width = 0, height = 0;
+  std::size_t channels = 3;
+  double scale = -1;     ///< negative: little endian
+  std::size_t size = 0;  ///< bytes before the first pixel
+};
+
+bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+
+/// The next word of a header, and one character of white space after it.
+std::string_view next_word(std::string_view& text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  const auto end = std::find_if(text.begin(), text.end(), is_space);
+  const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+  text.remove_prefix(std::min(word.size() + 1, text.size()));
+  return word;
+}
+
+template <class T>
+bool parse(std::string_view word, T& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+PfmHeader read_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  PfmHeader header;
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 256));
+  const std::size_t start = text.size();
+  header.channels = next_word(text) == "PF" ? 3 : 1;
+  const bool good = parse(next_word(text), header.width) && parse(next_word(text), header.height) &&
+                    parse(next_word(text), header.scale);
+  if (!good || header.scale == 0 || !std::isfinite(header.scale)) {
+    cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
+  }
+  check_readable(file, header.width, header.height);
+  header.size = start - text.size();
+  return header;
+}
+
+float read_float(const std::uint8_t* bytes, bool swap) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes, sizeof word);
+  return std::bit_cast<float>(swap ? __builtin_bswap32(word) : word);
+}
+
+}  // namespace
+
+LinearImage read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  const PfmHeader header = read_header(file, bytes);
+  const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
+  const std::size_t needed = width * height * header.channels * sizeof(float);
+  if (bytes.size() - header.size < needed) cannot_read(file, "damaged: the PFM ends in the middle");
+  LinearImage image{header.width, header.height, {}};
+  image.rgb.reserve(width * height * 3);
+  const auto factor = static_cast<float>(std::abs(header.scale));
+  for (std::size_t y = height; y-- > 0;) {
+    const std::uint8_t* row = bytes.data() + header.size + y * width * header.channels * sizeof(float);
+    for (std::size_t i = 0; i < width * 3; ++i) {
+      const std::size_t at = header.channels == 3 ? i : i / 3;
+      image.rgb.push_back(factor * read_float(row + at * sizeof(float), header.scale > 0));
+    }
+  }
+  return image;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,129 @@
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
+
+#include <stb_image_write.h>
+
+#include <array>
+#include <cassert>
+#include <limits>
+#include <string_view>
+
+namespace tyndall {
+
+std::uint32_t get_u32(std::span<const std::uint8_t> from) {
+  return std::uint32_t{from[0]} << 24 | std::uint32_t{from[1]} << 16 | std::uint32_t{from[2]} << 8 | from[3];
+}
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+constexpr std::size_t signature_size = 8;
+constexpr std::size_t header_end = signature_size + 12 + 13;  // the signature and the chunk IHDR
+
+/// CRC-32 as PNG defines it (ISO/IEC 15948, annex D).
+std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> made{};
+    for (std::uint32_t n = 0; n < 256; ++n) {
+      made[n] = n;
+      for (int bit = 0; bit < 8; ++bit) made[n] = (made[n] >> 1) ^ ((made[n] & 1u) != 0 ? 0xedb88320u : 0u);
+    }
+    return made;
+  }();
+  std::uint32_t crc = 0xffffffffu;
+  for (const std::uint8_t byte : bytes) crc = table[(crc ^ byte) & 0xffu] ^ (crc >> 8);
+  return ~crc;
+}
+
+void put_u32(Bytes& to, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+void put_chunk(Bytes& to, std::string_view type, std::string_view data) {
+  put_u32(to, static_cast<std::uint32_t>(data.size()));
+  const std::size_t start = to.size();
+  to.insert(to.end(), type.begin(), type.end());
+  to.insert(to.end(), data.begin(), data.end());
+  put_u32(to, crc32(std::span(to).subspan(start)));
+}
+
+/// Text as an iTXt chunk, not compressed, without language.
+void put_text(Bytes& to, std::string_view keyword, const std::string& text) {
+  if (text.empty()) return;
+  std::string data(keyword);
+  data.append(5, '\0');  // ends the keyword; compression flag and method; empty language and translated keyword
+  put_chunk(to, "iTXt", data + text);
+}
+
+Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, const Bytes& rgb) {
+  const std::int64_t row = std::int64_t{3} * image.width;
+  if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(file, "too many pixels for PNG");
+  Bytes png;
+  const auto append = [](void* to, void* data, int size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), bytes, bytes + size);
+  };
+  const int good =
+      stbi_write_png_to_func(append, &png, image.width, image.height, 3, rgb.data(), static_cast<int>(row));
+  if (good == 0 || png.size() < header_end) cannot_write(file, "not enough memory");
+  return png;
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneCurve curve,
+               const Embedded& embedded) {
+  check_writable(file, image);
+  const Bytes png = encode_png(file, image, tone_map(image.rgb, exposure, curve));
+  Bytes extra;
+  put_chunk(extra, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
+  put_text(extra, "tyndall:scene", embedded.scene);
+  put_text(extra, "tyndall:stats", embedded.stats);
+  WholeFile out(file);
+  out.write(std::span(png).first(header_end));
+  out.write(extra);
+  out.write(std::span(png).subspan(header_end));
+  out.commit();
+}
+
+namespace {
+
+/// The text of an iTXt chunk's data if it has that keyword.
+std::optional<std::string> text_of(const std::filesystem::path& file, std::string_view data,
+                                   const std::string& keyword) {
+  if (!data.starts_with(keyword + '\0')) return {};
+  data.remove_prefix(keyword.size() + 1);
+  if (data.size() < 2) cannot_read(file, "damaged: the chunk iTXt is cut off");
+  if (data[0] != 0) cannot_read(file, "the text " + keyword + " is compressed: another program has rewritten the file");
+  data.remove_prefix(2);
+  for (int i = 0; i < 2; ++i) {  // language, translated keyword
+    const std::size_t end = data.find('\0');
+    if (end == data.npos) cannot_read(file, "damaged: the chunk iTXt is cut off");
+    data.remove_prefix(end + 1);
+  }
+  return std::string(data);
+}
+
+}  // namespace
+
+std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,
+                                    const std::string& keyword) {
+  assert(image_kind(png) == ImageKind::png);
+  for (std::size_t at = signature_size; png.size() - at >= 12;) {
+    const std::size_t length = get_u32(png.subspan(at));
+    if (length > png.size() - at - 12) break;
+    const auto chunk = png.subspan(at + 4, length + 4);
+    const std::string_view content(reinterpret_cast<const char*>(chunk.data()), chunk.size());
+    if (content == "IEND") return {};
+    if (content.starts_with("iTXt" + keyword + '\0') && crc32(chunk) != get_u32(png.subspan(at + 8 + length))) {
+      cannot_read(file, "damaged: the checksum of the text " + keyword + " is wrong");
+    }
+    if (content.starts_with("iTXt")) {
+      if (auto text = text_of(file, content.substr(4), keyword)) return text;
+    }
+    at += length + 12;
+  }
+  cannot_read(file, "damaged: the PNG ends in the middle");
+}
+
+}  // namespace tyndall

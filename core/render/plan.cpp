@@ -1,0 +1,249 @@
+#include "core/render/plan.h"
+
+#include "core/accuracy/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace tyndall {
+namespace {
+
+/// The cells that a film's region is cut into, from its upper left corner.
+struct Cells {
+  Region region;
+  int columns, rows;
+
+  explicit Cells(const Region& r)
+      : region(r), columns((r.width() + cell_edge - 1) / cell_edge), rows((r.height() + cell_edge - 1) / cell_edge) {}
+
+  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
+  Region pixels(int column, int row) const {
+    const int x = region.x0 + column * cell_edge, y = region.y0 + row * cell_edge;
+    return {x, y, std::min(x + cell_edge, region.x1), std::min(y + cell_edge, region.y1)};
+  }
+  Region pixels(std::size_t i) const {
+    const auto width = static_cast<std::size_t>(columns);
+    return pixels(static_cast<int>(i % width), static_cast<int>(i / width));
+  }
+  /// Pixels of each.
+  std::vector<std::uint64_t> areas() const {
+    std::vector<std::uint64_t> found;
+    for (std::size_t i = 0; i < count(); ++i) {
+      const Region r = pixels(i);
+      found.push_back(static_cast<std::uint64_t>(r.width()) * static_cast<std::uint64_t>(r.height()));
+    }
+    return found;
+  }
+};
+
+constexpr double most_taken = 1 << 24;  // what a film's sums hold
+
+void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
+  if (crew) return crew->for_each(rows, job);
+  for (int row = 0; row < rows; ++row) job(row);
+}
+
+/// Sums over pixels that have samples in both halves.
+struct Variance {
+  double sum = 0;  ///< of squared relative error times count²
+  int pixels = 0;
+};
+
+Variance variance_in(const Film& film, const Region& where) {
+  Variance found;
+  for (int y = where.y0; y < where.y1; ++y)
+    for (int x = where.x0; x < where.x1; ++x) {
+      const FilmPixel& pixel = film.at(x, y);
+      const double error = squared_relative_error(film, pixel);
+      if (!std::isfinite(error)) continue;
+      found.sum += error * pixel.taken * pixel.taken;
+      ++found.pixels;
+    }
+  return found;
+}
+
+/// Cube root of the mean in the window around a cell, without the cell itself: counts in proportion to that make the
+/// sum of error · count² / count'² least.
+double need_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
+  Variance around;
+  for (int v = std::max(row - window_reach, 0); v <= std::min(row + window_reach, cells.rows - 1); ++v)
+    for (int u = std::max(column - window_reach, 0); u <= std::min(column + window_reach, cells.columns - 1); ++u) {
+      if (u == column && v == row) continue;
+      const Variance& one = variances[cells.index(u, v)];
+      around.sum += one.sum;
+      around.pixels += one.pixels;
+    }
+  return around.pixels > 0 ? std::cbrt(around.sum / around.pixels) : 0;
+}
+
+/// What the cells need, relative to their mean; at least a little, so that a round can always reach its mean.
+std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
+  std::vector<Variance> variances(cells.count());
+  for_rows(crew, cells.rows, [&](int row) {
+    for (int column = 0; column < cells.columns; ++column)
+      variances[cells.index(column, row)] = variance_in(film, cells.pixels(column, row));
+  });
+  std::vector<double> needs(cells.count());
+  for_rows(crew, cells.rows, [&](int row) {
+    for (int column = 0; column < cells.columns; ++column)
+      needs[cells.index(column, row)] = need_of(variances, cells, column, row);
+  });
+  const double mean = std::accumulate(needs.begin(), needs.end(), 0.0) / static_cast<double>(needs.size());
+  for (double& need : needs) need = mean > 0 ? std::max(need / mean, 1e-3) : 1;
+  return needs;
+}
+
+/// A number in [0, 2^16) for each cell, evenly spread over any few of them: cells that need the same do not all step up
+/// at once. Multiples of the golden ratio.
+std::uint64_t dither(std::size_t cell) { return (cell * 40503) & 0xffff; }
+
+/// The nearest power of two: the points of a Sobol' sequence are most even there. In between, where little is hard, the
+/// error would be up to a third higher.
+std::uint32_t rounded(double count) { return std::bit_floor(static_cast<std::uint32_t>(std::numbers::sqrt2 * count)); }
+
+/// The count of each cell if needs were to be served by `scale` samples each, and their sum over the pixels.
+struct Shares {
+  std::vector<std::uint64_t> areas;
+  const std::vector<double>& needs;
+  const std::vector<PlannedSamples>& planned;
+  double mean;
+
+  double wish(std::size_t cell, double scale) const {
+    return std::min(std::clamp(scale * needs[cell], least_of_mean * mean, most_of_mean * mean), most_taken);
+  }
+  std::uint32_t of(std::size_t cell, double scale) const {
+    return std::max(rounded(wish(cell, scale)), planned[cell].from);
+  }
+  double total(double scale) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < needs.size(); ++i) sum += static_cast<double>(of(i, scale) * areas[i]);
+    return sum;
+  }
+};
+
+/// The highest scale whose total is within `budget`.
+double find_scale(const Shares& shares, double budget) {
+  double low = 0, high = shares.mean;
+  while (shares.total(high) <= budget && high < 1e6 * shares.mean) low = high, high *= 2;
+  for (int halving = 0; halving < 16; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (shares.total(middle) <= budget ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Spends what rounding left of the budget on cells that were rounded down, so that the mean is what it is called.
+void spend(double left, const Shares& shares, double scale, std::vector<PlannedSamples>& planned) {
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    if (shares.wish(i, scale) <= planned[i].to) continue;
+    const double more =
+        std::min<double>(planned[i].to, 2 * std::floor(left / static_cast<double>(2 * shares.areas[i])));
+    planned[i].to += static_cast<std::uint32_t>(more);
+    left -= more * static_cast<double>(shares.areas[i]);
+  }
+}
+
+/// How many times less error the best counts, in proportion to the root of the variance, would have than even ones.
+double best_gain(const std::vector<double>& needs) {
+  double variances = 0, roots = 0;
+  for (const double need : needs) variances += need * need * need, roots += need * std::sqrt(need);
+  return variances * static_cast<double>(needs.size()) / (roots * roots);
+}
+
+/// How many times less error a plan has than even counts, were error to fall as one over the count.
+double expected_gain(const std::vector<double>& needs, const std::vector<PlannedSamples>& planned, double mean) {
+  double even = 0, as_planned = 0;
+  for (std::size_t i = 0; i < needs.size(); ++i) {
+    const double variance = needs[i] * needs[i] * needs[i];
+    even += variance / mean, as_planned += variance / planned[i].to;
+  }
+  return even / as_planned;
+}
+
+/// The power of two that a count's mean falls short of by less than a half: what the round was to reach.
+std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count) {
+  const std::vector<std::uint64_t> areas = Cells(film.region).areas();
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < film.planned.size(); ++i) sum += film.planned[i].*count * areas[i];
+  return static_cast<std::uint32_t>(std::bit_ceil((sum + film.pixels.size() - 1) / film.pixels.size()));
+}
+
+}  // namespace
+
+void plan_round(Film& film, Crew* crew) {
+  const Cells cells(film.region);
+  std::vector<PlannedSamples> planned(cells.count());
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    const Region where = cells.pixels(i);
+    planned[i].from = planned[i].to = film.at(where.x0, where.y0).taken;
+  }
+  film.planned = std::move(planned);
+  const double mean = 2.0 * round_mean(film, &PlannedSamples::from);
+  const std::vector<double> needs = needs_of(film, cells, crew);
+  const bool still_even = !planned_unevenly(film);
+  const auto stay_even = [&] {
+    for (PlannedSamples& p : film.planned) p.to = static_cast<std::uint32_t>(mean);
+  };
+  if (still_even && best_gain(needs) < least_gain) return stay_even();  // saves finding the scale
+  const Shares shares{cells.areas(), needs, film.planned, mean};
+  const double budget = mean * static_cast<double>(film.pixels.size()), scale = find_scale(shares, budget);
+  const double left = budget - shares.total(scale);
+  for (std::size_t i = 0; i < needs.size(); ++i) film.planned[i].to = shares.of(i, scale);
+  spend(left, shares, scale, film.planned);
+  if (still_even && expected_gain(needs, film.planned, mean) < least_gain) stay_even();
+}
+
+std::uint32_t planned_mean(const Film& film) {
+  return film.planned.empty() ? 0 : round_mean(film, &PlannedSamples::to);
+}
+
+std::uint32_t end_of_round(Film& film, std::uint32_t taken, Crew* crew) {
+  if (taken < warm_up) return warm_up;
+  if (taken >= planned_mean(film)) plan_round(film, crew);
+  return planned_mean(film);
+}
+
+bool planned_unevenly(const Film& film) {
+  const auto differs = [&film](const PlannedSamples& planned) { return planned != film.planned.front(); };
+  return std::any_of(film.planned.begin(), film.planned.end(), differs);
+}
+
+std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
+  const Cells cells(film.region);
+  const std::vector<std::uint64_t> areas = cells.areas();
+  const auto count = [&film](std::size_t cell, std::uint64_t part) {
+    const auto [from, to] = film.planned[cell];
+    return from + static_cast<std::uint32_t>(((to - from) * part + dither(cell)) >> 16);
+  };
+  const auto fits = [&](std::uint64_t part) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < film.planned.size(); ++i) sum += count(i, part) * areas[i];
+    return sum <= spp * film.pixels.size();
+  };
+  std::uint64_t part = 0;  // of the round, in 65536ths
+  for (std::uint64_t step = 0x10000; step > 0; step /= 2)
+    if (part + step <= 0x10000 && fits(part + step)) part += step;
+  std::vector<std::uint32_t> counts(film.pixels.size());
+  for (std::size_t i = 0; i < film.planned.size(); ++i) {
+    const Region where = cells.pixels(i);
+    for (int y = where.y0; y < where.y1; ++y)
+      for (int x = where.x0; x < where.x1; ++x) counts[film.index(x, y)] = count(i, part);
+  }
+  return counts;
+}
+
+std::uint32_t labelled_spp(const Film& film) {
+  const FilmTotals sum = totals(film);
+  if (film.planned.empty()) return sum.least_taken;
+  return static_cast<std::uint32_t>(
+      std::llround(static_cast<double>(sum.samples) / static_cast<double>(film.pixels.size())));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,216 @@
+#include "app/cli/options.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace tyndall;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+RenderCommand render_command(const Words& more) {
+  Words words = {"render", "box.json", "-o", "a.png"};
+  words.insert(words.end(), more.begin(), more.end());
+  return std::get<RenderCommand>(read_command(words));
+}
+
+std::string refusal(const Words& words) {
+  try {
+    read_command(words);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string printed(const Words& words) { return std::get<PrintCommand>(read_command(words)).text; }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("without a command: the window") {
+  CHECK(std::get<ViewCommand>(read_command({})).scene.what == "showroom");
+  CHECK(std::get<ViewCommand>(read_command({"cornell-box"})).scene.what == "cornell-box");
+  CHECK(std::get<ViewCommand>(read_command({"view"})).scene.what == "showroom");
+  CHECK(std::get<ViewCommand>(read_command({"-"})).scene.what == "-");
+  CHECK(std::get<ViewCommand>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
+  const auto view = std::get<ViewCommand>(read_command({"--seed", "7", "a.json", "-t", "2"}));
+  CHECK(view.scene.what == "a.json");
+  CHECK(view.scene.seed == 7u);
+  CHECK(view.threads == 2);
+}
+
+TEST_CASE("render: every option arrives") {
+  const RenderCommand c = render_command(
+      {"-o",         "b.exr",       "--size",     "64x32",          "--spp",      "16",           "--time",
+       "2.5",        "--max-depth", "7",          "--sampler",      "random",     "--integrator", "path",
+       "--fresnel",  "schlick",     "--exposure", "-1.5",           "--tone-map", "aces",         "--seed",
+       "4294967295", "--region",    "1,2,3,4",    "--isa",          "scalar",     "--stats",      "s.json",
+       "--resume",   "-t",          "3",          "--target-error", "0.01",       "--progress",   "plain"});
+  CHECK(c.scene.what == "box.json");
+  CHECK(c.outputs == std::vector<std::filesystem::path>{"a.png", "b.exr"});
+  CHECK(c.scene.size->width == 64);
+  CHECK(c.scene.size->height == 32);
+  CHECK(c.spp == 16u);
+  CHECK(c.time_limit == 2.5);
+  CHECK(c.target_error == 0.01);
+  CHECK(c.scene.max_depth == 7);
+  CHECK(c.scene.sampler == SamplerKind::random);
+  CHECK(c.scene.integrator == Integrator::path);
+  CHECK(c.scene.fresnel == FresnelKind::schlick);
+  CHECK(c.scene.exposure == -1.5);
+  CHECK(c.scene.tone_map == ToneMap::aces);
+  CHECK(c.scene.seed == 4294967295u);
+  CHECK(c.region == Region{1, 2, 3, 4});
+  CHECK(c.isa == "scalar");
+  CHECK(c.stats == "s.json");
+  CHECK(c.resume);
+  CHECK(c.threads == 3);
+  CHECK(c.progress == ProgressStyle::plain);
+}
+
+TEST_CASE("render: what is not given stays open") {
+  const RenderCommand c = render_command({});
+  CHECK_FALSE(c.spp);
+  CHECK_FALSE(c.samples);
+  CHECK_FALSE(c.scene.size);
+  CHECK_FALSE(c.scene.seed);
+  CHECK_FALSE(c.resume);
+  CHECK(c.threads == 0);
+  CHECK(c.progress == ProgressStyle::automatic);
+  CHECK(render_command({"-q"}).progress == ProgressStyle::none);
+}
+
+TEST_CASE("overrides keep their order; the last of a repeated option wins; an output takes one name") {
+  const RenderCommand c = render_command({"--set", "/b=1", "--set", "/a=[1,2,3]", "--spp", "1", "--spp", "2"});
+  REQUIRE(c.scene.overrides.size() == 2);
+  CHECK(c.scene.overrides[0].pointer == "/b");
+  CHECK(c.scene.overrides[1].value == "[1,2,3]");
+  CHECK(c.spp == 2u);
+  CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
+  CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "--", "-a.json"})).scene.what == "-a.json");
+  CHECK(std::get<RenderCommand>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
+}
+
+TEST_CASE("refusals name the option, what was found and what is expected") {
+  CHECK(refusal({"render", "b", "-o", "a.png", "--size", "8"}) ==
+        R"(--size: found "8", expected WIDTHxHEIGHT in pixels, such as 800x450)");
+  CHECK(has(refusal({"render", "b", "-o", "a.png", "--spp", "0"}), R"(--spp: found "0")"));
+  CHECK(has(refusal({"render", "b", "-o", "a.png", "-t", "0"}), R"(--threads: found "0")"));
+  CHECK(has(refusal({"render", "b", "-o", "a.png", "--time", "0"}), "--time"));
+  CHECK(has(refusal({"render", "b", "-o", "a.png", "--spp"}), "--spp: a value is missing"));
+  CHECK(has(refusal({""}), "SCENE is missing"));
+  CHECK(has(refusal({"render", "b"}), "an output (-o FILE) is missing"));
+  CHECK(has(refusal({"render", "-o", "a.png"}), "SCENE is missing"));
+  CHECK(has(refusal({"render", "a", "b", "-o", "a.png"}), R"(unexpected argument "b")"));
+  CHECK(has(refusal({"compare", "a"}), "REFERENCE is missing"));
+  CHECK(has(refusal({"compare", "a", "b", "--max-rmse", "-1"}), "--max-rmse"));
+  CHECK(has(refusal({"compare", "a", "b", "--heatmap", "h.jpg"}), "--heatmap"));
+  CHECK(has(refusal({"convert", "a", "-o", "a.png"}), ".json"));
+  CHECK(has(refusal({"merge", "-o", "a.png"}), "PART is missing"));
+}
+
+TEST_CASE("unknown options and commands get a suggestion") {
+  CHECK(
+      has(refusal({"render", "b", "-o", "a.png", "--sede=3"}), R"(unknown option "--sede" (did you mean "--seed"?))"));
+  CHECK(has(refusal({"rendr", "box", "-o", "a.png"}), R"(unknown command "rendr" (did you mean "render"?))"));
+  CHECK(has(refusal({"scene"}), R"(did you mean "scenes"?)"));
+  CHECK(has(refusal({"--spp", "3"}), "--spp"));
+}
+
+TEST_CASE("limits that exclude each other are named") {
+  for (const Words& other : std::vector<Words>{{"--spp", "4"}, {"--time", "1"}, {"--target-error", "0.1"}}) {
+    Words words = {"render", "b", "-o", "a.png", "--samples", "0:4"};
+    words.insert(words.end(), other.begin(), other.end());
+    CHECK(has(refusal(words), "--samples and " + other[0]));
+  }
+  CHECK(render_command({"--samples", "4:8"}).samples->first == 4);
+}
+
+TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered") {
+  CHECK_FALSE(render_command({}).scene.adaptive);
+  CHECK(render_command({"--adaptive"}).scene.adaptive);
+  CHECK(std::get<ViewCommand>(read_command({"view", "--adaptive", "box"})).scene.adaptive);
+  const auto chart = std::get<ChartCommand>(
+      read_command({"chart", "box", "-o", "a.svg", "--method", "even=", "--method", "adaptive=--adaptive --seed 3"}));
+  CHECK_FALSE(chart.methods.at(0).scene.adaptive);
+  CHECK(chart.methods.at(1).scene.adaptive);
+  CHECK(has(refusal({"verify", "--adaptive"}), "unknown option"));
+}
+
+TEST_CASE("verify: names, method, machine") {
+  const auto command = std::get<VerifyCommand>(read_command(
+      {"verify", "plate", "--json", "milk", "--isa", "scalar", "-t", "2", "--integrator", "nee", "--seed", "7", "-q"}));
+  CHECK(command.names == std::vector<std::string>{"plate", "milk"});
+  CHECK(command.json);
+  CHECK_FALSE(command.thorough);
+  CHECK(command.isa == "scalar");
+  CHECK(command.threads == 2);
+  CHECK(command.method.integrator == Integrator::nee);
+  CHECK(command.method.seed == 7u);
+  CHECK(command.progress == ProgressStyle::none);
+  CHECK(std::get<VerifyCommand>(read_command({"verify", "--thorough"})).thorough);
+  CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
+}
+
+TEST_CASE("inspect: an instruction set is only for measuring") {
+  CHECK(std::get<InspectCommand>(read_command({"inspect", "box", "--measure", "--isa", "sse4"})).isa == "sse4");
+  CHECK(has(refusal({"inspect", "box", "--isa", "sse4"}), "--measure"));
+}
+
+TEST_CASE("chart: methods with flags of their own, reference, budget") {
+  const auto command =
+      std::get<ChartCommand>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
+                                           "no MIS=--integrator nee --isa scalar", "--budget", "7"}));
+  CHECK(command.scene.what == "box");
+  CHECK(command.output == "a.svg");
+  CHECK(command.budget == 7);
+  REQUIRE(command.methods.size() == 2);
+  CHECK(command.methods[0].name == "plain");
+  CHECK_FALSE(command.methods[0].scene.integrator);
+  CHECK(command.methods[1].name == "no MIS");
+  CHECK(command.methods[1].scene.integrator == Integrator::nee);
+  CHECK(command.methods[1].isa == "scalar");
+  CHECK(std::get<ChartCommand>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
+  CHECK(has(refusal({"chart", "box"}), "-o FILE.svg"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.png"}), ".svg"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--method", "nee"}), "NAME=FLAGS"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--method", "a=--integrator neee"}), "did you mean"));
+  CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--budget", "0"}), "seconds > 0"));
+}
+
+TEST_CASE("help names every command and option, with units and defaults") {
+  const std::string overview = printed({"--help"});
+  for (const char* name : {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
+    CHECK(has(overview, std::string("\n  ") + name + " "));
+  CHECK(printed({"-h"}) == overview);
+  CHECK(has(printed({"--version"}), "tyndall "));
+  const std::string render = printed({"render", "--help"});
+  for (const char* option : {"--output FILE",       "--size WxH",           "--spp N",       "--samples A:B",
+                             "--time SECONDS",      "--target-error E",     "--max-depth N", "--integrator NAME",
+                             "--sampler NAME",      "--fresnel NAME",       "--exposure EV", "--tone-map NAME",
+                             "--set POINTER=VALUE", "--region X0,Y0,X1,Y1", "--seed N",      "--threads N",
+                             "--isa NAME",          "--stats FILE.json",    "--resume",      "--quiet",
+                             "--progress NAME"})
+    CHECK_MESSAGE(has(render, option), option);
+  CHECK(has(render, "else 64"));
+  CHECK(has(render, "else 1000"));
+  CHECK(has(printed({"compare", "--help"}), "depends on the unit of radiance"));
+  for (const char* command : {"view", "merge", "inspect", "scenes", "convert"})
+    CHECK(has(printed({command, "--help"}), std::string("Usage: tyndall ") + command));
+}
+
+TEST_CASE("help fits into 100 columns") {
+  for (const char* command : {"view", "render", "compare", "merge", "inspect", "scenes", "convert"}) {
+    const std::string text = printed({command, "--help"});
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = text.find('\n', at);
+      CHECK_MESSAGE(end - at <= 100, text.substr(at, end - at));
+      at = end + 1;
+    }
+  }
+}

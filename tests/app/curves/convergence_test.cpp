@@ -1,0 +1,103 @@
+#include "app/curves/convergence.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace tyndall;
+
+namespace {
+
+void run(Convergence& runs, std::uint64_t edit, const std::string& method, double seconds) {
+  for (double s = 0.1; s <= seconds; s *= 1.2) runs.add(edit, method, {s, 0.01 / s});
+}
+
+}  // namespace
+
+TEST_CASE("runs that say something are kept, drags are not") {
+  Convergence runs;
+  run(runs, 1, "path · random", 3);
+  for (std::uint64_t edit = 2; edit < 50; ++edit) run(runs, edit, "mis · sobol", 0.3);
+  run(runs, 50, "mis · sobol", 3);
+  REQUIRE(runs.earlier().size() == 1);
+  CHECK(runs.earlier()[0].method == "path · random");
+  CHECK(runs.current().edit == 50);
+}
+
+TEST_CASE("the newest run of each method stays, and not more than a few") {
+  Convergence runs;
+  for (std::uint64_t edit = 1; edit < 20; ++edit) run(runs, edit, "method " + std::to_string(edit % 7), 2);
+  CHECK(runs.earlier().size() == Convergence::most_earlier);
+  CHECK(runs.earlier().back().edit == 18);
+  for (std::uint64_t edit = 20; edit < 24; ++edit) run(runs, edit, "same", 2);
+  int same = 0;
+  for (const ConvergenceRun& earlier : runs.earlier()) same += earlier.method == "same";
+  CHECK(same == 1);
+}
+
+TEST_CASE("starting over is a run of its own though the edit is the same") {
+  Convergence runs;
+  run(runs, 1, "a", 5);
+  runs.add(1, "a", {0.05, 1});
+  CHECK(runs.current().points.size() == 1);
+  CHECK(runs.earlier().size() == 1);
+}
+
+TEST_CASE("many frames make few points, the last one is always there") {
+  Convergence runs;
+  for (int k = 1; k <= 100000; ++k) runs.add(1, "a", {k * 0.001, 1.0 / k});
+  CHECK(runs.current().points.size() < 300);
+  CHECK(runs.current().points.back().seconds == doctest::Approx(100));
+}
+
+TEST_CASE("errors that are unknown leave no point") {
+  Convergence runs;
+  runs.add(1, "a", {0.1, std::numeric_limits<double>::infinity()});
+  runs.add(1, "a", {0.2, std::numeric_limits<double>::quiet_NaN()});
+  runs.add(1, "a", {0.0, 0.5});
+  CHECK(runs.current().points.empty());
+  CHECK(runs.current().method == "a");
+}
+
+TEST_CASE("time to a target: four times as long for half the error, less what has passed since the estimate") {
+  CHECK(seconds_to(0.01, {10, 0.0004}, 10) == doctest::Approx(30));
+  CHECK(seconds_to(0.01, {10, 0.0004}, 25) == doctest::Approx(15));
+  CHECK(seconds_to(0.01, {10, 0.0001}, 10) == 0);
+  CHECK(seconds_to(0.01, {10, 0.00001}, 10) == 0);
+}
+
+TEST_CASE("an error that was not estimated anew is no point") {
+  Convergence runs;
+  for (int k = 1; k < 100; ++k) runs.add(1, "a", {0.1 * k, k < 50 ? 0.5 : 0.25});
+  REQUIRE(runs.current().points.size() == 2);
+  CHECK(runs.current().points[1].seconds == doctest::Approx(5));
+}
+
+TEST_CASE("curves have names of their own: two of one method, and the halves of a split view") {
+  Convergence runs, kept;
+  run(runs, 1, "mis", 3);
+  run(runs, 2, "path", 3);
+  run(runs, 3, "mis", 3);
+  run(runs, 4, "path", 3);
+  run(kept, 1, "nee", 1);
+  const auto names = [](const std::vector<NamedRun>& named) {
+    std::string text;
+    for (const NamedRun& one : named) text += one.name + ";";
+    return text;
+  };
+  CHECK(names(named_runs(runs, nullptr)) == "path before;mis;path;");
+  const auto named = named_runs(runs, &kept);
+  CHECK(names(named) == "path before;mis;A: nee;B: path;");
+  CHECK(named[2].run == &kept.current());
+  CHECK(named.back().role == NamedRun::Role::current);
+}
+
+TEST_CASE("methods are named by what differs from the file's") {
+  RenderSettings file, settings;
+  file.max_depth = settings.max_depth = 50;
+  CHECK(method_of(settings, file) == "mis · sobol");
+  settings.max_depth = 5;
+  settings.seed = 3;
+  settings.fresnel = FresnelKind::schlick;
+  CHECK(method_of(settings, file) == "mis · sobol · schlick · depth 5 · seed 3");
+}

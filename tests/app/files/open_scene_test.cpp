@@ -1,0 +1,43 @@
+#include "app/files/open_scene.h"
+
+#include "core/base/error.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+TEST_CASE("options change the scene after overrides") {
+  SceneRequest request;
+  request.what = "cornell-box";
+  request.overrides = {{"/image/width", "100"}, {"/image/height", "90"}, {"/render/max_depth", "9"}};
+  request.size = Size{64, 48};
+  request.seed = 7;
+  request.exposure = 2;
+  request.tone_map = ToneMap::aces;
+  request.fresnel = FresnelKind::schlick;
+  const Scene scene = open_scene(request).scene;
+  CHECK(scene.width == 64);
+  CHECK(scene.height == 48);
+  CHECK(scene.render.max_depth == 9);
+  CHECK(scene.render.seed == 7);
+  CHECK(scene.display.exposure == 2);
+  CHECK(scene.display.tone_map == ToneMap::aces);
+  CHECK(scene.render.fresnel == FresnelKind::schlick);
+}
+
+TEST_CASE("what options change is checked too") {
+  SceneRequest request;
+  request.what = "cornell-box";
+  request.size = Size{100000, 10};
+  CHECK_THROWS_AS(open_scene(request), SceneError);
+}
+
+TEST_CASE("methods named by options replace the scene's") {
+  SceneRequest request;
+  request.what = "cornell-box";
+  request.integrator = Integrator::nee;
+  request.sampler = SamplerKind::random;
+  const RenderSettings settings = open_scene(request).scene.render;
+  CHECK(settings.integrator == Integrator::nee);
+  CHECK(settings.sampler == SamplerKind::random);
+}

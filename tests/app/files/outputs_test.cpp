@@ -1,0 +1,59 @@
+#include "app/files/outputs.h"
+
+#include "app/text/values.h"
+#include "core/base/error.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace tyndall;
+
+namespace {
+
+/// An empty folder of this test.
+std::filesystem::path empty_folder(const char* name) {
+  const std::filesystem::path folder = std::filesystem::path(TYNDALL_SCRATCH_DIR) / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+}  // namespace
+
+TEST_CASE("names of images") {
+  CHECK_NOTHROW(check_image_names({"a.png", "b.PFM", "c.hdr"}));
+  for (const char* name : {"a.jpg", "png", "a", "a.png.txt", ".png"}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(check_image_names({name}), UsageError);
+  }
+  CHECK_THROWS_AS(check_image_names({"a.png", "b.png", "a.png"}), UsageError);
+  CHECK(is_exr("a.EXR"));
+  CHECK_FALSE(is_exr("a.png"));
+}
+
+TEST_CASE("whether a file can be written is known beforehand, and asking leaves nothing") {
+  const auto folder = empty_folder("outputs_test");
+  CHECK_NOTHROW(check_can_write(folder / "a.png"));
+  CHECK(std::filesystem::is_empty(folder));
+  CHECK_THROWS_AS(check_can_write(folder / "none" / "a.png"), IoError);
+  std::filesystem::create_directory(folder / "b.png");
+  CHECK_THROWS_AS(check_can_write(folder / "b.png"), ImageFileError);
+  std::ofstream(folder / "c.png") << "old";
+  CHECK_NOTHROW(check_can_write(folder / "c.png"));
+  CHECK(std::filesystem::file_size(folder / "c.png") == 3);
+}
+
+TEST_CASE("what can be written is written, though something else cannot") {
+  const auto folder = empty_folder("outputs_test");
+  Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
+  const Picture picture{film, {}, [](const auto& file) { return Embedded{file.filename().string(), ""}; }, {}};
+  const auto problems =
+      write_images(picture, {folder / "a.pfm", folder / "none" / "b.png", folder / "c.png", folder / "d.png"});
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].find("b.png") != std::string::npos);
+  CHECK(read_image(folder / "a.pfm").width == 3);
+  CHECK(read_embedded_scene(folder / "c.png") == "c.png");
+  CHECK(read_embedded_scene(folder / "d.png") == "d.png");
+}

@@ -1,0 +1,45 @@
+#include "app/report/contents.h"
+
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+Scene read(const char* objects, const char* more = "") {
+  return read_scene(std::string(R"({"tyndall":1,"materials":{"white":{"type":"lambertian","albedo":[1,1,1]},
+    "lamp":{"type":"light","radiance":[1,1,1]}},"objects":[)") +
+                        objects + "]" + more + "}",
+                    "test", ".");
+}
+
+}  // namespace
+
+TEST_CASE("contents: objects in groups count, boxes are six lights") {
+  const Contents c = contents_of(read(R"(
+    {"type":"sphere","center":[0,0,0],"radius":1,"material":"white"},
+    {"type":"group","objects":[
+      {"type":"box","min":[0,0,0],"max":[1,1,1],"material":"lamp"},
+      {"type":"group","objects":[{"type":"quad","corner":[0,0,0],"u":[1,0,0],"v":[0,1,0],"material":"lamp"}]},
+      {"type":"medium","boundary":{"type":"sphere","center":[0,0,0],"radius":1},"density":1,"albedo":[1,1,1],"g":0.5}
+    ]})"));
+  CHECK(c.shapes == std::map<std::string, int>{{"sphere", 1}, {"box", 1}, {"quad", 1}});
+  CHECK(c.materials == std::map<std::string, int>{{"lambertian", 1}, {"light", 1}});
+  CHECK(c.lights == 7);
+  CHECK(c.media == 1);
+  CHECK(c.phase_functions == 1);
+  CHECK(c.background == "none");
+  CHECK_FALSE(c.defocus);
+}
+
+TEST_CASE("contents: something moves only while the shutter is open") {
+  const char* moving = R"({"type":"sphere","center":[0,0,0],"center_end":[1,0,0],"radius":1,"material":"white"})";
+  CHECK(contents_of(read(moving)).shapes.at("moving sphere") == 1);
+  CHECK_FALSE(contents_of(read(moving)).motion);
+  CHECK(contents_of(read(moving, R"(,"camera":{"shutter":[0,1]})")).motion);
+  CHECK(contents_of(read(moving, R"(,"camera":{"defocus_angle":1})")).defocus);
+  CHECK(contents_of(read(moving, R"(,"background":{"type":"hemispheres","up":[1,1,1],"down":[0,0,0]})")).background ==
+        "hemispheres");
+}

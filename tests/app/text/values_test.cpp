@@ -1,0 +1,76 @@
+#include "app/text/values.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace tyndall;
+
+namespace {
+
+template <class Read>
+std::string refusal(Read read) {
+  try {
+    read();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("whole numbers: the whole text, in range") {
+  CHECK(read_whole("64", 1, 100) == 64);
+  CHECK(read_whole("-3", -5, 5) == -3);
+  for (const char* text : {"", "abc", "1.5", "12x", " 1", "0", "101", "99999999999999999999", "0x10", "1e3"})
+    CHECK_THROWS_AS(read_whole(text, 1, 100), UsageError);
+  CHECK(refusal([] { read_whole("0", 1, 100); }) == R"(found "0", expected a whole number from 1 to 100)");
+}
+
+TEST_CASE("numbers: finite and in range") {
+  CHECK(read_number("0.25", at_least(0), "") == 0.25);
+  CHECK(read_number("1e-3", above(0), "") == 1e-3);
+  CHECK(read_number("-2", any_number(), "") == -2);
+  for (const char* text : {"nan", "inf", "-inf", "1e999", "", "-1", "1,5", "2 "})
+    CHECK_THROWS_AS(read_number(text, at_least(0), "a number >= 0"), UsageError);
+  CHECK(refusal([] { read_number("-1", at_least(0), "a number >= 0"); }) == R"(found "-1", expected a number >= 0)");
+}
+
+TEST_CASE("sizes") {
+  CHECK(read_size("640x480").width == 640);
+  CHECK(read_size("640x480").height == 480);
+  for (const char* text : {"640", "640x", "x480", "640x480x3", "0x10", "10x-1", "10X10", "640 x 480", "1.5x2", "x"})
+    CHECK_THROWS_AS(read_size(text), UsageError);
+}
+
+TEST_CASE("sample ranges") {
+  CHECK(read_samples("16:32").first == 16);
+  CHECK(read_samples("16:32").last == 32);
+  CHECK(read_samples("4294967294:4294967295").first == 4294967294u);
+  for (const char* text : {"16", "16:", ":16", "16:16", "17:16", "-1:5", "0:4294967296", "1:2:3", "0:16777217"})
+    CHECK_THROWS_AS(read_samples(text), UsageError);
+}
+
+TEST_CASE("regions") {
+  CHECK(read_region("1,2,30,40") == Region{1, 2, 30, 40});
+  for (const char* text : {"1,2,30", "1,2,30,40,50", "5,5,5,9", "5,5,9,5", "-1,0,5,5", "0,0,5,5.5", "0 0 5 5"})
+    CHECK_THROWS_AS(read_region(text), UsageError);
+}
+
+TEST_CASE("overrides: a pointer, then everything after the first =") {
+  CHECK(read_override("/materials/gold/fuzz=0.2").pointer == "/materials/gold/fuzz");
+  CHECK(read_override("/name=a=b").value == "a=b");
+  CHECK(read_override("/name=").value.empty());
+  for (const char* text : {"fuzz=1", "/fuzz", "", "=1"}) CHECK_THROWS_AS(read_override(text), UsageError);
+}
+
+TEST_CASE("names: a near miss gets a suggestion") {
+  CHECK(read_name("aces", {"srgb", "aces"}) == 1);
+  CHECK(refusal([] {
+          read_name("shlick", {"exact", "schlick"});
+        }) == R"(found "shlick", expected one of "exact", "schlick" (did you mean "schlick"?))");
+  CHECK(refusal([] {
+          read_name("zzz", {"exact", "schlick"});
+        }) == R"(found "zzz", expected one of "exact", "schlick")");
+}

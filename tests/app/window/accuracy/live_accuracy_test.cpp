@@ -1,0 +1,194 @@
+#include "app/window/accuracy/live_accuracy.h"
+
+#include "app/window/panels/panels.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr int columns = 16, rows = 12;
+
+Scene scene_with(double vfov, std::uint32_t seed = 0) {
+  Scene scene;
+  scene.width = columns, scene.height = rows;
+  scene.camera.vfov = vfov;
+  scene.render.seed = seed;
+  return scene;
+}
+
+/// A grey picture; estimated error 20 %.
+std::shared_ptr<Frame> picture(float grey, std::uint64_t edit, double seconds) {
+  auto frame = std::make_shared<Frame>();
+  frame->width = columns, frame->height = rows;
+  frame->edit = edit;
+  frame->spp = static_cast<std::uint32_t>(100 * seconds);
+  frame->pass = frame->spp;
+  frame->seconds = seconds;
+  frame->relative_error = 0.2 / std::sqrt(seconds);
+  for (int i = 0; i < columns * rows; ++i) frame->rgba.insert(frame->rgba.end(), {grey, grey, grey, 1.0f});
+  return frame;
+}
+
+std::shared_ptr<const Reference> reference(float grey, const Scene& scene) {
+  return std::make_shared<const Reference>(Reference{{columns, rows, std::vector<float>(3 * columns * rows, grey)},
+                                                     0,
+                                                     grey < 1 ? "dark.exr" : "light.exr",
+                                                     scene,
+                                                     true});
+}
+
+struct Watched {
+  LiveAccuracy accuracy{[] {}};
+
+  Watched() { accuracy.set_scene(Half::current, scene_with(40)); }
+  void show(const std::shared_ptr<Frame>& frame, Half half = Half::current, bool resting = true) {
+    accuracy.set_resting(resting);
+    accuracy.shown(half, frame, "mis", true);
+  }
+  template <class Condition>
+  bool comes_true(const Condition& condition) {
+    for (int k = 0; k < 1000 && !condition(); ++k) {
+      accuracy.collect();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return condition();
+  }
+  const std::vector<ConvergencePoint>& points(Half half = Half::current) {
+    return accuracy.curves(half).current().points;
+  }
+  std::string lines() {
+    std::string text;
+    for (const AccuracyLine& line : accuracy_lines(accuracy)) text += (line.warning ? "! " : "") + line.text + "\n";
+    return text;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("without a reference the curve is the estimate") {
+  Watched w;
+  w.show(picture(1, 1, 1));
+  w.show(picture(1, 1, 4));
+  CHECK_FALSE(w.accuracy.is_true());
+  REQUIRE(w.points().size() == 2);
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.04));
+  CHECK(w.points()[1].noise == doctest::Approx(0.01));
+  CHECK(w.lines().empty());
+}
+
+TEST_CASE("with a reference the curve is the truth, and without it the estimate again") {
+  Watched w;
+  w.accuracy.set_reference(reference(1, scene_with(40, 9)));
+  CHECK(w.accuracy.is_true());
+  CHECK(w.lines() == "against light.exr\n");
+  w.show(picture(1.1f, 1, 1));
+  REQUIRE(w.comes_true([&] { return w.points().size() == 1 && w.accuracy.pair().flip; }));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-4));
+  CHECK(w.points()[0].noise == doctest::Approx(0.04));
+  CHECK(w.lines().find("against light.exr · FLIP 0") == 0);
+  CHECK(w.lines().find(" at 100 spp\n") != std::string::npos);
+  w.accuracy.set_reference(nullptr);
+  REQUIRE(w.points().size() == 1);
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.04));
+}
+
+TEST_CASE("a reference of another scene stays, but is no truth; other methods are what it is for") {
+  Watched w;
+  w.accuracy.set_reference(reference(1, scene_with(40, 9)));
+  w.accuracy.set_scene(Half::current, scene_with(50));
+  CHECK_FALSE(w.accuracy.is_true());
+  CHECK(w.lines() == "! reference of another scene: light.exr\n");
+  w.show(picture(1.1f, 2, 1));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.04));
+  Scene other = scene_with(40);
+  other.render.fresnel = FresnelKind::schlick;
+  w.accuracy.set_scene(Half::current, other);
+  CHECK(w.accuracy.is_true());
+  w.accuracy.set_scene(Half::current, scene_with(40, 9));
+  CHECK(w.lines() == "! same random numbers, noise looks too small: light.exr\n");
+}
+
+TEST_CASE("a picture of the scene before is not measured against the reference of this one") {
+  Watched w;
+  w.accuracy.set_reference(reference(1, scene_with(40, 9)));
+  w.accuracy.shown(Half::current, picture(1.5f, 1, 1), "mis", false);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  w.accuracy.collect();
+  CHECK_FALSE(w.accuracy.pair().flip);
+  CHECK(w.points().empty());
+  w.show(picture(1.1f, 2, 1));
+  REQUIRE(w.comes_true([&] { return w.accuracy.pair().flip && !w.points().empty(); }));
+  CHECK(w.accuracy.curves(Half::current).earlier().empty());
+  REQUIRE(w.points().size() == 1);
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-4));
+}
+
+TEST_CASE("what was measured against the former reference is dropped") {
+  Watched w;
+  w.accuracy.set_reference(reference(1, scene_with(40, 9)));
+  w.show(picture(1.1f, 1, 1));  // is being measured
+  w.accuracy.set_reference(reference(0.5f, scene_with(40, 9)));
+  REQUIRE(w.comes_true([&] { return w.accuracy.pair().flip && !w.points().empty(); }));
+  REQUIRE(w.points().size() == 1);
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.36 / 0.26).epsilon(1e-4));
+}
+
+TEST_CASE("maps come for the view that is on, and follow the pictures") {
+  Watched w;
+  w.accuracy.set_reference(reference(1, scene_with(40, 9)));
+  w.show(picture(1.1f, 1, 1));
+  CHECK_FALSE(w.accuracy.map());
+  w.accuracy.set_view(ErrorView::error);
+  REQUIRE(w.comes_true([&] { return w.accuracy.map() != nullptr; }));
+  CHECK(w.accuracy.map()->width == columns);
+  CHECK(w.accuracy.map()->rgba[0] == doctest::Approx(std::sqrt(0.01 / 1.01)).epsilon(1e-4));
+  w.show(picture(1.2f, 1, 2));
+  REQUIRE(w.comes_true([&] { return w.accuracy.map()->rgba[0] > 0.15f; }));
+  w.accuracy.set_view(ErrorView::flip);
+  CHECK_FALSE(w.accuracy.map());
+  REQUIRE(w.comes_true([&] { return w.accuracy.map() != nullptr; }));
+  CHECK(w.accuracy.map()->view == ErrorView::flip);
+  w.accuracy.set_view(ErrorView::none);
+  CHECK_FALSE(w.accuracy.map());
+}
+
+TEST_CASE("halves are measured against each other, and each against the reference") {
+  Watched w;
+  w.accuracy.set_split(true);
+  w.accuracy.set_scene(Half::kept, scene_with(40));
+  w.show(picture(1, 1, 1), Half::kept);
+  w.show(picture(1.2f, 1, 1));
+  REQUIRE(w.comes_true([&] { return w.accuracy.pair().rel_mse && w.accuracy.pair().flip; }));
+  CHECK(*w.accuracy.pair().rel_mse == doctest::Approx(0.04 / 1.01).epsilon(1e-4));
+  CHECK(w.lines().find("B against A: relMSE 0.04 · FLIP 0") == 0);
+  w.accuracy.set_reference(reference(1.1f, scene_with(40, 9)));
+  REQUIRE(w.comes_true([&] { return !w.points().empty() && !w.points(Half::kept).empty(); }));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3));
+  CHECK(w.points(Half::kept)[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3));
+  w.show(picture(1, 1, 2), Half::kept);  // the other half stands still
+  w.show(picture(1.5f, 1, 2));
+  REQUIRE(w.comes_true([&] { return w.accuracy.pair().rel_mse && *w.accuracy.pair().rel_mse > 0.2; }));
+  w.accuracy.set_split(false);
+  CHECK(w.points(Half::kept).empty());
+  CHECK(w.lines().find("B against A") == std::string::npos);
+}
+
+TEST_CASE("while it renders, a new picture is not always measured at once") {
+  Watched w;
+  w.accuracy.set_reference(reference(1, scene_with(40, 9)));
+  int measured = 0;
+  for (int k = 0; k < 300; ++k) {
+    w.show(picture(1.1f + 0.001f * static_cast<float>(k), 1, 1 + 0.001 * k), Half::current, false);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    w.accuracy.collect();
+  }
+  REQUIRE(w.comes_true([&] { return !w.points().empty(); }));
+  measured = static_cast<int>(w.points().size());
+  CHECK(measured < 250);
+}

@@ -1,0 +1,137 @@
+#include "app/window/accuracy/reference.h"
+
+#include "app/files/film_files.h"
+#include "app/text/values.h"
+#include "app/window/document/open_document.h"
+#include "core/accuracy/error.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path scratch(const std::string& name) {
+  const fs::path folder = fs::path(TYNDALL_SCRATCH_DIR) / ("reference_" + name);
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+Document small_document(const std::string& name) {
+  Document document = document_of(load_scene(name));
+  document.scene.width = 8, document.scene.height = 6;
+  return document;
+}
+
+LinearImage grey_image(int width, int height) {
+  return {width, height, std::vector<float>(3 * static_cast<std::size_t>(width * height), 0.5f)};
+}
+
+/// A film whose halves differ by 0.2 around 1.
+Film two_halves(const Scene& scene) {
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, 4);
+  for (FilmPixel& pixel : film.pixels) {
+    add_sample(pixel, 0, {1.1f, 1.1f, 1.1f}, 0.25);
+    add_sample(pixel, 1, {0.9f, 0.9f, 0.9f}, 0.25);
+    pixel.taken = 2;
+  }
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("a reference of another size is refused, with both sizes") {
+  const fs::path file = scratch("size") / "large.pfm";
+  write_pfm(file, grey_image(9, 6));
+  try {
+    read_reference(file, small_document("cover"));
+    FAIL("it was taken");
+  } catch (const UsageError& error) {
+    CHECK(error.what() == file.string() + ": found 9x6 pixels, expected 8x6 as the picture has");
+  }
+  CHECK_THROWS_AS(read_reference(file.string() + "no", small_document("cover")), ImageFileError);
+}
+
+TEST_CASE("a plain image belongs to the scene that it was loaded for, whatever the method") {
+  const fs::path file = scratch("plain") / "a.pfm";
+  write_pfm(file, grey_image(8, 6));
+  const Document document = small_document("cover");
+  const Reference reference = read_reference(file, document);
+  CHECK(reference.about == "a.pfm");
+  CHECK(reference.rel_mse == 0);
+  Scene scene = document.scene;
+  CHECK(fit_of(reference, scene) == ReferenceFit::fits);
+  scene.render.integrator = Integrator::path;
+  scene.render.fresnel = FresnelKind::schlick;
+  scene.render.max_depth = 3;
+  scene.display.exposure = 2;
+  CHECK(fit_of(reference, scene) == ReferenceFit::fits);
+  scene.camera.vfov += 1;
+  CHECK(fit_of(reference, scene) == ReferenceFit::other_scene);
+  scene.width = 16;
+  CHECK(fit_of(reference, scene) == ReferenceFit::other_size);
+}
+
+TEST_CASE("an image of Tyndall belongs to its own scene, textures and all; the same random numbers are told") {
+  const fs::path folder = scratch("own");
+  for (const char* name : {"earth", "hollow-glass"}) {
+    const Document document = small_document(name);
+    const fs::path file = folder / (std::string(name) + ".png");
+    const Film film = two_halves(document.scene);
+    write_png(file, {8, 6, resolve(film)}, 0, ToneCurve::srgb,
+              {embedded_scene(document.scene, document.origin->folder, film, file), ""});
+    CHECK_FALSE(shows_no_scene(file));
+    const Reference reference = read_reference(file, document);
+    CHECK(reference.about == std::string(name) + ".png (8 bit)");
+    Scene scene = document.scene;
+    CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
+    scene.render.fresnel = FresnelKind::schlick;
+    CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
+    scene.render.seed = 5;
+    CHECK(fit_of(reference, scene) == ReferenceFit::fits);
+    CHECK(fit_of(read_reference(file, small_document("cover")), small_document("cover").scene) ==
+          ReferenceFit::other_scene);
+  }
+}
+
+TEST_CASE("which dropped images hold no scene") {
+  const fs::path folder = scratch("dropped");
+  write_pfm(folder / "a.pfm", grey_image(2, 2));
+  write_png(folder / "a.png", grey_image(2, 2), 0, ToneCurve::srgb, {});
+  std::ofstream(folder / "a.json") << "{}";
+  CHECK(shows_no_scene(folder / "a.pfm"));
+  CHECK(shows_no_scene(folder / "a.png"));
+  CHECK_FALSE(shows_no_scene(folder / "a.json"));
+  CHECK_FALSE(shows_no_scene(folder / "no such file"));
+  CHECK_FALSE(shows_no_scene(folder));
+}
+
+TEST_CASE("a film's own noise is known") {
+  if (!has_openexr()) return;
+  const fs::path file = scratch("film") / "a.exr";
+  const Document document = small_document("cover");
+  write_exr(file, two_halves(document.scene), {}, {});
+  CHECK(read_reference(file, document).rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-3));
+}
+
+TEST_CASE("the picture on the screen as a reference, whichever view is on") {
+  Frame frame;
+  frame.width = 1, frame.height = 2, frame.spp = 1024;
+  frame.relative_error = 0.1;
+  frame.view = View::noise;
+  frame.rgba = {9, 9, 9, 1, 9, 9, 9, 1};
+  frame.beauty = {1, 2, 3, 1, 4, 5, 6, 1};
+  Scene scene;
+  scene.width = 1, scene.height = 2;
+  const Reference reference = reference_of(frame, scene);
+  CHECK(reference.image.rgb == std::vector<float>{1, 2, 3, 4, 5, 6});
+  CHECK(reference.rel_mse == doctest::Approx(0.01));
+  CHECK(reference.about == "the picture at 1,024 spp");
+  CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
+}

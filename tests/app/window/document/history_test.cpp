@@ -1,0 +1,96 @@
+#include "app/window/document/history.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+Document numbered(int n, const std::shared_ptr<const Origin>& origin = nullptr) {
+  Scene scene;
+  scene.width = n;
+  return {scene, origin};
+}
+
+int number(const History& history) { return history.current().scene.width; }
+
+}  // namespace
+
+TEST_CASE("undo goes back through single edits and redo forward again") {
+  History history(numbered(1));
+  CHECK(history.record(numbered(2), 1));
+  CHECK(history.record(numbered(3), 2));
+  CHECK(history.undo());
+  CHECK(number(history) == 2);
+  CHECK(history.undo());
+  CHECK(number(history) == 1);
+  CHECK_FALSE(history.undo());
+  CHECK(history.redo());
+  CHECK(history.redo());
+  CHECK(number(history) == 3);
+  CHECK_FALSE(history.redo());
+}
+
+TEST_CASE("a drag is one step, the next drag another") {
+  History history(numbered(1));
+  for (int n = 2; n <= 9; ++n) history.record(numbered(n), 7);
+  for (int n = 10; n <= 19; ++n) history.record(numbered(n), 8);
+  CHECK(number(history) == 19);
+  history.undo();
+  CHECK(number(history) == 9);
+  history.undo();
+  CHECK(number(history) == 1);
+}
+
+TEST_CASE("edits without a gesture are steps of their own") {
+  History history(numbered(1));
+  history.record(numbered(2), 0);
+  history.record(numbered(3), 0);
+  history.undo();
+  CHECK(number(history) == 2);
+}
+
+TEST_CASE("setting what is there already is no step") {
+  History history(numbered(1));
+  CHECK_FALSE(history.record(numbered(1), 1));
+  CHECK_FALSE(history.can_undo());
+}
+
+TEST_CASE("an edit after undo forgets what was undone, and does not join the drag before") {
+  History history(numbered(1));
+  history.record(numbered(2), 5);
+  history.record(numbered(3), 6);
+  history.undo();
+  history.record(numbered(4), 6);
+  CHECK_FALSE(history.can_redo());
+  CHECK(number(history) == 4);
+  history.undo();
+  CHECK(number(history) == 2);
+}
+
+TEST_CASE("the oldest steps are forgotten") {
+  History history(numbered(0));
+  for (int n = 1; n <= 1000; ++n) history.record(numbered(n), static_cast<std::uint64_t>(n));
+  int steps = 0;
+  while (history.undo()) ++steps;
+  CHECK(steps == static_cast<int>(History::most_steps) - 1);
+  CHECK(number(history) == 1000 - steps);
+}
+
+TEST_CASE("saving changes what all steps of the same file are compared with, and no others") {
+  const auto first = std::make_shared<Origin>(), other = std::make_shared<Origin>();
+  History history(numbered(1, first));
+  history.record(numbered(2, first), 1);
+  history.record(numbered(3, other), 2);
+  history.undo();
+  auto saved = std::make_shared<Origin>();
+  saved->saved.width = 2;
+  history.set_origin(saved);
+  CHECK_FALSE(edited(history.current()));
+  history.undo();
+  CHECK(history.current().origin == saved);
+  CHECK(edited(history.current()));
+  history.redo();
+  history.redo();
+  CHECK(history.current().origin == other);
+}

@@ -1,0 +1,42 @@
+#pragma once
+#include "app/window/system/imgui_compat.h"
+
+#include <utility>
+
+namespace tyndall {
+
+/// Dear ImGui without a window: frames are built and thrown away.
+class NullImGui {
+ public:
+  explicit NullImGui(float width = 1280, float height = 720) : context_(ImGui::CreateContext()) {
+    ImGui::SetCurrentContext(context_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.DisplaySize = {width, height};
+    io.DeltaTime = 1.0f / 60;
+    compat::init_without_window(io);
+    compat::mouse_pos(io, -1, -1);
+  }
+  ~NullImGui() {
+#if IMGUI_VERSION_NUM >= 19200
+    for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) texture->SetStatus(ImTextureStatus_Destroyed);
+#endif
+    ImGui::DestroyContext(context_);
+  }
+  NullImGui(const NullImGui&) = delete;
+  NullImGui& operator=(const NullImGui&) = delete;
+
+  template <class F>
+  void frame(F&& draw) {
+    ImGui::NewFrame();
+    std::forward<F>(draw)();
+    ImGui::Render();
+    compat::textures_without_window();
+  }
+
+ private:
+  ImGuiContext* context_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,283 @@
+#include "app/window/panels/panels.h"
+
+#include "core/scene/check.h"
+#include "tests/app/window/panels/null_imgui.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+using namespace tyndall;
+
+namespace {
+
+/// The column over a scene, driven by a mouse that aims at controls by name.
+class Column {
+ public:
+  Column() : log_("/dev/null") {
+    set_style(1);
+    ui.log = &log_;
+    state.scene.materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.18}}, {"glass", {}, Dielectric<>{2.0 / 3}}};
+    state.scene.objects = {{"ball", Solid3d{Sphere<>{{0, 0, 0}, 0.7, {}}, 0}, {}},
+                           {"bubble", Solid3d{Sphere<>{{2, 0, 0}, -0.9, {}}, 1}, {RotateY{30}}},
+                           {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
+    state.scene.camera.look_from = {0, 1, 6};
+    state.accuracy = &accuracy_;
+    state.scenes = &scenes_;
+    scenes_ = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
+    state.title = "showroom";
+    draw();
+    draw();
+  }
+
+  void draw() {
+    imgui_.frame([&] {
+      ui.problem.clear();
+      state.wishes = {};
+      draw_column(ui, state, {0, 0, 372, 2400});
+      log_.end_of_widgets();
+      if (!ui.problem.empty()) problem = ui.problem;
+      if (state.wishes.open) opened = *state.wishes.open;
+      if (state.wishes.split) split = *state.wishes.split;
+      exported = exported || state.wishes.export_chart;
+      asked = asked || state.wishes.reference;
+    });
+  }
+  bool has(const std::string& name) const { return log_.find(name).has_value(); }
+  Rect rect(const std::string& name) const { return *log_.find(name); }
+  /// Puts the mouse on a control: across from 0 to 1.
+  void aim(const std::string& name, double across = 0.5) {
+    const auto rect = log_.find(name);
+    REQUIRE_MESSAGE(rect, name);
+    compat::mouse_pos(ImGui::GetIO(), rect->x0 + static_cast<float>(across) * rect->width(), (rect->y0 + rect->y1) / 2);
+    draw();
+  }
+  void button(bool down) {
+    compat::mouse_button(ImGui::GetIO(), 0, down);
+    draw();
+  }
+  void click(const std::string& name, double across = 0.5) {
+    aim(name, across);
+    button(true);
+    button(false);
+    draw();
+  }
+  void type(const std::string& name, const char* text) {
+    click(name);
+    draw();
+    for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
+    draw();
+    press(ImGuiKey_Enter);
+  }
+  void press(ImGuiKey key) {
+    compat::key(ImGui::GetIO(), key, true);
+    draw();
+    compat::key(ImGui::GetIO(), key, false);
+    draw();
+    draw();
+  }
+
+  Metal<>& gold() { return std::get<Metal<>>(state.scene.materials[0].kind); }
+  Dielectric<>& glass() { return std::get<Dielectric<>>(state.scene.materials[1].kind); }
+
+  Ui ui;
+  PanelState state;
+  std::string problem, opened;
+  bool split = false, exported = false, asked = false;
+
+ private:
+  NullImGui imgui_{372, 2400};
+  UiLog log_;
+  LiveAccuracy accuracy_{[] {}};
+  std::vector<BuiltIn> scenes_;
+};
+
+}  // namespace
+
+TEST_CASE("a new user finds fuzz, refractive index and density at once") {
+  const Column column;
+  for (const char* name : {"gold.fuzz", "glass.refractive_index", "Fog.density", "Fog.g", "Ball.radius", "camera.vfov",
+                           "image.exposure", "render.max_depth", "chart", "scenes.cover"})
+    CHECK_MESSAGE(column.has(name), name);
+}
+
+TEST_CASE("drawing changes nothing, nor does a click into a number that has more digits than it shows") {
+  Column column;
+  const Scene before = column.state.scene;
+  for (int k = 0; k < 5; ++k) column.draw();
+  CHECK(column.state.scene == before);
+  column.click("glass.refractive_index.value");
+  column.draw();
+  column.press(ImGuiKey_Enter);
+  CHECK(column.state.scene == before);
+}
+
+TEST_CASE("a slider follows the mouse, from end to end") {
+  Column column;
+  column.aim("gold.fuzz", 0.01);
+  column.button(true);
+  column.aim("gold.fuzz", 0.5);
+  CHECK(column.gold().fuzz == doctest::Approx(0.5).epsilon(0.02));
+  column.aim("gold.fuzz", 3);
+  CHECK(column.gold().fuzz == 1);
+  column.aim("gold.fuzz", -2);
+  CHECK(column.gold().fuzz == 0);
+  column.button(false);
+  column.aim("gold.fuzz", 0.9);
+  CHECK(column.gold().fuzz == 0);
+  CHECK_FALSE(check(column.state.scene));
+}
+
+TEST_CASE("a press on the grab moves nothing, though the value has more digits than a slider gives") {
+  Column column;
+  const Rect rect = column.rect("glass.refractive_index");
+  const double width = static_cast<double>(rect.width()), grab = 14, margin = 2;
+  const double middle = margin + grab / 2 + (2.0 / 3 - 0.5) / 2.5 * (width - 2 * margin - grab);
+  column.aim("glass.refractive_index", (middle + 3) / width);
+  column.button(true);
+  column.draw();
+  CHECK(column.glass().refractive_index == 2.0 / 3);
+  column.aim("glass.refractive_index", (middle + 13) / width);
+  CHECK(column.glass().refractive_index > 0.7);
+  column.button(false);
+}
+
+TEST_CASE("typed values: taken where valid, refused with a reason elsewhere") {
+  Column column;
+  column.type("gold.fuzz.value", "0.25");
+  CHECK(column.gold().fuzz == 0.25);
+  CHECK(column.problem.empty());
+  column.type("gold.fuzz.value", "1.5");
+  CHECK(column.gold().fuzz == 0.25);
+  CHECK(column.problem == "fuzz: found 1.5, expected a number in [0, 1]");
+  column.type("gold.fuzz.value", "much");
+  CHECK(column.gold().fuzz == 0.25);
+  CHECK(column.problem == "fuzz: found much, expected a number in [0, 1]");
+  column.type("glass.refractive_index.value", "7.5");  // beyond the slider, but valid
+  CHECK(column.glass().refractive_index == 7.5);
+}
+
+TEST_CASE("escape leaves a value as it was") {
+  Column column;
+  column.click("gold.fuzz.value");
+  column.draw();
+  ImGui::GetIO().AddInputCharacter('1');
+  column.draw();
+  column.press(ImGuiKey_Escape);
+  CHECK(column.gold().fuzz == 0.18);
+  CHECK(column.ui.edit.id == 0);
+}
+
+TEST_CASE("tab goes on to the next number") {
+  Column column;
+  column.click("gold.fuzz.value");
+  column.draw();
+  for (const char c : {'0', '.', '5'}) ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(c));
+  column.draw();
+  column.press(ImGuiKey_Tab);
+  CHECK(column.gold().fuzz == 0.5);
+  column.draw();
+  ImGui::GetIO().AddInputCharacter('0');
+  column.draw();
+  column.press(ImGuiKey_Enter);
+  CHECK(std::get<Vec3d>(column.state.scene.materials[0].colour).x == 0);
+}
+
+TEST_CASE("numbers are dragged sideways") {
+  Column column;
+  column.aim("camera.look_from.x", 0.5);
+  column.button(true);
+  column.aim("camera.look_from.x", 1.5);
+  column.button(false);
+  CHECK(column.state.scene.camera.look_from.x > 0.5);
+  CHECK(column.state.scene.camera.look_from.y == 1);
+  column.draw();
+  CHECK(column.ui.edit.id == 0);  // a drag is no click
+}
+
+TEST_CASE("choices change what they say, and only that") {
+  Column column;
+  column.click("render.fresnel.schlick");
+  CHECK(column.state.scene.render.fresnel == FresnelKind::schlick);
+  column.click("image.tone_map.aces");
+  CHECK(column.state.scene.display.tone_map == ToneMap::aces);
+  column.click("image.view.normal");
+  CHECK(column.state.view == 2);
+  column.click("image.view.cost");
+  CHECK(column.state.view == cost_view);
+  column.click("image.view.FLIP");
+  CHECK(column.state.view == cost_view);
+  CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
+  column.click("scenes.cover");
+  CHECK(column.opened == "cover");
+}
+
+TEST_CASE("what the accuracy's controls ask for") {
+  Column column;
+  column.click("chart.export");
+  column.click("chart.reference");
+  CHECK(column.exported);
+  CHECK(column.asked);
+  column.click("render.split.on");
+  CHECK(column.split);
+  column.state.kept_method = "path";
+  column.click("render.split.off");
+  CHECK_FALSE(column.split);
+}
+
+TEST_CASE("errors are seen only where there is something to measure against") {
+  Column column;
+  column.click("image.view.error");
+  CHECK(column.state.view == 0);
+  CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
+  column.state.can_show_errors = true;
+  column.click("image.view.FLIP");
+  CHECK(column.state.view == flip_view);
+  column.click("image.view.error");
+  CHECK(column.state.view == error_view);
+}
+
+TEST_CASE("selecting in the list shows the object whole, and again nothing") {
+  Column column;
+  column.click("objects.1");
+  CHECK(column.state.selected == ObjectPath{1});
+  column.draw();
+  for (const char* name : {"glass.refractive_index", "Bubble.center.x", "Bubble.radius", "Bubble.transform0"})
+    CHECK_MESSAGE(column.has(name), name);
+  CHECK_FALSE(column.has("gold.fuzz"));
+  CHECK_FALSE(column.has("Bubble.center_end.x"));
+  column.type("Bubble.radius.value", "0");
+  CHECK(column.problem == "radius: found 0, expected a number other than 0");
+  column.click("objects.1");
+  CHECK(column.state.selected.empty());
+}
+
+TEST_CASE("a negative radius stays negative on its slider") {
+  Column column;
+  column.state.selected = {1};
+  column.draw();
+  column.draw();
+  column.click("Bubble.radius", 0.9);
+  const double radius = std::get<Sphere<>>(std::get<Solid3d>(column.state.scene.objects[1].kind).shape).radius;
+  CHECK(radius < -1);
+}
+
+TEST_CASE("sections fold") {
+  Column column;
+  column.click("section.Camera");
+  column.draw();
+  CHECK_FALSE(column.has("camera.vfov"));
+  column.click("section.Camera");
+  column.draw();
+  CHECK(column.has("camera.vfov"));
+}
+
+TEST_CASE("the column can be drawn at any size, over an empty scene too") {
+  Column column;
+  column.state.scene = {};
+  NullImGui small(64, 64);
+  Ui ui;
+  for (const Rect& rect : {Rect{0, 0, 20, 10}, Rect{0, 0, 100, 50}, Rect{0, 0, 0, 0}, Rect{0, 0, 372, 400}})
+    for (int k = 0; k < 2; ++k) small.frame([&] { draw_column(ui, column.state, rect); });
+  CHECK(ui.problem.empty());
+}

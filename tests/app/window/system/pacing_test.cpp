@@ -1,0 +1,138 @@
+#include "app/window/system/pacing.h"
+#include "app/window/system/layout.h"
+#include "app/window/system/shortcuts.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+using namespace tyndall;
+
+TEST_CASE("nothing happens, nothing is drawn") {
+  Pacing pacing;
+  double now = 10;
+  int drawn = 0;
+  for (; pacing.wait(now) < 1e6; ++drawn) {
+    now += pacing.wait(now);
+    pacing.on_drawn(now);
+    REQUIRE(drawn < 10);
+  }
+  CHECK(drawn == 3);
+  CHECK(std::isinf(pacing.wait(now + 1000)));
+}
+
+TEST_CASE("an event is answered at once, its echoes leave time for pictures") {
+  Pacing pacing;
+  pacing.on_drawn(1);
+  pacing.on_event();
+  CHECK(pacing.wait(1.02) == 0);
+  pacing.on_drawn(1.02);
+  CHECK(pacing.wait(1.02) == doctest::Approx(echo_interval));
+  pacing.wake_at(1.03);  // what goes by itself comes earlier
+  CHECK(pacing.wait(1.02) == doctest::Approx(least_frame_interval));
+  pacing.on_drawing();
+  pacing.on_drawn(1.06);
+  CHECK(pacing.wait(1.06) == doctest::Approx(echo_interval));
+  pacing.on_event();
+  CHECK(pacing.wait(1.08) == 0);
+}
+
+TEST_CASE("a burst of events is drawn at most every 16 ms") {
+  Pacing pacing;
+  int drawn = 0;
+  for (double now = 0; now < 1; now += 0.0005) {
+    pacing.on_event();
+    if (pacing.wait(now) > 0) continue;
+    pacing.on_drawn(now);
+    ++drawn;
+  }
+  CHECK(drawn >= 55);
+  CHECK(drawn <= 63);
+}
+
+TEST_CASE("pictures: at once after an edit, then every 0.1 s, then ever slower") {
+  CHECK(picture_interval(0.01, 0) == 0);
+  CHECK(picture_interval(0.01, 2) == 0);
+  CHECK(picture_interval(0.01, 3) == doctest::Approx(0.1));
+  CHECK(picture_interval(3, 50) == doctest::Approx(0.3));
+  CHECK(picture_interval(100, 500) == doctest::Approx(0.5));
+  Pacing pacing;
+  pacing.on_edit(1, 100);
+  for (int k = 0; k < 20; ++k) pacing.on_picture(1, 100 + k);
+  CHECK(pacing.picture_due() > 119.4);
+  pacing.on_edit(2, 119.1);
+  CHECK(pacing.picture_due() <= 119.1);
+  pacing.on_picture(1, 119.15);  // a picture of the edit before does not count
+  for (int k = 0; k < 2; ++k) {
+    pacing.on_picture(2, 119.2);
+    CHECK(pacing.picture_due() <= 119.2);
+  }
+  pacing.on_picture(2, 119.2);
+  CHECK(pacing.picture_due() == doctest::Approx(119.3));
+}
+
+TEST_CASE("what goes by itself wakes the window, once for each drawing that asks for it") {
+  Pacing pacing;
+  for (double now = 0; now < 0.2; now += 0.02) pacing.on_drawn(now);
+  pacing.wake_at(6);
+  CHECK(pacing.wait(1) == doctest::Approx(5));
+  CHECK(pacing.wait(7) == 0);
+  pacing.on_drawing();
+  pacing.wake_at(9);  // another message came meanwhile
+  pacing.on_drawn(7);
+  CHECK(pacing.wait(8) == doctest::Approx(1));
+  pacing.on_drawing();
+  pacing.on_drawn(9);
+  CHECK(std::isinf(pacing.wait(10)));
+}
+
+TEST_CASE("the picture keeps its aspect in the middle of what the column leaves") {
+  const Layout layout = make_layout(1600, 900, 1280, 800, 1, true);
+  CHECK(layout.column.width() == column_width);
+  CHECK(layout.status.height() == status_height);
+  CHECK(layout.image.width() / layout.image.height() == doctest::Approx(1.6).epsilon(0.002));
+  CHECK(layout.image.x1 <= layout.column.x0);
+  CHECK(layout.image.y1 <= layout.status.y0);
+  const Layout exact = make_layout(1280 + column_width, 800 + status_height, 1280, 800, 1, true);
+  CHECK(exact.image == Rect{0, 0, 1280, 800});
+  CHECK(make_layout(1600, 900, 1280, 800, 1, false).column.width() == 0);
+  CHECK(make_layout(3200, 1800, 1280, 800, 2, true).column.width() == 2 * column_width);
+}
+
+TEST_CASE("no size is too small for a layout") {
+  for (const float w : {0.0f, 1.0f, 40.0f, 400.0f})
+    for (const float h : {0.0f, 1.0f, 29.0f, 31.0f}) {
+      const Layout layout = make_layout(w, h, 1280, 800, 1, true);
+      for (const Rect& r : {layout.area, layout.image, layout.column, layout.status}) {
+        CHECK(r.width() >= 0);
+        CHECK(r.height() >= 0);
+        CHECK(r.x1 <= w + 1);
+        CHECK(r.y1 <= h + 1);
+      }
+    }
+}
+
+TEST_CASE("each shortcut has one action, with exactly its modifiers") {
+  CHECK(action_of('Z', {.control = true}) == Action::undo);
+  CHECK(action_of('Z', {.control = true, .shift = true}) == Action::redo);
+  CHECK(action_of('S', {.control = true}) == Action::save);
+  CHECK_FALSE(action_of('S', {}).has_value());
+  CHECK_FALSE(action_of('Z', {}).has_value());
+  CHECK_FALSE(action_of('P', {.control = true, .alt = true}).has_value());
+  CHECK(action_of('1', {}) == Action::view_beauty);
+  CHECK(action_of('7', {}) == Action::view_cost);
+  std::set<Action> seen;
+  for (int key = 32; key < 350; ++key)
+    for (int mods = 0; mods < 4; ++mods)
+      if (const auto action = action_of(key, {(mods & 1) != 0, (mods & 2) != 0, false})) seen.insert(*action);
+  CHECK(seen.size() == 23);
+}
+
+TEST_CASE("flight keys are three opposite pairs") {
+  for (const auto& [plus, minus] : {std::pair{'D', 'A'}, {'E', 'Q'}, {'W', 'S'}}) {
+    CHECK(fly_key(plus)->axis == fly_key(minus)->axis);
+    CHECK(fly_key(plus)->sign == -fly_key(minus)->sign);
+  }
+  CHECK_FALSE(fly_key('X').has_value());
+}

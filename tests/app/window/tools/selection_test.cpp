@@ -1,0 +1,135 @@
+#include "app/window/tools/selection.h"
+#include "app/window/tools/medium_pick.h"
+#include "app/window/tools/outline.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace tyndall;
+
+namespace {
+
+Object ball(Vec3d center, double radius, int material, const std::string& name = "") {
+  return {name, Solid3d{Sphere<>{center, radius, {}}, material}, {}};
+}
+
+/// A matt ball, and a group, turned and moved, of a glass ball and a box of fog.
+Scene example() {
+  Scene scene;
+  scene.width = 200, scene.height = 100;
+  scene.camera.look_from = {0, 0, 10};
+  scene.camera.vfov = 60;
+  scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}, {"glass", {}, Dielectric<>{}}};
+  Object fog{"", Volume{Box<>{{0, 0, 0}, {1, 1, 1}}, {Translate{{10, 0, 0}}}, {}, {}}, {}};
+  scene.objects = {ball({0, 0, 0}, 1, 0, "matt"),
+                   {"pair", Group{{ball({1, 0, 0}, 0.5, 1), fog}}, {RotateY{90}, Translate{{0, 2, 0}}}}};
+  return scene;
+}
+
+struct Span {
+  double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+};
+Span extent(const std::vector<ImageLine>& lines) {
+  Span e;
+  for (const ImageLine& line : lines)
+    for (const ImagePoint& p : {line.a, line.b}) {
+      e.x0 = std::min(e.x0, p.x), e.x1 = std::max(e.x1, p.x);
+      e.y0 = std::min(e.y0, p.y), e.y1 = std::max(e.y1, p.y);
+    }
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("objects by path: through groups, and nothing where there is nothing") {
+  Scene scene = example();
+  CHECK(find_object(scene, {0})->name == "matt");
+  CHECK(std::string(kind_name(*find_object(scene, {1, 1}))) == "medium");
+  for (const ObjectPath& path : {ObjectPath{}, {2}, {-1}, {0, 0}, {1, 2}, {1, 0, 0}})
+    CHECK_FALSE(find_object(scene, path));
+  CHECK(leaves(scene) == std::vector<ObjectPath>{{0}, {1, 0}, {1, 1}});
+  CHECK(title_of(scene, {0}) == "Matt");
+  CHECK(title_of(scene, {1, 0}) == "Sphere 1");
+  CHECK(title_of(scene, {7}).empty());
+  CHECK(users_of(scene, 1) == 1);
+}
+
+TEST_CASE("a ball around an object is where its transforms put it") {
+  const Scene scene = example();
+  const Ball glass = *ball_around(scene, {1, 0});
+  CHECK(length(glass.center - Vec3d{0, 2, -1}) < 1e-12);
+  CHECK(glass.radius == 0.5);
+  const Ball fog = *ball_around(scene, {1, 1});
+  CHECK(length(fog.center - Vec3d{0.5, 2.5, -10.5}) < 1e-12);
+  const Ball both = *ball_around(scene, {1});
+  for (const Ball& part : {glass, fog}) CHECK(length(part.center - both.center) + part.radius <= both.radius + 1e-12);
+  CHECK_FALSE(ball_around(scene, {9}).has_value());
+}
+
+TEST_CASE("what is interesting: metal, glass and fog, else lamp and matt") {
+  Scene scene = example();
+  CHECK(interesting(scene) == std::vector<ObjectPath>{{1, 0}, {1, 1}});
+  scene.objects.resize(1);
+  CHECK(interesting(scene) == std::vector<ObjectPath>{{0}});
+  scene.objects.clear();
+  CHECK(interesting(scene).empty());
+}
+
+TEST_CASE("a sphere's outline is the circle of its tangents") {
+  const Span e = extent(outline(example(), {0}));
+  const double half = std::tan(std::asin(0.1)) / std::tan(std::acos(-1) / 6) / 2;  // in heights of the picture
+  CHECK(e.y1 - 0.5 == doctest::Approx(half).epsilon(1e-3));
+  CHECK(0.5 - e.y0 == doctest::Approx(half).epsilon(1e-3));
+  CHECK(e.x1 - 0.5 == doctest::Approx(half / 2).epsilon(1e-3));
+}
+
+TEST_CASE("a box seen face on has four edges, from a corner six") {
+  Scene scene = example();
+  scene.objects = {{"box", Solid3d{Box<>{{-1, -1, -1}, {1, 1, 1}}, 0}, {}}};
+  CHECK(outline(scene, {0}).size() == 4);
+  scene.camera.look_from = {8, 7, 9};
+  CHECK(outline(scene, {0}).size() == 6);
+}
+
+TEST_CASE("what is behind the eye is left out, what reaches behind it is cut") {
+  Scene scene = example();
+  scene.objects = {ball({0, 0, 30}, 1, 0),
+                   {"floor", Solid3d{Quad<>{{-5, -1, -50}, {10, 0, 0}, {0, 0, 100}}, 0}, {}},
+                   ball({0, 0, 10}, 5, 0)};
+  CHECK(outline(scene, {0}).empty());
+  const std::vector<ImageLine> floor = outline(scene, {1});
+  CHECK(floor.size() == 3);
+  for (const ImageLine& line : floor)
+    for (const ImagePoint& p : {line.a, line.b}) {
+      CHECK(std::isfinite(p.x));
+      CHECK(p.y > 0.5);
+    }
+  CHECK(outline(scene, {2}).empty());  // the eye is inside
+}
+
+TEST_CASE("fog is found where the ray enters it, nearest first, and not behind what hides it") {
+  Scene scene = example();
+  const auto fog = [](std::variant<Sphere<>, Box<>> boundary, Transform transform) {
+    return Object{"", Volume{boundary, std::move(transform), {}, {}}, {}};
+  };
+  scene.objects = {fog(Sphere<>{{0, 0, 0}, 1, {}}, {}),
+                   fog(Box<>{{-1, -1, -1}, {1, 1, 1}}, {RotateY{45}, Translate{{4, 0, 0}}})};
+  const double infinite = std::numeric_limits<double>::infinity();
+  CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 9.01) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 8.99).empty());
+  CHECK(medium_at(scene, {0.5, 0.05}, infinite).empty());
+  // The box is 1.41 wide when turned: its corner is at x = 4 - 1.41.
+  const double edge = 0.5 + (4 - 1.40) / (2 * 2 * 10 * std::tan(std::acos(-1) / 6)), beyond = edge - 0.01;
+  CHECK(medium_at(scene, {edge + 0.005, 0.5}, infinite) == ObjectPath{1});
+  CHECK(medium_at(scene, {beyond, 0.5}, infinite).empty());
+  scene.objects[1] = fog(Sphere<>{{0, 0, 5}, 1, {}}, {});
+  CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{1});
+  scene.objects[1] = fog(Sphere<>{{0, 0, 10}, 1, {}}, {});
+  CHECK(medium_at(scene, {0.5, 0.5}, infinite) == ObjectPath{0});
+  scene.objects = {fog(Box<>{{2, -1, -1}, {4, 1, 1}}, {RotateY{90}})};  // now from z = -4 to -2
+  CHECK(medium_at(scene, {0.5, 0.5}, 12.01) == ObjectPath{0});
+  CHECK(medium_at(scene, {0.5, 0.5}, 11.99).empty());
+}

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Fails when a file includes what its room may not see, or when files include each other in a circle.
+
+Usage: check_layers.py ROOT
+
+The rooms of the house are listed below, lowest first. A file may include headers of its own room and of rooms on lower
+levels; rooms on one level do not see each other. Within a room a header and the source of the same name count as one
+unit, and units may not need each other in a circle: then neither could be understood, tested or replaced alone.
+"""
+import pathlib
+import re
+import sys
+
+LEVELS = [
+    ["core/base"],
+    ["core/shapes", "core/materials", "core/media", "core/textures", "core/film"],
+    ["core/image"],
+    ["core/accuracy", "core/clean"],
+    ["core/scene"],
+    ["core/compile"],
+    ["core/kernel"],
+    ["core/render"],
+    ["app/text"],
+    ["app/files"],
+    ["app/curves"],
+    ["app/report"],
+    ["app/window/system"],
+    ["app/window/document"],
+    ["app/window/tools"],
+    ["app/window/accuracy"],
+    ["app/window/panels"],
+    ["app/window"],
+    ["app/cli"],
+    ["app"],
+]
+LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
+
+# Headers from outside, and the only files that may include them.
+RESERVED = [
+    (r"(GLFW|glad|GL|EGL|X11)/|(backends/)?imgui", r"app/window/"),
+    (r"CLI/", r"app/cli/"),
+    (r"hwy/", r"core/base/lanes_simd_arithmetic\.h$"),
+    (r"nlohmann/", r"app/|core/scene/json[a-z_]*\.cpp$"),
+    (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_", r"core/image/image_io[a-z_]*\.cpp$"),
+    (r"iostream$", r"app/"),
+]
+GENERATED = {"shaders.h"}
+LONGEST_FILE = 300  # lines; above it the house asks for a redesign
+FULLEST_ROOM = 30  # files
+
+
+def unit_of(path):
+    return str(path.with_suffix(""))
+
+
+def find_circle(needs):
+    """One circle of units as a list, or None. needs: unit -> the units it includes."""
+    state = {}
+
+    def visit(unit, way):
+        state[unit] = "open"
+        for other in sorted(needs.get(unit, ())):
+            if state.get(other) == "open":
+                return way[way.index(other):] + [other]
+            if other not in state:
+                circle = visit(other, way + [other])
+                if circle:
+                    return circle
+        state[unit] = "done"
+        return None
+
+    for unit in sorted(needs):
+        if unit not in state:
+            circle = visit(unit, [unit])
+            if circle:
+                return circle
+    return None
+
+
+def check(root):
+    problems, needs, sizes = [], {}, {}
+    files = sorted(p.relative_to(root) for top in ("core", "app") for p in (root / top).rglob("*") if p.suffix in (".h", ".cpp"))
+    for file in files:
+        room = str(file.parent)
+        if room not in LEVEL:
+            problems.append(f"{file}: {room} is no room of the house (tests/check_layers.py lists them)")
+            continue
+        sizes[room] = sizes.get(room, 0) + 1
+        lines = (root / file).read_text(encoding="utf-8").splitlines()
+        if len(lines) > LONGEST_FILE:
+            problems.append(f"{file}: {len(lines)} lines, at most {LONGEST_FILE} are allowed")
+        for line in lines:
+            own = re.match(r'\s*#\s*include\s*"([^"]+)"', line)
+            other = re.match(r"\s*#\s*include\s*<([^>]+)>", line)
+            if own and own[1] not in GENERATED:
+                header = pathlib.PurePosixPath(own[1])
+                target = str(header.parent)
+                if target not in LEVEL:
+                    problems.append(f'{file}: "{header}" is not a path from the root (core/<room>/... or app/<room>/...)')
+                elif not (root / header).exists():
+                    problems.append(f"{file}: {header} does not exist")
+                elif target != room and LEVEL[target] >= LEVEL[room]:
+                    problems.append(f"{file}: {room} may not include {header}")
+                elif unit_of(header) != unit_of(file):
+                    needs.setdefault(unit_of(file), set()).add(unit_of(header))
+            if other:
+                for headers, allowed in RESERVED:
+                    if re.match(headers, other[1]) and not re.match(allowed, str(file)):
+                        problems.append(f"{file}: may not include <{other[1]}>; only files that match {allowed} may")
+    for room, size in sizes.items():
+        if size > FULLEST_ROOM:
+            problems.append(f"{room}: {size} files, at most {FULLEST_ROOM} are allowed in a room")
+    circle = find_circle(needs)
+    if circle:
+        problems.append("files include each other in a circle: " + " -> ".join(circle))
+    return problems
+
+
+if __name__ == "__main__":
+    found = check(pathlib.Path(sys.argv[1]))
+    for problem in found:
+        print(problem)
+    sys.exit(1 if found else 0)

@@ -1,0 +1,175 @@
+#include "core/image/image_io.h"
+#include "tests/support/scratch.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <random>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A region of a larger image, with sums of both signs, limbs of every size and all counters in use.
+Film wild_film() {
+  Film film = make_film(50, 40, {7, 5, 30, 28}, 4'000'000'001u, 0x1p-3);
+  std::mt19937_64 engine(5);
+  for (FilmPixel& pixel : film.pixels) {
+    for (auto& half : pixel.sum) {
+      for (ExactSum& sum : half) {
+        sum.high = static_cast<std::int64_t>(engine()) >> engine() % 64;
+        sum.low = static_cast<std::int64_t>(engine()) >> engine() % 64;
+      }
+    }
+    pixel.taken = static_cast<std::uint32_t>(engine() % 1000 + 100);
+    pixel.rejected[0] = static_cast<std::uint32_t>(engine() % 30);
+    pixel.rejected[1] = static_cast<std::uint32_t>(engine() % 30);
+    pixel.truncated = static_cast<std::uint32_t>(engine());
+  }
+  film.cut_throughput = {std::numeric_limits<std::int64_t>::max(), -7};
+  film.pixels[0].sum[0][0] = {std::numeric_limits<std::int64_t>::min(), -1};
+  return film;
+}
+
+std::vector<Layer> some_layers(const Film& film) {
+  std::vector<Layer> layers = {{"albedo", {"R", "G", "B"}, {}}, {"normal", {"X", "Y", "Z"}, {}}, {"depth", {"Z"}, {}}};
+  for (Layer& layer : layers) layer.values.assign(film.pixels.size() * layer.channels.size(), 0.5f);
+  return layers;
+}
+
+const Embedded notes = {"{\"name\": \"Nebel über Glas\"}", "{\"spp\": 16}"};
+
+/// The bytes of an EXR with a small film.
+std::string small_exr(const fs::path& folder) {
+  write_exr(folder / "small.exr", make_film(3, 2, {0, 0, 3, 2}, 0, 1), {}, notes);
+  return read_text(folder / "small.exr");
+}
+
+}  // namespace
+
+TEST_CASE("exr: a build without OpenEXR says so" * doctest::skip(has_openexr())) {
+  const fs::path file = scratch_folder("exr_none") / "a.exr";
+  const std::string text = "this build has no EXR images (OpenEXR was not found when it was configured)";
+  CHECK_THROWS_WITH_AS(write_exr(file, wild_film(), {}, {}), (file.string() + ": cannot write: " + text).c_str(),
+                       ImageFileError);
+  write_text(file, "\x76\x2f\x31\x01....");
+  const std::string cannot_read = file.string() + ": cannot read: " + text;
+  CHECK_THROWS_WITH_AS(read_image(file), cannot_read.c_str(), ImageFileError);
+  CHECK_THROWS_WITH_AS(read_film(file), cannot_read.c_str(), ImageFileError);
+  CHECK_THROWS_WITH_AS(read_embedded_scene(file), cannot_read.c_str(), ImageFileError);
+}
+
+TEST_SUITE("exr" * doctest::skip(!has_openexr())) {
+  TEST_CASE("exr: the film comes back bit for bit") {
+    const fs::path file = scratch_folder("exr_film") / "a.exr";
+    const Film film = wild_film();
+    write_exr(file, film, some_layers(film), notes);
+    const std::optional<Film> back = read_film(file);
+    REQUIRE(back.has_value());
+    CHECK(*back == film);
+  }
+
+  TEST_CASE("exr: the picture is the film's means, of the region's size") {
+    const fs::path file = scratch_folder("exr_picture") / "a.exr";
+    Film film = make_film(9, 8, {2, 3, 7, 6}, 0, 2);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+      add_sample(film.pixels[i], 0, {static_cast<float>(i), 0.1f, -1.5f}, 0.5);
+      film.pixels[i].taken = 1;
+    }
+    write_exr(file, film, {}, {});
+    const LinearImage image = read_image(file);
+    CHECK(image.width == 5);
+    CHECK(image.height == 3);
+    CHECK(image.rgb == resolve(film));
+  }
+
+  TEST_CASE("exr: carries the scene") {
+    const fs::path folder = scratch_folder("exr_scene");
+    const Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
+    write_exr(folder / "a.exr", film, {}, notes);
+    CHECK(read_embedded_scene(folder / "a.exr") == notes.scene);
+    write_exr(folder / "b.exr", film, {}, {});
+    CHECK_FALSE(read_embedded_scene(folder / "b.exr").has_value());
+    const std::string large(3'000'000, 'x');
+    write_exr(folder / "c.exr", film, {}, {large, ""});
+    CHECK(read_embedded_scene(folder / "c.exr") == large);
+  }
+
+  TEST_CASE("exr: the same film gives the same bytes") {
+    const fs::path folder = scratch_folder("exr_same");
+    const Film film = wild_film();
+    write_exr(folder / "a.exr", film, some_layers(film), notes);
+    write_exr(folder / "b.exr", film, some_layers(film), notes);
+    CHECK(read_text(folder / "a.exr") == read_text(folder / "b.exr"));
+  }
+
+  TEST_CASE("exr: no film in other images") {
+    const fs::path file = scratch_folder("exr_other") / "a.pfm";
+    write_pfm(file, {1, 1, {1, 2, 3}});
+    CHECK_FALSE(read_film(file).has_value());
+    CHECK_THROWS_AS(read_film(file.parent_path() / "none.exr"), ImageFileError);
+  }
+
+  TEST_CASE("exr: a film that contradicts itself is refused") {
+    const fs::path folder = scratch_folder("exr_contradiction");
+    Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
+    film.pixels[4].taken = 3;
+    film.pixels[4].rejected[1] = 2;
+    write_exr(folder / "a.exr", film, {}, {});
+    CHECK_THROWS_WITH_AS(
+        read_film(folder / "a.exr"),
+        ((folder / "a.exr").string() + ": cannot read: its film is damaged: its counts contradict each other").c_str(),
+        ImageFileError);
+    CHECK(read_image(folder / "a.exr").width == 3);  // the picture itself is well
+    film = make_film(3, 2, {0, 0, 3, 2}, 4294967295u, 1);
+    film.pixels[0].taken = 1;
+    write_exr(folder / "a.exr", film, {}, {});
+    CHECK_THROWS_AS(read_film(folder / "a.exr"), ImageFileError);
+  }
+
+  TEST_CASE("exr: damaged attributes and channels are refused by name") {
+    const fs::path folder = scratch_folder("exr_attributes");
+    const std::string good = small_exr(folder);
+    const auto message = [&](const std::string& from, const std::string& to) -> std::string {
+      std::string bytes = good;
+      bytes.replace(bytes.find(from), from.size(), to);
+      write_text(folder / "a.exr", bytes);
+      try {
+        read_film(folder / "a.exr");
+      } catch (const ImageFileError& error) {
+        return std::string(error.what()).substr((folder / "a.exr").string().size());
+      }
+      return "none";
+    };
+    CHECK(message("tyndall:unit", "tyndall:Unit") == ": cannot read: its film is damaged: no tyndall:unit");
+    CHECK(message("film.B.G.low1", "film.B.G.lowX") ==
+          ": cannot read: its film is damaged: no channel film.B.G.low1 of type uint");
+    CHECK(message("film.taken", "film.Taken") == "none");  // another program's channels: no film
+    const std::string unit("tyndall:unit\0double\0\x08\0\0\0", 24);
+    CHECK(message(unit + std::string(6, '\0') + "\xf0\x3f", unit + std::string(6, '\0') + "\xf8\x3f") ==
+          ": cannot read: its film is damaged: tyndall:unit is no power of two");
+    const std::string cut("tyndall:cut_throughput\0string\0\3\0\0\0", 34);
+    CHECK(message(cut + "0 0", cut + "0 x") == ": cannot read: its film is damaged: tyndall:cut_throughput is no sum");
+    const std::string width("tyndall:width\0int\0\4\0\0\0", 22);
+    CHECK(message(width + '\3', width + '\2') ==
+          ": cannot read: its film is damaged: its data window is not within the image");
+  }
+
+  TEST_CASE("exr: a small file cannot ask for much memory") {
+    const fs::path folder = scratch_folder("exr_memory");
+    std::string bytes = small_exr(folder);
+    const std::size_t window = bytes.find(std::string("dataWindow\0box2i\0\x10\0\0\0", 21)) + 21;
+    bytes.replace(window + 8, 8, std::string("\xff\x3f\0\0\xff\x3f\0\0", 8));  // 16384 x 16384
+    const std::size_t size = bytes.find(std::string("tyndall:width\0int\0\4\0\0\0", 22)) + 22;
+    bytes.replace(size, 4, std::string("\0\x40\0\0", 4));
+    const std::size_t height = bytes.find(std::string("tyndall:height\0int\0\4\0\0\0", 23)) + 23;
+    bytes.replace(height, 4, std::string("\0\x40\0\0", 4));
+    write_text(folder / "a.exr", bytes);
+    CHECK_THROWS_AS(read_film(folder / "a.exr"), ImageFileError);
+    bytes.replace(window + 8, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
+    write_text(folder / "a.exr", bytes);
+    CHECK_THROWS_AS(read_film(folder / "a.exr"), ImageFileError);
+    CHECK_THROWS_AS(read_image(folder / "a.exr"), ImageFileError);
+  }
+}

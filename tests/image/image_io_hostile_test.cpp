@@ -1,0 +1,86 @@
+#include "core/image/image_io.h"
+#include "tests/support/scratch.h"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Reads a file in every way; only ImageFileError may come out. True if some way succeeded.
+bool survives(const fs::path& file) {
+  bool good = false;
+  const auto attempt = [&](auto read) {
+    try {
+      read(file);
+      good = true;
+    } catch (const ImageFileError& error) {
+      CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    }
+  };
+  attempt([](const fs::path& f) { read_image(f); });
+  attempt([](const fs::path& f) { read_rgb8(f); });
+  attempt([](const fs::path& f) { read_film(f); });
+  attempt([](const fs::path& f) { read_embedded_scene(f); });
+  return good;
+}
+
+LinearImage ramp() {
+  LinearImage image{20, 12, {}};
+  for (int i = 0; i < 720; ++i) image.rgb.push_back(static_cast<float>(i) / 400);
+  return image;
+}
+
+std::vector<fs::path> good_files(const fs::path& folder) {
+  const Embedded notes = {"{\"tyndall\": 1, \"objects\": []}", "{}"};
+  write_png(folder / "a.png", ramp(), 0, ToneCurve::srgb, notes);
+  write_pfm(folder / "a.pfm", ramp());
+  write_hdr(folder / "a.hdr", ramp());
+  std::vector<fs::path> files = {folder / "a.png", folder / "a.pfm", folder / "a.hdr"};
+  if (has_openexr()) {
+    Film film = make_film(20, 12, {0, 0, 20, 12}, 0, 1);
+    for (FilmPixel& pixel : film.pixels) pixel.taken = 4;
+    write_exr(folder / "a.exr", film, {}, notes);
+    files.push_back(folder / "a.exr");
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("hostile files: cut off at any length") {
+  const fs::path folder = scratch_folder("hostile_cut");
+  for (const fs::path& file : good_files(folder)) {
+    const std::string whole = read_text(file);
+    const fs::path broken = folder / "broken";
+    for (std::size_t length = 0; length < whole.size(); length += length < 400 ? 7 : 97) {
+      write_text(broken, whole.substr(0, length));
+      survives(broken);
+    }
+    write_text(broken, whole.substr(0, whole.size() / 2));
+    CHECK_THROWS_AS(read_image(broken), ImageFileError);
+  }
+}
+
+TEST_CASE("hostile files: bytes changed anywhere") {
+  const fs::path folder = scratch_folder("hostile_bytes");
+  std::mt19937 engine(7);
+  int good = 0;
+  for (const fs::path& file : good_files(folder)) {
+    CHECK(survives(file));
+    const std::string whole = read_text(file);
+    for (int round = 0; round < 300; ++round) {
+      std::string bytes = whole;
+      const std::size_t reach = round % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 300);
+      for (unsigned change = 0; change <= engine() % 4; ++change) {
+        bytes[engine() % reach] = static_cast<char>(engine() % 3 == 0 ? 0xff : engine());
+      }
+      write_text(folder / "broken", bytes);
+      good += survives(folder / "broken") ? 1 : 0;
+    }
+  }
+  CHECK(good > 0);
+}

@@ -1,0 +1,144 @@
+#include "core/image/image_io.h"
+#include "tests/support/scratch.h"
+
+#include <doctest/doctest.h>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <csignal>
+#include <functional>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+namespace {
+
+LinearImage noise(int width, int height) {
+  LinearImage image{width, height, {}};
+  std::uint32_t state = 1;
+  for (int i = 0; i < 3 * width * height; ++i) {
+    state = state * 1664525u + 1013904223u;
+    image.rgb.push_back(static_cast<float>(state >> 8) / 16777216.0f);
+  }
+  return image;
+}
+
+/// An image in each format that this build writes.
+std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> writers(int width, int height) {
+  const LinearImage image = noise(width, height);
+  std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> list = {
+      {"a.png",
+       [=](const fs::path& file) {
+         write_png(file, image, 0, ToneCurve::srgb, {"{}", ""});
+       }},
+      {"a.pfm", [=](const fs::path& file) { write_pfm(file, image); }},
+      {"a.hdr", [=](const fs::path& file) { write_hdr(file, image); }}};
+  if (has_openexr()) {
+    Film film = make_film(width, height, {0, 0, width, height}, 0, 1);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) film.pixels[i].sum[0][0].add(image.rgb[i]);
+    for (FilmPixel& pixel : film.pixels) pixel.taken = 1;
+    list.emplace_back("a.exr", [=](const fs::path& file) { write_exr(file, film, {}, {"{}", ""}); });
+  }
+  return list;
+}
+
+std::string error_of(const std::function<void(const fs::path&)>& write, const fs::path& file) {
+  try {
+    write(file);
+  } catch (const ImageFileError& error) {
+    const std::string text = error.what();
+    REQUIRE(text.starts_with(file.string()));
+    return text.substr(file.string().size());
+  }
+  return "none";
+}
+
+/// While it lives, no file can grow beyond `bytes`: as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+}  // namespace
+
+TEST_CASE("writing: a missing folder is one clear error") {
+  const fs::path folder = scratch_folder("write_missing");
+  for (const auto& [name, write] : writers(4, 4)) {
+    CHECK(error_of(write, folder / "none" / name) == ": cannot write: No such file or directory");
+  }
+}
+
+TEST_CASE("writing: only whole files appear, and nothing else") {
+  const fs::path folder = scratch_folder("write_whole");
+  for (const auto& [name, write] : writers(4, 4)) {
+    write(folder / name);
+    write(folder / name);  // replaces it
+    CHECK(fs::file_size(folder / name) > 0);
+    CHECK_NOTHROW(read_image(folder / name));
+  }
+  CHECK(count_files(folder) == writers(4, 4).size());
+}
+
+TEST_CASE("writing: a full disk leaves the old file and no scraps") {
+  const fs::path folder = scratch_folder("write_full");
+  const std::pair<rlim_t, int> cases[] = {{0, 4}, {0, 100}, {100, 100}, {6000, 100}};  // fails when closing, or before
+  for (const auto& [room, size] : cases) {
+    for (const auto& [name, write] : writers(size, size)) {
+      CAPTURE(name);
+      CAPTURE(room);
+      write_text(folder / name, "old");
+      std::string message;
+      {
+        const FullDisk full(room);
+        message = error_of(write, folder / name);
+      }
+      CHECK(message == ": cannot write: File too large");
+      CHECK(read_text(folder / name) == "old");
+    }
+  }
+  CHECK(count_files(folder) == writers(4, 4).size());
+}
+
+TEST_CASE("writing: folders, pipes and links") {
+  const fs::path folder = scratch_folder("write_kinds");
+  fs::create_directory(folder / "dir.png");
+  fs::create_directory(folder / "real");
+  fs::create_symlink("real/target", folder / "link");
+  fs::create_symlink("pipe", folder / "to_pipe");
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  for (const auto& [name, write] : writers(4, 4)) {
+    CHECK(error_of(write, folder / "dir.png") == ": cannot write: Is a directory");
+    CHECK(error_of(write, folder / "to_pipe") == ": cannot write: not an ordinary file");
+    CHECK(error_of(write, folder / "pipe") == ": cannot write: not an ordinary file");
+    write(folder / "link");
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK_NOTHROW(read_image(folder / "real" / "target"));
+  }
+  CHECK(fs::is_fifo(folder / "pipe"));
+  CHECK(count_files(folder) == 5);
+  CHECK(count_files(folder / "real") == 1);
+}
+
+TEST_CASE("writing: an image without pixels is refused") {
+  const fs::path folder = scratch_folder("write_empty");
+  const std::string expected = ": cannot write: found an image of 0 x 0 pixels, expected 1 to 2^28 in all";
+  CHECK(error_of([](const fs::path& file) { write_png(file, {}, 0, ToneCurve::srgb, {}); }, folder / "a") == expected);
+  CHECK(error_of([](const fs::path& file) { write_pfm(file, {}); }, folder / "a") == expected);
+  CHECK(error_of([](const fs::path& file) { write_hdr(file, {}); }, folder / "a") == expected);
+  if (has_openexr()) {
+    CHECK(error_of([](const fs::path& file) { write_exr(file, {}, {}, {}); }, folder / "a") == expected);
+  }
+  CHECK(count_files(folder) == 0);
+}
