@@ -1,0 +1,182 @@
+// FLIP against numbers that do not come from this project's reading of the paper: what the authors' own program says,
+// and what can be worked out with pen and paper from published colours and from the integrals of the filters.
+#include "core/accuracy/flip.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+using namespace tyndall;
+
+namespace {
+
+using Bytes = std::array<int, 3>;
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+/// An sRGB byte as linear light (IEC 61966-2-1).
+float decoded(int byte) {
+  const double v = byte / 255.0;
+  return static_cast<float>(v > 0.04045 ? std::pow((v + 0.055) / 1.055, 2.4) : v / 12.92);
+}
+
+template <class Colour>
+Picture picture(int width, int height, Colour colour) {
+  Picture out{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (const int byte : colour(x, y)) out.rgb.push_back(decoded(byte));
+  return out;
+}
+
+Picture one_colour(float r, float g, float b, int size = 41) {
+  Picture out{size, size, {}};
+  for (int i = 0; i < size * size; ++i) out.rgb.insert(out.rgb.end(), {r, g, b});
+  return out;
+}
+
+/// A grey picture of 41 x 41 pixels whose middle pixel, (20, 20), is another grey; both are linear, in [0, 1].
+Picture grey_with_pixel(float grey, float pixel) {
+  Picture out = one_colour(grey, grey, grey);
+  std::fill_n(out.rgb.begin() + 3 * (20 * 41 + 20), 3, pixel);
+  return out;
+}
+
+std::vector<float> flip(const Picture& image, const Picture& reference) {
+  return flip_map(image.rgb, reference.rgb, image.width, image.height);
+}
+
+double at(const std::vector<float>& map, int width, int x, int y) {
+  return static_cast<double>(map[static_cast<std::size_t>(y * width + x)]);
+}
+
+/// FLIP in the middle of two pictures that have one colour each: nothing but the colours counts.
+double between(const Picture& a, const Picture& b) { return at(flip(a, b), 41, 20, 20); }
+
+Bytes pattern(int x, int y) { return {8 * x, 10 * y, (x / 8 + y / 8) % 2 ? 200 : 40}; }
+
+/// The pattern with a white dot, a patch of other colours, and its lower third shifted by a pixel.
+Bytes changed_pattern(int x, int y) {
+  const auto [r, g, b] = pattern(x, y);
+  if (x == 5 && y == 5) return {255, 255, 255};
+  if (x >= 14 && x < 20 && y >= 3 && y < 9) return {b, r, g};
+  return y >= 16 ? pattern(std::max(x - 1, 0), y) : Bytes{r, g, b};
+}
+
+}  // namespace
+
+// The numbers are what compute_ldrflip() of the authors' Python program prints for these two pictures at 67 pixels a
+// degree (github.com/NVlabs/flip, python/flip_api.py, commit 313517b4; its image filter replaced by SciPy's "correlate"
+// with the mode "nearest", which does the same). Its colour matrices have other last digits than those of flip.cpp.
+TEST_CASE("FLIP gives the numbers of its authors' program") {
+  constexpr int width = 32, height = 24;
+  const std::vector<float> map = flip(picture(width, height, changed_pattern), picture(width, height, pattern));
+  struct Expected {
+    int x, y;
+    double flip;
+  };
+  for (const auto& [x, y, expected] : {Expected{5, 5, 0.637031},
+                                       {6, 7, 0.178927},
+                                       {16, 5, 0.812206},
+                                       {14, 3, 0.527911},
+                                       {20, 9, 0.268358},
+                                       {8, 20, 0.323726},
+                                       {31, 23, 0.138655},
+                                       {16, 16, 0.193135},
+                                       {0, 12, 0.002275},
+                                       {27, 2, 0.003745}}) {
+    CAPTURE(x);
+    CAPTURE(y);
+    CHECK(at(map, width, x, y) == doctest::Approx(expected).epsilon(2e-4));
+  }
+  double sum = 0;
+  for (const float v : map) sum += static_cast<double>(v);
+  CHECK(sum / (width * height) == doctest::Approx(0.150730).epsilon(2e-4));
+  CHECK(static_cast<double>(*std::max_element(map.begin(), map.end())) == doctest::Approx(0.913078).epsilon(2e-4));
+}
+
+// By hand. L*, a*, b* of the sRGB primaries (D65) as tables give them: red 53.24, 80.09, 67.20; green 87.73, -86.18,
+// 83.18; blue 32.30, 79.19, -107.86. Hunt: a* and b* times L*/100: red (42.64, 35.78), green (-75.61, 72.98), blue
+// (25.58, -34.84). HyAB distance of green and blue: 55.43 + sqrt(101.19^2 + 107.82^2) = 203.3, to the power 0.7:
+// 41.28, the largest there is. 0.4 of it, 16.51, counts 0.95; what is above shares the remaining 0.05.
+TEST_CASE("FLIP of pictures of one colour follows from published L*a*b* values") {
+  const Picture black = one_colour(0, 0, 0), white = one_colour(1, 1, 1);
+  const Picture red = one_colour(1, 0, 0), green = one_colour(0, 1, 0), blue = one_colour(0, 0, 1);
+  CHECK(between(green, blue) == doctest::Approx(1).epsilon(1e-5));
+  // 100^0.7 = 25.12; 0.95 + 0.05 (25.12 - 16.51) / (41.28 - 16.51)
+  CHECK(between(white, black) == doctest::Approx(0.96738).epsilon(1e-4));
+  // 20.94 + sqrt(17.06^2 + 70.62^2) = 93.59, to the power 0.7: 23.98
+  CHECK(between(red, blue) == doctest::Approx(0.96508).epsilon(1e-4));
+  // L* 50 and 60, which are ((L* + 16) / 116)^3 of white: 10^0.7 = 5.012; 0.95 · 5.012 / 16.51
+  CHECK(between(one_colour(0.18419f, 0.18419f, 0.18419f), one_colour(0.28123f, 0.28123f, 0.28123f)) ==
+        doctest::Approx(0.2884).epsilon(1e-3));
+}
+
+// By hand, with integrals instead of sums. In the middle, the contrast filter of lightness exp(-π² (x² + y²) / (67²
+// b)), b = 0.0047, leaves w = π / (67² b) = 0.1489 of the pixel's difference. The edge filter is odd and sees nothing
+// there; the point filter (x²/s² - 1) exp(-(x² + y²) / (2 s²)), s = 0.041 · 67 pixels, has its negative weights scaled
+// to -1, so that its middle weighs p = sqrt(e) / (2 sqrt(2π) s²) = 0.04358 in each of the two directions.
+TEST_CASE("FLIP of a single pixel follows from the weights in the middle of its filters") {
+  constexpr double pi = std::numbers::pi, s = 0.041 * 67;
+  const double w = pi / (67.0 * 67 * 0.0047), p = std::sqrt(std::numbers::e) / (2 * std::sqrt(2 * pi) * s * s);
+  const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };
+  struct Greys {
+    double grey, pixel;
+  };
+  for (const auto& [grey, pixel] : {Greys{0.2, 0.3}, {0.2, 0.6}, {0.2, 1}, {0.5, 0}, {0.5, 0.4}, {0.8, 0.9}}) {
+    CAPTURE(grey);
+    CAPTURE(pixel);
+    const double seen = std::abs(lightness(grey + w * (pixel - grey)) - lightness(grey));
+    const double colour = 0.95 * std::pow(seen, 0.7) / 16.5104, feature = std::sqrt(p * std::abs(pixel - grey));
+    const auto [background, value] = std::array{static_cast<float>(grey), static_cast<float>(pixel)};
+    const std::vector<float> map =
+        flip(grey_with_pixel(background, value), one_colour(background, background, background));
+    CHECK(at(map, 41, 20, 20) == doctest::Approx(std::pow(colour, 1 - feature)).epsilon(1e-3));
+    CHECK(at(map, 41, 20, 9) == 0);  // the widest filter reaches 10 pixels
+    CHECK(at(map, 41, 31, 20) == 0);
+    CHECK(at(map, 41, 30, 20) >= 0);
+  }
+}
+
+TEST_CASE("FLIP grows with the contrast of a pixel and of a picture") {
+  double pixel_before = 0, picture_before = 0;
+  const Picture grey = one_colour(0.3f, 0.3f, 0.3f);
+  for (const float value : {0.31f, 0.35f, 0.4f, 0.5f, 0.7f, 1.0f}) {
+    const double pixel = between(grey_with_pixel(0.3f, value), grey),
+                 all = between(one_colour(value, value, value), grey);
+    CHECK(pixel > pixel_before);
+    CHECK(all > picture_before);
+    CHECK(all > pixel);
+    pixel_before = pixel;
+    picture_before = all;
+  }
+}
+
+// Each filter is even, or odd and squared, in x and in y, and the same along both: so the map turns with the picture.
+TEST_CASE("FLIP of mirrored and of transposed pictures is the map mirrored and transposed") {
+  constexpr int size = 24;
+  const std::vector<float> map = flip(picture(size, size, changed_pattern), picture(size, size, pattern));
+  const auto turned = [](auto where) {
+    const auto from = [where](auto colours) {
+      return picture(size, size, [=](int x, int y) { return colours(where(x, y)[0], where(x, y)[1]); });
+    };
+    return flip(from(changed_pattern), from(pattern));
+  };
+  const std::vector<float> mirrored = turned([](int x, int y) { return std::array{size - 1 - x, y}; });
+  const std::vector<float> transposed = turned([](int x, int y) { return std::array{y, x}; });
+  double mirror_gap = 0, transpose_gap = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      mirror_gap = std::max(mirror_gap, std::abs(at(mirrored, size, size - 1 - x, y) - at(map, size, x, y)));
+      transpose_gap = std::max(transpose_gap, std::abs(at(transposed, size, y, x) - at(map, size, x, y)));
+    }
+  CHECK(mirror_gap < 1e-6);
+  CHECK(transpose_gap < 1e-6);
+}
