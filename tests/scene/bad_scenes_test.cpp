@@ -1,4 +1,5 @@
 #include "tests/scene/files.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +9,7 @@ using namespace tyndall;
 
 namespace {
 
-const std::filesystem::path folder = TYNDALL_TESTS_DIR "/bad_scenes";
+const std::filesystem::path folder = tests_folder() / "bad_scenes";
 
 /// The message about a file, without the folder's path.
 std::string message(const std::filesystem::path& file) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/scene/json.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +29,7 @@ inline std::vector<std::filesystem::path> json_files(const std::filesystem::path
 }
 
 inline Scene read_text(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return read_scene(text, "x.json", TYNDALL_ASSETS_DIR "/scenes", overrides);
+  return read_scene(text, "x.json", assets_folder() / "scenes", overrides);
 }
 
 /// What reading a text says, without "x.json: "; empty if it is a scene.

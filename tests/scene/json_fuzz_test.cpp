@@ -1,4 +1,5 @@
 #include "tests/scene/files.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +9,7 @@ using namespace tyndall;
 
 namespace {
 
-const std::filesystem::path scenes = TYNDALL_ASSETS_DIR "/scenes";
+const std::filesystem::path scenes = assets_folder() / "scenes";
 
 /// Pieces that change what a file means more often than a random byte does.
 constexpr const char* pieces[] = {"{",

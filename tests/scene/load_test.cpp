@@ -2,6 +2,7 @@
 
 #include "core/image/image_io.h"
 #include "tests/scene/files.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -12,8 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path assets = TYNDALL_ASSETS_DIR;
-const fs::path scratch = fs::path(TYNDALL_SCRATCH_DIR) / "load_test";
+const fs::path assets = assets_folder();
+const fs::path scratch = scratch_folder() / "load_test";
 
 fs::path write(const std::string& name, const std::string& text) {
   fs::create_directories(scratch);

@@ -1,5 +1,6 @@
 #include "core/scene/names.h"
 #include "tests/scene/files.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -13,7 +14,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-const Json schema = Json::parse(text_of(TYNDALL_ASSETS_DIR "/scene.schema.json"));
+const Json schema = Json::parse(text_of(assets_folder() / "scene.schema.json"));
 using Names = std::set<std::string>;
 
 Names keys(const Json& object) {

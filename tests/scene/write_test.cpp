@@ -1,5 +1,6 @@
 #include "tests/scene/files.h"
 #include "tests/scene/random_scene.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +8,7 @@ using namespace tyndall;
 
 namespace {
 
-const std::filesystem::path scenes = TYNDALL_ASSETS_DIR "/scenes";
+const std::filesystem::path scenes = assets_folder() / "scenes";
 
 }  // namespace
 

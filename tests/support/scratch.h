@@ -1,4 +1,6 @@
 #pragma once
+#include "tests/support/paths.h"
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,7 +11,7 @@ namespace tyndall {
 
 /// An empty folder of this name, for one test case.
 inline std::filesystem::path scratch_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(TYNDALL_SCRATCH_DIR) / "film" / name;
+  const std::filesystem::path folder = scratch_folder() / "film" / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

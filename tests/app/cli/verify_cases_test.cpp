@@ -2,6 +2,7 @@
 
 #include "app/text/values.h"
 #include "core/scene/load.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +14,7 @@ using namespace tyndall;
 namespace {
 
 std::vector<VerifyCase> read(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(TYNDALL_SCRATCH_DIR) / "verify_cases_test.json";
+  const std::filesystem::path file = scratch_folder() / "verify_cases_test.json";
   std::ofstream(file) << text;
   return read_verify_cases(file);
 }
@@ -88,7 +89,7 @@ TEST_CASE("cases: chosen by the beginnings of their names, in the table's order"
 }
 
 TEST_CASE("cases: every one of the table that comes with Tyndall has a scene that can be read") {
-  const auto cases = read_verify_cases(std::filesystem::path(TYNDALL_ASSETS_DIR) / "verify" / "cases.json");
+  const auto cases = read_verify_cases(assets_folder() / "verify" / "cases.json");
   CHECK(cases.size() > 300);
   std::set<std::filesystem::path> used;
   for (const VerifyCase& c : cases) {
@@ -98,7 +99,7 @@ TEST_CASE("cases: every one of the table that comes with Tyndall has a scene tha
     CHECK(c.source.size() > 5);
     used.insert(c.scene.filename());
   }
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TYNDALL_ASSETS_DIR) / "verify")) {
+  for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "verify")) {
     CAPTURE(entry.path().string());
     if (entry.path().filename() == "cases.json") continue;
     CHECK(used.count(entry.path().filename()) == 1);

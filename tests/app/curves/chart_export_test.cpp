@@ -1,6 +1,7 @@
 #include "app/curves/chart_export.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -22,7 +23,7 @@ std::string read(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("the live chart becomes a table and a drawing that say what was measured") {
-  const fs::path folder = fs::path(TYNDALL_SCRATCH_DIR) / "chart_export";
+  const fs::path folder = scratch_folder() / "chart_export";
   fs::remove_all(folder);
   fs::create_directories(folder);
   ConvergenceRun good{2, "mis, best", {}}, biased{1, "schlick", {}};

@@ -5,6 +5,7 @@
 #include "app/window/system/ui_log.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(TYNDALL_SCRATCH_DIR) / ("window_" + name);
+  const fs::path folder = scratch_folder() / ("window_" + name);
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

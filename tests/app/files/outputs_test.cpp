@@ -2,6 +2,7 @@
 
 #include "app/text/values.h"
 #include "core/base/error.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 /// An empty folder of this test.
 std::filesystem::path empty_folder(const char* name) {
-  const std::filesystem::path folder = std::filesystem::path(TYNDALL_SCRATCH_DIR) / name;
+  const std::filesystem::path folder = scratch_folder() / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -1,6 +1,7 @@
 #include "app/window/session.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -19,7 +20,7 @@ namespace {
 /// A session over a small scene file of its own, and a clock that waits for it.
 class Opened {
  public:
-  explicit Opened(const std::string& name) : folder_(fs::path(TYNDALL_SCRATCH_DIR) / ("session_" + name)) {
+  explicit Opened(const std::string& name) : folder_(scratch_folder() / ("session_" + name)) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     before_ = fs::current_path();

@@ -4,6 +4,7 @@
 #include "app/text/values.h"
 #include "app/window/document/open_document.h"
 #include "core/accuracy/error.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(TYNDALL_SCRATCH_DIR) / ("reference_" + name);
+  const fs::path folder = scratch_folder() / ("reference_" + name);
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
