@@ -29,14 +29,14 @@ def check(root):
     problems = []
     files = git_files(root, "--cached", "--others", "--exclude-standard")
     for name in sorted({file.split("/")[0] for file in files} - set(TOP_LEVEL)):
-        problems.append(f"{name}: not a name of the top level; delete it, move it into a folder, or, if runs leave such "
-                        "files behind, name it in .gitignore (tests/check_tree.py lists the allowed names)")
+        problems.append(f"{name}: not a name of the top level; delete it, move it into a folder, or, if runs leave "
+                        "such files behind, name it in .gitignore (tests/check_tree.py lists the allowed names)")
     for file in files:
         path = root / file
         size = path.stat().st_size if path.is_file() and not path.is_symlink() else 0
         if size > LARGEST_FILE and file not in LARGE_FILES:
-            problems.append(f"{file}: {size} bytes, at most {LARGEST_FILE} are allowed (LARGE_FILES in tests/check_tree.py "
-                            "names the exceptions)")
+            problems.append(f"{file}: {size} bytes, at most {LARGEST_FILE} are allowed (LARGE_FILES in "
+                            "tests/check_tree.py names the exceptions)")
     for file in git_files(root, "--cached", "--ignored", "--exclude-standard"):
         problems.append(f"{file}: tracked, but hidden by .gitignore")
     return problems

@@ -31,17 +31,19 @@ ensure_packages() {
     if command -v sudo >/dev/null 2>&1 && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
       as_root=(sudo)
     else
-      printf 'missing packages; as root run:\n  apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
+      printf 'Tyndall needs packages that are missing, and this user cannot install them. As root run\n' >&2
+      printf '  apt-get install -y --no-install-recommends %s\nand then start this again.\n' "${missing[*]}" >&2
       return 1
     fi
   fi
-  printf 'installing: %s\n' "${missing[*]}" >&2
+  printf 'installing packages that Tyndall needs: %s\n' "${missing[*]}" >&2
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0
     -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300)
   local install=("${apt[@]}" install --no-install-recommends "${missing[@]}")
   # A fresh machine has no package lists: the first try fails.
   "${install[@]}" </dev/null >&2 || { "${apt[@]}" update </dev/null >&2 && "${install[@]}" </dev/null >&2; } || {
-    printf 'installing failed; as root run:\n  apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
+    printf 'apt-get could not install them (its messages are above). Once that is mended, start this again, or as root run\n' >&2
+    printf '  apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
     return 1
   }
   packages_changed=1

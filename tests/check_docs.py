@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+"""Fails when a page of the project (*.md) has a broken link, or shows a command that does not work.
+
+Usage: check_docs.py TYNDALL SCRATCH ROOT       TYNDALL: the program; SCRATCH: a folder to work in; ROOT: of the sources
+
+Links and pictures inside the repository must exist, anchors too. Commands are the lines of blocks that are fenced as
+"sh", the pieces of code in the text that begin with "tyndall" or "./run", and the examples of "tyndall COMMAND --help".
+They run in the order in which a page shows them, in a folder of the page, made small by SMALL; PLACEHOLDERS says what
+words in capitals stand for. Commands that open the window run without a display, and must say so. Commands that take
+minutes whatever their size (is_long) and those with "…" do not run: their options are looked up in the texts of --help,
+as are all other options that a page names.
+"""
+import json
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+COMMANDS = ["view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"]
+SMALL = {
+    "render": ["--size", "32x18", "-q"],
+    "chart": ["--size", "16x9", "--budget", "0.5", "-q"],
+    "verify": ["-q"],
+}
+LIMITS = {"--samples", "--replay"}  # options of render that exclude --spp
+PLACEHOLDERS = {
+    "SCENE": "cornell-box", "IMAGE": "a.exr", "REFERENCE": "b.exr", "PART": "a.exr b.exr", "PART...": "a.exr b.exr",
+    "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
+    "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
+}
+OTHER_OPTIONS = {"--all", "--preset", "--build", "--target"}  # of ./test and CMake
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```\s*$", re.MULTILINE | re.DOTALL)
+CODE = re.compile(r"`([^`]+)`")
+
+
+def list_pages(root):
+    skipped = {"build", ".git"}
+    return sorted(p for p in root.rglob("*.md") if p.relative_to(root).parts[0] not in skipped)
+
+
+# ---- links -------------------------------------------------------------------------------------------------------
+
+def anchors_of(page):
+    """Of a page's headings: in lower case, without punctuation, with hyphens for spaces, numbered where equal."""
+    anchors = set()
+    for heading in re.findall(r"^#+\s+(.*?)\s*$", FENCE.sub("", page.read_text(encoding="utf-8")), re.MULTILINE):
+        base = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        anchor, count = base, 0
+        while anchor in anchors:
+            count += 1
+            anchor = f"{base}-{count}"
+        anchors.add(anchor)
+    return anchors
+
+
+def check_links(page, root):
+    text = CODE.sub("", FENCE.sub("", page.read_text(encoding="utf-8")))
+    targets = re.findall(r"\]\(\s*([^)\s]+)[^)]*\)", text) + re.findall(r'(?:src|href)="([^"]+)"', text)
+    for target in targets:
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        if not file.exists() or root not in [file, *file.parents]:
+            yield f"link to {target}: there is no such file"
+        elif anchor and anchor not in anchors_of(file):
+            yield f"link to {target}: no heading of that page has this anchor"
+
+
+# ---- commands ----------------------------------------------------------------------------------------------------
+
+def commands_of(text):
+    """The commands of a page, in order."""
+    found = []
+    for match in re.finditer(FENCE.pattern + r"|" + CODE.pattern, text, FENCE.flags):
+        language, block, code = match.groups()
+        if language == "sh":
+            found += [line for line in block.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+        elif code and re.match(r"(tyndall|\./run|build/release/tyndall)(\s|$)", code):
+            found.append(" ".join(code.split()))
+    return found
+
+
+def replace_placeholders(command):
+    """Without what is optional ("[NAME…]"), and with something real for words in capitals."""
+    command = re.sub(r" \[[^\]\d]*[A-Z][^\]]*\]", "", command).replace("PART…", "PART")
+    return " ".join(PLACEHOLDERS.get(word, word) for word in command.split(" "))
+
+
+def options_of(text):
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", text))
+
+
+def is_long(words):
+    whole_verify = words[0] == "verify" and not any("/" in word for word in words)
+    return whole_verify or "--thorough" in words or "--accuracy" in words or words[:2] == ["chart", "all"]
+
+
+class Commands:
+    """Runs commands, each once in a folder."""
+
+    def __init__(self, tyndall, scratch, root):
+        self.tyndall, self.root, self.folder = tyndall, root, root
+        self.environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.help = {name: self.output([name, "--help"]) for name in COMMANDS}
+        self.with_exr = True
+        self.make_fixtures(scratch)
+
+    def output(self, words):
+        done = subprocess.run([self.tyndall, *words], cwd=self.folder, stdout=subprocess.PIPE, check=True)
+        return done.stdout.decode()
+
+    def make_fixtures(self, scratch):
+        """What pages read without making it, and a root whose ./run and ./test build nothing."""
+        shutil.rmtree(scratch, ignore_errors=True)
+        self.fixtures = scratch / "fixtures"
+        self.fixtures.mkdir(parents=True)
+        for part in ("scenes", "textures", "verify"):
+            shutil.copytree(self.root / "assets" / part, self.fixtures / "assets" / part)
+        self.folder = self.fixtures
+        self.output(["convert", "cornell-smoke", "-o", "fog.json"])
+        small = ["--size", "32x18", "-q"]
+        self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
+        shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
+        try:
+            for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4")):
+                self.output(["render", "cornell-smoke", "--samples", samples, *small, "-o", name + ".exr"])
+        except subprocess.CalledProcessError:
+            self.with_exr = False  # a build without OpenEXR
+        self.fake = scratch / "root"
+        for name in ("run", "test", "third_party/packages.sh"):
+            (self.fake / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(self.root / name, self.fake / name)
+        (self.fake / "build/release").mkdir(parents=True)
+        (self.fake / "build/release/tyndall").symlink_to(self.tyndall)
+        (self.fake / "bin").mkdir()
+        for name in ("cmake", "ctest"):
+            (self.fake / "bin" / name).symlink_to("/bin/true")
+        self.environment |= {"TYNDALL_SKIP_PACKAGES": "1", "PATH": f"{self.fake}/bin:{os.environ['PATH']}"}
+
+    def start_page(self, scratch, name):
+        self.folder = scratch / name.replace("/", "-")
+        shutil.copytree(self.fixtures, self.folder)
+
+    def check(self, command):
+        """Yields what is wrong with a command as a page shows it."""
+        try:
+            words = shlex.split(replace_placeholders(command), comments=True)
+        except ValueError as error:
+            yield f"the shell cannot read this: {error}"
+            return
+        while words and re.match(r"[A-Z_]+=", words[0]):
+            words.pop(0)
+        program, words = words[0], words[1:]
+        if program in ("tyndall", "build/release/tyndall"):
+            yield from self.check_tyndall([self.tyndall], words)
+        elif program == "./run":
+            yield from self.check_tyndall([self.fake / "run"], words[1:] if words[:1] == ["view"] else words)
+        elif program == "./test":
+            yield from self.run([self.fake / "test", *words], {0})
+        else:
+            yield from self.check_other(program, words)
+
+    def check_tyndall(self, program, words):
+        name = words[0] if words and words[0] in COMMANDS else None
+        if name and len(words) == 1 and name not in ("view", "scenes"):
+            return  # the text speaks of a command
+        needs_exr = not self.with_exr and any(".exr" in word for word in words)
+        if "…" in words or any("{" in word for word in words) or needs_exr or (name and is_long(words)):
+            for option in sorted(options_of(" ".join(words)) - options_of(self.help[name or "view"])):
+                yield f"{option} is no option of tyndall {name or 'view'}"
+            return
+        through_run = program != [self.tyndall]  # ./run renders, as there is no display
+        renders = name == "render" or (through_run and not name and words[:1] != ["--help"])
+        small = SMALL["render"] if renders else SMALL.get(name, [])
+        if renders and not LIMITS & set(words):
+            small = small + ["--spp", "1"]
+        checks = name == "verify" or any(word.startswith("--max-") for word in words)
+        opens_window = not through_run and (not words or name == "view" or (not name and words[0][0] != "-"))
+        yield from self.run([*program, *words, *small], {3} if opens_window else {0, 1} if checks else {0})
+
+    def run(self, command, expected):
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120)
+        if done.returncode not in expected:
+            shown = " ".join(str(word) for word in command)
+            yield f"exit code {done.returncode}: {shown}: {done.stderr.decode().strip()}"
+
+    def check_other(self, program, words):
+        if program == "cmake":
+            lists = (self.root / "CMakeLists.txt").read_text() + (self.root / "tests/CMakeLists.txt").read_text()
+            presets = [p["name"] for p in json.loads((self.root / "CMakePresets.json").read_text())["configurePresets"]]
+            for option, word in zip(words, words[1:]):
+                if option == "--preset" and word not in presets:
+                    yield f"{word} is no preset of CMakePresets.json"
+            for word in words[words.index("--target") + 1:] if "--target" in words else []:
+                if not re.search(rf"add_(executable|library)\({word}\b", lists):
+                    yield f"{word} is no target"
+        elif program == "build/release/tyndall_bench":
+            bench = "".join((self.root / "tests/bench" / name).read_text() for name in ("options.cpp", "main.cpp"))
+            for word in words:
+                if "." not in word and f'"{word}"' not in bench:
+                    yield f"{word} is neither a part nor an option of tyndall_bench"
+        elif program != "alias" and not os.access(self.root / program, os.X_OK):
+            yield f"{program} is neither known to tests/check_docs.py nor a program of the repository"
+
+    def unknown_options(self, text):
+        bench = (self.root / "tests/bench/options.cpp").read_text()
+        known = options_of("".join(self.help.values()) + bench + self.output(["--help"])) | set(OTHER_OPTIONS)
+        for option in sorted(options_of(" ".join(CODE.findall(FENCE.sub("", text)))) - known):
+            yield f"{option} is no option of any command"
+
+
+def check(tyndall, scratch, root):
+    commands = Commands(tyndall, scratch, root)
+    problems = []
+    for page in list_pages(root):
+        name, text = str(page.relative_to(root)), page.read_text(encoding="utf-8")
+        problems += [f"{name}: {problem}" for problem in [*check_links(page, root), *commands.unknown_options(text)]]
+        commands.start_page(scratch, name)
+        for command in commands_of(text):
+            problems += [f"{name}: {command}: {problem}" for problem in commands.check(command)]
+    for name, text in commands.help.items():
+        commands.start_page(scratch, "help-" + name)
+        for example in re.findall(r"^  (tyndall .*)$", text, re.MULTILINE):
+            problems += [f"tyndall {name} --help: {example}: {problem}" for problem in commands.check(example)]
+    return problems
+
+
+if __name__ == "__main__":
+    found = check(*(pathlib.Path(argument).resolve() for argument in sys.argv[1:]))
+    for line in found:
+        print(line)
+    sys.exit(1 if found else 0)
