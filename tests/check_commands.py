@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Fails when a page of the project (*.md) has a broken link, or shows a command that does not work.
+"""Fails when a page of the project (*.md) or a text of --help shows a command that does not work.
 
-Usage: check_docs.py TYNDALL SCRATCH ROOT       TYNDALL: the program; SCRATCH: a folder to work in; ROOT: of the sources
+Usage: check_commands.py TYNDALL SCRATCH ROOT   TYNDALL: the program; SCRATCH: a folder to work in; ROOT: of the sources
 
-Links and pictures inside the repository must exist, anchors too. Commands are the lines of blocks that are fenced as
-"sh", the pieces of code in the text that begin with "tyndall" or "./run", and the examples of "tyndall COMMAND --help".
-They run in the order in which a page shows them, in a folder of the page, made small by SMALL; PLACEHOLDERS says what
-words in capitals stand for. Commands that open the window run without a display, and must say so. Commands that take
-minutes whatever their size (is_long) and those with "…" do not run: their options are looked up in the texts of --help,
-as are all other options that a page names.
+Commands are the lines of blocks that are fenced as "sh", the pieces of code in the text that begin with "tyndall" or
+"./run", and the examples of "tyndall COMMAND --help". They run in the order in which a page shows them, in a folder of the
+page, made small by SMALL; PLACEHOLDERS says what words in capitals stand for. Commands that open the window run without a
+display, and must say so. Commands that take minutes whatever their size (is_long) and those with "..." or "…" do not run:
+their options are looked up in the texts of --help, as are all other options that a page names.
 """
 import json
 import os
@@ -19,7 +18,8 @@ import shutil
 import subprocess
 import sys
 
-COMMANDS = ["view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"]
+from check_links import CODE, FENCE, list_pages
+
 SMALL = {
     "render": ["--size", "32x18", "-q"],
     "chart": ["--size", "16x9", "--budget", "0.5", "-q"],
@@ -32,45 +32,7 @@ PLACEHOLDERS = {
     "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
 }
 OTHER_OPTIONS = {"--all", "--preset", "--build", "--target"}  # of ./test and CMake
-FENCE = re.compile(r"^```(\w*)\n(.*?)^```\s*$", re.MULTILINE | re.DOTALL)
-CODE = re.compile(r"`([^`]+)`")
 
-
-def list_pages(root):
-    skipped = {"build", ".git"}
-    return sorted(p for p in root.rglob("*.md") if p.relative_to(root).parts[0] not in skipped)
-
-
-# ---- links -------------------------------------------------------------------------------------------------------
-
-def anchors_of(page):
-    """Of a page's headings: in lower case, without punctuation, with hyphens for spaces, numbered where equal."""
-    anchors = set()
-    for heading in re.findall(r"^#+\s+(.*?)\s*$", FENCE.sub("", page.read_text(encoding="utf-8")), re.MULTILINE):
-        base = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
-        anchor, count = base, 0
-        while anchor in anchors:
-            count += 1
-            anchor = f"{base}-{count}"
-        anchors.add(anchor)
-    return anchors
-
-
-def check_links(page, root):
-    text = CODE.sub("", FENCE.sub("", page.read_text(encoding="utf-8")))
-    targets = re.findall(r"\]\(\s*([^)\s]+)[^)]*\)", text) + re.findall(r'(?:src|href)="([^"]+)"', text)
-    for target in targets:
-        if re.match(r"[a-z]+:", target):
-            continue
-        path, _, anchor = target.partition("#")
-        file = (page.parent / path).resolve() if path else page
-        if not file.exists() or root not in [file, *file.parents]:
-            yield f"link to {target}: there is no such file"
-        elif anchor and anchor not in anchors_of(file):
-            yield f"link to {target}: no heading of that page has this anchor"
-
-
-# ---- commands ----------------------------------------------------------------------------------------------------
 
 def commands_of(text):
     """The commands of a page, in order."""
@@ -105,7 +67,9 @@ class Commands:
     def __init__(self, tyndall, scratch, root):
         self.tyndall, self.root, self.folder = tyndall, root, root
         self.environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        self.help = {name: self.output([name, "--help"]) for name in COMMANDS}
+        self.overview = self.output(["--help"])
+        names = re.findall(r"^  ([a-z]+) ", self.overview.split("Commands:")[1].split("Options:")[0], re.MULTILINE)
+        self.help = {name: self.output([name, "--help"]) for name in names}
         self.with_exr = True
         self.make_fixtures(scratch)
 
@@ -165,7 +129,7 @@ class Commands:
             yield from self.check_other(program, words)
 
     def check_tyndall(self, program, words):
-        name = words[0] if words and words[0] in COMMANDS else None
+        name = words[0] if words and words[0] in self.help else None
         if name and len(words) == 1 and name not in ("view", "scenes"):
             return  # the text speaks of a command
         needs_exr = not self.with_exr and any(".exr" in word for word in words)
@@ -205,11 +169,11 @@ class Commands:
                 if "." not in word and f'"{word}"' not in bench:
                     yield f"{word} is neither a part nor an option of tyndall_bench"
         elif program != "alias" and not os.access(self.root / program, os.X_OK):
-            yield f"{program} is neither known to tests/check_docs.py nor a program of the repository"
+            yield f"{program} is neither known to tests/check_commands.py nor a program of the repository"
 
     def unknown_options(self, text):
         bench = (self.root / "tests/bench/options.cpp").read_text()
-        known = options_of("".join(self.help.values()) + bench + self.output(["--help"])) | set(OTHER_OPTIONS)
+        known = options_of("".join(self.help.values()) + bench + self.overview) | set(OTHER_OPTIONS)
         for option in sorted(options_of(" ".join(CODE.findall(FENCE.sub("", text)))) - known):
             yield f"{option} is no option of any command"
 
@@ -219,7 +183,7 @@ def check(tyndall, scratch, root):
     problems = []
     for page in list_pages(root):
         name, text = str(page.relative_to(root)), page.read_text(encoding="utf-8")
-        problems += [f"{name}: {problem}" for problem in [*check_links(page, root), *commands.unknown_options(text)]]
+        problems += [f"{name}: {problem}" for problem in commands.unknown_options(text)]
         commands.start_page(scratch, name)
         for command in commands_of(text):
             problems += [f"{name}: {command}: {problem}" for problem in commands.check(command)]
