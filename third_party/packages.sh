@@ -51,12 +51,13 @@ ensure_packages() {
 
 other_systems() {
   cat >&2 <<'MSG'
-This is not a Debian or Ubuntu system. Install these, then run again with TYNDALL_SKIP_PACKAGES=1:
+This is not a Debian or Ubuntu system, so Tyndall cannot install the packages that it needs. Install these, then start
+again with TYNDALL_SKIP_PACKAGES=1 in front, as in "TYNDALL_SKIP_PACKAGES=1 ./run":
   Fedora:  sudo dnf install gcc-c++ cmake ninja-build pkgconf glfw-devel mesa-libGL-devel stb_image-devel stb_image_write-devel json-devel cli11-devel doctest-devel openexr-devel highway-devel
   Arch:    sudo pacman -S --needed base-devel cmake ninja glfw mesa stb nlohmann-json cli11 doctest openexr highway
   macOS:   brew install cmake ninja pkg-config glfw nlohmann-json cli11 doctest openexr highway
-The window also needs Dear ImGui (its sources: cmake -DIMGUI_DIR=<path>) and glad 2 (pip install glad2).
-Without them the headless commands are built.
+The window also needs glad 2 (pip install glad2) and Dear ImGui; to build with its sources, once call
+"cmake --preset release -DIMGUI_DIR=FOLDER". Without them Tyndall is built without the window.
 MSG
 }
 
