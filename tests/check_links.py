@@ -5,7 +5,7 @@ Usage: check_links.py ROOT
 
 Links and pictures inside the repository must exist, and anchors be headings of the page that they are in. Files that the
 text names as code, such as `core/film/film.h`, must exist below the root or below the page's folder, and so must the tests
-that it names as CTest does: `shapes/sphere` is tests/shapes/sphere_test.cpp.
+that it names as CTest does: `shapes/sphere` is tests/shapes/sphere_test.cpp. The first page has at most 150 lines.
 """
 import pathlib
 import re
@@ -13,6 +13,7 @@ import sys
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```\s*$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`([^`]+)`")
+LONGEST_FIRST_PAGE = 150  # lines; what is longer belongs on the page of what it is about
 INVENTED = re.compile(r"/(velvet|stripes|disc)(_test)?\.")  # files of the examples "how to add ..."
 
 
@@ -66,6 +67,9 @@ def check(root):
     for page in list_pages(root):
         name = page.relative_to(root)
         problems += [f"{name}: {problem}" for problem in [*check_links(page, root), *check_names(page, root)]]
+    lines = len((root / "README.md").read_text(encoding="utf-8").splitlines())
+    if lines > LONGEST_FIRST_PAGE:
+        problems.append(f"README.md: {lines} lines, at most {LONGEST_FIRST_PAGE} are allowed on the first page")
     return problems
 
 
