@@ -51,7 +51,8 @@ Plane convolve_rows(const Plane& in, const Line& line) {
     std::fill_n(wide.begin(), radius, row[0]);
     std::copy_n(row, width, wide.begin() + static_cast<std::ptrdiff_t>(radius));
     std::fill_n(wide.end() - static_cast<std::ptrdiff_t>(radius), radius, row[width - 1]);
-    for (std::size_t i = 0; i < line.size(); ++i)  // weights outside, so that the compiler takes many pixels at once
+    for (std::size_t i = 0; i < line.size();
+         ++i)  // the loop over pixels is inside, so that the compiler can vectorise it
       for (std::size_t x = 0; x < width; ++x) to[x] += line[i] * wide[x + i];
   }
   return out;
@@ -59,7 +60,7 @@ Plane convolve_rows(const Plane& in, const Line& line) {
 
 Plane transposed(const Plane& in) {
   Plane out{in.height, in.width, std::vector<double>(in.values.size())};
-  constexpr std::size_t block = 16;  // what both ways lie in the cache
+  constexpr std::size_t block = 16;  // blocks of 16 x 16 numbers stay in the cache while they are read and written
   const auto w = static_cast<std::size_t>(in.width), h = static_cast<std::size_t>(in.height);
   for (std::size_t top = 0; top < h; top += block)
     for (std::size_t left = 0; left < w; left += block)
@@ -102,7 +103,7 @@ Vec3d to_hunt_lab(Vec3d linear) {
   return {lightness, 0.01 * lightness * 500 * (x - y), 0.01 * lightness * 200 * (y - z)};
 }
 
-/// Distance for large colour differences (HyAB), to the power 0.7 (section 4.1.3).
+/// HyAB, a distance made for large colour differences, to the power 0.7 (section 4.1.3).
 double colour_distance(Vec3d a, Vec3d b) {
   return std::pow(std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z), 0.7);
 }
@@ -120,7 +121,8 @@ Planes opponent_planes(const std::vector<float>& rgb, int width, int height) {
   return planes;
 }
 
-/// a sqrt(π/b) exp(-π² x² / b), x in degrees: the eye's contrast sensitivity is one or two of them a channel (table 1).
+/// a sqrt(π/b) exp(-π² x² / b), x in degrees. The eye's contrast sensitivity is one such bell for lightness and for red
+/// against green, and the sum of two for blue against yellow (table 1).
 struct Bell {
   double a, b;
 };
@@ -146,7 +148,7 @@ Plane filter_contrast(const Plane& in, const std::vector<Bell>& bells) {
   return sum;
 }
 
-/// What is left of a picture at this distance, in Hunt-adjusted L*a*b*.
+/// What an eye sees of a picture at 67 pixels a degree: filtered by contrast sensitivity, in Hunt-adjusted L*a*b*.
 std::vector<Vec3d> seen_colours(const Planes& planes) {
   const Plane light = filter_contrast(planes[0], {{1, 0.0047}});
   const Plane red_green = filter_contrast(planes[1], {{1, 0.0053}});
@@ -159,7 +161,7 @@ std::vector<Vec3d> seen_colours(const Planes& planes) {
   return colours;
 }
 
-/// How much of an edge or of a point each pixel is (section 4.2).
+/// For each pixel, how strong an edge and how strong a point is there; 0 where lightness is even (section 4.2).
 struct Features {
   std::vector<double> edges, points;
 };
@@ -181,7 +183,8 @@ Features find_features(Plane light) {
   return {length(edge), length(point)};
 }
 
-/// A colour distance as an error in [0, 1]: 0.4 of the largest one already counts 0.95 (section 4.1.4).
+/// A colour distance as an error in [0, 1]: distances up to 0.4 of the largest one fill [0, 0.95], the others the rest
+/// (section 4.1.4).
 double colour_error(double distance) {
   const double largest = colour_distance(to_hunt_lab({0, 1, 0}), to_hunt_lab({0, 0, 1}));
   const double knee = 0.4 * largest;
