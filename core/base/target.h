@@ -1,0 +1,25 @@
+#pragma once
+#include <optional>
+#include <string_view>
+#include <vector>
+
+/// The instruction sets that parts of the program are compiled for, and which of them this CPU can run.
+///
+/// A room with fast code has one source file for each target, compiled with that target's flags, and a table from
+/// targets to functions. Which target is used is decided here, while the program runs, in the same way for every room.
+namespace tyndall {
+
+/// From the narrowest to the widest. The numbers are used as indices into the rooms' tables.
+enum class Target { scalar, sse4, avx2, avx512 };
+inline constexpr int target_count = 4;
+
+/// The name that users write after --isa, for example "avx2".
+const char* name_of(Target target);
+
+/// The targets that this build has code for and this CPU can run, narrowest first; Target::scalar is always the first.
+std::vector<Target> available_targets();
+
+/// The available target of that name, for "" the widest one; nothing if there is none.
+std::optional<Target> find_target(std::string_view name);
+
+}  // namespace tyndall
