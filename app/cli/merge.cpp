@@ -13,7 +13,8 @@ bool write(const Film& film, const Scene& scene, const MergeCommand& command) {
   const auto embedded = [&](const std::filesystem::path& file) {
     return Embedded{embedded_scene(scene, ".", film, file), ""};
   };
-  const auto problems = write_images({film, scene.display, embedded, {}}, command.outputs);
+  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+  const auto problems = write_images({film, image, scene.display, embedded, {}}, command.outputs);
   for (const std::string& problem : problems) complain(problem);
   return problems.empty();
 }

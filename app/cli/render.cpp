@@ -8,11 +8,9 @@
 #include "app/files/stats.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
-#include "core/accuracy/error.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
-#include "core/render/plan.h"
 #include "core/render/rare.h"
 
 #include <chrono>
@@ -35,6 +33,7 @@ struct Job {
   Film film{};  ///< to go on from; empty: none
   RenderScene compiled{};
   RenderResult result{};
+  FinishedPicture picture{};
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
   bool rare_bright_paths = false;
@@ -67,10 +66,10 @@ std::string losses(const FilmTotals& sum) {
 
 std::string outcome(const Job& job) {
   const RenderResult& r = job.result;
-  const RenderProgress end{labelled_spp(r.film), r.seconds,
+  const RenderProgress end{job.picture.spp, r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
-                           estimated_relative_error(r.film)};
-  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(totals(r.film));
+                           job.picture.relative_error};
+  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(job.picture.totals);
 }
 
 void render(Job& job, const SignalWatch& signals) {
@@ -93,14 +92,16 @@ void render(Job& job, const SignalWatch& signals) {
                   1e-9 * sizeof(FilmPixel) * r.width() * r.height());
     throw IoError(text);
   }
+  job.picture = finished_picture(job.result);
   job.rare_bright_paths =
-      has_rare_bright_paths(job.result.film, totals(job.result.film).least_taken, chance_of_caustics(job.loaded.scene));
+      has_rare_bright_paths(job.result.film, job.picture.totals.least_taken, chance_of_caustics(job.loaded.scene));
   report.finish(outcome(job));
 }
 
 RunFigures figures(const Job& job) {
-  return {job.loaded.name,   job.loaded.scene,         job.compiled,         job.result, job.samples_before,
-          job.seconds_build, seconds_since(job.start), job.rare_bright_paths};
+  return {job.loaded.name,      job.loaded.scene,   job.compiled,      job.result,
+          job.picture,          job.samples_before, job.seconds_build, seconds_since(job.start),
+          job.rare_bright_paths};
 }
 
 /// Writes all that can be written; false if something could not.
@@ -109,8 +110,9 @@ bool write(const Job& job) {
     return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, job.result.film, file),
                     embedded_stats_text(figures(job))};
   };
-  const auto layers = [&job] { return layers_of(job.compiled, job.result.film, find_kernels(job.command.isa)); };
-  auto problems = write_images({job.result.film, job.loaded.scene.display, embedded, layers}, job.command.outputs);
+  const auto layers = [&job] { return layers_of(job.compiled, job.result.film, job.result.kernels); };
+  auto problems = write_images({job.result.film, job.picture.image, job.loaded.scene.display, embedded, layers},
+                               job.command.outputs);
   const std::filesystem::path& stats = job.command.stats;
   try {
     if (stats == "-")
@@ -127,7 +129,7 @@ bool write(const Job& job) {
 void warn(const Job& job) {
   if (job.command.progress == ProgressStyle::none) return;
   if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
-  const FilmTotals sum = totals(job.result.film);
+  const FilmTotals& sum = job.picture.totals;
   if (sum.rejected == 0) return;
   std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
                      " samples were rejected: not finite, or brighter than any light of the scene explains";
@@ -161,7 +163,7 @@ int run(const RenderCommand& command) {
   const SignalWatch signals;
   render(job, signals);
   const int code = job.result.interrupted ? 128 + signals.received() : 0;
-  if (totals(job.result.film).most_taken == 0) {
+  if (job.picture.totals.most_taken == 0) {
     complain("interrupted before the first samples: nothing written");
     return code;
   }

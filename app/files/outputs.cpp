@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <span>
 
 namespace tyndall {
@@ -46,20 +45,19 @@ void check_can_write(const std::filesystem::path& file) {
 
 std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> problems;
-  const Region& region = picture.film.region;
-  std::optional<LinearImage> image;
   for (const std::filesystem::path& file : files) {
     try {
       const std::string kind = ending(file);
-      if (kind != ".exr" && !image) image = LinearImage{region.width(), region.height(), resolve(picture.film)};
       if (kind == ".exr")
-        write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded(file));
+        write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded(file),
+                  &picture.image);
       else if (kind == ".png")
-        write_png(file, *image, picture.display.exposure, curve(picture.display.tone_map), picture.embedded(file));
+        write_png(file, picture.image, picture.display.exposure, curve(picture.display.tone_map),
+                  picture.embedded(file));
       else if (kind == ".pfm")
-        write_pfm(file, *image);
+        write_pfm(file, picture.image);
       else
-        write_hdr(file, *image);
+        write_hdr(file, picture.image);
     } catch (const std::bad_alloc&) {
       problems.push_back(file.string() + ": cannot write: not enough memory");
     } catch (const std::exception& error) {

@@ -22,6 +22,7 @@ void check_can_write(const std::filesystem::path& file);
 /// What becomes image files.
 struct Picture {
   const Film& film;
+  const LinearImage& image;                                             ///< the film's means
   Display display;                                                      ///< for PNG
   std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
   std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty

@@ -1,7 +1,5 @@
 #include "app/files/stats.h"
 
-#include "core/accuracy/error.h"
-#include "core/render/plan.h"
 #include "core/scene/names.h"
 
 #include <nlohmann/json.hpp>
@@ -16,10 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string hash_text(const Film& film) {
+std::string hash_text(std::uint64_t hash) {
   char text[17];
-  std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(image_hash(film.region.width(), film.region.height(), resolve(film))));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;
 }
 
@@ -32,13 +29,13 @@ double per_second(std::uint64_t count, double seconds) {
 
 void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
   const RenderSettings& settings = run.settings.render;
-  json["isa"] = run.result.isa;
-  json["lanes"] = run.result.lanes;
+  json["isa"] = run.result.kernels.isa;
+  json["lanes"] = run.result.kernels.lanes;
   json["kernel_features"] = names_of(run.compiled.needs);
   json["integrator"] = name_of(integrators, settings.integrator);
   json["sampler"] = name_of(samplers, settings.sampler);
   json["fresnel"] = name_of(fresnel_rules, settings.fresnel);
-  json["relative_error_estimate"] = number(estimated_relative_error(run.result.film));
+  json["relative_error_estimate"] = number(run.picture.relative_error);
   json["rejected_samples"] = sum.rejected;
   json["truncated_paths"] = sum.truncated;
 }
@@ -58,12 +55,12 @@ void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
 
 std::string stats_text(const RunFigures& run) {
   const Film& film = run.result.film;
-  const FilmTotals sum = totals(film);
+  const FilmTotals& sum = run.picture.totals;
   Json json;
   json["scene"] = run.scene;
   json["width"] = film.region.width();
   json["height"] = film.region.height();
-  json["spp"] = labelled_spp(film);
+  json["spp"] = run.picture.spp;
   json["samples"] = sum.samples;
   json["rays"] = run.result.rays;
   json["shadow_rays"] = run.result.shadow_rays;
@@ -75,7 +72,7 @@ std::string stats_text(const RunFigures& run) {
   json["threads"] = run.result.threads;
   add_method(json, run, sum);
   json["peak_memory_bytes"] = peak_memory();
-  json["image_hash"] = hash_text(film);
+  json["image_hash"] = hash_text(run.picture.hash);
   json["version"] = TYNDALL_VERSION;
   add_losses(json, run, sum);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -83,14 +80,14 @@ std::string stats_text(const RunFigures& run) {
 
 std::string embedded_stats_text(const RunFigures& run) {
   const Film& film = run.result.film;
-  const FilmTotals sum = totals(film);
+  const FilmTotals& sum = run.picture.totals;
   Json json;
   json["version"] = TYNDALL_VERSION;
   json["region"] = {film.region.x0, film.region.y0, film.region.x1, film.region.y1};
   json["first_sample"] = film.first_sample;
-  json["spp"] = labelled_spp(film);
+  json["spp"] = run.picture.spp;
   add_method(json, run, sum);
-  json["image_hash"] = hash_text(film);
+  json["image_hash"] = hash_text(run.picture.hash);
   add_losses(json, run, sum);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

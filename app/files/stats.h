@@ -13,6 +13,7 @@ struct RunFigures {
   const Scene& settings;
   const RenderScene& compiled;
   const RenderResult& result;
+  const FinishedPicture& picture;    ///< of that result
   std::uint64_t samples_before = 0;  ///< in the film when the run began
   double seconds_build = 0;          ///< compiling the scene
   double seconds_total = 0;          ///< from the command's start to now

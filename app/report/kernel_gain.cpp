@@ -40,7 +40,7 @@ KernelGain measure_kernel_gain(const RenderScene& scene, const std::string& isa)
     const RenderResult second = timed(own_first ? full : scene, isa, spp);
     gains.push_back(own_first ? second.seconds / first.seconds : first.seconds / second.seconds);
     result.same_picture &= resolve(first.film) == resolve(second.film);
-    result.isa = first.isa;
+    result.isa = first.kernels.isa;
   }
   std::sort(gains.begin(), gains.end());
   result.gain = gains[pairs / 2];

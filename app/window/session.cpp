@@ -184,7 +184,7 @@ void Session::snapshot() {
   std::error_code gone;                           // the current folder may be; writing then says so
   const fs::path folder = fs::current_path(gone);
   const std::string stem = stem_of(document().origin->title);
-  Snapshot snapshot{document(), numbered_base(folder, stem, snapshots_ + 1, {".png", ".exr"}), frame->isa, frame->lanes,
+  Snapshot snapshot{document(), numbered_base(folder, stem, snapshots_ + 1, {".png", ".exr"}), frame->isa,
                     frame->threads};
   snapshots_ = number_of(snapshot.base);
   say("saving " + snapshot.base.filename().string() + " …");

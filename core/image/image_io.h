@@ -19,9 +19,9 @@ void write_pfm(const std::filesystem::path& file, const LinearImage& image);
 /// Radiance RGBE. Carries nothing hidden.
 void write_hdr(const std::filesystem::path& file, const LinearImage& image);
 /// Float RGB, layers, the film itself in channels film.*, data window = the film's region. Throws if built without
-/// OpenEXR.
+/// OpenEXR. image: the film's means, if the caller has them; null: they are found here.
 void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
-               const Embedded& embedded);
+               const Embedded& embedded, const LinearImage* image = nullptr);
 bool has_openexr();
 
 /// PNG (8-bit, sRGB decoded to linear), JPEG, PFM, HDR, EXR by content.

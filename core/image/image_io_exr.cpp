@@ -114,9 +114,11 @@ struct Picture {
 }  // namespace
 
 void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
-               const Embedded& embedded) {
+               const Embedded& embedded, const LinearImage* image) {
   check_writable(file, film.region.width(), film.region.height());
-  const std::vector<float> rgb = resolve(film);
+  assert(!image || image->rgb.size() == 3 * film.pixels.size());
+  const std::vector<float> resolved = image ? std::vector<float>() : resolve(film);
+  const std::vector<float>& rgb = image ? image->rgb : resolved;
   Picture picture{make_header(film, embedded), {}};
   picture.add_floats("", {"R", "G", "B"}, rgb);
   for (const Layer& layer : layers) {
@@ -153,7 +155,8 @@ constexpr const char* missing = "this build has no EXR images (OpenEXR was not f
 
 bool has_openexr() { return false; }
 
-void write_exr(const std::filesystem::path& file, const Film&, const std::vector<Layer>&, const Embedded&) {
+void write_exr(const std::filesystem::path& file, const Film&, const std::vector<Layer>&, const Embedded&,
+               const LinearImage*) {
   cannot_write(file, missing);
 }
 

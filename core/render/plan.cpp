@@ -239,8 +239,9 @@ std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
   return counts;
 }
 
-std::uint32_t labelled_spp(const Film& film) {
-  const FilmTotals sum = totals(film);
+std::uint32_t labelled_spp(const Film& film) { return labelled_spp(film, totals(film)); }
+
+std::uint32_t labelled_spp(const Film& film, const FilmTotals& sum) {
   if (film.planned.empty()) return sum.least_taken;
   return static_cast<std::uint32_t>(
       std::llround(static_cast<double>(sum.samples) / static_cast<double>(film.pixels.size())));

@@ -50,5 +50,7 @@ std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp);
 
 /// What a picture is labelled with: the samples that every pixel has; after rounds their mean, to the nearest number.
 std::uint32_t labelled_spp(const Film& film);
+/// The same where the film's totals are known already.
+std::uint32_t labelled_spp(const Film& film, const FilmTotals& totals);
 
 }  // namespace tyndall

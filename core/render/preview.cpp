@@ -18,10 +18,15 @@ int preview_step(std::int64_t pixels, double paths_per_second, double budget, in
   return step;
 }
 
-std::uint32_t pass_samples(std::uint32_t taken, std::int64_t pixels, double paths_per_second, double seconds) {
-  const double in_time = paths_per_second * seconds / static_cast<double>(std::max<std::int64_t>(pixels, 1));
-  const auto most = static_cast<std::uint32_t>(std::clamp(in_time, 1.0, 64.0));
-  return std::clamp(taken, 1u, most);
+int FirstPictures::step_for(std::int64_t pixels, double budget) {
+  // Drawing counts against the budget, but never takes more than three quarters of it from the samples.
+  step_ = preview_step(pixels, paths_per_second_, std::max(budget - drawing_seconds_, budget / 4), step_);
+  return step_;
+}
+
+void FirstPictures::note_pass(double paths_per_second) {
+  // The geometric mean with what was known evens out single slow passes.
+  paths_per_second_ = paths_per_second_ > 0 ? std::sqrt(paths_per_second_ * paths_per_second) : paths_per_second;
 }
 
 }  // namespace tyndall

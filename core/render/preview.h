@@ -14,7 +14,21 @@ double picture_budget(bool only_camera, double since);
 /// most 1.1 times coarser or 1.4 times finer, or the picture's sharpness would flicker.
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before);
 
-/// Samples of the next full pass, after `taken` (>= 1): doubles what is there, but within about `seconds` a pass.
-std::uint32_t pass_samples(std::uint32_t taken, std::int64_t pixels, double paths_per_second, double seconds);
+/// What the renderer has learnt from the first pictures of earlier edits, and what follows for the next edit.
+class FirstPictures {
+ public:
+  /// Every how many pixels the first picture of an edit samples. budget: see picture_budget.
+  int step_for(std::int64_t pixels, double budget);
+  /// A pass of one sample a pixel had that speed. Such passes are slower than longer ones, so only they tell how long
+  /// the next edit's first pass takes.
+  void note_pass(double paths_per_second);
+  /// It took that long to make a picture from the film.
+  void note_drawing(double seconds) { drawing_seconds_ = seconds; }
+
+ private:
+  double paths_per_second_ = 0;  ///< 0: unknown
+  double drawing_seconds_ = 0;
+  int step_ = 1;
+};
 
 }  // namespace tyndall

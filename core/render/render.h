@@ -1,6 +1,7 @@
 #pragma once
 #include "core/compile/compile.h"
 #include "core/film/film.h"
+#include "core/image/image.h"
 #include "core/kernel/kernels.h"
 #include "core/render/rejected.h"
 #include "core/scene/scene.h"
@@ -39,9 +40,9 @@ struct RenderResult {
   std::uint64_t rays = 0, shadow_rays = 0;
   double seconds = 0;  ///< from the first sample started to the last film write, thread start included
   int threads = 0;
-  const char* isa = "scalar";
-  int lanes = 1;
-  bool interrupted = false;  ///< the callback said stop
+  Kernels kernels{};                       ///< that made the film
+  bool interrupted = false;                ///< the callback said stop
+  std::optional<double> relative_error{};  ///< of the film as it is, if a limit or the callback needed it
 };
 
 /// Called between passes (and at least every 50 ms or so within long ones, from the calling thread); returns false to
@@ -52,5 +53,16 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 /// made with the same `adaptive`).
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
+
+/// What is told of a film once its last sample is taken. Each part takes a reading of the whole film, so it is found
+/// once and handed to all that show it or write it.
+struct FinishedPicture {
+  FilmTotals totals;
+  std::uint32_t spp = 0;                                            ///< see labelled_spp
+  double relative_error = std::numeric_limits<double>::infinity();  ///< estimated
+  LinearImage image;                                                ///< the pixels' means
+  std::uint64_t hash = 0;                                           ///< see image_hash
+};
+FinishedPicture finished_picture(const RenderResult& result);
 
 }  // namespace tyndall

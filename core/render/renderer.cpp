@@ -8,16 +8,6 @@
 namespace tyndall {
 namespace {
 
-constexpr std::uint32_t default_limit = 4096;  // samples a pixel, where the scene names none
-
-/// Whether two scenes give the same picture: what is not rendered is left out.
-bool same_picture(const Scene& a, Scene b) {
-  b.name = a.name;
-  b.display = a.display;
-  b.render.spp = a.render.spp;
-  return a == b;
-}
-
 Kernels kernels_or_throw(const std::string& isa) {
   const auto kernels = choose_kernels(isa);
   if (!kernels) throw std::invalid_argument("no kernel for instruction set \"" + isa + "\"");
@@ -42,87 +32,31 @@ Renderer::Renderer(Options options, std::function<void()> on_frame)
 Renderer::~Renderer() {
   state_->thread.request_stop();
   state_->thread.join();
-  for (auto& film : state_->mail.films) film.set_value({});
+  for (auto& request : state_->mail.take_film_requests()) request.set_value({});  // nobody may wait forever
 }
 
 std::uint64_t Renderer::submit(Scene scene) {
-  Mailbox& mail = state_->mail;
-  const std::lock_guard lock(mail.mutex);
-  const auto limit = static_cast<std::uint32_t>(scene.render.spp.value_or(static_cast<int>(default_limit)));
-  mail.frame_outdated |= mail.limit != limit;  // finished or not is told by the frame
-  mail.limit = limit;
-  const bool same = mail.edit > 0 && same_picture(mail.newest, scene);
-  mail.newest = scene;
-  if (!same) {
-    mail.scene = std::make_unique<Scene>(std::move(scene));
-    mail.submitted = Clock::now();
-    ++mail.edit;
-    mail.give_up = true;
-  }
-  mail.wake.notify_one();
-  return mail.edit;
+  return state_->mail.submit(std::make_shared<const Scene>(std::move(scene)));
 }
 
-std::shared_ptr<const Frame> Renderer::latest() const {
-  const std::lock_guard lock(state_->mail.mutex);
-  return state_->mail.latest;
-}
+std::shared_ptr<const Frame> Renderer::latest() const { return state_->mail.latest(); }
 
-std::shared_ptr<const RenderProblem> Renderer::problem() const {
-  const std::lock_guard lock(state_->mail.mutex);
-  return state_->mail.problem;
-}
+std::shared_ptr<const RenderProblem> Renderer::problem() const { return state_->mail.problem(); }
 
-void Renderer::pause(bool paused) {
-  const std::lock_guard lock(state_->mail.mutex);
-  state_->mail.paused = paused;  // after the pass that is under way
-  state_->mail.wake.notify_one();
-}
+void Renderer::pause(bool paused) { state_->mail.pause(paused); }
 
-bool Renderer::paused() const {
-  const std::lock_guard lock(state_->mail.mutex);
-  return state_->mail.paused;
-}
+bool Renderer::paused() const { return state_->mail.paused(); }
 
-void Renderer::restart() {
-  const std::lock_guard lock(state_->mail.mutex);
-  state_->mail.restart = true;
-  state_->mail.give_up = true;
-  state_->mail.wake.notify_one();
-}
+void Renderer::restart() { state_->mail.restart(); }
 
-void Renderer::set_view(View view) {
-  const std::lock_guard lock(state_->mail.mutex);
-  if (state_->mail.view == view) return;
-  state_->mail.view = view;
-  state_->mail.frame_outdated = true;
-  state_->mail.give_up = true;
-  state_->mail.wake.notify_one();
-}
+void Renderer::set_view(View view) { state_->mail.set_view(view); }
 
-void Renderer::set_threads(int threads) {
-  const std::lock_guard lock(state_->mail.mutex);
-  state_->mail.threads = threads;
-  state_->mail.give_up = true;
-  state_->mail.wake.notify_one();
-}
+void Renderer::set_threads(int threads) { state_->mail.set_threads(threads); }
 
-Film Renderer::film() const {
-  std::future<Film> answer;
-  {
-    const std::lock_guard lock(state_->mail.mutex);
-    answer = state_->mail.films.emplace_back().get_future();
-    state_->mail.wake.notify_one();
-  }
-  return answer.get();
-}
+Film Renderer::film() const { return state_->mail.ask_for_film().get(); }
 
 Renderer::Pick Renderer::pick(int x, int y) const {
-  std::shared_ptr<const RenderScene> scene;
-  {
-    const std::lock_guard lock(state_->mail.mutex);
-    scene = state_->mail.compiled;
-  }
+  const std::shared_ptr<const RenderScene> scene = state_->mail.compiled();
   if (!scene || x < 0 || y < 0 || x >= scene->width || y >= scene->height) return {};
   const SceneViewOf view(*scene);
   FirstHit hit;

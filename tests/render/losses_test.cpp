@@ -1,6 +1,6 @@
 #include "core/film/merge.h"
-#include "core/render/level.h"
 #include "core/render/pass.h"
+#include "core/render/progression.h"
 #include "tests/support/pictures.h"
 #include "tests/support/probe.h"
 #include "tests/support/watched_renderer.h"
@@ -153,9 +153,10 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
     Film uneven = make_film(61, 43, whole.region, 0, scene.film_unit);
     Pass upper({0, 0, 61, 20}, 0, 24);
     CHECK(upper.run(crew, kernels, view.view(), uneven, no));
-    UnitCounts counts;
-    level(crew, kernels, view.view(), uneven, no, counts);
-    CHECK(uneven == whole);
+    Progression picture;
+    picture.go_on(std::move(uneven), {});
+    CHECK(picture.run_pass({crew, kernels, view.view()}, {}, no));  // makes it even
+    CHECK(picture.film() == whole);
   }
 }
 

@@ -58,13 +58,16 @@ TEST_CASE("preview: speeds that flicker by a fifth never make the step flicker")
   }
 }
 
-TEST_CASE("pass: doubles what is there, within the time and 64 samples") {
-  CHECK(pass_samples(1, full_hd, 1e12, 0.15) == 1);
-  CHECK(pass_samples(2, full_hd, 1e12, 0.15) == 2);
-  CHECK(pass_samples(40, full_hd, 1e12, 0.15) == 40);
-  CHECK(pass_samples(1000, full_hd, 1e12, 0.15) == 64);
-  CHECK(pass_samples(1000, full_hd, static_cast<double>(full_hd) * 10, 0.5) == 5);
-  CHECK(pass_samples(1000, full_hd, static_cast<double>(full_hd), 0.15) == 1);
-  CHECK(pass_samples(1000, full_hd, 0, 0.15) == 1);
-  CHECK(pass_samples(3, 0, 1e6, 0.15) == 3);
+TEST_CASE("preview: the next edit's step follows from the speed of the first pictures before it") {
+  FirstPictures pictures;
+  CHECK(pictures.step_for(full_hd, 0.016) == 8);  // nothing is known yet
+  pictures.note_pass(full_hd / 0.016);
+  CHECK(pictures.step_for(full_hd, 0.016) == 1);
+  pictures.note_drawing(0.008);  // leaves half of the time for samples
+  CHECK(pictures.step_for(full_hd, 0.016) == 2);
+  pictures.note_drawing(1);  // a quarter is left in any case
+  CHECK(pictures.step_for(full_hd, 0.016) == 2);
+  pictures.note_drawing(0);
+  pictures.note_pass(full_hd / 0.016 / 256);  // a single slow pass counts by its root
+  CHECK(pictures.step_for(full_hd, 0.016) == 4);
 }

@@ -159,9 +159,11 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
     CHECK(renderer->latest()->edit < bad);
     CHECK(renderer->latest()->width == 120);
     renderer->set_view(round == 0 ? View::albedo : View::beauty);
-    renderer->restart();
     CHECK(renderer->pick(5, 5).object.empty());
     CHECK(renderer->film().pixels.size() == 120 * 90);
+    const std::size_t so_far = renderer.frames().size();
+    renderer->restart();  // of the scene that is still shown
+    CHECK(renderer.wait_for([](const Frame& f) { return f.finished; }, so_far)->edit < bad);
     const std::size_t before = renderer.frames().size();
     renderer->set_view(View::beauty);
     const std::uint64_t undone = renderer->submit(good);

@@ -6,7 +6,6 @@
 #include "app/files/stats.h"
 #include "app/window/system/clock.h"
 #include "core/compile/compile.h"
-#include "core/render/plan.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -43,21 +42,22 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   RenderResult result;
   result.film = std::move(film);
   result.threads = snapshot.threads;
-  result.isa = snapshot.isa.c_str();
-  result.lanes = snapshot.lanes;
-  const std::string stats = embedded_stats_text({snapshot.document.origin->title, scene, compiled, result, 0, 0, 0});
+  result.kernels = choose_kernels(snapshot.isa).value();
+  const FinishedPicture finished = finished_picture(result);
+  const std::string stats =
+      embedded_stats_text({snapshot.document.origin->title, scene, compiled, result, finished, 0, 0, 0});
   const Picture picture{
-      result.film, scene.display,
+      result.film, finished.image, scene.display,
       [&](const fs::path& file) {
         return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file), stats};
       },
-      [&] { return layers_of(compiled, result.film, choose_kernels(snapshot.isa).value()); }};
+      [&] { return layers_of(compiled, result.film, result.kernels); }};
   std::vector<fs::path> files{snapshot.base.string() + ".png"};
   if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
   const std::vector<std::string> problems = write_images(picture, files);
   if (!problems.empty()) throw ImageFileError(problems.front());
   return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +
-         std::to_string(labelled_spp(result.film)) + " spp";
+         std::to_string(finished.spp) + " spp";
 }
 
 Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,

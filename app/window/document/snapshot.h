@@ -21,7 +21,7 @@ struct Snapshot {
   Document document;
   std::filesystem::path base;  ///< the files' names without their endings
   std::string isa;             ///< of the kernel that renders
-  int lanes = 1, threads = 1;
+  int threads = 1;
 };
 
 /// Writes BASE.png and BASE.exr (in builds with OpenEXR) from a film, with the scene in them. Returns what to tell the

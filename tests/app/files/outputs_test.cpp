@@ -49,7 +49,8 @@ TEST_CASE("whether a file can be written is known beforehand, and asking leaves 
 TEST_CASE("what can be written is written, though something else cannot") {
   const auto folder = empty_folder("outputs_test");
   Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
-  const Picture picture{film, {}, [](const auto& file) { return Embedded{file.filename().string(), ""}; }, {}};
+  const LinearImage image{3, 2, resolve(film)};
+  const Picture picture{film, image, {}, [](const auto& file) { return Embedded{file.filename().string(), ""}; }, {}};
   const auto problems =
       write_images(picture, {folder / "a.pfm", folder / "none" / "b.png", folder / "c.png", folder / "d.png"});
   REQUIRE(problems.size() == 1);

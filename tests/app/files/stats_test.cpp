@@ -16,6 +16,7 @@ struct Run {
   Scene scene = load_scene("cornell-smoke").scene;
   RenderScene compiled = compile(scene);
   RenderResult result;
+  FinishedPicture picture;
   Run() {
     result.film = make_film(scene.width, scene.height, {10, 20, 14, 22}, 5, 8);
     for (FilmPixel& pixel : result.film.pixels) {
@@ -25,8 +26,10 @@ struct Run {
     result.rays = 3000;
     result.seconds = 0.5;
     result.threads = 2;
+    result.kernels = scalar_kernels();
+    picture = finished_picture(result);
   }
-  RunFigures figures() const { return {"cornell-smoke", scene, compiled, result, 2, 0.25, 1}; }
+  RunFigures figures() const { return {"cornell-smoke", scene, compiled, result, picture, 2, 0.25, 1}; }
 };
 
 }  // namespace

@@ -1,0 +1,146 @@
+#include "core/render/mailbox.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr std::uint32_t default_limit = 4096;  // samples a pixel, where the scene names none
+
+std::uint32_t limit_of(const Scene& scene) {
+  return static_cast<std::uint32_t>(scene.render.spp.value_or(static_cast<int>(default_limit)));
+}
+
+}  // namespace
+
+SceneChange change_between(const Scene& before, const Scene& after) {
+  // By name and one by one, because a copy of a large scene costs more than the comparison. A member that is added to
+  // Scene does not compile here until it was decided whether samples depend on it.
+  const auto& [name_a, width_a, height_a, camera_a, background_a, render_a, display_a, textures_a, materials_a,
+               objects_a] = before;
+  const auto& [name_b, width_b, height_b, camera_b, background_b, render_b, display_b, textures_b, materials_b,
+               objects_b] = after;
+  RenderSettings render = render_b;
+  render.spp = render_a.spp;
+  const bool same = width_a == width_b && height_a == height_b && background_a == background_b && render_a == render &&
+                    textures_a == textures_b && materials_a == materials_b && objects_a == objects_b;
+  return {!(camera_a == camera_b), !same};
+}
+
+void Mailbox::wake(bool give_up) {
+  if (give_up) give_up_ = true;
+  news_.notify_one();
+}
+
+std::uint64_t Mailbox::submit(std::shared_ptr<const Scene> scene) {
+  const std::lock_guard lock(mutex_);
+  orders_.redraw |= limit_ != limit_of(*scene);  // each frame tells whether it is finished
+  limit_ = limit_of(*scene);
+  const bool same = newest_ && change_between(*newest_, *scene).none();
+  newest_ = std::move(scene);
+  if (!same) {
+    orders_.scene = newest_;
+    orders_.submitted = Clock::now();
+    ++orders_.edit;
+  }
+  wake(!same);
+  return orders_.edit;
+}
+
+void Mailbox::pause(bool paused) {
+  const std::lock_guard lock(mutex_);
+  paused_ = paused;
+  wake(false);
+}
+
+bool Mailbox::paused() const {
+  const std::lock_guard lock(mutex_);
+  return paused_;
+}
+
+void Mailbox::restart() {
+  const std::lock_guard lock(mutex_);
+  orders_.restart = true;
+  wake(true);
+}
+
+void Mailbox::set_view(View view) {
+  const std::lock_guard lock(mutex_);
+  if (orders_.view == view) return;
+  orders_.view = view;
+  orders_.redraw = true;
+  wake(true);
+}
+
+void Mailbox::set_threads(int threads) {
+  const std::lock_guard lock(mutex_);
+  orders_.threads = threads;
+  wake(true);
+}
+
+std::future<Film> Mailbox::ask_for_film() {
+  const std::lock_guard lock(mutex_);
+  auto answer = films_.emplace_back().get_future();
+  wake(false);
+  return answer;
+}
+
+std::shared_ptr<const Frame> Mailbox::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+std::shared_ptr<const RenderProblem> Mailbox::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+std::shared_ptr<const RenderScene> Mailbox::compiled() const {
+  const std::lock_guard lock(mutex_);
+  return compiled_;
+}
+
+bool Mailbox::wait(const std::stop_token& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
+  std::unique_lock lock(mutex_);
+  const bool news = news_.wait(lock, stop, [&] {
+    return orders_.scene || orders_.restart || orders_.redraw || orders_.threads > 0 || !films_.empty() ||
+           unfinished(limit());
+  });
+  return news && !stop.stop_requested();
+}
+
+Orders Mailbox::take() {
+  const std::lock_guard lock(mutex_);
+  Orders taken = orders_;
+  taken.limit = limit();
+  orders_.scene = nullptr;
+  orders_.restart = orders_.redraw = false;
+  orders_.threads = 0;
+  give_up_ = false;
+  return taken;
+}
+
+std::vector<std::promise<Film>> Mailbox::take_film_requests() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(films_, {});
+}
+
+void Mailbox::post(std::shared_ptr<Frame> frame) {
+  const std::lock_guard lock(mutex_);
+  frame->finished = frame->spp >= limit_;
+  latest_ = std::move(frame);
+}
+
+void Mailbox::post(RenderProblem problem) {
+  const std::lock_guard lock(mutex_);
+  problem_ = std::make_shared<const RenderProblem>(std::move(problem));
+}
+
+void Mailbox::post(std::shared_ptr<const RenderScene> compiled) {
+  const std::lock_guard lock(mutex_);
+  compiled_ = std::move(compiled);
+  problem_ = nullptr;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,100 @@
+#pragma once
+#include "core/compile/render_scene.h"
+#include "core/film/film.h"
+#include "core/render/frame.h"
+#include "core/scene/scene.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <vector>
+
+/// Where the threads that use a Renderer and the renderer's own thread meet.
+namespace tyndall {
+
+using Clock = std::chrono::steady_clock;
+
+/// What an edit has changed of what is rendered. The scene's name and display, and the number of samples at which to
+/// stop, are not part of it: no sample depends on them.
+struct SceneChange {
+  bool camera = false;
+  bool others = false;  ///< anything but the camera
+  bool none() const { return !camera && !others; }
+};
+SceneChange change_between(const Scene& before, const Scene& after);
+
+/// All that has been asked of the renderer since its thread last looked.
+struct Orders {
+  std::shared_ptr<const Scene> scene;  ///< the newest one, if it has not been taken before; else null
+  std::uint64_t edit = 0;              ///< number of that scene
+  Clock::time_point submitted;         ///< when it came
+  bool restart = false;
+  bool redraw = false;  ///< the view or the limit changed: the samples there are have to be shown again
+  View view = View::beauty;
+  std::uint32_t limit = 0;  ///< samples a pixel at which to stop; at most 1 while the renderer is paused
+  int threads = 0;          ///< how many to use; 0: as many as before
+};
+
+/// Messages between any number of callers and the one thread that renders. A newer scene replaces one that has not been
+/// taken yet. No call but wait() sleeps. Scenes are shared, never copied.
+class Mailbox {
+ public:
+  // For callers, on any thread.
+
+  /// Gives the renderer another scene. Returns the number of the edit; a scene that changes nothing of what is rendered
+  /// keeps the number of the one before.
+  std::uint64_t submit(std::shared_ptr<const Scene> scene);
+  /// Stops after the pass that is under way, or goes on.
+  void pause(bool paused);
+  bool paused() const;
+  void restart();
+  void set_view(View view);
+  void set_threads(int threads);
+  std::future<Film> ask_for_film();
+  std::shared_ptr<const Frame> latest() const;
+  std::shared_ptr<const RenderProblem> problem() const;
+  std::shared_ptr<const RenderScene> compiled() const;
+
+  // For the thread that renders.
+
+  /// Sleeps until something was asked for or `unfinished`, called with the limit in samples a pixel, is true. False:
+  /// the thread is to stop.
+  bool wait(const std::stop_token& stop, const std::function<bool(std::uint32_t limit)>& unfinished);
+  /// Takes what was asked for, and lowers the flag to give up.
+  Orders take();
+  std::vector<std::promise<Film>> take_film_requests();
+  /// True as soon as a caller wants something that cannot wait for the end of the pass that is under way.
+  const std::atomic<bool>& give_up() const { return give_up_; }
+  /// Makes the thread that renders leave its pass and look at its stop token.
+  void interrupt() { give_up_ = true; }
+  /// Hands a frame out. Sets whether it is finished, as the limit may have changed since the frame was begun.
+  void post(std::shared_ptr<Frame> frame);
+  void post(RenderProblem problem);
+  /// Hands out the scene that is rendered from now on, and withdraws the problem of an earlier one.
+  void post(std::shared_ptr<const RenderScene> compiled);
+
+ private:
+  std::uint32_t limit() const { return paused_ ? std::min(limit_, 1u) : limit_; }
+  void wake(bool give_up);
+
+  mutable std::mutex mutex_;  ///< guards all but give_up_
+  std::condition_variable_any news_;
+  std::atomic<bool> give_up_ = false;
+
+  std::shared_ptr<const Scene> newest_;  ///< null: none came yet
+  Orders orders_;                        ///< not yet taken; its limit is unused, as pausing changes it
+  std::uint32_t limit_ = 0;
+  bool paused_ = false;
+  std::vector<std::promise<Film>> films_;
+
+  std::shared_ptr<const Frame> latest_;
+  std::shared_ptr<const RenderProblem> problem_;
+  std::shared_ptr<const RenderScene> compiled_;
+};
+
+}  // namespace tyndall

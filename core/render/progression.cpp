@@ -1,0 +1,162 @@
+#include "core/render/progression.h"
+
+#include "core/accuracy/error.h"
+#include "core/render/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second) {
+  std::uint32_t most = length.most;
+  if (std::isfinite(length.seconds)) {
+    const double in_time = paths_per_second * length.seconds / static_cast<double>(std::max<std::size_t>(pixels, 1));
+    most = static_cast<std::uint32_t>(std::clamp(in_time, 1.0, static_cast<double>(length.most)));
+  }
+  const auto wish = static_cast<std::uint32_t>(std::min(length.growth * taken, static_cast<double>(most)));
+  return std::max(wish, 1u);
+}
+
+PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) : options_(options) {
+  const FilmTotals sum = totals(film);
+  if (planned_unevenly(film)) {  // the next pass gives each pixel what it lacks
+    taken_ = static_cast<std::uint32_t>(sum.samples / film.pixels.size());
+    return;
+  }
+  taken_ = sum.least_taken;
+  if (sum.most_taken > sum.least_taken) level_to_ = sum.most_taken;
+}
+
+Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew) {
+  if (pass_) return *pass_;
+  coarse_ = level_to_ == 0 && taken_ == 0 && !coarse_done_ && options_.coarse_step > 1;
+  end_ = 1;
+  if (level_to_ > 0) {
+    end_ = level_to_;
+    pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), options_.tile);
+  } else if (coarse_) {
+    pass_ = std::make_unique<Pass>(film.region, film.first_sample, film.first_sample + 1, options_.coarse_step, 0,
+                                   options_.tile);
+  } else {
+    pass_ = full_pass(film, limit, paths_per_second, crew);
+  }
+  return *pass_;
+}
+
+std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
+                                              Crew& crew) {
+  end_ = taken_ + pass_samples(options_.length, taken_, film.pixels.size(), paths_per_second);
+  if (limit) end_ = std::min(end_, *limit);
+  if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &crew));
+  if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), options_.tile);
+  const int skip_step = taken_ == 0 && coarse_done_ ? options_.coarse_step : 0;  // these have their first sample
+  return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
+                                options_.tile);
+}
+
+void PassSchedule::finish() {
+  if (coarse_)
+    coarse_done_ = true;
+  else
+    taken_ = end_;
+  level_to_ = 0;
+  pass_.reset();
+}
+
+void Progression::start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
+                        const ProgressionOptions& options) {
+  const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
+  if (film_.pixels.size() != pixels) {
+    film_ = make_film(scene.width, scene.height, region, first_sample, scene.film_unit);
+  } else {  // the first pass replaces what the pixels hold
+    film_.width = scene.width, film_.height = scene.height;
+    film_.region = region;
+    film_.first_sample = first_sample;
+    film_.unit = scene.film_unit;
+    film_.cut_throughput = {};
+    film_.planned.clear();
+  }
+  begin(PassSchedule(options), options);
+}
+
+void Progression::go_on(Film film, const ProgressionOptions& options) {
+  film_ = std::move(film);
+  begin(PassSchedule(options, film_), options);
+}
+
+void Progression::begin(PassSchedule schedule, const ProgressionOptions& options) {
+  options_ = options;
+  schedule_ = std::move(schedule);
+  tally_ = {};
+  last_write_ = Clock::now();
+  pass_seconds_ = 0;
+  error_ = std::numeric_limits<double>::infinity();
+  error_of_ = 0;
+  next_estimate_ = options.estimates.seconds;
+}
+
+bool Progression::reached(const Limits& limits) const {
+  if (limits.spp && taken() >= *limits.spp) return true;
+  if (taken() == 0) return false;
+  return tally_.seconds >= limits.seconds || (limits.error > 0 && error_ <= limits.error);
+}
+
+bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
+                           const std::function<void()>& poll) {
+  Pass& pass = schedule_.next(film_, limits.spp, tally_.last_paths_per_second, engine.crew);
+  const Clock::time_point start = Clock::now();
+  running_from_ = options_.count_breaks ? last_write_ : start;
+  const bool whole = pass.run(engine.crew, engine.kernels, engine.scene, film_, give_up, poll);
+  last_write_ = Clock::now();
+  pass_seconds_ += seconds_between(start, last_write_);
+  tally_.seconds += seconds_between(*running_from_, last_write_);
+  running_from_.reset();
+  if (!whole) return false;
+  finish_pass();
+  if (!estimate_is_due(limits)) return true;
+  error_ = estimated_relative_error(film_, &engine.crew);
+  error_of_ = taken();
+  next_estimate_ = (1 + options_.estimates.growth) * tally_.seconds + options_.estimates.seconds;
+  return true;
+}
+
+void Progression::finish_pass() {
+  const Pass& pass = *schedule_.pass();
+  tally_.rays += pass.rays(), tally_.shadow_rays += pass.shadow_rays();
+  tally_.rejected += pass.rejected(), tally_.truncated += pass.truncated();
+  tally_.last_mrays_per_s = static_cast<double>(pass.rays()) / pass_seconds_ * 1e-6;
+  tally_.last_paths_per_second = static_cast<double>(pass.paths()) / pass_seconds_;
+  pass_seconds_ = 0;
+  schedule_.finish();
+}
+
+bool Progression::estimate_is_due(const Limits& limits) const {
+  if (taken() < 2) return false;
+  if (limits.error > 0 || taken() < options_.estimates.each_below) return true;
+  const bool ever = std::isfinite(options_.estimates.seconds);
+  return ever && (tally_.seconds >= next_estimate_ || (limits.spp && taken() >= *limits.spp));
+}
+
+PassTally Progression::tally() const {
+  PassTally all = tally_;
+  if (const Pass* pass = schedule_.pass()) all.rays += pass->rays(), all.shadow_rays += pass->shadow_rays();
+  if (running_from_) all.seconds += seconds_between(*running_from_, Clock::now());
+  return all;
+}
+
+double Progression::cut_throughput() const {
+  double samples = static_cast<double>(taken()) * static_cast<double>(film_.pixels.size());
+  if (const Pass* pass = schedule_.pass()) samples += static_cast<double>(pass->paths());
+  return samples > 0 ? film_.cut_throughput.value() / samples : 0;
+}
+
+}  // namespace tyndall

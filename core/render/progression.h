@@ -1,0 +1,151 @@
+#pragma once
+#include "core/compile/render_scene.h"
+#include "core/render/pass.h"
+
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+
+/// A picture in the making. Blocking and interactive renders are both loops around Progression::run_pass(): which
+/// samples come next, how long that took, how far the picture is from the truth and when it is finished is decided here
+/// alone. No decision changes a sample, so pictures do not depend on speed or on interruptions.
+namespace tyndall {
+
+/// Where a picture is finished: at the first of these.
+struct Limits {
+  std::optional<std::uint32_t> spp;  ///< samples a pixel, with adaptive sampling their mean; absent: no limit
+  double seconds =
+      std::numeric_limits<double>::infinity();  ///< of rendering; looked at between passes, after the first
+  double error = 0;                             ///< estimated relative error, likewise; 0: no limit
+};
+
+/// How many samples a pixel the passes take. The first takes one.
+struct PassLength {
+  double growth = 1;  ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
+  std::uint32_t most = 32;
+  double seconds = std::numeric_limits<double>::infinity();  ///< at most about that long, at the last pass's speed
+};
+
+/// Samples of the next pass, at least 1. taken: samples a pixel so far; paths_per_second: <= 0 if unknown.
+std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second);
+
+/// When the error of a film is estimated, which takes about as long as drawing it: where the number of samples or the
+/// error that was asked for is reached, and now and then before.
+struct EstimateTimes {
+  double seconds = std::numeric_limits<double>::infinity();  ///< from the start to the first, and then between them
+  double growth = 0;             ///< what comes on top, in parts of the seconds rendered so far
+  std::uint32_t each_below = 0;  ///< samples a pixel below which every pass is followed by one
+};
+
+/// How a picture is made.
+struct ProgressionOptions {
+  bool adaptive = false;      ///< see plan.h
+  int tile = 0;               ///< edge of a tile in pixels; 0: chosen
+  int coarse_step = 1;        ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
+  bool count_breaks = false;  ///< whether time between passes counts as rendering: a blocking render has wall time
+  PassLength length;
+  EstimateTimes estimates;
+};
+
+/// The kernels with what they read and the threads they run on.
+struct RenderEngine {
+  Crew& crew;
+  const Kernels& kernels;
+  const SceneView& scene;
+};
+
+/// Which samples of a film come next: the rest of what an interrupted pass began, a coarse pass, the rest of the first
+/// sample, then growing passes, cut where a round of adaptive sampling ends.
+class PassSchedule {
+ public:
+  /// For a film that has no samples, or whose samples are replaced by the first pass.
+  explicit PassSchedule(const ProgressionOptions& options = {}) : options_(options) {}
+  /// Goes on with a film's samples. Those that an interrupted pass left uneven are made even first.
+  PassSchedule(const ProgressionOptions& options, const Film& film);
+
+  /// The pass that was interrupted, else a new one. limit, paths_per_second: see Limits and pass_samples.
+  Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew);
+  /// The pass is whole.
+  void finish();
+
+  const Pass* pass() const { return pass_.get(); }  ///< null between passes
+  bool pass_is_coarse() const { return pass_ && coarse_; }
+  std::uint32_t pass_end() const { return end_; }  ///< what taken() becomes with the pass that is under way
+  std::uint32_t taken() const { return taken_; }   ///< samples of every pixel; after adaptive rounds their mean
+  bool coarse_done() const { return coarse_done_; }
+  int coarse_step() const { return options_.coarse_step; }
+
+ private:
+  std::unique_ptr<Pass> full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew);
+
+  ProgressionOptions options_;
+  std::unique_ptr<Pass> pass_;
+  bool coarse_ = false, coarse_done_ = false;
+  std::uint32_t taken_ = 0, end_ = 0;
+  std::uint32_t level_to_ = 0;  ///< samples that some pixels have already and all get first; 0: all have the same
+};
+
+/// What was counted since the start, and how long it took.
+struct PassTally {
+  std::uint64_t rays = 0, shadow_rays = 0;    ///< up to now
+  std::uint64_t rejected = 0, truncated = 0;  ///< samples of whole passes
+  double seconds = 0;                         ///< up to the last film write, or up to now while a pass runs
+  double last_mrays_per_s = 0, last_paths_per_second = 0;  ///< of the last whole pass; 0: there was none
+};
+
+/// A film and the passes that fill it.
+class Progression {
+ public:
+  /// Begins a picture of the scene without samples. The film's memory is used again where the size allows it. Throws
+  /// std::bad_alloc, and is then what it was before.
+  void start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
+             const ProgressionOptions& options);
+  /// Goes on with a film that was rendered of the same scene, with the same `adaptive`.
+  void go_on(Film film, const ProgressionOptions& options);
+
+  /// Whether the picture is finished.
+  bool reached(const Limits& limits) const;
+  /// Takes samples until the next pass is whole (true) or `give_up` was set: then it returns within one unit of work,
+  /// about 2 ms, and the next call goes on. Estimates the error if that is due. poll: see Crew::for_each.
+  bool run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
+                const std::function<void()>& poll = {});
+
+  const Film& film() const { return film_; }
+  Film take_film() { return std::move(film_); }
+  /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass is there.
+  std::uint32_t taken() const { return schedule_.taken(); }
+  /// Whether there is something to show.
+  bool has_picture() const { return taken() > 0 || schedule_.coarse_done(); }
+  /// Every how many pixels there are samples.
+  int step() const { return taken() == 0 ? schedule_.coarse_step() : 1; }
+  /// A pass was interrupted and waits to be gone on with.
+  bool within_pass() const { return schedule_.pass() != nullptr; }
+  /// May be called from run_pass()'s poll.
+  PassTally tally() const;
+  /// Mean over all samples of what paths carried that were cut off at the longest length.
+  double cut_throughput() const;
+  /// Estimated relative error; infinite before two samples.
+  double error() const { return error_; }
+  /// Whether error() is of the film as it is now.
+  bool error_is_new() const { return error_of_ == taken() && taken() >= 2 && !within_pass(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void begin(PassSchedule schedule, const ProgressionOptions& options);
+  bool estimate_is_due(const Limits& limits) const;
+  void finish_pass();
+
+  Film film_;
+  ProgressionOptions options_;
+  PassSchedule schedule_;
+  PassTally tally_;
+  Clock::time_point last_write_;
+  std::optional<Clock::time_point> running_from_;  ///< while run_pass() runs: from when its seconds count
+  double pass_seconds_ = 0;                        ///< of the pass that is under way
+  double error_ = std::numeric_limits<double>::infinity(), next_estimate_ = 0;
+  std::uint32_t error_of_ = 0;  ///< samples a pixel that error_ was estimated from
+};
+
+}  // namespace tyndall

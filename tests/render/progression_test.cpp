@@ -1,0 +1,163 @@
+#include "core/render/progression.h"
+
+#include "core/accuracy/error.h"
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+/// The passes of a picture: in which order its samples come, where they end, and what is told meanwhile.
+using namespace tyndall;
+
+namespace {
+
+RenderScene small_scene() {
+  Scene scene = load_scene("cornell-smoke").scene;
+  scene.width = 37;
+  scene.height = 23;
+  return compile(scene);
+}
+
+Film film_of(const RenderScene& scene, std::uint32_t first, std::uint32_t spp, Film film = {}) {
+  RenderOptions options;
+  options.threads = 2;
+  options.first_sample = first;
+  options.spp = spp;
+  return render(scene, options, {}, std::move(film)).film;
+}
+
+/// Some pixels of one film, the others of another with more samples: what an interrupted pass leaves.
+Film mixed(Film few, const Film& many) {
+  for (std::size_t i = 0; i < few.pixels.size(); ++i)
+    if (i * i % 7 < 3) few.pixels[i] = many.pixels[i];
+  return few;
+}
+
+}  // namespace
+
+TEST_CASE("an interrupted film that is continued is, bit for bit, the film of one render") {
+  const RenderScene scene = small_scene();
+  for (const std::uint32_t first : {0u, 3u}) {
+    const Film few = film_of(scene, first, 2), some = film_of(scene, first, 9), many = film_of(scene, first, 12);
+    const Film uneven = mixed(few, some);
+    REQUIRE(totals(uneven).least_taken == 2);
+    REQUIRE(totals(uneven).most_taken == 9);
+    CHECK(film_of(scene, first, 12, uneven) == many);
+    CHECK(film_of(scene, first, 9, uneven) == some);
+    CHECK(film_of(scene, first, 4, uneven) == some);  // no sample is thrown away
+  }
+}
+
+TEST_CASE("progression: making a film even can be interrupted, leaves whole prefixes and is counted") {
+  const RenderScene scene = small_scene();
+  const Film few = film_of(scene, 0, 2), some = film_of(scene, 0, 9);
+  const Film before = mixed(few, some);
+  Crew crew(2);
+  const Kernels kernels = *choose_kernels("");
+  const SceneViewOf view(scene);
+  Progression picture;
+  picture.go_on(before, {});
+  CHECK(picture.taken() == 2);
+  CHECK_FALSE(picture.run_pass({crew, kernels, view.view()}, {}, true));
+  CHECK(picture.within_pass());
+  CHECK(picture.film() == before);
+  CHECK(picture.tally().rays == 0);
+  CHECK(picture.run_pass({crew, kernels, view.view()}, {}, false));
+  CHECK_FALSE(picture.within_pass());
+  CHECK(picture.film() == some);
+  CHECK(picture.taken() == 9);
+  CHECK(picture.tally().rays > 0);
+}
+
+TEST_CASE("progression: a coarse pass, the rest of the first sample, then growing passes give the blocking film") {
+  const RenderScene scene = small_scene();
+  Crew crew(2);
+  const Kernels kernels = *choose_kernels("");
+  const SceneViewOf view(scene);
+  const RenderEngine engine{crew, kernels, view.view()};
+  ProgressionOptions options;
+  options.coarse_step = 4;
+  Progression picture;
+  // The second round replaces what the first has left in the film.
+  for (int round = 0; round < 2; ++round) {
+    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    CHECK_FALSE(picture.has_picture());
+    CHECK(picture.step() == 4);
+    std::vector<std::uint32_t> taken;
+    while (!picture.reached({.spp = 21})) {
+      REQUIRE(picture.run_pass(engine, {.spp = 21}, false));
+      CHECK(picture.has_picture());
+      taken.push_back(picture.taken());
+    }
+    CHECK(taken == std::vector<std::uint32_t>{0, 1, 2, 4, 8, 16, 21});
+    CHECK(picture.step() == 1);
+    CHECK(picture.film() == film_of(scene, 0, 21));
+  }
+}
+
+TEST_CASE("progression: ends at the first of the limits, but not before a pass") {
+  const RenderScene scene = small_scene();
+  Crew crew(2);
+  const Kernels kernels = *choose_kernels("");
+  const SceneViewOf view(scene);
+  const RenderEngine engine{crew, kernels, view.view()};
+  Progression picture;
+  picture.start(scene, {0, 0, scene.width, scene.height}, 0, {});
+  const Limits no_time{.spp = {}, .seconds = 0}, rough{.spp = {}, .error = 1e6};
+  CHECK(picture.reached({.spp = 0}));
+  CHECK_FALSE(picture.reached(no_time));
+  CHECK_FALSE(picture.reached(rough));
+  picture.run_pass(engine, rough, false);
+  CHECK(picture.reached(no_time));
+  CHECK_FALSE(picture.reached(rough));  // one sample tells nothing of the error
+  CHECK_FALSE(picture.error_is_new());
+  picture.run_pass(engine, rough, false);
+  CHECK(picture.reached(rough));
+  CHECK(picture.error_is_new());
+  CHECK(picture.error() == estimated_relative_error(picture.film()));
+  CHECK_FALSE(picture.reached({}));
+}
+
+TEST_CASE("progression: the error is estimated when it is due, not after each pass") {
+  const RenderScene scene = small_scene();
+  Crew crew(1);
+  const Kernels kernels = *choose_kernels("");
+  const SceneViewOf view(scene);
+  const RenderEngine engine{crew, kernels, view.view()};
+  const auto estimated_at = [&](const EstimateTimes& times) {
+    ProgressionOptions options;
+    options.estimates = times;
+    Progression picture;
+    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    std::vector<std::uint32_t> found;
+    while (!picture.reached({.spp = 32})) {
+      picture.run_pass(engine, {.spp = 32}, false);
+      if (picture.error_is_new()) found.push_back(picture.taken());
+    }
+    return found;
+  };
+  using Counts = std::vector<std::uint32_t>;
+  CHECK(estimated_at({}) == Counts{});
+  CHECK(estimated_at({.seconds = 1e6}) == Counts{32});  // what was asked for is reached
+  CHECK(estimated_at({.seconds = 1e6, .growth = 0, .each_below = 9}) == Counts{2, 4, 8, 32});
+  CHECK(estimated_at({.seconds = 0}) == Counts{2, 4, 8, 16, 32});
+}
+
+TEST_CASE("pass length: doubles or adds a part, within the time and the most samples") {
+  constexpr std::size_t full_hd = 1920 * 1080;
+  const PassLength doubling{.growth = 1, .most = 64, .seconds = 0.15};
+  CHECK(pass_samples(doubling, 0, full_hd, 0) == 1);
+  CHECK(pass_samples(doubling, 1, full_hd, 1e12) == 1);
+  CHECK(pass_samples(doubling, 2, full_hd, 1e12) == 2);
+  CHECK(pass_samples(doubling, 40, full_hd, 1e12) == 40);
+  CHECK(pass_samples(doubling, 1000, full_hd, 1e12) == 64);
+  CHECK(pass_samples({.growth = 1, .most = 64, .seconds = 0.5}, 1000, full_hd, 10.0 * full_hd) == 5);
+  CHECK(pass_samples(doubling, 1000, full_hd, 1.0 * full_hd) == 1);
+  CHECK(pass_samples(doubling, 1000, full_hd, 0) == 1);  // nothing is known of the speed
+  CHECK(pass_samples(doubling, 3, 0, 1e6) == 3);
+  const PassLength quarter{.growth = 0.25, .most = 32};
+  CHECK(pass_samples(quarter, 1, full_hd, 0) == 1);
+  CHECK(pass_samples(quarter, 15, full_hd, 0) == 3);
+  CHECK(pass_samples(quarter, 1000, full_hd, 0) == 32);
+}
