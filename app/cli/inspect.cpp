@@ -21,16 +21,19 @@ struct Report {
   LoadedScene loaded;
   Contents contents;
   RenderScene compiled;
+  KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
 };
 
 Report examine(const InspectCommand& command) {
-  Report report{open_scene(command.scene), {}, {}, 0, {}};
+  Report report{open_scene(command.scene), {}, {}, {}, 0, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
   report.compiled = compile(scene);
-  if (command.measure) report.gain = measure_kernel_gain(report.compiled, find_kernels(command.isa).isa);
+  const Kernels kernels = find_kernels(command.isa);
+  report.kernel = kernels.set_for(report.compiled.kernel);
+  if (command.measure) report.gain = measure_kernel_gain(report.compiled, kernels);
   report.film_bytes =
       sizeof(FilmPixel) * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
@@ -67,7 +70,7 @@ std::string json_text(const Report& report) {
   json["primitives"] = report.compiled.primitives();
   json["tree"] = report.compiled.bvh != nullptr;
   json["kernel_features"] = names_of(report.compiled.needs);
-  json["kernel"] = name_of(report.compiled.kernel);
+  json["kernel"] = name_of(report.kernel);
   if (report.gain) json["kernel_gain"] = json_of(*report.gain);
   json["scene_bytes"] = bytes_of(report.compiled);
   json["film_bytes"] = report.film_bytes;
@@ -103,6 +106,7 @@ std::string bytes_text(std::size_t bytes) {
 }
 
 std::string gain_text(const KernelGain& gain) {
+  if (gain.pairs == 0) return gain.isa + ": renders this scene by the full kernel itself, so there is nothing to gain";
   char text[160];
   std::snprintf(text, sizeof text, "%s: %.2f times as fast as the full kernel (%.2f to %.2f in %d pairs), %s",
                 gain.isa.c_str(), gain.gain, gain.least, gain.most, gain.pairs,
@@ -133,7 +137,7 @@ std::string table(const Report& report) {
   row("primitives", std::to_string(report.compiled.primitives()) +
                         (report.compiled.bvh ? ", in a tree" : ", each tested for every ray"));
   row("models", listed(names_of(report.compiled.needs)));
-  row("kernel", name_of(report.compiled.kernel));
+  row("kernel", name_of(report.kernel));
   if (report.gain) row("", gain_text(*report.gain));
   row("memory", "scene " + bytes_text(bytes_of(report.compiled)) + ", film " + bytes_text(report.film_bytes));
   return text;

@@ -28,11 +28,14 @@ std::uint32_t enough_samples(const RenderScene& scene, const std::string& isa) {
 
 }  // namespace
 
-KernelGain measure_kernel_gain(const RenderScene& scene, const std::string& isa) {
+KernelGain measure_kernel_gain(const RenderScene& scene, const Kernels& kernels) {
+  const std::string isa = kernels.isa;
+  KernelGain result;
+  result.isa = isa;
+  if (kernels.set_for(scene.kernel) == KernelSet::everything) return result;
   RenderScene full = scene;
   full.kernel = KernelSet::everything;
   const std::uint32_t spp = enough_samples(scene, isa);
-  KernelGain result;
   std::vector<double> gains;
   for (result.pairs = 0; result.pairs < pairs; ++result.pairs) {
     const bool own_first = result.pairs % 2 == 0;
@@ -40,7 +43,6 @@ KernelGain measure_kernel_gain(const RenderScene& scene, const std::string& isa)
     const RenderResult second = timed(own_first ? full : scene, isa, spp);
     gains.push_back(own_first ? second.seconds / first.seconds : first.seconds / second.seconds);
     result.same_picture &= resolve(first.film) == resolve(second.film);
-    result.isa = first.kernels.isa;
   }
   std::sort(gains.begin(), gains.end());
   result.gain = gains[pairs / 2];

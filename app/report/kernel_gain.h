@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/render_scene.h"
+#include "core/kernel/kernels.h"
 
 #include <string>
 
@@ -10,11 +11,12 @@ struct KernelGain {
   std::string isa;
   double gain = 1;             ///< speed over the full kernel's: median of the pairs
   double least = 1, most = 1;  ///< of the pairs
-  int pairs = 0;
-  bool same_picture = true;  ///< to the last bit
+  int pairs = 0;               ///< 0: the full kernel is the scene's own, nothing was measured
+  bool same_picture = true;    ///< to the last bit
 };
 
-/// Renders the scene by both in turns, on one thread, for about two seconds.
-KernelGain measure_kernel_gain(const RenderScene& scene, const std::string& isa);
+/// Renders the scene by both in turns, on one thread, for about two seconds. Where `kernels` render the scene with the
+/// full kernel, nothing is rendered and the gain is 1.
+KernelGain measure_kernel_gain(const RenderScene& scene, const Kernels& kernels);
 
 }  // namespace tyndall

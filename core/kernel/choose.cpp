@@ -34,6 +34,11 @@ void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_
   render_units[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, counts);
 }
 
+KernelSet Kernels::set_for(KernelSet least) const {
+  const RenderUnit full = render_units[static_cast<int>(KernelSet::everything)];
+  return render_units[static_cast<int>(least)] == full ? KernelSet::everything : least;
+}
+
 std::vector<Kernels> available_kernels() {
   std::vector<Kernels> list;
   for (const Target target : available_targets()) list.push_back(kernels_of(target));

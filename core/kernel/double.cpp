@@ -3,9 +3,6 @@
 
 namespace tyndall {
 
-Kernels double_kernels() {
-  const RenderUnit render = render_unit_entry<double, KernelSet::everything>;
-  return {"double", 1, {render, render, render}, trace_entry<double>, first_hits_entry<double>};
-}
+Kernels double_kernels() { return full_kernel_of<double>("double"); }
 
 }  // namespace tyndall

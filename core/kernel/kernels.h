@@ -55,7 +55,7 @@ using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHi
 struct Kernels {
   const char* isa;                       ///< "scalar", "sse4", "avx2", "avx512"
   int lanes;                             ///< paths that run together
-  RenderUnit render_units[kernel_sets];  ///< by KernelSet
+  RenderUnit render_units[kernel_sets];  ///< by KernelSet; the full kernel in the place of each that was not compiled
   TraceRays trace;
   FirstHits first_hits;
 
@@ -63,6 +63,10 @@ struct Kernels {
   /// names. `taken` is set for what was sampled.
   void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
                    UnitCounts& counts) const;
+
+  /// The set whose kernel renders a scene that needs at least the models of `least`: `least` itself, or everything
+  /// where this instruction set has the full kernel alone.
+  KernelSet set_for(KernelSet least) const;
 };
 
 // One per file that is compiled with its set's flags.

@@ -77,7 +77,8 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
     PathVertex& v = meeting.vertex;
     v.radiance = p.radiance;
     v.fate = fate_of(meeting, p, survives, cut);
-    v.inside = v.met == Met::surface && survives && p.ray.from >= 0 && (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
+    v.inside = v.met == Met::surface && survives && p.ray.from >= 0 &&
+               (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
     path.vertices.push_back(v);
     p.alive = survives ? 1 : 0;
   }

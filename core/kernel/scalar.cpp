@@ -3,6 +3,6 @@
 
 namespace tyndall {
 
-Kernels scalar_kernels() { return kernels_of<float>("scalar"); }
+Kernels scalar_kernels() { return full_kernel_of<float>("scalar"); }
 
 }  // namespace tyndall

@@ -9,6 +9,6 @@ using F = HWY_NAMESPACE::Floats;
 static_assert(lanes_of<F> == 4, "the SIMD library fell back to a narrower set: a flag is missing");
 }  // namespace
 
-Kernels sse4_kernels() { return kernels_of<F>("sse4"); }
+Kernels sse4_kernels() { return full_kernel_of<F>("sse4"); }
 
 }  // namespace tyndall

@@ -40,6 +40,20 @@ TEST_CASE("kernel sets: each built-in scene's own gives bit for bit what the ful
   for (const int count : scenes_of) CHECK(count > 0);
 }
 
+TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others the full one alone, and say so") {
+  for (const Kernels& kernels : available_kernels()) {
+    const std::string isa = kernels.isa;
+    CAPTURE(isa);
+    const bool wide = isa == "avx2" || isa == "avx512";
+    for (int i = 0; i < kernel_sets; ++i) {
+      const KernelSet least = static_cast<KernelSet>(i);
+      CHECK(kernels.set_for(least) == (wide ? least : KernelSet::everything));
+      for (int k = 0; k < i; ++k) CHECK((kernels.render_units[k] == kernels.render_units[i]) != wide);
+    }
+  }
+  CHECK(double_kernels().set_for(KernelSet::no_fog_nor_textures) == KernelSet::everything);
+}
+
 TEST_CASE("kernel sets: a scene gets the least that holds its models") {
   CHECK(compile(load_scene("cornell-box").scene).kernel == KernelSet::no_fog_nor_textures);
   CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_lamps_in_fog);

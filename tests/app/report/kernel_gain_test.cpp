@@ -1,0 +1,39 @@
+#include "app/report/kernel_gain.h"
+
+#include "core/compile/compile.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+/// What is said about the kernel that renders a scene: measured where there are two kernels to compare, and said where
+/// there is only one.
+using namespace tyndall;
+
+TEST_CASE("kernel gain: nothing is measured where the full kernel renders the scene") {
+  const RenderScene box = compile(load_scene("cornell-box").scene);
+  REQUIRE(box.kernel != KernelSet::everything);
+  const KernelGain scalar = measure_kernel_gain(box, *choose_kernels("scalar"));
+  CHECK(scalar.isa == "scalar");
+  CHECK(scalar.pairs == 0);
+  CHECK(scalar.gain == 1);
+  CHECK(scalar.same_picture);
+  RenderScene full = box;
+  full.kernel = KernelSet::everything;
+  CHECK(measure_kernel_gain(full, *choose_kernels("")).pairs == 0);
+}
+
+TEST_CASE("kernel gain: a set's own kernel is compared with the full one and gives the same picture") {
+  const Kernels best = *choose_kernels("");
+  Scene scene = load_scene("cornell-box").scene;
+  scene.width = scene.height = 32;
+  const RenderScene box = compile(scene);
+  if (best.set_for(box.kernel) == KernelSet::everything) return;  // this processor's widest set has the full one alone
+  const KernelGain gain = measure_kernel_gain(box, best);
+  CHECK(gain.isa == best.isa);
+  CHECK(gain.pairs > 0);
+  CHECK(gain.same_picture);
+  CHECK(gain.least <= gain.gain);
+  CHECK(gain.gain <= gain.most);
+}
