@@ -2,7 +2,6 @@
 
 namespace tyndall {
 
-std::filesystem::path assets_folder() { return TYNDALL_ASSETS_DIR; }
 std::filesystem::path tests_folder() { return TYNDALL_TESTS_DIR; }
 std::filesystem::path scratch_folder() { return TYNDALL_SCRATCH_DIR; }
 

@@ -5,7 +5,7 @@
 /// machine and compiler caches can share them between checkouts.
 namespace tyndall {
 
-std::filesystem::path assets_folder();   ///< assets/ of the source tree
+std::filesystem::path assets_folder();   ///< assets/ of the source tree, the same as in core/scene/load.h
 std::filesystem::path tests_folder();    ///< tests/ of the source tree
 std::filesystem::path scratch_folder();  ///< where tests may write
 
