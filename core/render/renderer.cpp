@@ -35,9 +35,9 @@ Renderer::~Renderer() {
   for (auto& request : state_->mail.take_film_requests()) request.set_value({});  // nobody may wait forever
 }
 
-std::uint64_t Renderer::submit(Scene scene) {
-  return state_->mail.submit(std::make_shared<const Scene>(std::move(scene)));
-}
+std::uint64_t Renderer::submit(Scene scene) { return submit(std::make_shared<const Scene>(std::move(scene))); }
+
+std::uint64_t Renderer::submit(std::shared_ptr<const Scene> scene) { return state_->mail.submit(std::move(scene)); }
 
 std::shared_ptr<const Frame> Renderer::latest() const { return state_->mail.latest(); }
 

@@ -28,6 +28,8 @@ class Renderer {
   /// Replaces the scene and returns the edit's number. A scene that renders to the same picture as the current one
   /// (equal but for names and display) restarts nothing and keeps the number of the current edit.
   std::uint64_t submit(Scene scene);
+  /// The same, without a copy where the caller keeps the scene too.
+  std::uint64_t submit(std::shared_ptr<const Scene> scene);
   /// The newest frame; null before the first.
   std::shared_ptr<const Frame> latest() const;
   /// The newest problem, if the newest edit could not be compiled.

@@ -1,5 +1,7 @@
 #include "core/render/renderer.h"
 
+#include "core/render/mailbox.h"
+#include "tests/support/allocations.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -103,6 +105,54 @@ TEST_CASE("edits: what is equal, or differs in name and display only, restarts n
   scene.render.seed = 1;
   CHECK(renderer->submit(scene) == edit + 1);
   renderer.wait_finished(edit + 1);
+}
+
+TEST_CASE("edits: on its way to compile a scene is copied where it is handed over by value, and nowhere else") {
+  constexpr std::size_t many = 997;
+  Scene scene = plain(2);
+  scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
+  scene.objects.resize(many, Object{"", Solid3d{Sphere<>{{0, 0, 9}, 1, {}}, 0}, {}});
+  WatchedRenderer renderer;
+  renderer.wait_finished(renderer->submit(scene));
+  for (const bool moved : {true, false}) {
+    scene.camera.vfov -= 1;
+    Scene edited = scene;
+    const AllocationCount copies(many * sizeof(Object));
+    const std::uint64_t edit = moved ? renderer->submit(std::move(edited)) : renderer->submit(scene);
+    renderer.wait_finished(edit);
+    CHECK(copies.count() == (moved ? 0 : 1));
+  }
+  auto shared = std::make_shared<Scene>(scene);
+  shared->camera.vfov -= 1;
+  const AllocationCount copies(many * sizeof(Object));
+  renderer.wait_finished(renderer->submit(std::shared_ptr<const Scene>(shared)));
+  CHECK(copies.count() == 0);
+}
+
+TEST_CASE("edits: what has changed is the camera, something else, or nothing that samples depend on") {
+  const Scene scene = small_scene("showroom", 40, 30, 4);
+  Scene other = scene;
+  CHECK(change_between(scene, other).none());
+  other.name = "another name";
+  other.display.exposure = 3;
+  other.render.spp = 99;
+  CHECK(change_between(scene, other).none());
+  other.camera.vfov += 1;
+  CHECK(change_between(scene, other).camera);
+  CHECK_FALSE(change_between(scene, other).others);
+  const auto changes_others = [&](const auto& edit) {
+    Scene edited = scene;
+    edit(edited);
+    const SceneChange change = change_between(scene, edited);
+    return change.others && !change.camera;
+  };
+  CHECK(changes_others([](Scene& s) { ++s.width; }));
+  CHECK(changes_others([](Scene& s) { ++s.height; }));
+  CHECK(changes_others([](Scene& s) { s.background = Vec3d{1, 2, 3}; }));
+  CHECK(changes_others([](Scene& s) { ++s.render.seed; }));
+  CHECK(changes_others([](Scene& s) { s.textures.emplace_back(); }));
+  CHECK(changes_others([](Scene& s) { s.materials[0].name += "x"; }));
+  CHECK(changes_others([](Scene& s) { s.objects.pop_back(); }));
 }
 
 TEST_CASE("edits: a restart throws the samples away and renders the same again") {
