@@ -7,9 +7,10 @@
 #include <thread>
 #include <vector>
 
+/// Threads that share work.
 namespace tyndall {
 
-/// A fixed set of threads that run one indexed job at a time. It knows nothing of what the job is.
+/// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
 class Crew {
  public:
   /// size >= 1 threads; 0: as many as the machine runs at once.

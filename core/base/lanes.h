@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <cstring>
 
-/// Kernels are flattened into one function per instruction set: a call would cost more than what it does, and an
-/// ordinary inline function compiled with wide instructions could be the copy the linker keeps for every caller.
-/// Sanitized builds keep the calls: they would take minutes a file, and run where they were built.
+/// Marks what kernels call: it is always inlined. A call would cost more than its work. And of an ordinary inline
+/// function the linker keeps one copy for all callers: a copy with wide instructions would crash older CPUs.
+/// Sanitized builds do not inline: each file would take minutes to compile, and they run where they were built.
 #if defined(TYNDALL_KEEP_CALLS)
 #define TYNDALL_INLINE inline
 #else
 #define TYNDALL_INLINE [[gnu::always_inline]] inline
 #endif
 
-/// What kernel code asks of a number type F, here for the plain numbers: float (one path, the readable reference) and
-/// double (reference for accuracy). base/lanes_simd.h answers the same questions for groups of lanes.
+/// The operations that kernel code needs of its number type F, here for plain numbers: float (one path at a time, the
+/// readable reference) and double (the accurate reference). base/lanes_simd.h has them for groups of lanes (SIMD).
 namespace tyndall {
 
 template <class F>
@@ -24,7 +24,7 @@ template <>
 struct LaneTypes<float> {
   using Int = std::int32_t;    ///< indices, counts, states
   using Uint = std::uint32_t;  ///< hashes: wraps at 2^32
-  using Mask = bool;           ///< one truth value a lane
+  using Mask = bool;           ///< one truth value for each lane
   static constexpr int lanes = 1;
 };
 
@@ -44,7 +44,7 @@ using MaskOf = typename LaneTypes<F>::Mask;
 template <class F>
 inline constexpr int lanes_of = LaneTypes<F>::lanes;
 
-/// A number type of two groups, and the type of each.
+/// A number type that consists of two groups of lanes (see lanes_twice.h), and the type of one group.
 template <class F>
 concept Doubled = requires {
   typename LaneTypes<F>::Half;
@@ -68,7 +68,7 @@ TYNDALL_INLINE UintOf<F> splat_uint(std::uint32_t value) {
 
 TYNDALL_INLINE bool any(bool m) { return m; }
 TYNDALL_INLINE bool all(bool m) { return m; }
-/// One bit a lane, lane 0 lowest.
+/// The truth values as bits: bit i is that of lane i.
 TYNDALL_INLINE std::uint32_t bits(bool m) { return m ? 1u : 0u; }
 template <Plain F>
 TYNDALL_INLINE bool mask_from_bits(std::uint32_t b) {
@@ -100,12 +100,12 @@ TYNDALL_INLINE auto equal(T a, T b) {
   return a == b;
 }
 
-/// The smaller; b where either is not a number (as the machine's own instruction does).
+/// The smaller number; b where one of them is not a number, like the CPU's own instruction.
 template <class F>
 TYNDALL_INLINE F min(F a, F b) {
   return select(less(a, b), a, b);
 }
-/// The larger; b where either is not a number.
+/// The larger number; b where one of them is not a number.
 template <class F>
 TYNDALL_INLINE F max(F a, F b) {
   return select(less(b, a), a, b);
@@ -169,7 +169,7 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
   return table[index];
 }
 
-/// The same from a table of `count` entries, faster where it is short.
+/// Like gather, from a table of `count` entries: faster where the whole table fits into registers.
 template <Plain F>
 TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
   return static_cast<F>(table[index]);
@@ -192,8 +192,8 @@ template <Plain F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return *from;
 }
-/// The first `count` >= 0 of as many values as there are lanes, which need not be readable beyond; 0 in the other
-/// lanes.
+/// Loads `count` >= 0 consecutive values, at most one for each lane, and puts 0 into the other lanes. Does not read the
+/// memory behind them.
 template <Plain F>
 TYNDALL_INLINE F load_some(const float* from, int count) {
   return count > 0 ? static_cast<F>(*from) : F(0);
@@ -202,7 +202,7 @@ template <Plain F>
 TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
   return count > 0 ? *from : 0;
 }
-/// Lanes, a bit each, that are to be filled with consecutive values.
+/// Which lanes expand() fills. Made by expansion() from a number whose bit i stands for lane i.
 template <class F>
 struct Expansion;
 template <Plain F>
@@ -213,8 +213,8 @@ template <Plain F>
 TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {
   return {(lanes & 1u) != 0};
 }
-/// Lane by lane the next of the values that start at `from` where the expansion has the lane, else `old`. As many
-/// values as a group has lanes are readable.
+/// Fills the lanes of the expansion, in order, with the values at `from`; the others keep `old`. For example, lanes 1
+/// and 3 get from[0] and from[1]. As many values as a group has lanes must be readable.
 template <Plain F, class S, class T>
 TYNDALL_INLINE T expand(const Expansion<F>& e, const S* from, T old) {
   return e.here ? static_cast<T>(*from) : old;

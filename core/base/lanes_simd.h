@@ -1,9 +1,9 @@
 #pragma once
 #include "core/base/lanes_simd_arithmetic.h"
 
-/// The one door to the SIMD library: a group of lanes that answers what base/lanes.h asks of a number type. It compiles
-/// for the instruction set whose flags its file is given, in a namespace of that set's name, so that no two objects
-/// share a symbol. Here: what has to do with memory; the arithmetic is in base/lanes_simd_arithmetic.h.
+/// The only way to the SIMD library: a group of lanes with all the operations of base/lanes.h. It compiles for the
+/// instruction set whose flags the including file has, in a namespace of that set's name, so that no two objects share
+/// a symbol. Loads and stores are here; the arithmetic is in base/lanes_simd_arithmetic.h.
 namespace tyndall {
 namespace HWY_NAMESPACE {
 
@@ -21,7 +21,7 @@ struct LaneTypes<HWY_NAMESPACE::Floats> {
   static constexpr int lanes = HWY_NAMESPACE::native_lanes;
 };
 
-// What is asked with F given by name: from_int<F>, gather<F>, load<F>, mask_from_bits<F>.
+// Functions that are called with F written out: from_int<F>, gather<F>, load<F>, mask_from_bits<F>.
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F from_int(IntOf<F> v) {
   return float_from_int(v);
@@ -40,7 +40,7 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
 }
 #if HWY_TARGET == HWY_AVX3
 namespace HWY_NAMESPACE {
-/// Entries of a table of at most 32, which two vectors hold; the SIMD library has no lookup in two yet.
+/// table[index] for a table of at most 32 entries, which two vectors hold. The SIMD library has no such lookup yet.
 TYNDALL_INLINE __m512i lookup_in_two(const void* table, int count, __m512i index) {
   const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
   const __m512i low = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable), table);
@@ -90,7 +90,7 @@ TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from);
   return r;
 }
-// From AVX2 on, where there are loads that stop early.
+// From AVX2 on, which has loads that read only some of the lanes.
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 requires(lanes_of<F> >= 8) TYNDALL_INLINE F load_some(const float* from, int count) {
   F r;
@@ -120,7 +120,7 @@ TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
 template <>
 struct Expansion<HWY_NAMESPACE::Floats> {
   HWY_NAMESPACE::Mask lanes;
-  HWY_NAMESPACE::Ints from;  ///< where there is no instruction for it
+  HWY_NAMESPACE::Ints from;  ///< the value that each lane takes, for CPUs that cannot expand in one instruction
 };
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {

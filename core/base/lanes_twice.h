@@ -1,8 +1,8 @@
 #pragma once
 #include "core/base/lanes_simd.h"
 
-/// Two groups of lanes that work as one: the latency of one hides behind the other's work. It answers what base/lanes.h
-/// asks of a number type; lane i of the second group is lane lanes_of<T> + i of both.
+/// Two groups of lanes that work as one: while one waits for the result of an instruction, the other computes. It has
+/// all the operations of base/lanes.h; lane i of the second group is lane lanes_of<T> + i of the whole.
 namespace tyndall {
 
 template <class T>
@@ -214,7 +214,7 @@ TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
 template <Doubled F>
 struct Expansion<F> {
   Expansion<HalfOf<F>> a, b;
-  int taken;  ///< by the first
+  int taken;  ///< how many values the first group has taken
 };
 template <Doubled F>
 TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {

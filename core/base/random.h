@@ -5,8 +5,8 @@
 /// gets the same number, and no state has to be kept or ordered.
 namespace tyndall {
 
-/// The fixed table of dimensions. A sample uses the camera's first, then `per_event` for each scattering event, used or
-/// not: so leaving a model out never shifts the numbers of another.
+/// The fixed table of dimensions: which random number serves what. A sample has those of the camera, then `per_event`
+/// for each scattering event, used or not. So leaving a model out never shifts the numbers of another.
 namespace dimension {
 // camera
 inline constexpr std::uint32_t pixel = 0;  // and 1
@@ -40,12 +40,12 @@ TYNDALL_INLINE U hash(U x) {
   return x ^ shift_right<15>(x);
 }
 
-/// Bits to a number in [0, 1), a multiple of 2^-24: never 1, exact in float.
+/// Turns random bits into a number in [0, 1): a multiple of 2^-24, which float holds exactly; never 1.
 template <class F>
 TYNDALL_INLINE F unit_interval(UintOf<F> h) {
   return from_int<F>(as_int(shift_right<8>(h))) * F(0x1p-24f);
 }
-/// Bits to a number in (0, 1] that keeps its precision towards 0 (2^-32): for logarithms.
+/// Turns random bits into a number in (0, 1] that keeps its precision towards 0 (2^-32): for logarithms.
 template <class F>
 TYNDALL_INLINE F unit_interval_open(UintOf<F> h) {
   return (from_int<F>(as_int(shift_right<1>(h))) + F(0.5f)) * F(0x1p-31f);
@@ -66,9 +66,9 @@ TYNDALL_INLINE U reverse_bits(U x) {
   return (shift_left<1>(x & U(0x55555555u))) | (shift_right<1>(x) & U(0x55555555u));
 }
 
-/// A random permutation, by `seed`, of an index held in reversed bits, in which a digit depends on higher digits only:
-/// it keeps the sequence's strata (nested uniform scrambling). Laine & Karras, Stratified Sampling for Stochastic
-/// Transparency, EGSR 2011, section 3; the constants are N. Vegdahl's.
+/// A random permutation, chosen by `seed`, of an index whose bits are reversed. Each digit depends on higher digits
+/// only, so the strata of the sequence stay (nested uniform scrambling). Laine & Karras, Stratified Sampling for
+/// Stochastic Transparency, EGSR 2011, section 3; the constants are N. Vegdahl's.
 template <class U>
 TYNDALL_INLINE U shuffle_index(U x, U seed) {
   x = x ^ (x * U(0x3d20adeau));
@@ -101,8 +101,8 @@ struct Dice {
   bool sobol;
 
   /// Key of one sample; x, y: pixel in full-image coordinates. `random`: two chains of hashes in different orders, so
-  /// that samples share both words only by a chance of 2^-64; the seed is mixed before it meets a coordinate, for else
-  /// neighbouring seeds would only exchange rows.
+  /// that two samples have the same key only with probability 2^-64. The seed is hashed before it meets a coordinate:
+  /// otherwise neighbouring seeds would give the same picture with its rows exchanged.
   TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, bool sobol = false) {
     const U a = hash(hash(U(hash(seed ^ 0x68bc21ebu)) ^ y) ^ x);
     if (sobol) return {hash(a ^ (sample & U(1u))), reverse_bits(shift_right<1>(sample)), U(0u), true};
@@ -123,7 +123,7 @@ struct Dice {
     return x ^ shift_right<15>(x);
   }
   TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
-  /// Dimensions offset and offset + 1, well placed together.
+  /// Dimensions offset and offset + 1: a point of the unit square, evenly spread together with those of other samples.
   TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const {
     if (!sobol) return {one(offset), one(offset + 1)};
     const U seed = hash(low + event + U(offset * golden_ratio));
@@ -131,7 +131,7 @@ struct Dice {
     return {unit_interval<F>(index ^ (seed * U(0x9e3779b1u))),
             unit_interval<F>(sobol_second(index) ^ (seed * U(0x85ebca6bu)))};
   }
-  /// In (0, 1], for -log(u). `stream` separates media that share one event.
+  /// A number in (0, 1], for -log(u). Media that share one event each have a `stream` of their own.
   TYNDALL_INLINE F open(std::uint32_t offset, std::uint32_t stream) const {
     return unit_interval_open<F>(word(offset + stream * 0x10000u));
   }

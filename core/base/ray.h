@@ -1,11 +1,11 @@
 #pragma once
 #include "core/base/random.h"
 
-/// What the rooms of shapes, materials and media are given.
+/// Rays, and what shapes, materials and media are told about a hit and answer.
 namespace tyndall {
 
-/// How a ray starts on or in a shape. Leaving a shape by its identity and side instead of by a least distance is right
-/// at every scale, and keeps inside and outside apart where surfaces coincide.
+/// How a ray starts on or in a shape. A ray knows which shape it leaves and on which side. That is right at every scale
+/// and where surfaces coincide, while a least distance would skip thin gaps or meet the same point again.
 enum class Side : std::int32_t {
   outward = 0,  ///< on it, leaving along its geometric outward normal: cannot meet the shape again (all are convex)
   inward = 1,   ///< on it, going in: meets the far side
@@ -13,7 +13,7 @@ enum class Side : std::int32_t {
 };
 
 inline constexpr std::int32_t from_nowhere =
-    -4;  ///< a free start: the camera, or a scattering outside all that is tracked
+    -4;  ///< a start neither on nor in a shape that rays keep track of, for example at the camera
 
 /// A group of rays. direction: unit length. from: 4·element + side, or from_nowhere.
 template <class F>
@@ -66,12 +66,12 @@ struct Incident {
   const Dice<F>* dice;
 };
 
-/// Whether lights are asked for where a material scatters: never (mirrors and glass send light into single directions),
-/// always, or only `weighted` by mis, as its lobe may be so narrow that by itself it almost never finds a light's
-/// sample.
+/// Whether a shadow ray is sent to a light where a material scatters: never (mirrors and glass send light into single
+/// directions), always, or only where integrator mis weights it, because the lobe may be so narrow that a direction
+/// towards a light almost never falls into it (`weighted`).
 enum class LightSampling { never, weighted, always };
 
-/// What leaves it.
+/// What leaves a surface after a scattering event.
 template <class F>
 struct Scattered {
   Vec3<F> direction;      ///< unit

@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
-/// Pieces of messages and files.
+/// Text for messages and files: what is printed safely, quoted, shortened, or suggested for a misspelt name.
 namespace tyndall {
 
-/// The text for one line: control characters as \n or \u001b, bytes that are not UTF-8 as \xff; past `limit` bytes its
-/// end is left out ("…").
+/// The text as it can be printed in one line: control characters as \n or \u001b, bytes that are not UTF-8 as \xff.
+/// What exceeds `limit` bytes is replaced by "…".
 std::string printable(std::string_view text, std::size_t limit = 300);
 
 /// The text, or its first `limit` bytes (whole letters) and "…".
@@ -20,7 +20,7 @@ std::string in_quotes(std::string_view text);
 /// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" where there is none.
 std::string number_text(double value);
 
-/// The candidate that a misspelt name probably meant (a third of its letters wrong at most); empty: none.
+/// The candidate that a misspelt name probably means: at most a third of its letters are wrong. Empty: there is none.
 std::string_view closest(std::string_view name, const std::vector<std::string_view>& candidates);
 
 /// ` (did you mean "closest"?)`, or nothing.

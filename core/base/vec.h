@@ -3,8 +3,8 @@
 
 namespace tyndall {
 
-/// A point, a direction or a colour (linear Rec.709: x red, y green, z blue). Vec3<float> is one of them,
-/// Vec3<lanes> a group; Vec3d is what a user writes.
+/// A point, a direction or a colour (linear Rec.709: x red, y green, z blue). Vec3<float> is a single one, Vec3 of a
+/// group of lanes holds one in each lane; Vec3d is what users write into scene files.
 template <class F>
 struct Vec3 {
   F x{}, y{}, z{};
