@@ -4,8 +4,8 @@
 namespace tyndall {
 
 /// A sum of numbers that does not depend on their order, so that threads, tiles, pauses and machines cannot change a
-/// picture: fixed point in two limbs, 32 bits apart. A number x is held in units of 2^-29 of the film's `unit`
-/// (high) and 2^-61 (low); bits below that are cut off, number by number. With |x| < 256·unit, 2^24 numbers fit.
+/// picture. It is held in fixed point as two integers: `high` counts 2^-29 of the film's `unit`, `low` counts 2^-61.
+/// Smaller bits of each number are cut off before it is added. 2^24 numbers of less than 256 units fit.
 struct ExactSum {
   std::int64_t high = 0, low = 0;
 

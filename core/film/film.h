@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+/// What a render gathers: for each pixel exact sums of its samples, and how many they are.
 namespace tyndall {
-
 /// Pixels x0 <= x < x1, y0 <= y < y1 of the full image, y down.
 struct Region {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -16,8 +16,8 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-/// What a pixel has gathered: for each of two halves (even and odd sample indices, independent randomisations) the
-/// exact sum of each channel. 112 bytes.
+/// What a pixel has gathered: the exact sum of each channel, for even and odd sample indices apart. These two halves
+/// are independently random, so their difference tells the error. 112 bytes.
 struct FilmPixel {
   ExactSum sum[2][3];
   std::uint32_t taken = 0;  ///< samples taken, both halves, rejected ones included: indices first … first + taken - 1
@@ -41,9 +41,9 @@ struct Film {
   Region region;                   ///< the part that is held
   std::uint32_t first_sample = 0;  ///< index of every pixel's first sample
   double unit = 1;                 ///< a power of two not below the brightest emitter: what sums are divided by
-  ExactSum cut_throughput;         ///< what paths that max_depth ended carried: their brightest channels, summed
+  ExactSum cut_throughput;         ///< sum over paths that max_depth cut off: their throughput's brightest channel
   std::vector<FilmPixel> pixels;   ///< region, row by row
-  /// The round of adaptive sampling that is under way or was the last, a cell each (see plan.h); empty: none yet.
+  /// For each cell of 4 x 4 pixels the current or last round of adaptive sampling (see plan.h); empty: none yet.
   std::vector<PlannedSamples> planned;
 
   FilmPixel& at(int x, int y) { return pixels[index(x, y)]; }
@@ -94,7 +94,7 @@ std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb);
 
 struct FilmTotals {
   std::uint64_t samples = 0, rejected = 0, truncated = 0;
-  double cut_throughput = 0;                      ///< mean over the samples: what truncated paths carried on, at most 1
+  double cut_throughput = 0;                      ///< Film::cut_throughput over the number of samples, at most 1
   std::uint32_t least_taken = 0, most_taken = 0;  ///< of any pixel
 };
 FilmTotals totals(const Film& film);

@@ -29,7 +29,8 @@ void check_same_picture(const FilmPart& first, const FilmPart& part) {
   if (a.unit != b.unit) refuse(part, "another brightest light", "the same scene" + like);
 }
 
-/// Adds a part whose samples follow the film's, pixel by pixel: those of an interrupted run end at different indices.
+/// Adds a part whose samples follow those of the film. Compared pixel by pixel, because the samples of an interrupted
+/// run end at different indices in different pixels.
 void append(Film& film, const FilmPart& part) {
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const std::uint64_t end = std::uint64_t{film.first_sample} + film.pixels[i].taken;

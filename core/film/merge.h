@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Putting together what several machines or runs have rendered.
+/// Puts together what several machines or runs have rendered of one picture.
 namespace tyndall {
 
 /// A film and the name that messages call it by (its file).
@@ -14,7 +14,7 @@ struct FilmPart {
   Film film;
 };
 
-/// Parts that are not of one picture. One line: "NAME: found X, expected Y".
+/// The parts do not make one picture. what() is one line: "NAME: found X, expected Y".
 struct MergeError : std::runtime_error {
   using runtime_error::runtime_error;
 };

@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-/// A matt surface: sends light into all directions of its side with density cos θ / π, whatever comes.
+/// A matt surface: sends light into all directions of its side with density cos θ / π, from wherever it comes.
 template <class F = double>
 struct Lambertian {
   static constexpr const char* type = "lambertian";
@@ -28,8 +28,8 @@ TYNDALL_INLINE F density(const Lambertian<F>&, const Incident<F>& in, Vec3<F> di
   return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));
 }
 
-/// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where the two cancel (to 1e-3 in
-/// length, one direction in four million, whose rounding could lead below the surface) the normal itself.
+/// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where they cancel to a length
+/// below 1e-3 (one direction in four million), rounding could lead below the surface: there the normal itself is taken.
 /// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Lambertian<F>&, const Incident<F>& in) {

@@ -21,7 +21,7 @@ constexpr auto fields(const Light<F>*) {
   return std::tuple{};
 }
 
-/// A path ends at a lamp.
+/// Absorbs every path: a lamp reflects nothing.
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Light<F>&, const Incident<F>& in) {
   return {in.facing, less(F(0.0f), F(1.0f)), less(F(1.0f), F(0.0f)), F(one_direction)};

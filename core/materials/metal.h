@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-/// Polished to brushed metal: a mirror whose reflection is blurred by a ball around its end point.
+/// Polished to brushed metal: a mirror whose reflected direction is blurred by adding a random point of a ball.
 template <class F = double>
 struct Metal {
   static constexpr const char* type = "metal";
@@ -63,7 +63,7 @@ TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in
           select(less(F(least_sampled_fuzz), metal.fuzz), density(metal, in, out), F(one_direction))};
 }
 
-/// Share of the light that leaves, at a cosine of incidence in [0, 1]: what the ball puts below the surface is lost.
+/// Share of the light that is not absorbed, at a cosine of incidence in [0, 1]: what ends below the surface is lost.
 /// The ball's mass above a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
 template <class F>
 TYNDALL_INLINE F metal_survival(F fuzz, F cosine) {

@@ -7,8 +7,8 @@
 
 namespace tyndall {
 
-/// Fog, smoke, milk: the same everywhere inside its boundary. Its colour (the scattering albedo) and boundary are the
-/// scene's; here is what it does.
+/// Fog, smoke, milk: the same everywhere inside its boundary. The scene holds its boundary and its colour (the
+/// scattering albedo); here is how it scatters.
 template <class F = double>
 struct Medium {
   static constexpr const char* type = "medium";

@@ -39,7 +39,7 @@ TYNDALL_INLINE BoxSlabs<F> box_slabs(const Affine& box, Vec3<F> origin, Vec3<F> 
   const Vec3<F> slope{safe_reciprocal(affine_direction(box, 0, direction)),
                       safe_reciprocal(affine_direction(box, 1, direction)),
                       safe_reciprocal(affine_direction(box, 2, direction))};
-  // The ways to the faces before all else: close by, these differences are exact, as dense media need them.
+  // First the distances to the faces along each axis: near a face these differences are exact, as dense media need.
   const Vec3<F> p{affine_point(box, 0, origin), affine_point(box, 1, origin), affine_point(box, 2, origin)};
   const Vec3<F> low{(F(-1.0f) - p.x) * slope.x, (F(-1.0f) - p.y) * slope.y, (F(-1.0f) - p.z) * slope.z};
   const Vec3<F> high{(F(1.0f) - p.x) * slope.x, (F(1.0f) - p.y) * slope.y, (F(1.0f) - p.z) * slope.z};
@@ -56,9 +56,9 @@ TYNDALL_INLINE Interval<F> leave_box(Interval<F> line, Start<F> start) {
           mask_and_not(mask_or(line.hit, start.here), start.out)};
 }
 
-/// Where a ray leaves the box that it starts in. A start that rounding has put on a face was up to half a cell of
-/// single precision inside: a quarter on average, 2^-26 of half an edge for a box around the origin. That matters where
-/// a mean free path is a few dozen cells.
+/// Where a ray leaves the box that it starts in. A start that lies on a face was put there by rounding: it was inside
+/// by up to half of the spacing of floats, by a quarter on average (2^-26 of half an edge if the box is around the
+/// origin). That matters in media whose mean free path is only a few dozen such spacings.
 template <class F>
 TYNDALL_INLINE F leave_from_within(const BoxSlabs<F>& s) {
   const F quarter = F(0x1p-26f);

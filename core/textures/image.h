@@ -8,7 +8,7 @@
 
 namespace tyndall {
 
-/// A picture, sRGB 8-bit, looked up by uv: bilinear, v up, u wraps, v ends at the edge rows.
+/// A picture, sRGB 8-bit, looked up by uv: bilinear; v points up; u repeats, v keeps the colour of the edge rows.
 struct Image {
   static constexpr const char* type = "image";
   struct Pixels {
@@ -33,7 +33,7 @@ TYNDALL_INLINE Vec3<F> image_colour(const float* texels, int width, int height, 
   const F y = min(max(mul_add(one - v, last_row + one, F(-0.5f)), zero), last_row);
   const F x0 = floor(x), y0 = floor(y);
   const F fx = x - x0, fy = y - y0;
-  // Clamped as well as wrapped: lanes that are not in use may hold anything, and must not read beyond the table.
+  // Clamped as well as wrapped: lanes that are not used may hold any number and still must not read beyond the table.
   const F left_column = min(max(select(less(x0, zero), last_column, x0), zero), last_column);
   const F right_column = select(less(left_column, last_column), left_column + one, zero);
   const I left = to_int(left_column), right = to_int(right_column);

@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-/// Gradient noise in space: "perlin" smooth, "turbulence" seven octaves of it, "marble" veins across z.
+/// Gradient noise in space: "perlin" is smooth, "turbulence" adds seven octaves of it, "marble" bends veins across z.
 template <class F = double>
 struct Noise {
   static constexpr const char* type = "noise";
