@@ -8,32 +8,32 @@ namespace tyndall {
 
 inline constexpr int bvh_width = 8;
 inline constexpr int bvh_most_primitives = 1 << 24;
-inline constexpr int bvh_stack = 640;  ///< open nodes that a traversal can have: (48 + 24 + 2) levels of 7, and room
+inline constexpr int bvh_stack = 640;  ///< more nodes than can wait in a traversal: 7 in each of 48 + 24 + 2 levels
 
-/// Children's boxes by component, so that one ray can be tested against all, or one box against many rays. From the
-/// start of each row of eight 16 values can be read: the node goes on behind the last.
+/// The children's boxes, component by component: one ray can be tested against all of them, or many rays against one.
+/// A load of 16 values from the start of a row of 8 stays within the node, as other members follow.
 struct alignas(64) BvhNode {
   float low[3][bvh_width], high[3][bvh_width];
   std::int32_t child[bvh_width];  ///< >= 0: node; < 0: leaf ~child
   std::int32_t count;             ///< children; the rest of the columns is 0
 };
 
-/// Slots first … first + count - 1 of one kind.
+/// Primitives first … first + count - 1 of the columns of one kind.
 struct BvhLeaf {
   std::int32_t first = 0;
   std::int16_t count = 0;
   PrimitiveKind kind = PrimitiveKind::sphere;
 };
 
-/// A tree of axis-parallel boxes over primitives. Boxes of children lie within their parent's, exactly, in float; the
-/// traversal relies on that.
+/// A tree of axis-parallel boxes over primitives. The boxes of children lie within that of their parent, exactly, also
+/// in float; the traversal relies on that.
 struct Bvh {
   std::vector<BvhNode> nodes;  ///< node 0 is the root; never empty
   std::vector<BvhLeaf> leaves;
-  std::vector<std::int32_t>
-      order;                    ///< order[k]: input whose place in its kind's slots is k-th of that kind, in tree order
-  std::vector<BvhInput> input;  ///< what it was built from: equal input, equal tree
-  int depth = 0;                ///< of the deepest node, root 1: bounds the traversal's stack
+  std::vector<std::int32_t> order;  ///< the inputs in the order of the tree's leaves; the columns of each kind of
+                                    ///< primitive (RenderScene) are filled in this order
+  std::vector<BvhInput> input;      ///< what it was built from: equal input, equal tree
+  int depth = 0;                    ///< of the deepest node, root 1: bounds the traversal's stack
 };
 
 /// Builds with the surface area heuristic (J. MacDonald, K. Booth, Heuristics for Ray Tracing Using Space Subdivision,

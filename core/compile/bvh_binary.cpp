@@ -14,8 +14,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Bounds nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 constexpr int bins = 16;
 constexpr int most_in_leaf = 8;
-constexpr float traversal_cost = 4.0f;  // of a binary step, in primitives' tests: measured, flat from 3 to 6
-constexpr int deepest_heuristic = 48;   // below this depth ranges are halved, which bounds the traversal's stack
+constexpr float traversal_cost = 4.0f;  // of a node, in tests of a primitive; measured, 3 to 6 are as good
+constexpr int deepest_heuristic = 48;   // deeper, ranges are halved, to bound the traversal's stack
 
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -49,14 +49,14 @@ class Builder {
 
   const BvhInput& at(int k) const { return input_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]; }
 
-  /// The subtree over a range, root first, then the left and the right half's; halves of large ranges side by side.
+  /// The subtree over a range: its root, then the left and the right half. Halves of large ranges are built at once.
   std::vector<BinaryNode> build(Range range) {
     constexpr int least_for_thread = 1 << 13, deepest_thread = 4;
     if (range.end - range.begin < least_for_thread || range.depth >= deepest_thread) return build_alone(range);
     const Split at = split(range);
     std::vector<BinaryNode> nodes{at.node};
     if (at.middle < 0) return nodes;
-    // Without a policy: where no thread is to be had it runs here, later.
+    // No launch policy: if the system has no further thread, the job runs here when its result is asked for.
     auto right = std::async([this, range, at] { return build({at.middle, range.end, range.depth + 1}); });
     nodes[0].left = 1;
     append(nodes, build({range.begin, at.middle, range.depth + 1}));
@@ -73,7 +73,7 @@ class Builder {
     }
   }
 
-  /// Without recursion: a degenerate scene must not exhaust the stack.
+  /// Without recursion, because a degenerate scene could be so deep that the stack overflows.
   std::vector<BinaryNode> build_alone(Range whole) {
     struct Task {
       Range range;
@@ -98,7 +98,7 @@ class Builder {
     return nodes;
   }
 
-  /// A range's node, and where it is split: -1 for a leaf.
+  /// The node of a range, and where the range is split; -1: it becomes a leaf.
   struct Split {
     BinaryNode node;
     int middle;
@@ -139,7 +139,7 @@ class Builder {
     return static_cast<int>(middle - order_.begin());
   }
 
-  /// All centroids are the same: by kind first, then in the middle of the list.
+  /// For primitives whose centroids are all the same: separates kinds first, then splits in the middle of the list.
   int split_equals(int begin, int end) {
     const auto from = order_.begin() + begin, to = order_.begin() + end;
     const PrimitiveKind kind = at(begin).kind;

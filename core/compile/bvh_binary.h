@@ -3,13 +3,13 @@
 
 #include <vector>
 
-/// The binary tree that build_bvh widens.
+/// The binary tree from which build_bvh makes one of up to eight children a node.
 namespace tyndall {
 
 struct BinaryNode {
   Bounds bounds;
-  int left = -1, right = -1;  ///< children, or
-  int first = 0, count = 0;   ///< a leaf's range in the order
+  int left = -1, right = -1;  ///< children; -1 in a leaf
+  int first = 0, count = 0;   ///< of a leaf: its range in the tree's order
 };
 
 struct BinaryTree {
@@ -20,7 +20,8 @@ struct BinaryTree {
 /// Half of the surface of a box; 0 for one that holds nothing.
 float half_area(const Bounds& b);
 
-/// Splits by the surface area heuristic over bins; large subtrees are built side by side. A pure function of the input.
+/// Splits by the surface area heuristic over bins. Large subtrees are built by several threads, which does not change
+/// the result: it is a pure function of the input.
 BinaryTree build_binary_tree(const std::vector<BvhInput>& input);
 
 }  // namespace tyndall

@@ -39,7 +39,7 @@ void fill(TextureColumns& out, const Checker<>& checker, Vec3d origin) {
 }
 
 void fill(TextureColumns& out, const Noise<>& noise, Vec3d origin) {
-  const double scale = noise.style == Noise<>::Style::marble ? 1 : noise.scale;  // marble's scale is its veins' alone
+  const double scale = noise.style == Noise<>::Style::marble ? 1 : noise.scale;  // of marble it sets the veins only
   out.style = noise.style;
   out.scale = static_cast<float>(scale);
   out.offset = to_float(modulo(scale * origin, 256));

@@ -10,13 +10,13 @@ inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<fl
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);
-/// `before`: linear texels of the same picture are shared with it.
+/// before: the textures of the scene before. Images that are in both share their linear texels.
 std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin,
                                             const std::vector<TextureColumns>& before);
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
 std::shared_ptr<const std::vector<float>> gradient_table();
 
-/// A quad or box as an affine map (see Affine), and a box's face as u and v of a point.
+/// A quad or box as an affine map (see Affine).
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin);
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin);
 
@@ -26,7 +26,8 @@ struct BoxFace {
 };
 BoxFace box_face_edges(const Box<>& box, std::int32_t face);
 
-/// Appends an element per sphere, quad and box face.
+/// Appends an element for each sphere, quad or box face. uv, motion: whether the columns that only image textures, or
+/// only moving spheres, need are filled.
 void append_elements(const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& elements);
 
 }  // namespace tyndall

@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int most_by_brute_force = 16;   // primitives; beyond, the tree is faster
+constexpr int most_by_brute_force = 16;   // primitives; for more the tree is faster
 constexpr double bounds_slack = 0x1p-20;  // relative, per side: covers the rounding of slab tests and primitives' tests
 
 double median(std::vector<double> values) {
@@ -31,8 +31,8 @@ Vec3d median_center(const Flattened& flat, const Camera& camera) {
   return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
 }
 
-/// By a share of the largest coordinate, on all axes: a tilted flat that is far away on one axis is met with that
-/// axis's rounding on the others.
+/// Widens bounds on all axes by a share of their largest coordinate. A hit on a tilted surface that is far away on one
+/// axis has the rounding errors of that axis on the others too.
 Bounds widen(Vec3d low, Vec3d high) {
   const double reach = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});  // >= every |coordinate|
   const double slack = bounds_slack * reach;
@@ -82,7 +82,8 @@ struct SlotFiller {
   }
 };
 
-/// The tree (kept from before if the geometry is equal) or none, and the order of the slots.
+/// Makes the tree, if there are enough primitives for one, and returns the order in which primitives fill the columns.
+/// The tree of `before` is kept if the geometry is equal.
 std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
                                       RenderScene& out) {
   std::vector<std::int32_t> order(flat.shapes.size());
@@ -123,7 +124,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
       m.center = to_float(place(volume.placement, sphere.center) - out.origin);
       m.radius = static_cast<float>(sphere.radius);
     }
-    // A boundary without a surface gets numbers beyond the elements': rays can start within it all the same.
+    // A boundary that is no surface has element numbers of its own, behind all others: rays can start within it too.
     m.first = volume.surface ? first_element[static_cast<std::size_t>(*volume.surface)]
                              : out.elements.count() + 6 * static_cast<std::int32_t>(out.media.size());
     m.density = static_cast<float>(volume.medium.density);

@@ -2,11 +2,12 @@
 #include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
+/// From the scene that users write to the arrays of floats that kernels read.
 namespace tyndall {
 
-/// Flattens a checked scene for the kernels: composes transforms in double, moves the origin, rounds last.
-/// `before`: an earlier result for a similar scene; what is equal in it (the tree) is kept.
-/// The result is a pure function of the scene.
+/// Flattens a checked scene for the kernels: composes transforms in double, moves the origin into the middle of the
+/// shapes and rounds to float last. before: the result for an earlier scene, or null. What is equal in both scenes, for
+/// example the tree or the texels of images, is taken from there to save time. The result depends on `scene` alone.
 RenderScene compile(const Scene& scene, const RenderScene* before = nullptr);
 
 /// Approximate bytes held by the compiled scene.

@@ -10,7 +10,8 @@ void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
   map.offset[i] = static_cast<float>(-dot(row, zero_at));
 }
 
-/// Coordinates a and b of corner + a u + b v: dot products with the reciprocal edges.
+/// Writes a and b of a point corner + a u + b v as affine functions of the point: dot products with the reciprocal
+/// edges.
 struct Reciprocal {
   Vec3d a, b;
 };

@@ -19,7 +19,7 @@ struct CosSin {
   double cos, sin;
 };
 
-/// Exact for quarter turns.
+/// Multiples of 90 degrees are exact.
 CosSin cos_sin(double degrees) {
   const double turn = std::fmod(degrees, 360.0);
   if (std::fmod(turn, 90.0) == 0) {
@@ -50,7 +50,7 @@ void flatten_list(const std::vector<Object>& objects, const Placement& outer, st
   }
 }
 
-/// The numbers of a shape and its placement as bits: equal for equal ones.
+/// A hash of a shape and its placement: equal shapes have equal hashes.
 std::uint64_t hash_of(const PlacedShape& placed) {
   std::uint64_t hash = placed.shape.index();
   const auto add = [&hash](double number) {  // -0 as +0; the multiplier is that of D. Knuth's MMIX generator
@@ -76,8 +76,8 @@ std::uint64_t hash_of(const PlacedShape& placed) {
   return hash;
 }
 
-/// Leaves out exact copies of earlier shapes. Of surfaces in one place the first is met; a ray that leaves it must not
-/// meet the others by the rounding of its start.
+/// Leaves out exact copies of earlier shapes. Where surfaces coincide, rays meet the first; a ray that leaves it could
+/// otherwise meet a copy, because its start is rounded.
 void drop_copies(std::vector<PlacedShape>& shapes) {
   std::vector<std::pair<std::uint64_t, std::size_t>> keys;
   for (std::size_t i = 0; i < shapes.size(); ++i) keys.push_back({hash_of(shapes[i]), i});

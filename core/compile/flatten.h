@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-/// The first half of compiling: groups and transforms are resolved, in double, in world space.
+/// The first half of compiling: resolves groups and transforms. All is in double and in world space.
 namespace tyndall {
 
 /// A rotation about the y axis by `degrees`, then a translation.
@@ -15,7 +15,7 @@ struct Placement {
   bool operator==(const Placement&) const = default;
 };
 
-/// `outer` after `inner`.
+/// The placement that first does `inner`, then `outer`.
 Placement compose(const Placement& outer, const Placement& inner);
 Placement placement_of(const Transform& list);
 Vec3d turn(const Placement& p, Vec3d v);   ///< a direction
@@ -33,7 +33,7 @@ struct PlacedVolume {
   Placement placement;
   Medium<> medium;
   ColourOrTexture albedo;
-  std::optional<int> surface;  ///< the placed shape that the boundary equals exactly: the medium is its interior
+  std::optional<int> surface;  ///< the shape that equals the boundary exactly, if any: the medium is its interior
 };
 
 struct Flattened {
@@ -47,7 +47,8 @@ Flattened flatten(const Scene& scene);
 Vec3d center_of(const PlacedShape& shape);
 Vec3d center_of(const PlacedVolume& volume);
 
-/// What holds a shape over the whole shutter: the hull of these points, world space, grown by `radius`.
+/// The space that a shape fills while the shutter is open: the convex hull of these points (world space), grown by
+/// `radius` on all sides.
 struct Extent {
   std::vector<Vec3d> points;
   double radius = 0;

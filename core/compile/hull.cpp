@@ -7,7 +7,7 @@
 namespace tyndall {
 namespace {
 
-/// How far something reaches below and above a plane.
+/// How far something reaches below (<= 0) and above (>= 0) a plane.
 struct Reach {
   double low = 0, high = 0;
 };

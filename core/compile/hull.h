@@ -3,11 +3,12 @@
 
 #include <cstddef>
 
+/// Which walls cannot cast a shadow into the scene.
 namespace tyndall {
 
-/// Whether a placed shape is a quad that bounds the scene: all shapes and media, over the whole shutter, lie on one
-/// side of its plane, but for rounding (1e-7 of the scene's reach). Then it hides nothing that is within the scene from
-/// anything else within it, and no shadow ray needs to ask.
+/// Whether a placed shape is a quad that bounds the scene: all shapes and media stay on one side of its plane while the
+/// shutter is open (up to rounding: 1e-7 of the scene's extent). Such a wall of a room never stands between two points
+/// of the scene, so shadow rays need not be tested against it.
 bool bounds_scene(const Flattened& flat, std::size_t shape, const Camera& camera);
 
 }  // namespace tyndall

@@ -2,10 +2,11 @@
 #include "core/compile/flatten.h"
 #include "core/compile/render_scene.h"
 
+/// The lights that integrators sample.
 namespace tyndall {
 
-/// Collects the emitting primitives of a scene. first_element: of each shape. Lights without power are left out: they
-/// are ordinary, black surfaces. Fills elements.light too.
+/// Collects the emitting primitives of a scene and enters them into elements.light. first_element: for each shape of
+/// `flat` the number of its first element. Lights of power 0 are left out: rays meet them as black surfaces.
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
                       Vec3d origin, Elements& elements);
 

@@ -7,13 +7,13 @@
 namespace tyndall {
 namespace {
 
-constexpr float nearness = 1.5f;      // distance from the medium's centre in half widths
-constexpr float smallness = 0.1f;     // the light's reach
-constexpr float most_free_paths = 4;  // in a half width
+constexpr float nearness = 1.5f;      // of the light from the medium's centre, in half widths
+constexpr float smallness = 0.1f;     // radius of the light over the half width or the distance to the camera
+constexpr float most_free_paths = 4;  // in a half width of the medium
 
 struct Place {
-  float outside;     // how far out of the medium's centre, in half widths
-  float half_width;  // the least
+  float outside;     // distance from the medium's centre, in half widths
+  float half_width;  // the smallest of the three axes
 };
 
 Place place_of(const MediumColumns& m, Vec3f point) {

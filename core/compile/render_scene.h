@@ -14,7 +14,7 @@
 /// What kernels read: flat float arrays, made from a Scene by compile(). Positions are relative to `origin`.
 namespace tyndall {
 
-/// Which models a scene contains. A kernel is chosen by them; what is left out changes no bit of the picture.
+/// Which models a scene contains. The kernel is chosen by them; what it leaves out changes no bit of the picture.
 struct Needs {
   bool spheres = false, moving_spheres = false, quads = false, boxes = false;
   bool media = false, phase_functions = false;  ///< phase_functions: some medium has g != 0
@@ -41,7 +41,7 @@ struct BackgroundColumns {
   Vec3f a, b;  ///< constant: a; gradient: bottom, top; hemispheres: up, down
 };
 
-/// Primitives of one kind, in slots that follow the tree. `element` is a primitive's first element: what a hit names.
+/// Primitives of one kind, in the order of the tree's leaves. `element`: a primitive's first element, named by hits.
 struct Spheres {
   std::vector<float> x, y, z, radius;         ///< radius > 0
   std::vector<float> move_x, move_y, move_z;  ///< only for moving spheres: way from time 0 to 1
@@ -50,7 +50,7 @@ struct Spheres {
 struct Flats {
   std::vector<Affine> map;
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
-  int bounding = 0;                   ///< so many of the last are quads that bound the scene and hide nothing in it
+  int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (hull.h)
 };
 
 /// Per element: a sphere, a quad, or a face of a box.
@@ -108,7 +108,7 @@ struct Lights {
   std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
   std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
   std::vector<float> area;
-  std::vector<float> center[3];  ///< for choosing
+  std::vector<float> center[3];  ///< a point in the middle, for choosing a light
   std::vector<float> power;      ///< area times the largest component of the radiance
   std::vector<float> reach2;     ///< squared radius of a ball around center that holds the light
   /// Choice by power alone, for many lights: Vose's alias table.
@@ -118,14 +118,14 @@ struct Lights {
 };
 inline constexpr int most_lights_by_contribution = 16;
 
-/// Pairs of a medium and a lamp that sits in it or close to it, and is small against it: light scatters without bound
-/// there, and integrator mis looks for it.
+/// Pairs of a medium and a small lamp in it or close to it. The light that scatters next to such a lamp has no upper
+/// bound (inverse square), so integrator mis samples distances with regard to the lamp (core/kernel/equiangular.h).
 struct NearLamps {
   std::vector<std::int32_t> medium, light;
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
-/// The kernels there are, by the models that they leave out. What is left out changes no bit of a picture without it.
+/// The variants of the kernels, by what they leave out. A scene that lacks it gives the same picture, to the last bit.
 enum class KernelSet { everything, no_lamps_in_fog, no_fog_nor_textures };
 inline constexpr int kernel_sets = 3;
 const char* name_of(KernelSet set);
