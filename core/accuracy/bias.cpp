@@ -43,7 +43,8 @@ BlockScores block_scores(const Film& a, const Film& b, int edge) {
     }
   if (scores.blocks == 0) return scores;
   scores.mean_square = squares / scores.blocks;
-  // The errors themselves are estimates from 2 edge² numbers: Student's t.
+  // The standard errors are themselves estimated, from 2 edge² numbers: z follows Student's t distribution, whose
+  // variance is freedom / (freedom - 2).
   const double freedom = 2.0 * edge * edge;
   scores.most = freedom / (freedom - 2) + 4 * std::sqrt(2.0 / scores.blocks);
   return scores;

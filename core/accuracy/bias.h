@@ -1,21 +1,22 @@
 #pragma once
 #include "core/film/film.h"
 
+/// Tests whether two ways of rendering agree in the mean.
 namespace tyndall {
 
-/// Whether two pictures differ by more than their noise, block by block: a bias too small for any pixel shows in the
-/// mean of many. z of a block is the difference of its mean grey values over the standard error that both films' halves
-/// tell.
+/// Whether two pictures differ by more than their noise. They are compared block by block, because a bias that is too
+/// small to be seen in one pixel shows in the mean of many. z of a block: the difference between the mean grey values,
+/// divided by its standard error, which follows from the halves of both films.
 struct BlockScores {
-  int blocks = 0;          ///< with any noise
-  double mean_square = 0;  ///< of z; about 1 if the difference is noise
-  double most = 0;         ///< mean square up to which it may be noise: 4 standard deviations
+  int blocks = 0;          ///< that were compared; blocks that are equal and without noise are not
+  double mean_square = 0;  ///< of z; about 1 if the pictures differ by noise alone
+  double most = 0;         ///< largest mean_square that noise explains: 4 standard deviations above its expected value
   double worst = 0;        ///< largest |z|; infinite if a block without noise differs
   bool noise() const { return mean_square <= most && worst < 1e300; }
 };
 
-/// Both films of the same region, with samples in both halves of every pixel; `edge`: of a block in pixels. No blocks
-/// where that does not hold.
+/// Both films must have the same region, and samples in both halves of every pixel; otherwise there are no blocks.
+/// edge: of a block, in pixels.
 BlockScores block_scores(const Film& a, const Film& b, int edge = 8);
 
 }  // namespace tyndall

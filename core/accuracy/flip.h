@@ -3,8 +3,8 @@
 
 namespace tyndall {
 
-/// Difference that an eye sees when it flips between two pictures: one number a pixel, top row first, in [0, 1]; 0
-/// where both look the same. The formula is symmetric: swapping image and reference changes no bit.
+/// The difference that an eye sees when two pictures are shown in turn: one number for each pixel, top row first, in
+/// [0, 1]; 0 where both look the same. The formula is symmetric: swapping image and reference changes no bit.
 /// Both are linear Rec.709, 3 floats a pixel, and are looked at as sRGB clipped to [0, 1]; what is not a number counts
 /// as black. 67 pixels a degree: a screen of 0.7 m with 3840 pixels seen from 0.7 m.
 /// Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, FLIP: A Difference Evaluator for Alternating

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Images in memory, and what goes with them into files.
+/// Images in memory, and what is written into files beside them.
 namespace tyndall {
 
 /// An image file that cannot be read or written. One line: "FILE: why".
@@ -18,7 +18,7 @@ struct LinearImage {
   std::vector<float> rgb;
 };
 
-/// A further picture of the same size for EXR: "albedo" (R, G, B), "normal" (X, Y, Z), "depth" (Z).
+/// A further picture of the same size for EXR, for example "albedo" (R, G, B), "normal" (X, Y, Z) or "depth" (Z).
 struct Layer {
   std::string name;
   std::vector<std::string> channels;

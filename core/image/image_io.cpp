@@ -33,7 +33,7 @@ LinearImage read_image(const std::filesystem::path& file) {
 }
 
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file) {
-  // A pipe may hold a scene and can be read only once.
+  // Pipes are left alone: what is read from one here could not be read as a scene afterwards.
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return {};
   const ImageKind kind = image_kind(read_bytes(file, 16));

@@ -20,7 +20,7 @@ Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::ui
   if (kind == ImageKind::pfm || kind == ImageKind::hdr || kind == ImageKind::exr) {
     cannot_read(file, "found floating-point pixels, expected 8-bit ones (PNG, JPEG, BMP, TGA)");
   }
-  // stb calls a PNG that is too large one of unknown type: look at its header here.
+  // For a PNG that is too large, stb only says "unknown image type": its header is checked here first.
   if (kind == ImageKind::png && bytes.size() >= 24) {
     check_readable(file, get_u32(bytes.subspan(16)), get_u32(bytes.subspan(20)));
   }

@@ -44,7 +44,8 @@ std::vector<FilmChannel> film_channels() {
 
 namespace {
 
-/// OpenEXR's door to a file. It drops errors when it finishes a file, so the first one is kept.
+/// The file as OpenEXR sees it. OpenEXR ignores errors while it finishes a file, so the first one is kept here and
+/// thrown by rethrow().
 class Stream : public Imf::OStream {
  public:
   Stream(WholeFile& out, const std::string& name) : OStream(name.c_str()), out_(out) {}
@@ -81,7 +82,7 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1}), data({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
   Imf::Header header(display, data);
   header.compression() = Imf::ZIP_COMPRESSION;
-  header.zipCompressionLevel() = 1;  // half of the film is noise that no level makes smaller
+  header.zipCompressionLevel() = 1;  // higher levels take longer and save nothing: half of the bits are noise
   header.insert(exr_name::width, Imf::IntAttribute(film.width));
   header.insert(exr_name::height, Imf::IntAttribute(film.height));
   header.insert(exr_name::first_sample, Imf::DoubleAttribute(film.first_sample));
@@ -94,7 +95,7 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   return header;
 }
 
-/// Adds channels to header and frame buffer: they are written from where they lie in memory.
+/// Adds channels to the header and the frame buffer. The values are written from where they are: keep them until then.
 struct Picture {
   Imf::Header header;
   Imf::FrameBuffer buffer;

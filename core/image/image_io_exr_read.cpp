@@ -20,7 +20,7 @@ namespace tyndall {
 
 namespace {
 
-/// Runs `read` on an open EXR and names the file in whatever goes wrong.
+/// Runs `read` on the opened EXR. Whatever goes wrong becomes an ImageFileError that names the file.
 template <class Read>
 auto with_exr(const std::filesystem::path& file, Read read) {
   try {
@@ -35,7 +35,7 @@ auto with_exr(const std::filesystem::path& file, Read read) {
   }
 }
 
-/// Channels to read, and where to put them.
+/// The channels to read, and where their values go.
 struct Target {
   Imf::FrameBuffer buffer;
   Imath::Box2i window;
@@ -92,7 +92,7 @@ ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Heade
   return sum;
 }
 
-/// The film's frame, without pixels.
+/// The film's size, region and settings, without pixels.
 Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
   const Imath::Box2i window = header.dataWindow();
   const auto [region_width, region_height] = size_of(file, window);
@@ -117,7 +117,8 @@ Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
   return film;
 }
 
-/// Refuses counts that contradict each other: they would wrap around.
+/// Refuses counts that contradict each other, for example more rejected samples than there are: differences would
+/// wrap around.
 void check_counts(const std::filesystem::path& file, const Film& film) {
   for (FilmPixel pixel : film.pixels) {
     const std::uint32_t rejected[2] = {pixel.rejected[0], pixel.rejected[1]};

@@ -15,7 +15,7 @@ namespace {
 
 std::string error_text(int number) { return std::generic_category().message(number); }
 
-/// Closes at the end of a scope; for reading, where closing cannot fail.
+/// Closes a file that was read at the end of a scope. (After writing, errors of closing would have to be told.)
 struct Closer {
   void operator()(std::FILE* stream) const { std::fclose(stream); }
 };
@@ -66,13 +66,13 @@ WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), target_(f
   }
   const std::filesystem::file_status status = std::filesystem::status(target_, error);
   if (std::filesystem::is_directory(status)) cannot_write(file_, error_text(EISDIR));
-  // Renaming would replace a device by a file.
+  // Not renamed: that would replace a device, such as /dev/null, by a file.
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     cannot_write(file_, "not an ordinary file");
   }
   temporary_ = target_;
   temporary_ += ".tmp-" + std::to_string(getpid());
-  std::filesystem::remove(temporary_, error);  // of a process that was killed
+  std::filesystem::remove(temporary_, error);  // one that a killed process has left
   stream_ = std::fopen(temporary_.c_str(), "wbx");
   if (stream_ == nullptr) cannot_write(file_, error_text(errno));
 }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-/// What the readers and writers of image files share.
+/// What the readers and writers of image files share: whole files, kinds of files, limits and errors.
 namespace tyndall {
 
 /// Images of more pixels are neither read nor written.
@@ -40,7 +40,7 @@ class WholeFile {
   std::FILE* stream_ = nullptr;
 };
 
-/// The longest file that is read into memory: what stb can take.
+/// The longest file that is read into memory: stb counts bytes in an int.
 inline constexpr std::size_t max_file_size = 0x7fffffff;
 /// The first `limit` bytes of a file, or all if it is shorter.
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::size_t limit);
@@ -48,7 +48,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::siz
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file);
 
 enum class ImageKind { unknown, png, jpeg, pfm, hdr, exr };
-/// From the first bytes of a file.
+/// The kind that the first bytes of a file tell.
 ImageKind image_kind(std::span<const std::uint8_t> start);
 
 // Readers by kind, from a file's bytes.
@@ -57,7 +57,7 @@ LinearImage read_hdr(const std::filesystem::path& file, std::span<const std::uin
 LinearImage read_exr(const std::filesystem::path& file);
 Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-/// The number at the start of these 4 bytes or more, highest byte first.
+/// The number in the first 4 of these bytes, highest byte first.
 std::uint32_t get_u32(std::span<const std::uint8_t> from);
 /// The text with that keyword in a PNG's iTXt chunks.
 std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float largest_rgbe = 0x1.fcp126f;  // the largest that rounding keeps within the exponent byte
 
-/// The nearest that can be held: nothing negative, nothing infinite; not a number gives 0.
+/// The nearest value that RGBE can hold: 0 for negative values and what is not a number, the largest for infinity.
 float in_range(float value) { return value > 0 ? std::min(value, largest_rgbe) : 0.0f; }
 
 /// A pixel's channels share the exponent of the largest, with 8 bits each. The encoder cuts the rest off, which would
@@ -51,7 +51,7 @@ namespace {
   cannot_read(file, std::string("damaged: ") + what);
 }
 
-/// The bytes after the header. The header: lines, an empty one, and the size.
+/// Skips the header (lines of text, an empty line, and a line with the size) and returns the bytes after it.
 /// G. Ward: Radiance, File Formats (picture files).
 struct HdrReader {
   const std::filesystem::path& file;

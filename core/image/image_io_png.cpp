@@ -51,7 +51,7 @@ void put_chunk(Bytes& to, std::string_view type, std::string_view data) {
 void put_text(Bytes& to, std::string_view keyword, const std::string& text) {
   if (text.empty()) return;
   std::string data(keyword);
-  data.append(5, '\0');  // ends the keyword; compression flag and method; empty language and translated keyword
+  data.append(5, '\0');  // end of the keyword, compression flag and method, empty language and translated keyword
   put_chunk(to, "iTXt", data + text);
 }
 
@@ -88,7 +88,7 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
 
 namespace {
 
-/// The text of an iTXt chunk's data if it has that keyword.
+/// The text in the data of an iTXt chunk, if the chunk has that keyword.
 std::optional<std::string> text_of(const std::filesystem::path& file, std::string_view data,
                                    const std::string& keyword) {
   if (!data.starts_with(keyword + '\0')) return {};
@@ -96,7 +96,7 @@ std::optional<std::string> text_of(const std::filesystem::path& file, std::strin
   if (data.size() < 2) cannot_read(file, "damaged: the chunk iTXt is cut off");
   if (data[0] != 0) cannot_read(file, "the text " + keyword + " is compressed: another program has rewritten the file");
   data.remove_prefix(2);
-  for (int i = 0; i < 2; ++i) {  // language, translated keyword
+  for (int i = 0; i < 2; ++i) {  // skips the language and the translated keyword
     const std::size_t end = data.find('\0');
     if (end == data.npos) cannot_read(file, "damaged: the chunk iTXt is cut off");
     data.remove_prefix(end + 1);

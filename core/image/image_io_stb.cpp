@@ -1,5 +1,6 @@
-// The one place where stb's functions are compiled. Only the formats that textures and references come in: fewer
-// decoders see hostile files. Its decoder of HDR is left out because it never ends on a file that is cut off.
+// The only file that compiles stb's functions. Only the formats that textures and references have are compiled in,
+// because each further decoder is one more way in for a hostile file. stb's HDR decoder is left out because it loops
+// forever on a file that is cut off.
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"

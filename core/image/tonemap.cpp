@@ -17,7 +17,8 @@ float srgb_decode(float encoded) {
 
 namespace {
 
-/// In [0, 1]. The fit is 1 from x = 7.25 on, so that the cut at 10 only keeps infinity away from a division.
+/// The curve's value in [0, 1]. The fit is 1 from x = 7.25 on; x is cut at 10 only so that infinity is not divided by
+/// infinity.
 float aces(float x) {
   const float v = std::min(x, 10.0f);
   return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-/// Linear light to a picture for the eye.
+/// Turns linear light into the 8-bit values of a screen.
 namespace tyndall {
 
 enum class ToneCurve { srgb, aces };
