@@ -34,13 +34,7 @@ void make_small(Scene& scene) {
 ChartMethod method_of(const MethodRequest& request, const Scene& scene) {
   ChartMethod method{request.name, scene.render, request.isa};
   find_kernels(request.isa);
-  RenderSettings& s = method.settings;
-  s.integrator = request.scene.integrator.value_or(s.integrator);
-  s.sampler = request.scene.sampler.value_or(s.sampler);
-  s.fresnel = request.scene.fresnel.value_or(s.fresnel);
-  s.max_depth = request.scene.max_depth.value_or(s.max_depth);
-  s.seed = request.scene.seed.value_or(s.seed);
-  s.adaptive = s.adaptive || request.scene.adaptive;
+  apply(request.scene.render, method.settings);
   return method;
 }
 

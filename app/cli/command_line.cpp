@@ -92,6 +92,11 @@ void CommandLine::flag(const std::string& names, const std::string& help, bool& 
   state_->app.add_flag(names, on, help)->group(state_->group)->take_last();
 }
 
+void CommandLine::flag(const std::string& names, const std::string& help, std::function<void()> switch_on) {
+  const auto given = [switch_on](std::int64_t) { switch_on(); };
+  state_->app.add_flag_function(names, given, help)->group(state_->group)->take_last();
+}
+
 void CommandLine::argument(const std::string& name, const std::string& help, std::string& text) {
   state_->app.add_option(name, text, help)->option_text(" ");
 }

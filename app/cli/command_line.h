@@ -9,6 +9,9 @@
 
 namespace tyndall {
 
+/// Columns that the help of an option has beside its name.
+inline constexpr std::size_t help_width = 66;
+
 /// The options and arguments of one command. Values arrive as text and are read by functions that throw UsageError, so
 /// that every refusal reads alike: "--size: found '8', expected WIDTHxHEIGHT ...".
 class CommandLine {
@@ -29,6 +32,7 @@ class CommandLine {
   /// The same; may be given several times, each time with one value.
   void values(const std::string& names, const std::string& unit, const std::string& help, Reader read);
   void flag(const std::string& names, const std::string& help, bool& on);
+  void flag(const std::string& names, const std::string& help, std::function<void()> switch_on);
   /// One argument without a dash; stays as it is if it is not given.
   void argument(const std::string& name, const std::string& help, std::string& text);
   void arguments(const std::string& name, const std::string& help, std::vector<std::string>& texts);

@@ -116,7 +116,7 @@ int run(const CompareCommand& command) {
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
   const Comparison comparison = compare(command);
   if (!command.heatmap.empty())
-    write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneCurve::srgb,
+    write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb,
               {});
   write_standard_output(command.json ? json_text(comparison) : table(comparison));
   return passes(command, comparison) ? 0 : 1;

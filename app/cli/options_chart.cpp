@@ -1,5 +1,7 @@
 #include "app/cli/options_render.h"
 
+#include "core/base/crew.h"
+
 #include <sstream>
 
 namespace tyndall {
@@ -16,7 +18,6 @@ MethodRequest read_method(const std::string& text) {
   for (std::string word; stream >> word;) words.push_back(word);
   CommandLine line("--method NAME=FLAGS", "One curve of a chart.", "");
   add_method_options(line, method.scene);
-  add_adaptive(line, method.scene);
   add_isa(line, method.isa);
   if (line.read(words)) throw UsageError("found a question for help, expected flags of a method");
   return method;
@@ -50,7 +51,7 @@ Command read_chart(const std::vector<std::string>& words) {
   line.value("--size", "WxH", "image size in pixels [the scene's, made smaller to 65,536 pixels]",
              [&](const std::string& t) { command.scene.size = read_size(t); });
   line.value("-t,--threads", "N", "worker threads [all cores]",
-             [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, 4096)); });
+             [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, most_threads)); });
   add_progress(line, command.progress);
   line.flag("-q,--quiet", "no progress", quiet);
   if (auto help = line.read(words)) return PrintCommand{*help};

@@ -1,27 +1,17 @@
 #include "app/cli/options_render.h"
 
-#include "core/scene/names.h"
+#include "app/cli/setting_options.h"
+#include "core/base/crew.h"
 
 namespace tyndall {
 namespace {
 
 using Text = const std::string&;
 
-template <class E, std::size_t n>
-E read_named(Text text, const Named<E> (&table)[n]) {
-  const std::vector<std::string_view> names = names_in(table);
-  return table[static_cast<std::size_t>(read_name(text, {names.begin(), names.end()}))].value;
-}
-
 void add_image_options(CommandLine& line, SceneRequest& scene) {
   line.group("Image");
   line.value("--size", "WxH", "image size in pixels [from the scene]", [&](Text t) { scene.size = read_size(t); });
-  line.value("--exposure", "EV",
-             "stops, of PNG and window only: light times 2^EV\n"
-             "[from the scene, else 0]",
-             [&](Text t) { scene.exposure = read_number(t, between(-100, 100), "a number of stops, -100 to 100"); });
-  line.value("--tone-map", "NAME", "of PNG and window only: srgb or aces [from the scene, else srgb]",
-             [&](Text t) { scene.tone_map = read_named(t, tone_maps); });
+  add_settings(line, scene.display);
 }
 
 void add_limits(CommandLine& line, RenderCommand& command) {
@@ -73,36 +63,13 @@ void refuse_conflicts(const RenderCommand& c) {
 
 void add_method_options(CommandLine& line, SceneRequest& scene) {
   line.group("Method");
-  line.value("--integrator", "NAME",
-             "mis: light sampling, weighted; nee: without the weights;\n"
-             "path: no light sampling [from the scene, else mis]",
-             [&](Text t) { scene.integrator = read_named(t, integrators); });
-  line.value("--sampler", "NAME", "sobol (scrambled) or random [from the scene, else sobol]",
-             [&](Text t) { scene.sampler = read_named(t, samplers); });
-  line.value("--fresnel", "NAME",
-             "exact, or schlick: the books' rule, wrong by up to 0.93 inside\n"
-             "glass, for comparison [from the scene, else exact]",
-             [&](Text t) { scene.fresnel = read_named(t, fresnel_rules); });
-  line.value("--max-depth", "N",
-             "longest path in scattering events; 0: lights and background\n"
-             "only [from the scene, else 1000]",
-             [&](Text t) { scene.max_depth = static_cast<int>(read_whole(t, 0, 1'000'000'000)); });
-  line.value("--seed", "N", "of the random numbers [from the scene, else 0]",
-             [&](Text t) { scene.seed = static_cast<std::uint32_t>(read_whole(t, 0, 0xffffffff)); });
-}
-
-void add_adaptive(CommandLine& line, SceneRequest& scene) {
-  line.flag("--adaptive",
-            "more samples where the estimated error is, fewer elsewhere:\n"
-            "--spp is their mean then, never exceeded; not with --samples,\n"
-            "--resume or merge [from the scene, else off]",
-            scene.adaptive);
+  add_settings(line, scene.render, {"spp"});
 }
 
 void add_machine_options(CommandLine& line, int& threads, std::string& isa) {
   line.group("Machine");
   line.value("-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
-             [&](Text t) { threads = static_cast<int>(read_whole(t, 1, 4096)); });
+             [&](Text t) { threads = static_cast<int>(read_whole(t, 1, most_threads)); });
   add_isa(line, isa);
 }
 
@@ -140,7 +107,6 @@ Command read_view(const std::vector<std::string>& words) {
   add_scene(line, command.scene, " [showroom]");
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
-  add_adaptive(line, command.scene);
   add_machine_options(line, command.threads, command.isa);
   line.value("--reference", "FILE", "an image of the same scene and size, to show the true error against",
              [&](Text t) { command.reference = t; });
@@ -167,7 +133,6 @@ Command read_render(const std::vector<std::string>& words) {
   add_limits(line, command);
   add_image_options(line, command.scene);
   add_method_options(line, command.scene);
-  add_adaptive(line, command.scene);
   add_machine_options(line, command.threads, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   line.require(!command.scene.what.empty(), "SCENE");
@@ -194,7 +159,8 @@ Command read_verify(const std::vector<std::string>& words) {
   line.flag("--json", "print JSON", command.json);
   add_progress(line, command.progress);
   line.flag("-q,--quiet", "no progress", quiet);
-  add_method_options(line, command.method);
+  line.group("Method");
+  add_settings(line, command.method.render, {"spp", "adaptive"});
   add_machine_options(line, command.threads, command.isa);
   if (auto help = line.read(words)) return PrintCommand{*help};
   if (quiet) command.progress = ProgressStyle::none;

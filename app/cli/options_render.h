@@ -12,8 +12,6 @@ Command read_chart(const std::vector<std::string>& words);
 
 /// Groups of options that commands share.
 void add_method_options(CommandLine& line, SceneRequest& scene);
-/// --adaptive, for commands whose pictures are looked at: what is measured takes as many samples everywhere.
-void add_adaptive(CommandLine& line, SceneRequest& scene);
 void add_machine_options(CommandLine& line, int& threads, std::string& isa);
 void add_isa(CommandLine& line, std::string& isa);
 void add_progress(CommandLine& line, ProgressStyle& style);

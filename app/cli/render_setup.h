@@ -11,8 +11,7 @@ namespace tyndall {
 Kernels find_kernels(const std::string& isa);
 
 /// Limits, region and threads of a render. spp is always set: where only time or error limit, to most_samples.
-/// Throws UsageError for a region beyond the image and for adaptive sampling of a range or of a film that is resumed,
-/// SceneError for more samples than a film can hold.
+/// Throws UsageError for a region beyond the image and for adaptive sampling of a range or of a film that is resumed.
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded);
 
 /// With --resume, the film in the .exr output if there is that file; else an empty film. Throws UsageError if it is not

@@ -59,7 +59,7 @@ struct VerifyCommand {
 /// One curve of a chart: the scene's own settings and what its flags change.
 struct MethodRequest {
   std::string name;
-  SceneRequest scene;  ///< only its integrator, sampler, Fresnel rule, depth, seed and adaptive
+  SceneRequest scene;  ///< only its render settings
   std::string isa;     ///< "": the best
 };
 

@@ -29,7 +29,7 @@ Scene scene_of(const VerifyCommand& command, const VerifyCase& what) {
   SceneRequest request = command.method;
   request.what = what.scene.string();
   request.overrides = what.overrides;
-  request.seed = seed_of(what.name) + most_rounds * command.method.seed.value_or(0);
+  set(request.render, &RenderSettings::seed, seed_of(what.name) + most_rounds * command.method.render.values.seed);
   return open_scene(request).scene;
 }
 

@@ -1,7 +1,6 @@
 #include "app/cli/verify_report.h"
 
 #include "app/text/progress.h"
-#include "core/scene/names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -66,9 +65,9 @@ nlohmann::ordered_json json_of(const VerifyRow& row) {
   for (const Override& o : row.what.overrides) json["set"][o.pointer] = nlohmann::ordered_json::parse(o.value);
   json["expected"] = row.what.expected;
   json["source"] = row.what.source;
-  json["integrator"] = name_of(integrators, row.method.integrator);
-  json["sampler"] = name_of(samplers, row.method.sampler);
-  json["fresnel"] = name_of(fresnel_rules, row.method.fresnel);
+  json["integrator"] = name_of(row.method.integrator);
+  json["sampler"] = name_of(row.method.sampler);
+  json["fresnel"] = name_of(row.method.fresnel);
   const bool known = row.verdict != Verdict::skipped;
   const auto number = [known](double v) { return known && std::isfinite(v) ? nlohmann::ordered_json(v) : nullptr; };
   json["measured"] = number(row.measured.value.mean);

@@ -1,17 +1,20 @@
 #include "app/curves/convergence.h"
 
-#include "core/scene/names.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace tyndall {
 
 std::string method_of(const RenderSettings& settings) {
-  std::string method =
-      std::string(name_of(integrators, settings.integrator)) + " · " + name_of(samplers, settings.sampler);
-  if (settings.fresnel == FresnelKind::schlick) method += " · schlick";
-  if (settings.adaptive) method += " · adaptive";
+  std::string method = std::string(name_of(settings.integrator)) + " · " + name_of(settings.sampler);
+  const RenderSettings usual{settings.max_depth, settings.spp, settings.integrator, settings.sampler};
+  const auto add = [&]<class T>(const Field<RenderSettings, T>& field) {
+    const T& value = settings.*field.value;
+    if (value == usual.*field.value) return;
+    if constexpr (NamedEnum<T>) method += std::string(" · ") + name_of(value);
+    if constexpr (std::is_same_v<T, bool>) method += std::string(value ? " · " : " · no ") + field.name;
+  };
+  std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
   return method;
 }
 

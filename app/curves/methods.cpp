@@ -14,14 +14,15 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.adaptive = false;
   settings.integrator = Integrator::path;
   settings.sampler = SamplerKind::random;
-  settings.fresnel = needs.dielectric ? FresnelKind::schlick : FresnelKind::exact;
+  settings.fresnel = has_material<Dielectric<>>(needs) ? FresnelKind::schlick : FresnelKind::exact;
   methods.push_back({"the books' method", settings, "scalar"});
   const auto switch_on = [&](const char* name, auto change) {
     change(settings);
     methods.push_back({name, settings, "scalar"});
   };
-  if (needs.dielectric) switch_on("+ exact Fresnel", [](RenderSettings& s) { s.fresnel = FresnelKind::exact; });
-  if (needs.lights) {
+  if (has_material<Dielectric<>>(needs))
+    switch_on("+ exact Fresnel", [](RenderSettings& s) { s.fresnel = FresnelKind::exact; });
+  if (has_material<Light<>>(needs)) {
     switch_on("+ light sampling", [](RenderSettings& s) { s.integrator = Integrator::nee; });
     switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
   }
@@ -32,7 +33,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.adaptive = true;
   methods.push_back({"+ adaptive", settings, ""});
   settings.adaptive = false;
-  if (needs.dielectric) {
+  if (has_material<Dielectric<>>(needs)) {
     settings.fresnel = FresnelKind::schlick;
     methods.push_back({"Schlick", settings, ""});
   }

@@ -17,8 +17,6 @@ std::string ending(const std::filesystem::path& file) {
   return text;
 }
 
-ToneCurve curve(ToneMap map) { return map == ToneMap::aces ? ToneCurve::aces : ToneCurve::srgb; }
-
 }  // namespace
 
 bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
@@ -52,8 +50,7 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
         write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded(file),
                   &picture.image);
       else if (kind == ".png")
-        write_png(file, picture.image, picture.display.exposure, curve(picture.display.tone_map),
-                  picture.embedded(file));
+        write_png(file, picture.image, picture.display.exposure, picture.display.tone_map, picture.embedded(file));
       else if (kind == ".pfm")
         write_pfm(file, picture.image);
       else

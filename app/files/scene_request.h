@@ -2,27 +2,50 @@
 #include "app/text/values.h"
 #include "core/scene/scene.h"
 
-#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 /// Which scene the user wants, and what options change in it.
 namespace tyndall {
+
+/// Settings that options change: their values, and which of them were given. The others stay as the scene has them.
+template <class Settings>
+struct Changes {
+  Settings values;
+  std::set<std::string_view> given;  ///< names of fields
+};
+
+/// Gives one setting, as an option does.
+template <class Settings, class T>
+void set(Changes<Settings>& changes, T Settings::*member, std::type_identity_t<T> value) {
+  changes.values.*member = std::move(value);
+  const auto one = [&]<class U>(const Field<Settings, U>& field) {
+    if constexpr (std::is_same_v<T, U>)
+      if (field.value == member) changes.given.insert(field.name);
+  };
+  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Settings>());
+}
+
+template <class Settings>
+void apply(const Changes<Settings>& changes, Settings& settings) {
+  const auto one = [&](const auto& field) {
+    if (changes.given.contains(field.name)) settings.*field.value = changes.values.*field.value;
+  };
+  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Settings>());
+}
 
 /// A scene, and what options change in it.
 struct SceneRequest {
   std::string what = "showroom";  ///< file, built-in name, image, or "-": standard input
   std::vector<Override> overrides;
   std::optional<Size> size;
-  std::optional<int> max_depth;
-  std::optional<Integrator> integrator;
-  std::optional<SamplerKind> sampler;
-  std::optional<FresnelKind> fresnel;
-  std::optional<double> exposure;
-  std::optional<ToneMap> tone_map;
-  std::optional<std::uint32_t> seed;
-  bool adaptive = false;  ///< switched on; else the scene says
+  Changes<RenderSettings> render;
+  Changes<Display> display;
 };
 
 }  // namespace tyndall

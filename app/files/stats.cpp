@@ -1,7 +1,5 @@
 #include "app/files/stats.h"
 
-#include "core/scene/names.h"
-
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -32,12 +30,22 @@ void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["isa"] = run.result.kernels.isa;
   json["lanes"] = run.result.kernels.lanes;
   json["kernel_features"] = names_of(run.compiled.needs);
-  json["integrator"] = name_of(integrators, settings.integrator);
-  json["sampler"] = name_of(samplers, settings.sampler);
-  json["fresnel"] = name_of(fresnel_rules, settings.fresnel);
+  json["integrator"] = name_of(settings.integrator);
+  json["sampler"] = name_of(settings.sampler);
+  json["fresnel"] = name_of(settings.fresnel);
   json["relative_error_estimate"] = number(run.picture.relative_error);
   json["rejected_samples"] = sum.rejected;
   json["truncated_paths"] = sum.truncated;
+}
+
+/// Choices and switches that no place above has been given: new ones follow each other here.
+void add_choices(Json& json, const RenderSettings& settings) {
+  const auto add = [&]<class T>(const Field<RenderSettings, T>& field) {
+    if (json.contains(field.name)) return;
+    if constexpr (NamedEnum<T>) json[field.name] = name_of(settings.*field.value);
+    if constexpr (std::is_same_v<T, bool>) json[field.name] = settings.*field.value;
+  };
+  std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
 }
 
 /// What came after the first version of the figures, whose order stays.
@@ -49,6 +57,7 @@ void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["least_spp"] = sum.least_taken;
   json["most_spp"] = sum.most_taken;
   json["rare_bright_paths"] = run.rare_bright_paths;
+  add_choices(json, run.settings.render);
 }
 
 }  // namespace

@@ -34,9 +34,13 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }  // namespace
 
 std::int64_t read_whole(const std::string& text, std::int64_t low, std::int64_t high) {
+  return read_whole(text, between(static_cast<double>(low), static_cast<double>(high)),
+                    "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+std::int64_t read_whole(const std::string& text, Valid valid, const std::string& expected) {
   std::int64_t value = 0;
-  if (!read_all(text, value) || value < low || value > high)
-    refuse(text, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  if (!read_all(text, value) || !valid.contains(static_cast<double>(value))) refuse(text, expected);
   return value;
 }
 
@@ -101,6 +105,18 @@ std::size_t read_name(const std::string& text, const std::vector<std::string>& n
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end()) refuse(text, one_of({names.begin(), names.end()}) + suggestion(text, names));
   return static_cast<std::size_t>(found - names.begin());
+}
+
+std::string wrapped(const std::string& text, std::size_t columns) {
+  std::string out;
+  std::size_t used = 0;
+  for (const std::string_view part : split(text, ' ')) {
+    const bool fits = out.empty() || used + 1 + part.size() <= columns;
+    if (!out.empty()) out += fits ? ' ' : '\n';
+    used = fits && !out.empty() ? used + 1 + part.size() : part.size();
+    out += part;
+  }
+  return out;
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {

@@ -2,6 +2,7 @@
 #include "core/base/fields.h"
 #include "core/film/film.h"
 #include "core/scene/json.h"
+#include "core/scene/settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -33,11 +34,10 @@ struct SampleKey {
   std::uint32_t sample = 0;
 };
 
-/// Most samples a pixel that a film can add without losing exactness.
-inline constexpr std::uint32_t most_samples = 1u << 24;
-
 /// A whole number, low <= n <= high.
 std::int64_t read_whole(const std::string& text, std::int64_t low, std::int64_t high);
+/// The same; expected: "a whole number >= 0", ...
+std::int64_t read_whole(const std::string& text, Valid valid, const std::string& expected);
 /// A finite number in a range. expected: "a number > 0", ...
 double read_number(const std::string& text, Valid valid, const std::string& expected);
 /// WIDTHxHEIGHT, both at least 1.
@@ -54,6 +54,9 @@ Override read_override(const std::string& text);
 std::filesystem::path read_file_name(const std::string& text, const std::string& ending);
 /// The place of text in names; a near miss gets a suggestion.
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names);
+
+/// The text in lines of at most that many bytes, broken at spaces; longer words stand alone.
+std::string wrapped(const std::string& text, std::size_t columns);
 
 /// ` (did you mean "X"?)` for a misspelt name, or nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names);

@@ -104,7 +104,7 @@ void MainWindow::select_view(int view) {
   if (view == shown_view_) return;
   shown_view_ = view;
   const ErrorView error = view == error_view ? ErrorView::error : view == flip_view ? ErrorView::flip : ErrorView::none;
-  session_.set_view(view <= cost_view ? static_cast<View>(view) : View::beauty, error);
+  session_.set_view(view < error_view ? static_cast<View>(view) : View::beauty, error);
   pacing_.on_new_start(clock_seconds());
 }
 

@@ -10,6 +10,8 @@
 /// Threads that share work.
 namespace tyndall {
 
+inline constexpr int most_threads = 4096;  ///< that options and the window offer
+
 /// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
 class Crew {
  public:

@@ -1,8 +1,8 @@
 #pragma once
 #include <limits>
 
-/// The list of a struct's editable values. Reading, writing, validation, the sliders and the schema are loops over it,
-/// so a value is described in one place: beside the struct that holds it.
+/// The list of a struct's editable values. Reading, writing, checking, the schema, the window's rows and the options of
+/// the command line are loops over it: a value is described in one place, beside the struct that holds it.
 namespace tyndall {
 
 /// Which numbers are meaningful; anything else is refused, never clamped. For a vector: each component.
@@ -32,21 +32,35 @@ struct Slider {
   double low = 0, high = 1;
   bool logarithmic = false;
 };
+/// For values without a slider. A place in the scene is dragged by the scene's size instead.
+constexpr Slider no_slider() { return {0, 0}; }
+constexpr bool has_slider(const Slider& slider) { return slider.low < slider.high; }
 
-/// One editable value of Owner. T: double, int, Vec3<double>, std::optional<Vec3<double>>, ...
+/// One editable value of Owner. T: double, int, std::uint32_t, bool, Vec3<double>, an enum with words (choice.h), or
+/// std::optional of one of them: what is absent stays at what its comment says.
 template <class Owner, class T>
 struct Field {
-  const char* name;  ///< key in the scene file
+  const char* name;  ///< key in the scene file; options spell it with dashes
   T Owner::*value;
   Valid valid;
   Slider slider;
   const char* unit;  ///< "" for a pure number
   const char* help;  ///< one phrase: what it means physically
-  bool required = false;
+  bool required;     ///< a scene file must give it
+
+  /// A number or a vector.
+  constexpr Field(const char* name_, T Owner::*value_, Valid valid_, Slider slider_, const char* unit_,
+                  const char* help_, bool required_ = false)
+      : name(name_), value(value_), valid(valid_), slider(slider_), unit(unit_), help(help_), required(required_) {}
+  /// A switch or a choice.
+  constexpr Field(const char* name_, T Owner::*value_, const char* help_)
+      : Field(name_, value_, Valid{}, no_slider(), "", help_) {}
 };
-template <class Owner, class T>
-Field(const char*, T Owner::*, Valid, Slider, const char*, const char*) -> Field<Owner, T>;
-template <class Owner, class T>
-Field(const char*, T Owner::*, Valid, Slider, const char*, const char*, bool) -> Field<Owner, T>;
+
+/// The list of T.
+template <class T>
+constexpr auto fields_of() {
+  return fields(static_cast<const T*>(nullptr));
+}
 
 }  // namespace tyndall

@@ -82,7 +82,7 @@ class Widener {
 
   const BinaryTree& tree_;
   Bvh& out_;
-  std::array<std::int32_t, 4> slots_{};
+  std::array<std::int32_t, primitive_kinds> slots_{};
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ struct Bounds {
 
 /// Kinds of primitives in leaves.
 enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box };
+inline constexpr int primitive_kinds = static_cast<int>(PrimitiveKind::box) + 1;
 
 /// A primitive as the builder sees it.
 struct BvhInput {

@@ -1,5 +1,6 @@
 #include "core/compile/columns.h"
 
+#include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/image/tonemap.h"
@@ -76,11 +77,17 @@ CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d 
 }
 
 BackgroundColumns background_columns(const Background& background) {
-  if (const auto* colour = std::get_if<Vec3d>(&background)) return {BackgroundKind::constant, to_float(*colour), {}};
-  if (const auto* g = std::get_if<Gradient>(&background))
-    return {BackgroundKind::gradient, to_float(g->bottom), to_float(g->top)};
-  const auto& h = std::get<Hemispheres>(background);
-  return {BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
+  using Columns = BackgroundColumns;
+  return std::visit(Overloaded{[](const Vec3d& colour) {
+                                 return Columns{BackgroundKind::constant, to_float(colour), {}};
+                               },
+                               [](const Gradient& g) {
+                                 return Columns{BackgroundKind::gradient, to_float(g.bottom), to_float(g.top)};
+                               },
+                               [](const Hemispheres& h) {
+                                 return Columns{BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
+                               }},
+                    background);
 }
 
 Materials material_columns(const std::vector<Material>& materials) {
@@ -88,7 +95,7 @@ Materials material_columns(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     out.kind.push_back(static_cast<std::int32_t>(material.kind.index()));
     const auto* texture = std::get_if<TextureIndex>(&material.colour);
-    const bool coloured = std::visit([](const auto& m) { return m.colour_name != nullptr; }, material.kind);
+    const bool coloured = colour_name(material.kind) != nullptr;
     const Vec3f colour = coloured && !texture ? to_float(std::get<Vec3d>(material.colour)) : Vec3f{1, 1, 1};
     out.red.push_back(colour.x);
     out.green.push_back(colour.y);

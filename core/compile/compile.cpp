@@ -4,6 +4,7 @@
 #include "core/compile/hull.h"
 #include "core/compile/lights.h"
 #include "core/compile/near_lamps.h"
+#include "core/compile/needs.h"
 #include "core/film/film.h"
 
 #include <algorithm>
@@ -52,9 +53,12 @@ Bounds bounds_of(const Extent& extent, Vec3d origin) {
 }
 
 PrimitiveKind kind_of(const PlacedShape& shape) {
-  if (const auto* sphere = std::get_if<Sphere<>>(&shape.shape))
-    return sphere->center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere;
-  return std::holds_alternative<Quad<>>(shape.shape) ? PrimitiveKind::quad : PrimitiveKind::box;
+  return std::visit(
+      Overloaded{[](const Sphere<>& sphere) {
+                   return sphere.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere;
+                 },
+                 [](const Quad<>&) { return PrimitiveKind::quad; }, [](const Box<>&) { return PrimitiveKind::box; }},
+      shape.shape);
 }
 
 struct SlotFiller {
@@ -135,45 +139,6 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
   }
 }
 
-Needs needs_of(const Scene& scene, const Flattened& flat) {
-  Needs n;
-  std::vector<bool> used(scene.materials.size());
-  std::vector<bool> textures(scene.textures.size());
-  const auto use_colour = [&](const ColourOrTexture& c) {
-    if (const auto* t = std::get_if<TextureIndex>(&c)) textures[static_cast<std::size_t>(t->index)] = true;
-  };
-  for (const PlacedShape& s : flat.shapes) {
-    const auto* sphere = std::get_if<Sphere<>>(&s.shape);
-    n.spheres |= sphere && !sphere->center_end;
-    n.moving_spheres |= sphere && sphere->center_end;
-    n.quads |= std::holds_alternative<Quad<>>(s.shape);
-    n.boxes |= std::holds_alternative<Box<>>(s.shape);
-    used[static_cast<std::size_t>(s.material)] = true;
-  }
-  for (const PlacedVolume& v : flat.volumes) {
-    n.media = true;
-    n.phase_functions |= v.medium.g != 0;
-    use_colour(v.albedo);
-  }
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
-    const Material& m = scene.materials[i];
-    n.lambertian |= std::holds_alternative<Lambertian<>>(m.kind);
-    n.metal |= std::holds_alternative<Metal<>>(m.kind);
-    n.dielectric |= std::holds_alternative<Dielectric<>>(m.kind);
-    n.lights |= std::holds_alternative<Light<>>(m.kind);
-    if (!std::holds_alternative<Dielectric<>>(m.kind)) use_colour(m.colour);
-  }
-  for (std::size_t i = 0; i < textures.size(); ++i) {
-    n.textures |= textures[i];
-    n.image_textures |= textures[i] && std::holds_alternative<Image>(scene.textures[i].kind);
-  }
-  n.background = !(scene.background == Background(Vec3d{0, 0, 0}));
-  n.lens = scene.camera.defocus_angle > 0;
-  n.shutter = n.moving_spheres && scene.camera.shutter_close > scene.camera.shutter_open;
-  return n;
-}
-
 KernelSet least_kernel(const RenderScene& s) {
   if (!s.near.medium.empty()) return KernelSet::everything;
   return s.needs.media || s.needs.textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
@@ -182,10 +147,11 @@ KernelSet least_kernel(const RenderScene& s) {
 double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
 double brightest(const Scene& scene) {
-  double most = 0;
-  if (const auto* c = std::get_if<Vec3d>(&scene.background)) most = largest(*c);
-  if (const auto* g = std::get_if<Gradient>(&scene.background)) most = std::max(largest(g->bottom), largest(g->top));
-  if (const auto* h = std::get_if<Hemispheres>(&scene.background)) most = std::max(largest(h->up), largest(h->down));
+  double most =
+      std::visit(Overloaded{[](const Vec3d& colour) { return largest(colour); },
+                            [](const Gradient& sky) { return std::max(largest(sky.bottom), largest(sky.top)); },
+                            [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); }},
+                 scene.background);
   for (const Material& m : scene.materials)
     if (std::holds_alternative<Light<>>(m.kind)) {
       const auto* colour = std::get_if<Vec3d>(&m.colour);
@@ -208,7 +174,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.materials = material_columns(scene.materials);
   out.textures = texture_columns(scene.textures, out.origin, before ? before->textures : std::vector<TextureColumns>{});
   for (const TextureColumns& t : out.textures)
-    if (t.kind == TextureColumns::noise && !out.gradients) out.gradients = gradient_table();
+    if (t.kind == place_in<Noise<>, TextureKinds<double>> && !out.gradients) out.gradients = gradient_table();
   fill_geometry(flat, scene, before, out);
   out.max_depth = scene.render.max_depth;
   out.seed = scene.render.seed;
@@ -227,23 +193,15 @@ int RenderScene::primitives() const {
 }
 
 const char* name_of(KernelSet set) {
-  constexpr const char* names[kernel_sets] = {"everything", "no lamps in fog", "no fog, no textures"};
-  return names[static_cast<int>(set)];
-}
-
-std::vector<std::string> names_of(const Needs& n) {
-  const std::pair<const char*, bool> all[] = {{"spheres", n.spheres},       {"moving_spheres", n.moving_spheres},
-                                              {"quads", n.quads},           {"boxes", n.boxes},
-                                              {"media", n.media},           {"phase_functions", n.phase_functions},
-                                              {"lambertian", n.lambertian}, {"metal", n.metal},
-                                              {"dielectric", n.dielectric}, {"lights", n.lights},
-                                              {"textures", n.textures},     {"image_textures", n.image_textures},
-                                              {"background", n.background}, {"lens", n.lens},
-                                              {"shutter", n.shutter}};
-  std::vector<std::string> names;
-  for (const auto& [name, set] : all)
-    if (set) names.emplace_back(name);
-  return names;
+  switch (set) {
+    case KernelSet::everything:
+      return "everything";
+    case KernelSet::no_lamps_in_fog:
+      return "no lamps in fog";
+    case KernelSet::no_fog_nor_textures:
+      return "no fog, no textures";
+  }
+  return "";
 }
 
 std::size_t bytes_of(const RenderScene& s) {

@@ -1,5 +1,6 @@
 #include "core/compile/flatten.h"
 
+#include "core/base/kinds.h"
 #include "core/base/math.h"
 
 #include <algorithm>
@@ -9,11 +10,6 @@
 
 namespace tyndall {
 namespace {
-
-template <class... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
 
 struct CosSin {
   double cos, sin;

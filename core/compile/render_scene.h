@@ -1,9 +1,10 @@
 #pragma once
+#include "core/base/kinds.h"
 #include "core/base/vec.h"
 #include "core/compile/bvh.h"
 #include "core/materials/materials.h"
-#include "core/scene/scene.h"
 #include "core/shapes/quad.h"
+#include "core/textures/textures.h"
 
 #include <array>
 #include <cstdint>
@@ -17,12 +18,17 @@ namespace tyndall {
 /// Which models a scene contains. The kernel is chosen by them; what it leaves out changes no bit of the picture.
 struct Needs {
   bool spheres = false, moving_spheres = false, quads = false, boxes = false;
-  bool media = false, phase_functions = false;  ///< phase_functions: some medium has g != 0
-  bool lambertian = false, metal = false, dielectric = false, lights = false;
+  bool media = false, phase_functions = false;                      ///< phase_functions: some medium has g != 0
+  bool materials[std::variant_size_v<MaterialKinds<double>>] = {};  ///< by kind
   bool textures = false, image_textures = false;
   bool background = false, lens = false, shutter = false;
   bool operator==(const Needs&) const = default;
 };
+/// Whether some shape is of a kind of material: Metal<>, ...
+template <class Kind>
+constexpr bool has_material(const Needs& needs) {
+  return needs.materials[place_in<Kind, MaterialKinds<double>>];
+}
 /// Names of the needs that are set, in the order above.
 std::vector<std::string> names_of(const Needs& needs);
 
@@ -76,13 +82,12 @@ struct Materials {
 };
 
 struct TextureColumns {
-  enum Kind : std::int32_t { solid, checker, noise, image };  ///< in the order of TextureKinds
-  std::int32_t kind = solid;
+  std::int32_t kind = 0;            ///< place in TextureKinds
   Vec3f a, b;                       ///< solid: a; checker: even, odd
   float scale = 1;                  ///< checker: 1 / edge; noise: cells per unit
   Vec3f offset;                     ///< added after scaling: the scene's origin, modulo the pattern's period
   float z_scale = 0, z_offset = 0;  ///< marble: turns per unit of z, and the origin's
-  Noise<double>::Style style = Noise<double>::Style::marble;
+  NoiseStyle style = NoiseStyle::marble;
   int width = 0, height = 0;
   std::shared_ptr<const Image::Pixels> pixels;       ///< where the texels come from
   std::shared_ptr<const std::vector<float>> texels;  ///< 3·width·height linear

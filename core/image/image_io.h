@@ -12,7 +12,7 @@
 /// began when something fails. All throw ImageFileError.
 namespace tyndall {
 
-void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneCurve curve,
+void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
                const Embedded& embedded);
 /// Bottom row first, scale -1.0 (little endian). Carries nothing hidden.
 void write_pfm(const std::filesystem::path& file, const LinearImage& image);

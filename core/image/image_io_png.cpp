@@ -71,7 +71,7 @@ Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, co
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneCurve curve,
+void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
                const Embedded& embedded) {
   check_writable(file, image);
   const Bytes png = encode_png(file, image, tone_map(image.rgb, exposure, curve));

@@ -26,13 +26,13 @@ float aces(float x) {
 
 }  // namespace
 
-std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneCurve curve) {
+std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve) {
   const double gain = std::exp2(exposure);
   std::vector<std::uint8_t> bytes(rgb.size());
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     float value = static_cast<float>(static_cast<double>(rgb[i]) * gain);
     if (!(value > 0)) continue;  // negative or not a number: 0
-    if (curve == ToneCurve::aces) value = aces(value);
+    if (curve == ToneMap::aces) value = aces(value);
     bytes[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_encode(std::min(value, 1.0f))));
   }
   return bytes;

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/base/vec.h"
 
 #include <cstdint>
@@ -7,7 +8,18 @@
 /// Turns linear light into the 8-bit values of a screen.
 namespace tyndall {
 
-enum class ToneCurve { srgb, aces };
+/// How light beyond what a screen can show is treated.
+enum class ToneMap { srgb, aces };
+
+constexpr Word word(ToneMap map) {
+  switch (map) {
+    case ToneMap::srgb:
+      return {"srgb", "clipped"};
+    case ToneMap::aces:
+      return {"aces", "a film's shoulder"};
+  }
+  return {};
+}
 
 /// sRGB's transfer function for linear values in [0, 1], and back (IEC 61966-2-1).
 float srgb_encode(float linear);
@@ -15,6 +27,6 @@ float srgb_decode(float encoded);
 
 /// 8-bit sRGB of curve(linear · 2^exposure), clipped to [0, 1]; NaN gives 0. rgb: 3 floats a pixel.
 /// `aces`: the fit by K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015.
-std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneCurve curve);
+std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve);
 
 }  // namespace tyndall

@@ -21,7 +21,7 @@ FlatView view_of(const Flats& f) {
 }
 
 TextureView view_of(const TextureColumns& t) {
-  return {static_cast<TextureColumns::Kind>(t.kind),
+  return {t.kind,
           t.a,
           t.b,
           t.offset,

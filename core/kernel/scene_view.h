@@ -17,10 +17,10 @@ struct FlatView {
   const std::int32_t* element;
 };
 struct TextureView {
-  TextureColumns::Kind kind;
+  std::int32_t kind;
   Vec3f a, b, offset;
   float scale, z_scale, z_offset;
-  Noise<double>::Style style;
+  NoiseStyle style;
   int width, height;
   const float* texels;
 };

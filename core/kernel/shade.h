@@ -80,24 +80,22 @@ TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& 
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point,
                                       const SurfacePoint<F>* surface) {
-  const Vec3<F> p = along(splat<F>(t.offset), splat<F>(t.scale), point);
-  switch (t.kind) {
-    case TextureColumns::checker:
-      return select(checker_odd(p), splat<F>(t.b), splat<F>(t.a));
-    case TextureColumns::noise: {
-      const F turn = mul_add(splat<F>(t.z_scale), point.z, splat<F>(t.z_offset));
-      const F grey = noise_grey(t.style, p, turn, s.gradients);
-      return {grey, grey, grey};
-    }
-    case TextureColumns::image: {
-      F u, v;
-      surface_uv(s, *surface, u, v);
-      return image_colour(t.texels, t.width, t.height, u, v);
-    }
-    case TextureColumns::solid:
-      break;
+  const auto uv = [&]() __attribute__((always_inline)) {
+    Pair<F> out;
+    surface_uv(s, *surface, out.x, out.y);
+    return out;
+  };
+  const TexturePoint<F, decltype(uv)> at{point, along(splat<F>(t.offset), splat<F>(t.scale), point), s.gradients, uv};
+  Vec3<F> colour = zero3<F>();
+  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+    (([&]() __attribute__((always_inline)) {
+       using Kind = std::variant_alternative_t<i, TextureKinds<F>>;
+       if (t.kind == static_cast<std::int32_t>(i)) colour = colour_at(static_cast<const Kind*>(nullptr), t, at);
+     }()),
+     ...);
   }
-  return splat<F>(t.a);
+  (std::make_index_sequence<std::variant_size_v<TextureKinds<F>>>{});
+  return colour;
 }
 
 /// `colour`, replaced where `index` names a texture.
@@ -153,13 +151,10 @@ TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
   return m;
 }
 
-/// Index of a kind in the list of materials.
-template <class M, std::size_t i = 0>
+/// Place of a kind in the list of materials.
+template <class M>
 constexpr std::int32_t kind_of() {
-  if constexpr (std::is_same_v<std::variant_alternative_t<i, MaterialKinds<double>>, M>)
-    return static_cast<std::int32_t>(i);
-  else
-    return kind_of<M, i + 1>();
+  return place_in<M, MaterialKinds<double>>;
 }
 
 /// Whether the integrator samples lights where a material of kind M scatters.

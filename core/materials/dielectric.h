@@ -10,6 +10,7 @@ namespace tyndall {
 template <class F = double>
 struct Dielectric {
   static constexpr const char* type = "dielectric";
+  static constexpr const char* about = "Smooth, clear glass or water: reflects or refracts, never absorbs.";
   static constexpr const char* colour_name = nullptr;
   static constexpr LightSampling light_sampling = LightSampling::never;
   F refractive_index = F(1.5);

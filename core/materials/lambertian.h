@@ -11,6 +11,7 @@ namespace tyndall {
 template <class F = double>
 struct Lambertian {
   static constexpr const char* type = "lambertian";
+  static constexpr const char* about = "Matt: scatters with the cosine, the same in all directions of view.";
   static constexpr const char* colour_name = "albedo";
   static constexpr LightSampling light_sampling = LightSampling::always;
   bool operator==(const Lambertian&) const = default;

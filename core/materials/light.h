@@ -11,6 +11,8 @@ namespace tyndall {
 template <class F = double>
 struct Light {
   static constexpr const char* type = "light";
+  static constexpr const char* about = "Shines on both sides, reflects nothing.";
+  static constexpr const char* need = "lights";  ///< its name among the needs of a scene
   static constexpr const char* colour_name = "radiance";
   static constexpr LightSampling light_sampling = LightSampling::never;
   bool operator==(const Light&) const = default;

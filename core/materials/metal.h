@@ -11,6 +11,7 @@ namespace tyndall {
 template <class F = double>
 struct Metal {
   static constexpr const char* type = "metal";
+  static constexpr const char* about = "A mirror, blurred by fuzz.";
   static constexpr const char* colour_name = "albedo";
   static constexpr LightSampling light_sampling = LightSampling::weighted;
   F fuzz = F(0);

@@ -12,6 +12,9 @@ namespace tyndall {
 template <class F = double>
 struct Medium {
   static constexpr const char* type = "medium";
+  static constexpr const char* about =
+      "Homogeneous fog, smoke or coloured glass: it fills its boundary, whatever lies inside. Overlapping media "
+      "add. A boundary equal to an object's shape makes the medium that object's interior.";
   F density = F(1);
   F g = F(0);
   bool operator==(const Medium&) const = default;

@@ -1,4 +1,6 @@
 #pragma once
+#include "core/base/choice.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +11,26 @@ namespace tyndall {
 
 /// What a frame shows besides the beauty image.
 enum class View { beauty, albedo, normal, depth, noise, samples, cost };
+
+constexpr Word word(View view) {
+  switch (view) {
+    case View::beauty:
+      return {"beauty"};
+    case View::albedo:
+      return {"albedo"};
+    case View::normal:
+      return {"normal"};
+    case View::depth:
+      return {"depth"};
+    case View::noise:
+      return {"noise"};
+    case View::samples:
+      return {"samples"};
+    case View::cost:
+      return {"cost", "rays of a path; white: most"};
+  }
+  return {};
+}
 
 /// One finished pass, ready to be shown. Never changes after it was published.
 struct Frame {

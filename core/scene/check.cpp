@@ -1,7 +1,8 @@
 #include "core/scene/check.h"
 
+#include "core/base/choice.h"
+#include "core/base/kinds.h"
 #include "core/base/text.h"
-#include "core/scene/names.h"
 #include "core/scene/place.h"
 
 #include <algorithm>
@@ -23,7 +24,14 @@ void check_value(const Place& at, const Meaning& meaning, double value) {
 void check_value(const Place& at, const Meaning& meaning, int value) {
   if (!meaning.valid.contains(value)) fail(at, std::to_string(value), expected_text(meaning, Form::whole));
 }
-void check_value(const Place&, const Meaning&, std::uint32_t) {}  // all of them are valid seeds
+void check_value(const Place& at, const Meaning& meaning, std::uint32_t value) {
+  if (!meaning.valid.contains(value)) fail(at, std::to_string(value), expected_text(meaning, Form::whole));
+}
+void check_value(const Place&, const Meaning&, bool) {}
+template <NamedEnum E>
+void check_value(const Place& at, const Meaning&, E value) {
+  if (!name_of(value)) fail(at, "choice number " + std::to_string(static_cast<int>(value)), one_of(names_of<E>()));
+}
 void check_value(const Place& at, const Meaning& meaning, const Vec3d& value) {
   const double components[3] = {value.x, value.y, value.z};
   for (std::size_t i = 0; i < 3; ++i) check_value({at, i}, meaning, components[i]);
@@ -37,13 +45,13 @@ template <class Fields, class Owner>
 void check_fields(const Place& at, const Fields& list, const Owner& owner) {
   std::apply(
       [&](const auto&... field) {
-        (check_value({at, field.name}, meaning(field), owner.*field.value), ...);
+        (check_value({at, field.name}, meaning_of(field), owner.*field.value), ...);
       },
       list);
 }
 template <class Owner>
 void check_fields(const Place& at, const Owner& owner) {
-  check_fields(at, fields(static_cast<const Owner*>(nullptr)), owner);
+  check_fields(at, fields_of<Owner>(), owner);
 }
 
 /// The vector divided by its largest component, so that squares neither overflow nor vanish.
@@ -78,9 +86,9 @@ void check_camera(const Place& at, const Camera& camera) {
 }
 
 void check_background(const Place& at, const Background& background) {
-  if (const auto* radiance = std::get_if<Vec3d>(&background)) check_value(at, colour_meaning("radiance"), *radiance);
-  if (const auto* sky = std::get_if<Gradient>(&background)) check_fields(at, *sky);
-  if (const auto* sky = std::get_if<Hemispheres>(&background)) check_fields(at, *sky);
+  std::visit(Overloaded{[&](const Vec3d& radiance) { check_value(at, colour_meaning("radiance"), radiance); },
+                        [&](const auto& sky) { check_fields(at, sky); }},
+             background);
 }
 
 void check_colour(const Place& at, const Meaning& meaning, const ColourOrTexture& colour, const Scene& scene) {
@@ -168,9 +176,12 @@ void check_objects(const Place& at, const std::vector<Object>& objects, const Sc
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Place here{at, i};
     const Object& object = objects[i];
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) check_solid(here, *solid, scene);
-    if (const auto* volume = std::get_if<Volume>(&object.kind)) check_volume(here, *volume, scene);
-    if (const auto* group = std::get_if<Group>(&object.kind)) check_objects({here, "objects"}, group->objects, scene);
+    std::visit(Overloaded{[&](const Solid3d& solid) { check_solid(here, solid, scene); },
+                          [&](const Volume& volume) { check_volume(here, volume, scene); },
+                          [&](const Group& group) {
+                            check_objects({here, "objects"}, group.objects, scene);
+                          }},
+               object.kind);
     check_transform(here, object.transform);
   }
 }

@@ -38,18 +38,22 @@ void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
   read_shutter(object, at, camera);
 }
 
+/// The kinds of background but the plain colour.
+template <class... Kinds>
+std::variant<Kinds...> without_colour(const std::variant<Vec3d, Kinds...>*);
+using Sky = decltype(without_colour(static_cast<const Background*>(nullptr)));
+
 void read_background(const JsonValue& json, const Place& at, Background& background) {
   if (const auto* object = std::get_if<JsonObject>(&json.value)) {
-    std::variant<Gradient, Hemispheres> kind;
-    const auto types = type_names<decltype(kind)>();
+    Sky sky;
+    const auto types = type_names<Sky>();
     const std::string_view type = type_at(*object, at, types);
-    const bool known = read_kind(type, kind, [&](auto& sky) {
-      const auto list = fields_of<std::decay_t<decltype(sky)>>();
-      allow_keys(*object, at, keys_of(list, {"type"}));
-      read_fields(*object, at, list, sky);
+    const bool known = read_kind(type, sky, [&]<class Kind>(Kind& kind) {
+      allow_keys(*object, at, keys_of(fields_of<Kind>(), {"type"}));
+      read_fields(*object, at, fields_of<Kind>(), kind);
     });
     if (!known) fail_type(at, type, types);
-    std::visit([&](const auto& sky) { background = sky; }, kind);
+    std::visit([&](const auto& kind) { background = kind; }, sky);
   } else if (std::holds_alternative<JsonArray>(json.value)) {
     read_value(json, at, colour_meaning("radiance"), background.emplace<Vec3d>());
   } else {
@@ -60,19 +64,14 @@ void read_background(const JsonValue& json, const Place& at, Background& backgro
 
 void read_render(const JsonValue& json, const Place& at, RenderSettings& render) {
   const JsonObject& object = object_at(json, at, "an object with the render settings");
-  allow_keys(object, at, keys_of(fields_of<RenderSettings>(), {"integrator", "sampler", "fresnel", "adaptive"}));
+  allow_keys(object, at, keys_of(fields_of<RenderSettings>()));
   read_fields(object, at, fields_of<RenderSettings>(), render);
-  read_name(object, at, "integrator", integrators, render.integrator);
-  read_name(object, at, "sampler", samplers, render.sampler);
-  read_name(object, at, "fresnel", fresnel_rules, render.fresnel);
-  read_switch(object, at, "adaptive", render.adaptive);
 }
 
 void read_display(const JsonValue& json, const Place& at, Display& display) {
   const JsonObject& object = object_at(json, at, "an object with the display settings");
-  allow_keys(object, at, keys_of(fields_of<Display>(), {"tone_map"}));
+  allow_keys(object, at, keys_of(fields_of<Display>()));
   read_fields(object, at, fields_of<Display>(), display);
-  read_name(object, at, "tone_map", tone_maps, display.tone_map);
 }
 
 void read_size(const JsonValue& json, const Place& at, Scene& scene) {
@@ -127,12 +126,8 @@ void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, T
     if constexpr (std::is_same_v<T, Image>) {
       read_image(object, at, shelf, kind);
     } else {
-      constexpr bool is_noise = std::is_same_v<T, Noise<>>;
-      auto keys = keys_of(fields_of<T>(), {"type"});
-      if (is_noise) keys.emplace_back("style");
-      allow_keys(object, at, keys);
+      allow_keys(object, at, keys_of(fields_of<T>(), {"type"}));
       read_fields(object, at, fields_of<T>(), kind);
-      if constexpr (is_noise) read_name(object, at, "style", noise_styles, kind.style);
     }
   });
   if (!known) fail_type(at, type, types);

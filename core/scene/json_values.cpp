@@ -64,11 +64,9 @@ void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, 
   for (std::size_t i = 0; i < 3; ++i) read_value((*array)[i], {at, i}, meaning, *components[i]);
 }
 
-void read_switch(const JsonObject& object, const Place& at, const char* key, bool& out) {
-  const JsonValue* json = find(object, key);
-  if (!json) return;
-  const bool* value = std::get_if<bool>(&json->value);
-  if (!value) fail({at, key}, describe(*json), "true or false");
+void read_value(const JsonValue& json, const Place& at, const Meaning&, bool& out) {
+  const bool* value = std::get_if<bool>(&json.value);
+  if (!value) fail(at, describe(json), "true or false");
   out = *value;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/base/text.h"
 #include "core/scene/json_tree.h"
-#include "core/scene/names.h"
 #include "core/scene/place.h"
 
 #include <cstdint>
@@ -24,29 +24,38 @@ void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, 
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::uint32_t& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, Vec3d& out);
-/// true or false, if the key is there.
-void read_switch(const JsonObject& object, const Place& at, const char* key, bool& out);
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, bool& out);
+template <NamedEnum E>
+void read_value(const JsonValue& json, const Place& at, const Meaning&, E& out) {
+  const std::vector<std::string_view> names = names_of<E>();
+  const std::string& name = string_at(json, at, one_of(names));
+  const std::optional<E> value = value_named<E>(name);
+  if (!value) fail(at, describe(json), one_of(names) + did_you_mean(name, names));
+  out = *value;
+}
 template <class T>
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::optional<T>& out) {
   read_value(json, at, meaning, out.emplace());
 }
 
-inline constexpr Form form_of(const double*) { return Form::number; }
-inline constexpr Form form_of(const int*) { return Form::whole; }
-inline constexpr Form form_of(const std::uint32_t*) { return Form::whole; }
-inline constexpr Form form_of(const Vec3d*) { return Form::vector; }
+/// What is expected where a value of type T stands.
 template <class T>
-constexpr Form form_of(const std::optional<T>*) {
-  return form_of(static_cast<const T*>(nullptr));
+std::string expected_value(const Meaning& meaning) {
+  if constexpr (NamedEnum<T>)
+    return one_of(names_of<T>());
+  else if constexpr (std::is_same_v<T, bool>)
+    return "true or false";
+  else
+    return expected_text(meaning, form_of(static_cast<const T*>(nullptr)));
 }
 
 /// One field of `out`, if it is there; required fields must be.
 template <class Owner, class T>
 void read_field(const JsonObject& object, const Place& at, const Field<Owner, T>& field, Owner& out) {
   if (const JsonValue* json = find(object, field.name)) {
-    read_value(*json, {at, field.name}, meaning(field), out.*field.value);
+    read_value(*json, {at, field.name}, meaning_of(field), out.*field.value);
   } else if (field.required) {
-    fail(at, "no " + in_quotes(field.name), expected_text(meaning(field), form_of(static_cast<const T*>(nullptr))));
+    fail(at, "no " + in_quotes(field.name), expected_value<T>(meaning_of(field)));
   }
 }
 
@@ -61,11 +70,6 @@ std::vector<std::string_view> keys_of(const Fields& list, std::initializer_list<
   std::vector<std::string_view> keys(more);
   std::apply([&](const auto&... field) { (keys.emplace_back(field.name), ...); }, list);
   return keys;
-}
-
-template <class T>
-constexpr auto fields_of() {
-  return fields(static_cast<const T*>(nullptr));
 }
 
 /// The "type" of an object; `types` are said where it is missing.
@@ -85,19 +89,6 @@ std::vector<std::string_view> type_names() {
 template <class... Kinds, class Read>
 bool read_kind(std::string_view type, std::variant<Kinds...>& out, const Read& read) {
   return ((type == Kinds::type && (read(out.template emplace<Kinds>()), true)) || ...);
-}
-
-/// One of the names of a table, if the key is there.
-template <class E, std::size_t n>
-void read_name(const JsonObject& object, const Place& at, const char* key, const Named<E> (&table)[n], E& out) {
-  const JsonValue* json = find(object, key);
-  if (!json) return;
-  const Place here{at, key};
-  const std::vector<std::string_view> names = names_in(table);
-  const std::string& name = string_at(*json, here, one_of(names));
-  const Named<E>* entry = find_name(table, name);
-  if (!entry) fail(here, describe(*json), one_of(names) + did_you_mean(name, names));
-  out = entry->value;
 }
 
 }  // namespace tyndall

@@ -1,5 +1,6 @@
+#include "core/base/choice.h"
+#include "core/base/kinds.h"
 #include "core/scene/json_tree.h"
-#include "core/scene/names.h"
 #include "core/scene/place.h"
 
 #include <cassert>
@@ -10,6 +11,11 @@ namespace {
 JsonValue to_json(double value) { return {value}; }
 JsonValue to_json(int value) { return {static_cast<double>(value)}; }
 JsonValue to_json(std::uint32_t value) { return {static_cast<double>(value)}; }
+JsonValue to_json(bool value) { return {value}; }
+template <NamedEnum E>
+JsonValue to_json(E value) {
+  return {std::string(name_of(value))};
+}
 JsonValue to_json(const Vec3d& v) { return {JsonArray{{v.x}, {v.y}, {v.z}}}; }
 template <class T>
 JsonValue to_json(const std::optional<T>& value) {
@@ -33,12 +39,7 @@ void put_fields(JsonObject& out, const Fields& list, const Owner& owner, Which w
 }
 template <class Owner>
 void put_fields(JsonObject& out, const Owner& owner, Which which = Which::all) {
-  put_fields(out, fields(static_cast<const Owner*>(nullptr)), owner, which);
-}
-
-template <class E, std::size_t n>
-void put_name(JsonObject& out, const char* key, const Named<E> (&table)[n], E value, E default_value) {
-  if (value != default_value) put(out, key, {std::string(name_of(table, value))});
+  put_fields(out, fields_of<Owner>(), owner, which);
 }
 
 /// A part of the scene that is left out where it says nothing.
@@ -55,34 +56,20 @@ JsonObject camera_json(const Camera& camera) {
 }
 
 JsonValue background_json(const Background& background) {
-  if (const auto* radiance = std::get_if<Vec3d>(&background)) return to_json(*radiance);
-  JsonObject out;
-  const auto put_sky = [&](const auto& sky) {
-    put(out, "type", {std::string(sky.type)});
-    put_fields(out, sky);
-  };
-  if (const auto* sky = std::get_if<Gradient>(&background)) put_sky(*sky);
-  if (const auto* sky = std::get_if<Hemispheres>(&background)) put_sky(*sky);
-  return {std::move(out)};
+  return std::visit(Overloaded{[](const Vec3d& radiance) { return to_json(radiance); },
+                               []<class Sky>(const Sky& sky) {
+                                 JsonObject out;
+                                 put(out, "type", {std::string(Sky::type)});
+                                 put_fields(out, sky);
+                                 return JsonValue{std::move(out)};
+                               }},
+                    background);
 }
 
-JsonObject render_json(const RenderSettings& render) {
-  const RenderSettings defaults;
-  const auto all = fields(static_cast<const RenderSettings*>(nullptr));
+template <class Owner>
+JsonObject fields_json(const Owner& owner) {
   JsonObject out;
-  put_fields(out, std::tuple{std::get<0>(all), std::get<1>(all)}, render);
-  put_name(out, "integrator", integrators, render.integrator, defaults.integrator);
-  put_name(out, "sampler", samplers, render.sampler, defaults.sampler);
-  put_name(out, "fresnel", fresnel_rules, render.fresnel, defaults.fresnel);
-  put_fields(out, std::tuple{std::get<2>(all)}, render);
-  if (render.adaptive) put(out, "adaptive", {true});
-  return out;
-}
-
-JsonObject display_json(const Display& display) {
-  JsonObject out;
-  put_fields(out, display);
-  put_name(out, "tone_map", tone_maps, display.tone_map, Display().tone_map);
+  put_fields(out, owner);
   return out;
 }
 
@@ -96,7 +83,6 @@ JsonValue texture_json(const Texture& texture) {
         } else {
           put_fields(out, kind);
         }
-        if constexpr (std::is_same_v<T, Noise<>>) put(out, "style", {std::string(name_of(noise_styles, kind.style))});
       },
       texture.kind);
   return {std::move(out)};
@@ -153,14 +139,13 @@ JsonArray objects_json(const std::vector<Object>& objects, const Scene& scene) {
   for (const Object& object : objects) {
     JsonObject out;
     if (!object.name.empty()) put(out, "name", {object.name});
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) {
-      std::visit([&](const auto& shape) { put_shape(out, shape); }, solid->shape);
-      put(out, "material", {scene.materials[static_cast<std::size_t>(solid->material)].name});
-    } else if (const auto* volume = std::get_if<Volume>(&object.kind)) {
-      put_volume(out, *volume, scene);
-    } else {
-      put(out, "type", {std::string("group")});
-    }
+    std::visit(Overloaded{[&](const Solid3d& solid) {
+                            std::visit([&](const auto& shape) { put_shape(out, shape); }, solid.shape);
+                            put(out, "material", {scene.materials[static_cast<std::size_t>(solid.material)].name});
+                          },
+                          [&](const Volume& volume) { put_volume(out, volume, scene); },
+                          [&](const Group&) { put(out, "type", {std::string("group")}); }},
+               object.kind);
     put_transform(out, object.transform);
     if (const auto* group = std::get_if<Group>(&object.kind))
       put(out, "objects", {objects_json(group->objects, scene)});
@@ -179,8 +164,8 @@ std::string write_scene(const Scene& scene) {
   put_part(root, "image", std::move(image));
   put_part(root, "camera", camera_json(scene.camera));
   if (!(scene.background == Scene().background)) put(root, "background", background_json(scene.background));
-  put_part(root, "render", render_json(scene.render));
-  put_part(root, "display", display_json(scene.display));
+  put_part(root, "render", fields_json(scene.render));
+  put_part(root, "display", fields_json(scene.display));
   for (const Texture& texture : scene.textures) textures.push_back({texture.name, texture_json(texture)});
   put_part(root, "textures", std::move(textures));
   for (const Material& material : scene.materials) materials.push_back({material.name, material_json(material, scene)});

@@ -57,8 +57,8 @@ void fail(const Place& place, std::string found, std::string expected) {
 }
 
 Meaning colour_meaning(std::string_view colour_name) {
-  if (colour_name == "radiance") return {at_least(0), "", "radiance, linear RGB"};
-  return {between(0, 1), "", "share of the light that goes on, linear RGB"};
+  if (colour_name == "radiance") return {at_least(0), "", "radiance, linear RGB", Slider{0, 20}};
+  return {between(0, 1), "", "share of the light that goes on, linear RGB", Slider{0, 1}};
 }
 
 std::string expected_text(const Meaning& meaning, Form form) {

@@ -1,7 +1,10 @@
 #pragma once
 #include "core/base/fields.h"
+#include "core/base/vec.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,16 +40,25 @@ struct Meaning {
   Valid valid;
   const char* unit = "";
   const char* help = "";
+  Slider slider = no_slider();
 };
 template <class Owner, class T>
-Meaning meaning(const Field<Owner, T>& field) {
-  return {field.valid, field.unit, field.help};
+Meaning meaning_of(const Field<Owner, T>& field) {
+  return {field.valid, field.unit, field.help, field.slider};
 }
 
 /// What a material's or a medium's colour means. colour_name: its key, "albedo" or "radiance".
 Meaning colour_meaning(std::string_view colour_name);
 
 enum class Form { number, whole, vector };
+inline constexpr Form form_of(const double*) { return Form::number; }
+inline constexpr Form form_of(const int*) { return Form::whole; }
+inline constexpr Form form_of(const std::uint32_t*) { return Form::whole; }
+inline constexpr Form form_of(const Vec3<double>*) { return Form::vector; }
+template <class T>
+constexpr Form form_of(const std::optional<T>*) {
+  return form_of(static_cast<const T*>(nullptr));
+}
 /// "a number >= 0 (mean number of events per unit length)".
 std::string expected_text(const Meaning& meaning, Form form);
 

@@ -1,10 +1,10 @@
 #pragma once
 #include "core/materials/materials.h"
 #include "core/media/medium.h"
+#include "core/scene/settings.h"
 #include "core/shapes/shapes.h"
 #include "core/textures/textures.h"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,8 +50,8 @@ inline constexpr auto fields(const RotateY*) {
       Field{"rotate_y", &RotateY::degrees, any_number(), Slider{-180, 180}, "°", "turn about the y axis", true}};
 }
 inline constexpr auto fields(const Translate*) {
-  return std::tuple{Field{"translate", &Translate::offset, any_number(), Slider{-10, 10}, "",
-                          "shift along x, y, z, scene units", true}};
+  return std::tuple{
+      Field{"translate", &Translate::offset, any_number(), no_slider(), "", "shift along x, y, z, scene units", true}};
 }
 /// Applied in the order of the list.
 using Transform = std::vector<std::variant<RotateY, Translate>>;
@@ -86,28 +86,6 @@ struct Object {
 };
 inline bool Group::operator==(const Group& other) const { return objects == other.objects; }
 
-/// Thin-lens camera; right-handed, looks from look_from to look_at.
-struct Camera {
-  Vec3d look_from{0, 0, 0}, look_at{0, 0, -1}, vup{0, 1, 0};
-  double vfov = 90;                        ///< vertical and full, degrees
-  double defocus_angle = 0;                ///< of the cone of rays through a pixel, degrees; 0: all is sharp
-  std::optional<double> focus_distance{};  ///< along the axis; absent: the distance from look_from to look_at
-  double shutter_open = 0, shutter_close = 0;
-  bool operator==(const Camera&) const = default;
-};
-
-inline constexpr auto fields(const Camera*) {
-  return std::tuple{
-      Field{"look_from", &Camera::look_from, any_number(), Slider{-20, 20}, "", "position of the eye, scene units"},
-      Field{"look_at", &Camera::look_at, any_number(), Slider{-20, 20}, "", "the point in the middle of the picture"},
-      Field{"vup", &Camera::vup, any_number(), Slider{-1, 1}, "", "the direction that is up in the picture"},
-      Field{"vfov", &Camera::vfov, inside(0, 180), Slider{1, 120}, "°", "vertical field of view, full angle"},
-      Field{"defocus_angle", &Camera::defocus_angle, Valid{.low = 0, .high = 180, .high_open = true}, Slider{0, 5}, "°",
-            "opening of the cone of rays that meets in a point in focus; 0: all is sharp"},
-      Field{"focus_distance", &Camera::focus_distance, above(0), Slider{0.1, 100, true}, "",
-            "distance of the plane in focus, along the axis, scene units"}};
-}
-
 /// What a ray that escapes sees.
 struct Gradient {
   static constexpr const char* type = "gradient";
@@ -129,42 +107,6 @@ inline constexpr auto fields(const Hemispheres*) {
 }
 using Background = std::variant<Vec3d, Gradient, Hemispheres>;
 
-enum class Integrator { path, nee, mis };
-enum class SamplerKind { random, sobol };
-enum class FresnelKind { exact, schlick };
-enum class ToneMap { srgb, aces };
-
-struct RenderSettings {
-  int max_depth = 1000;  ///< longest path, in scattering events
-  std::optional<int> spp{};
-  Integrator integrator = Integrator::mis;
-  SamplerKind sampler = SamplerKind::sobol;
-  FresnelKind fresnel = FresnelKind::exact;
-  std::uint32_t seed = 0;
-  bool adaptive = false;  ///< more samples where the error is, fewer elsewhere; spp is their mean then
-  bool operator==(const RenderSettings&) const = default;
-};
-
-inline constexpr auto fields(const RenderSettings*) {
-  return std::tuple{
-      Field{"max_depth", &RenderSettings::max_depth, at_least(0), Slider{0, 200}, "",
-            "longest path, in scattering events"},
-      Field{"spp", &RenderSettings::spp, at_least(1), Slider{1, 4096, true}, "", "samples per pixel"},
-      Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"}};
-}
-
-/// How linear light becomes a picture; never part of rendering.
-struct Display {
-  double exposure = 0;  ///< stops: the picture is multiplied by 2^exposure
-  ToneMap tone_map = ToneMap::srgb;
-  bool operator==(const Display&) const = default;
-};
-
-inline constexpr auto fields(const Display*) {
-  return std::tuple{Field{"exposure", &Display::exposure, any_number(), Slider{-10, 10}, "",
-                          "stops (EV): radiance is multiplied by 2 to this power"}};
-}
-
 struct Scene {
   std::string name;
   int width = 800, height = 450;  ///< pixels
@@ -180,9 +122,8 @@ struct Scene {
 
 /// The picture's size: the keys of "image".
 inline constexpr auto image_fields() {
-  return std::tuple{
-      Field{"width", &Scene::width, between(1, 65536), Slider{16, 4096, true}, "", "pixels in a row", true},
-      Field{"height", &Scene::height, between(1, 65536), Slider{16, 4096, true}, "", "rows of pixels", true}};
+  return std::tuple{Field{"width", &Scene::width, between(1, 65536), no_slider(), "", "pixels in a row", true},
+                    Field{"height", &Scene::height, between(1, 65536), no_slider(), "", "rows of pixels", true}};
 }
 
 }  // namespace tyndall

@@ -7,14 +7,15 @@ namespace tyndall {
 template <class F = double>
 struct Box {
   static constexpr const char* type = "box";
+  static constexpr const char* about = "A cuboid along the axes, before its transform.";
   Vec3<F> min, max{F(1), F(1), F(1)};
   bool operator==(const Box&) const = default;
 };
 
 template <class F>
 constexpr auto fields(const Box<F>*) {
-  return std::tuple{Field{"min", &Box<F>::min, any_number(), Slider{-10, 10}, "", "lower corner, scene units", true},
-                    Field{"max", &Box<F>::max, any_number(), Slider{-10, 10}, "", "upper corner, scene units", true}};
+  return std::tuple{Field{"min", &Box<F>::min, any_number(), no_slider(), "", "lower corner, scene units", true},
+                    Field{"max", &Box<F>::max, any_number(), no_slider(), "", "upper corner, scene units", true}};
 }
 
 /// 1 / d, with a component that is nearly 0 taken as 1e-20 of its sign: a line parallel to a slab then is either

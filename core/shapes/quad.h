@@ -10,15 +10,16 @@ namespace tyndall {
 template <class F = double>
 struct Quad {
   static constexpr const char* type = "quad";
+  static constexpr const char* about = "A parallelogram: corner + a * u + b * v for a, b in [0, 1].";
   Vec3<F> corner, u{F(1), F(0), F(0)}, v{F(0), F(1), F(0)};
   bool operator==(const Quad&) const = default;
 };
 
 template <class F>
 constexpr auto fields(const Quad<F>*) {
-  return std::tuple{Field{"corner", &Quad<F>::corner, any_number(), Slider{-10, 10}, "", "scene units", true},
-                    Field{"u", &Quad<F>::u, any_number(), Slider{-10, 10}, "", "first edge, scene units", true},
-                    Field{"v", &Quad<F>::v, any_number(), Slider{-10, 10}, "", "second edge, scene units", true}};
+  return std::tuple{Field{"corner", &Quad<F>::corner, any_number(), no_slider(), "", "scene units", true},
+                    Field{"u", &Quad<F>::u, any_number(), no_slider(), "", "first edge, scene units", true},
+                    Field{"v", &Quad<F>::v, any_number(), no_slider(), "", "second edge, scene units", true}};
 }
 
 /// Three affine functions of a point: each row gives row·p + offset. For a quad, rows 0 and 1 run from -1 to 1 across

@@ -13,6 +13,7 @@ namespace tyndall {
 template <class F = double>
 struct Sphere {
   static constexpr const char* type = "sphere";
+  static constexpr const char* about = "A sphere, at rest or moving.";
   Vec3<F> center;
   F radius = F(1);
   std::optional<Vec3<F>> center_end;
@@ -22,8 +23,8 @@ struct Sphere {
 template <class F>
 constexpr auto fields(const Sphere<F>*) {
   return std::tuple{
-      Field{"center", &Sphere<F>::center, any_number(), Slider{-10, 10}, "", "centre, scene units", true},
-      Field{"center_end", &Sphere<F>::center_end, any_number(), Slider{-10, 10}, "", "centre at time 1, scene units"},
+      Field{"center", &Sphere<F>::center, any_number(), no_slider(), "", "centre, scene units", true},
+      Field{"center_end", &Sphere<F>::center_end, any_number(), no_slider(), "", "centre at time 1, scene units"},
       Field{"radius", &Sphere<F>::radius, not_zero(), Slider{0.01, 10, true}, "",
             "scene units; negative: the normal points inward (hollow glass)", true}};
 }

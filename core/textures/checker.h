@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/fields.h"
 #include "core/base/vec.h"
+#include "core/textures/point.h"
 
 #include <tuple>
 
@@ -10,6 +11,8 @@ namespace tyndall {
 template <class F = double>
 struct Checker {
   static constexpr const char* type = "checker";
+  static constexpr const char* about =
+      "Cubes of two colours in space: floor(position / scale) summed over the axes, even or odd.";
   F scale = F(1);
   Vec3<F> even{F(0), F(0), F(0)}, odd{F(1), F(1), F(1)};
   bool operator==(const Checker&) const = default;
@@ -29,6 +32,11 @@ TYNDALL_INLINE MaskOf<F> checker_odd(Vec3<F> cell) {
   const F sum = floor(cell.x) + floor(cell.y) + floor(cell.z);
   const F half = F(0.5f) * sum;
   return less(floor(half), half);
+}
+
+template <class F, class Uv>
+TYNDALL_INLINE Vec3<F> colour_at(const Checker<F>*, const auto& columns, const TexturePoint<F, Uv>& at) {
+  return select(checker_odd(at.scaled), splat<F>(columns.b), splat<F>(columns.a));
 }
 
 }  // namespace tyndall

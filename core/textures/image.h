@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/math.h"
+#include "core/textures/point.h"
 
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,8 @@ namespace tyndall {
 /// A picture, sRGB 8-bit, looked up by uv: bilinear; v points up; u repeats, v keeps the colour of the edge rows.
 struct Image {
   static constexpr const char* type = "image";
+  static constexpr const char* about =
+      "A picture laid on the surface by its uv coordinates, bilinear; u wraps, v is up. Not for media.";
   struct Pixels {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;  ///< 3·width·height, top row first
@@ -52,6 +55,12 @@ template <class F>
 TYNDALL_INLINE void sphere_uv(Vec3<F> outward, F& u, F& v) {
   u = (atan2(-outward.z, outward.x) + F(static_cast<float>(pi))) * F(static_cast<float>(0.5 / pi));
   v = acos(min(max(-outward.y, F(-1.0f)), F(1.0f))) * F(static_cast<float>(1 / pi));
+}
+
+template <class F, class Uv>
+TYNDALL_INLINE Vec3<F> colour_at(const Image*, const auto& columns, const TexturePoint<F, Uv>& at) {
+  const auto uv = at.uv();
+  return image_colour(columns.texels, columns.width, columns.height, uv.x, uv.y);
 }
 
 }  // namespace tyndall

@@ -1,17 +1,34 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/base/fields.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/textures/point.h"
 
 #include <tuple>
 
 namespace tyndall {
 
+enum class NoiseStyle { perlin, turbulence, marble };
+
+constexpr Word word(NoiseStyle style) {
+  switch (style) {
+    case NoiseStyle::perlin:
+      return {"perlin", "one octave"};
+    case NoiseStyle::turbulence:
+      return {"turbulence", "seven octaves, absolute sum"};
+    case NoiseStyle::marble:
+      return {"marble", "a sine along z, its phase shifted by turbulence"};
+  }
+  return {};
+}
+
 /// Gradient noise in space: "perlin" is smooth, "turbulence" adds seven octaves of it, "marble" bends veins across z.
 template <class F = double>
 struct Noise {
   static constexpr const char* type = "noise";
-  enum class Style { perlin, turbulence, marble };
+  static constexpr const char* about = "Grey gradient noise in space.";
+  using Style = NoiseStyle;
   F scale = F(1);
   Style style = Style::marble;
   bool operator==(const Noise&) const = default;
@@ -20,7 +37,8 @@ struct Noise {
 template <class F>
 constexpr auto fields(const Noise<F>*) {
   return std::tuple{Field{"scale", &Noise<F>::scale, above(0), Slider{0.01, 100, true}, "",
-                          "lattice cells per scene unit; marble: veins per 2π scene units", true}};
+                          "lattice cells per scene unit; marble: veins per 2π scene units", true},
+                    Field{"style", &Noise<F>::style, "what the noise is made into"}};
 }
 
 /// One of 256 unit vectors of a lattice that repeats every 256 cells; x, y, z: whole lattice coordinates.
@@ -67,13 +85,20 @@ TYNDALL_INLINE F turbulence(Vec3<F> p, const float* gradients) {
 /// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_turn: scale · z
 /// / 2π.
 template <class F>
-TYNDALL_INLINE F noise_grey(typename Noise<double>::Style style, Vec3<F> p, F z_turn, const float* gradients) {
-  if (style == Noise<double>::Style::perlin) return F(0.5f) * (F(1.0f) + gradient_noise(p, gradients));
+TYNDALL_INLINE F noise_grey(NoiseStyle style, Vec3<F> p, F z_turn, const float* gradients) {
+  if (style == NoiseStyle::perlin) return F(0.5f) * (F(1.0f) + gradient_noise(p, gradients));
   const F t = turbulence(p, gradients);
-  if (style == Noise<double>::Style::turbulence) return t;
+  if (style == NoiseStyle::turbulence) return t;
   const F turn = mul_add(t, F(static_cast<float>(10 / (2 * pi))), z_turn);
   const F wave = sin_cos_turn(turn - floor(turn)).sin;  // can pass 1 by a rounding
   return F(0.5f) * (F(1.0f) + min(max(wave, F(-1.0f)), F(1.0f)));
+}
+
+template <class F, class Uv>
+TYNDALL_INLINE Vec3<F> colour_at(const Noise<F>*, const auto& columns, const TexturePoint<F, Uv>& at) {
+  const F turn = mul_add(splat<F>(columns.z_scale), at.point.z, splat<F>(columns.z_offset));
+  const F grey = noise_grey(columns.style, at.scaled, turn, at.gradients);
+  return {grey, grey, grey};
 }
 
 }  // namespace tyndall

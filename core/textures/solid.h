@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/fields.h"
 #include "core/base/vec.h"
+#include "core/textures/point.h"
 
 #include <tuple>
 
@@ -10,6 +11,7 @@ namespace tyndall {
 template <class F = double>
 struct Solid {
   static constexpr const char* type = "solid";
+  static constexpr const char* about = "One colour under a name that several materials can share.";
   Vec3<F> color{F(1), F(1), F(1)};
   bool operator==(const Solid&) const = default;
 };
@@ -17,6 +19,11 @@ struct Solid {
 template <class F>
 constexpr auto fields(const Solid<F>*) {
   return std::tuple{Field{"color", &Solid<F>::color, between(0, 1), Slider{0, 1}, "", "linear RGB", true}};
+}
+
+template <class F, class Uv>
+TYNDALL_INLINE Vec3<F> colour_at(const Solid<F>*, const auto& columns, const TexturePoint<F, Uv>&) {
+  return splat<F>(columns.a);
 }
 
 }  // namespace tyndall

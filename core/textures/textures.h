@@ -6,6 +6,7 @@
 
 #include <variant>
 
+/// The list of textures: what scene files, panels and kernels know of.
 namespace tyndall {
 
 /// Every texture there is. All but images are functions of the point in world space; images use uv.

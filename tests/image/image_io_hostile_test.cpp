@@ -36,7 +36,7 @@ LinearImage ramp() {
 
 std::vector<fs::path> good_files(const fs::path& folder) {
   const Embedded notes = {"{\"tyndall\": 1, \"objects\": []}", "{}"};
-  write_png(folder / "a.png", ramp(), 0, ToneCurve::srgb, notes);
+  write_png(folder / "a.png", ramp(), 0, ToneMap::srgb, notes);
   write_pfm(folder / "a.pfm", ramp());
   write_hdr(folder / "a.hdr", ramp());
   std::vector<fs::path> files = {folder / "a.png", folder / "a.pfm", folder / "a.hdr"};

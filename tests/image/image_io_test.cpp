@@ -18,7 +18,7 @@ const Embedded notes = {"{\"tyndall\": 1, \"name\": \"Nebel über Glas – 霧\"
 /// A chunk IHDR, IEND ... as it stands in a file: length, type, data, CRC.
 std::string png_start(const std::string& after_header) {
   const fs::path file = scratch_folder("png_start") / "a.png";
-  write_png(file, small_image(), 0, ToneCurve::srgb, {});
+  write_png(file, small_image(), 0, ToneMap::srgb, {});
   return read_text(file).substr(0, 33) + after_header;
 }
 
@@ -26,18 +26,18 @@ std::string png_start(const std::string& after_header) {
 
 TEST_CASE("png: pixels, exposure and tone curve") {
   const fs::path file = scratch_folder("png") / "a.png";
-  write_png(file, small_image(), 0, ToneCurve::srgb, notes);
+  write_png(file, small_image(), 0, ToneMap::srgb, notes);
   Rgb8Image image = read_rgb8(file);
   CHECK(image.width == 2);
   CHECK(image.height == 3);
-  CHECK(image.rgb == tone_map(small_image().rgb, 0, ToneCurve::srgb));
-  write_png(file, small_image(), -2, ToneCurve::aces, notes);
-  CHECK(read_rgb8(file).rgb == tone_map(small_image().rgb, -2, ToneCurve::aces));
+  CHECK(image.rgb == tone_map(small_image().rgb, 0, ToneMap::srgb));
+  write_png(file, small_image(), -2, ToneMap::aces, notes);
+  CHECK(read_rgb8(file).rgb == tone_map(small_image().rgb, -2, ToneMap::aces));
 }
 
 TEST_CASE("png: read as a linear image") {
   const fs::path file = scratch_folder("png_linear") / "a.png";
-  write_png(file, small_image(), 0, ToneCurve::srgb, {});
+  write_png(file, small_image(), 0, ToneMap::srgb, {});
   const LinearImage image = read_image(file);
   CHECK(image.width == 2);
   CHECK(image.rgb[0] == 1.0f);
@@ -47,19 +47,19 @@ TEST_CASE("png: read as a linear image") {
 
 TEST_CASE("png: carries the scene, byte for byte") {
   const fs::path folder = scratch_folder("png_scene");
-  write_png(folder / "a.png", small_image(), 0, ToneCurve::srgb, notes);
+  write_png(folder / "a.png", small_image(), 0, ToneMap::srgb, notes);
   CHECK(read_embedded_scene(folder / "a.png") == notes.scene);
-  write_png(folder / "b.png", small_image(), 0, ToneCurve::srgb, {});
+  write_png(folder / "b.png", small_image(), 0, ToneMap::srgb, {});
   CHECK_FALSE(read_embedded_scene(folder / "b.png").has_value());
   const Embedded large = {std::string(3'000'000, 'x'), ""};
-  write_png(folder / "c.png", small_image(), 0, ToneCurve::srgb, large);
+  write_png(folder / "c.png", small_image(), 0, ToneMap::srgb, large);
   CHECK(read_embedded_scene(folder / "c.png") == large.scene);
 }
 
 // The chunk sRGB with intent 0 and its checksum AECE1CE9 stand in every second PNG of the world.
 TEST_CASE("png: chunks have length, type, data and checksum") {
   const fs::path file = scratch_folder("png_chunks") / "a.png";
-  write_png(file, small_image(), 0, ToneCurve::srgb, {"{}", ""});
+  write_png(file, small_image(), 0, ToneMap::srgb, {"{}", ""});
   const std::string text = read_text(file);
   CHECK(text.substr(33, 13) == std::string("\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13));
   CHECK(text.substr(46, 28) == std::string("\0\0\0\x14iTXttyndall:scene\0\0\0\0\0{}", 28));
@@ -83,7 +83,7 @@ TEST_CASE("png: broken chunks are one clear error") {
   CHECK(message(png_start(std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12))) == "none");
   CHECK(message(png_start(std::string("\0\0\0\x10iTXttyndall:scene\0\0\0\0\0\0", 28))) ==
         ": cannot read: damaged: the checksum of the text tyndall:scene is wrong");
-  write_png(file, small_image(), 0, ToneCurve::srgb, notes);
+  write_png(file, small_image(), 0, ToneMap::srgb, notes);
   std::string damaged = read_text(file);
   damaged[damaged.find("Glas")] = 'g';
   CHECK(message(damaged) == ": cannot read: damaged: the checksum of the text tyndall:scene is wrong");

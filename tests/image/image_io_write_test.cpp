@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> writer
   std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> list = {
       {"a.png",
        [=](const fs::path& file) {
-         write_png(file, image, 0, ToneCurve::srgb, {"{}", ""});
+         write_png(file, image, 0, ToneMap::srgb, {"{}", ""});
        }},
       {"a.pfm", [=](const fs::path& file) { write_pfm(file, image); }},
       {"a.hdr", [=](const fs::path& file) { write_hdr(file, image); }}};
@@ -134,7 +134,7 @@ TEST_CASE("writing: folders, pipes and links") {
 TEST_CASE("writing: an image without pixels is refused") {
   const fs::path folder = scratch_folder("write_empty");
   const std::string expected = ": cannot write: found an image of 0 x 0 pixels, expected 1 to 2^28 in all";
-  CHECK(error_of([](const fs::path& file) { write_png(file, {}, 0, ToneCurve::srgb, {}); }, folder / "a") == expected);
+  CHECK(error_of([](const fs::path& file) { write_png(file, {}, 0, ToneMap::srgb, {}); }, folder / "a") == expected);
   CHECK(error_of([](const fs::path& file) { write_pfm(file, {}); }, folder / "a") == expected);
   CHECK(error_of([](const fs::path& file) { write_hdr(file, {}); }, folder / "a") == expected);
   if (has_openexr()) {

@@ -62,14 +62,16 @@ void drag_each(const Owner& owner, const Use& use) {
   Engine engine(1);
   const auto drag = [&](const auto& field) {
     using Value = std::decay_t<decltype(owner.*field.value)>;
-    for (const auto& set : Setter<Value>::all(field.slider, engine)) {
+    // Places have no slider: they are dragged as far as the stage reaches.
+    const Slider reach = has_slider(field.slider) ? field.slider : Slider{-10, 10};
+    for (const auto& set : Setter<Value>::all(reach, engine)) {
       Owner changed = owner;
       set(changed.*field.value);
       CAPTURE(field.name);
       use(changed);
     }
   };
-  std::apply([&](const auto&... field) { (drag(field), ...); }, fields(static_cast<const Owner*>(nullptr)));
+  std::apply([&](const auto&... field) { (drag(field), ...); }, fields_of<Owner>());
 }
 
 /// A floor, a lamp, and room for what is tried; light reaches every corner of it.

@@ -104,7 +104,7 @@ TEST_CASE("load_scene: what cannot be loaded") {
 TEST_CASE("load_scene: the scene in an image that Tyndall wrote") {
   fs::create_directories(scratch);
   const std::string text = "{ \"tyndall\": 1, \"name\": \"snapshot\", \"render\": { \"spp\": 3 } }";
-  write_png(scratch / "snapshot.png", {2, 1, {0, 0, 0, 1, 1, 1}}, 0, ToneCurve::srgb, {text, ""});
+  write_png(scratch / "snapshot.png", {2, 1, {0, 0, 0, 1, 1, 1}}, 0, ToneMap::srgb, {text, ""});
   const LoadedScene loaded = load_scene((scratch / "snapshot.png").string(), {{"/render/spp", "4"}});
   CHECK(loaded.scene.name == "snapshot");
   CHECK(loaded.scene.render.spp == 4);

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/scene/check.h"
-#include "core/scene/names.h"
 
 #include <cmath>
 #include <random>
@@ -20,15 +19,12 @@ class SceneGenerator {
     out.camera = camera();
     out.background = background();
     fill(out.render);
-    if (chance()) out.render.fresnel = FresnelKind::schlick;
     fill(out.display);
-    if (chance()) out.display.tone_map = ToneMap::aces;
     for (int i = below(5); i > 0; --i) out.textures.push_back(texture(out.textures.size()));
     textures_ = static_cast<int>(out.textures.size());
     for (int i = 1 + below(5); i > 0; --i) out.materials.push_back(material(out.materials.size()));
     materials_ = static_cast<int>(out.materials.size());
     out.objects = objects(3);
-    out.render.adaptive = chance();
     return out;
   }
 
@@ -54,6 +50,11 @@ class SceneGenerator {
   void fill(const Valid& valid, double& out) { out = number(valid); }
   void fill(const Valid& valid, int& out) { out = static_cast<int>(valid.low) + below(5000); }
   void fill(const Valid&, std::uint32_t& out) { out = static_cast<std::uint32_t>(random_()); }
+  void fill(const Valid&, bool& out) { out = chance(); }
+  template <NamedEnum E>
+  void fill(const Valid&, E& out) {
+    out = static_cast<E>(below(count_of<E>()));
+  }
   void fill(const Valid& valid, Vec3d& out) { out = {number(valid), number(valid), number(valid)}; }
   template <class T>
   void fill(const Valid& valid, std::optional<T>& out) {
@@ -64,7 +65,7 @@ class SceneGenerator {
     const auto one = [&](const auto& field) {
       if (field.required || chance()) fill(field.valid, out.*field.value);
     };
-    std::apply([&](const auto&... field) { (one(field), ...); }, fields(static_cast<const Owner*>(nullptr)));
+    std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
   }
 
   /// A text with letters that JSON, pointers and terminals treat specially.
@@ -105,7 +106,7 @@ class SceneGenerator {
     else if (chance())
       fill(out.kind.emplace<Checker<>>());
     else
-      fill(out.kind.emplace<Noise<>>()), std::get<Noise<>>(out.kind).style = noise_styles[below(3)].value;
+      fill(out.kind.emplace<Noise<>>());
     return out;
   }
 

@@ -1,4 +1,3 @@
-#include "core/scene/names.h"
 #include "tests/scene/files.h"
 #include "tests/support/paths.h"
 
@@ -72,16 +71,10 @@ void check_object(const std::string& name, const Json& object, const Fields& lis
   CHECK(listed(object.value("required", Json())) == required);
 }
 
-template <class T>
-auto fields_of_kind() {
-  return fields(static_cast<const T*>(nullptr));
-}
-
-template <class E, std::size_t n>
-Names names_of(const Named<E> (&table)[n]) {
-  Names names;
-  for (const auto& entry : table) names.insert(entry.name);
-  return names;
+template <class E>
+Names set_of_names() {
+  const auto names = names_of<E>();
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -91,45 +84,43 @@ TEST_CASE("schema: the settings") {
   CHECK(keys(schema["properties"]) == Names{"tyndall", "name", "image", "camera", "background", "render", "display",
                                             "textures", "materials", "objects"});
   check_object("image", parts["image"], image_fields());
-  check_object("camera", parts["camera"], fields_of_kind<Camera>(), {"shutter"});
-  check_object("render", parts["render"], fields_of_kind<RenderSettings>(),
-               {"integrator", "sampler", "fresnel", "adaptive"});
-  check_object("display", parts["display"], fields_of_kind<Display>(), {"tone_map"});
-  check_object("gradient", kind(parts["background"], "gradient"), fields_of_kind<Gradient>(), {"type"}, {"type"});
-  check_object("hemispheres", kind(parts["background"], "hemispheres"), fields_of_kind<Hemispheres>(), {"type"},
-               {"type"});
-  CHECK(listed(parts["render"]["properties"]["integrator"]["enum"]) == names_of(integrators));
-  CHECK(listed(parts["render"]["properties"]["sampler"]["enum"]) == names_of(samplers));
-  CHECK(listed(parts["render"]["properties"]["fresnel"]["enum"]) == names_of(fresnel_rules));
-  CHECK(listed(parts["display"]["properties"]["tone_map"]["enum"]) == names_of(tone_maps));
+  check_object("camera", parts["camera"], fields_of<Camera>(), {"shutter"});
+  check_object("render", parts["render"], fields_of<RenderSettings>());
+  check_object("display", parts["display"], fields_of<Display>());
+  check_object("gradient", kind(parts["background"], "gradient"), fields_of<Gradient>(), {"type"}, {"type"});
+  check_object("hemispheres", kind(parts["background"], "hemispheres"), fields_of<Hemispheres>(), {"type"}, {"type"});
+  CHECK(listed(parts["render"]["properties"]["integrator"]["enum"]) == set_of_names<Integrator>());
+  CHECK(listed(parts["render"]["properties"]["sampler"]["enum"]) == set_of_names<SamplerKind>());
+  CHECK(listed(parts["render"]["properties"]["fresnel"]["enum"]) == set_of_names<FresnelKind>());
+  CHECK(listed(parts["display"]["properties"]["tone_map"]["enum"]) == set_of_names<ToneMap>());
 }
 
 TEST_CASE("schema: textures and materials") {
   const Json &texture = schema["$defs"]["texture"], &material = schema["$defs"]["material"];
   CHECK(texture["oneOf"].size() == std::variant_size_v<TextureKinds<double>>);
-  check_object("solid", kind(texture, "solid"), fields_of_kind<Solid<>>(), {"type"}, {"type"});
-  check_object("checker", kind(texture, "checker"), fields_of_kind<Checker<>>(), {"type"}, {"type"});
-  check_object("noise", kind(texture, "noise"), fields_of_kind<Noise<>>(), {"type", "style"}, {"type"});
+  check_object("solid", kind(texture, "solid"), fields_of<Solid<>>(), {"type"}, {"type"});
+  check_object("checker", kind(texture, "checker"), fields_of<Checker<>>(), {"type"}, {"type"});
+  check_object("noise", kind(texture, "noise"), fields_of<Noise<>>(), {"type"}, {"type"});
   check_object("image", kind(texture, "image"), std::tuple{}, {"type", "file"}, {"type", "file"});
-  CHECK(listed(kind(texture, "noise")["properties"]["style"]["enum"]) == names_of(noise_styles));
+  CHECK(listed(kind(texture, "noise")["properties"]["style"]["enum"]) == set_of_names<NoiseStyle>());
   CHECK(material["oneOf"].size() == std::variant_size_v<MaterialKinds<double>>);
-  check_object("lambertian", kind(material, "lambertian"), fields_of_kind<Lambertian<>>(), {"type", "albedo"},
+  check_object("lambertian", kind(material, "lambertian"), fields_of<Lambertian<>>(), {"type", "albedo"},
                {"type", "albedo"});
-  check_object("metal", kind(material, "metal"), fields_of_kind<Metal<>>(), {"type", "albedo"}, {"type", "albedo"});
-  check_object("dielectric", kind(material, "dielectric"), fields_of_kind<Dielectric<>>(), {"type"}, {"type"});
-  check_object("light", kind(material, "light"), fields_of_kind<Light<>>(), {"type", "radiance"}, {"type", "radiance"});
+  check_object("metal", kind(material, "metal"), fields_of<Metal<>>(), {"type", "albedo"}, {"type", "albedo"});
+  check_object("dielectric", kind(material, "dielectric"), fields_of<Dielectric<>>(), {"type"}, {"type"});
+  check_object("light", kind(material, "light"), fields_of<Light<>>(), {"type", "radiance"}, {"type", "radiance"});
 }
 
 TEST_CASE("schema: objects") {
   const Json &object = schema["$defs"]["object"], &boundary = schema["$defs"]["boundary"];
   const Names all{"name", "type", "material", "transform"}, needed{"type", "material"};
-  check_object("sphere", kind(object, "sphere"), fields_of_kind<Sphere<>>(), all, needed);
-  check_object("quad", kind(object, "quad"), fields_of_kind<Quad<>>(), all, needed);
-  check_object("box", kind(object, "box"), fields_of_kind<Box<>>(), all, needed);
-  check_object("medium", kind(object, "medium"), fields_of_kind<Medium<>>(),
+  check_object("sphere", kind(object, "sphere"), fields_of<Sphere<>>(), all, needed);
+  check_object("quad", kind(object, "quad"), fields_of<Quad<>>(), all, needed);
+  check_object("box", kind(object, "box"), fields_of<Box<>>(), all, needed);
+  check_object("medium", kind(object, "medium"), fields_of<Medium<>>(),
                {"name", "type", "boundary", "albedo", "transform"}, {"type", "boundary", "albedo"});
   check_object("group", kind(object, "group"), std::tuple{}, {"name", "type", "transform", "objects"},
                {"type", "objects"});
-  check_object("box boundary", kind(boundary, "box"), fields_of_kind<Box<>>(), {"type", "transform"}, {"type"});
+  check_object("box boundary", kind(boundary, "box"), fields_of<Box<>>(), {"type", "transform"}, {"type"});
   CHECK(keys(kind(boundary, "sphere")["properties"]) == Names{"type", "center", "radius", "transform"});
 }

@@ -31,7 +31,7 @@ TEST_CASE("write_scene: the normal form") {
   "display": { "exposure": -1.5, "tone_map": "aces" },
   "textures": {
     "tiles": { "type": "checker", "scale": 0.32, "even": [0.2, 0.3, 0.1], "odd": [0.9, 0.9, 0.9] },
-    "marble": { "type": "noise", "scale": 4, "style": "marble" }
+    "marble": { "type": "noise", "scale": 4, "style": "turbulence" }
   },
   "materials": {
     "white": { "type": "lambertian", "albedo": "tiles" },

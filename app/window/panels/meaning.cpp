@@ -53,7 +53,13 @@ std::string label_of(std::string_view field) {
                                                                        {"max", "High corner"},
                                                                        {"even", "Even cubes"},
                                                                        {"odd", "Odd cubes"},
-                                                                       {"color", "Colour"}};
+                                                                       {"color", "Colour"},
+                                                                       {"up", "Above"},
+                                                                       {"down", "Below"},
+                                                                       {"rotate_y", "Turn"},
+                                                                       {"translate", "Move"},
+                                                                       {"max_depth", "Depth"},
+                                                                       {"spp", "Limit"}};
   for (const auto& [name, label] : words)
     if (name == field) return label;
   std::string label(field);
@@ -78,11 +84,6 @@ SharpRange sharp_range(const Camera& camera, int image_height) {
   const double infinite = std::numeric_limits<double>::infinity();
   return {open * focus / (open + blur), open > blur ? open * focus / (open - blur) : infinite};
 }
-
-std::string meaning(const Lambertian<>&, std::string_view) { return ""; }
-std::string meaning(const Light<>&, std::string_view) { return ""; }
-std::string meaning(const Quad<>&, std::string_view) { return ""; }
-std::string meaning(const Box<>&, std::string_view) { return ""; }
 
 std::string meaning(const Metal<>& metal, std::string_view) {
   if (metal.fuzz == 0) return "a perfect mirror";
@@ -125,10 +126,14 @@ std::string meaning(const Camera& camera, std::string_view field) {
   return "";
 }
 
+std::string meaning(const Display& display, std::string_view field) {
+  return field == "exposure" ? "brightness × " + format_short(std::exp2(display.exposure)) : "";
+}
+
 std::string colour_meaning(const Material& material, Vec3d colour) {
   const double y = luminance(colour);
   if (std::holds_alternative<Light<>>(material.kind)) return "luminance " + format_short(y);
-  if (std::holds_alternative<Dielectric<>>(material.kind)) return "";
+  if (!colour_name(material.kind)) return "";
   return "reflects " + percent(y) + " of white light";
 }
 

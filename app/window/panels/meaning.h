@@ -23,16 +23,13 @@ struct SharpRange {
 };
 SharpRange sharp_range(const Camera& camera, int image_height);
 
-/// The grey line for a field of each struct; "" where there is nothing to say.
-std::string meaning(const Lambertian<>&, std::string_view field);
+/// The grey line for a field of each struct that has something to say; "" where there is nothing.
 std::string meaning(const Metal<>& metal, std::string_view field);
 std::string meaning(const Dielectric<>& glass, std::string_view field);
-std::string meaning(const Light<>&, std::string_view field);
 std::string meaning(const Medium<>& medium, std::string_view field);
 std::string meaning(const Sphere<>& sphere, std::string_view field);
-std::string meaning(const Quad<>& quad, std::string_view field);
-std::string meaning(const Box<>& box, std::string_view field);
 std::string meaning(const Camera& camera, std::string_view field);
+std::string meaning(const Display& display, std::string_view field);
 
 /// What a colour does, as the albedo or radiance of a material or medium.
 std::string colour_meaning(const Material& material, Vec3d colour);

@@ -1,6 +1,6 @@
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/panels.h"
-#include "core/scene/names.h"
+#include "core/base/kinds.h"
 
 #include <algorithm>
 
@@ -26,23 +26,13 @@ class Scope {
   std::string before_;
 };
 
-const char* colour_field(const Material& material) {
-  return std::visit([](const auto& kind) { return kind.colour_name; }, material.kind);
-}
-
 void material_rows(Ui& ui, Scene& scene, int index, bool brief) {
   Material& material = scene.materials[static_cast<std::size_t>(index)];
   const Scope scope(ui, material.name);
   std::visit([&](auto& kind) { field_rows(ui, kind); }, material.kind);
-  const char* name = colour_field(material);
+  const char* name = colour_name(material.kind);
   if (!name) return;
-  Row row{name, label_of(name), between(0, 1), {0, 1}, "", "share of light that comes back, per colour; linear RGB",
-          ""};
-  if (std::holds_alternative<Light<>>(material.kind)) {
-    row.valid = at_least(0);
-    row.slider = {0, 20};
-    row.help = "radiance, linear RGB; may exceed 1";
-  }
+  Row row = row_of(name, colour_meaning(name), "");
   const Vec3d* colour = std::get_if<Vec3d>(&material.colour);
   if (colour && !brief) row.meaning = colour_meaning(material, *colour);
   colour_rows(ui, scene, material.colour, row);
@@ -59,21 +49,20 @@ void material_choice(Ui& ui, const Scene& scene, Solid3d& solid) {
 
 void transform_rows(Ui& ui, const char* prefix, Transform& transform) {
   int number = 0;
-  for (auto& step : transform) {
-    const std::string name = prefix + std::to_string(number++);
-    if (RotateY* rotation = std::get_if<RotateY>(&step))
-      slider_row(ui, {name, "Turn", any_number(), {-180, 180}, "°", "rotation about the y axis", ""},
-                 rotation->degrees);
-    else
-      value_row(ui, {name, "Move", any_number(), {}, "", "translation, scene units", ""},
-                std::get<Translate>(step).offset);
-  }
+  for (auto& step : transform)
+    std::visit(
+        [&]<class Step>(Step& move) {
+          const auto field = std::get<0>(fields_of<Step>());
+          Row row = row_of(field, "");
+          row.name = prefix + std::to_string(number++);
+          value_row(ui, std::move(row), move.*field.value);
+        },
+        step);
 }
 
 void medium_rows(Ui& ui, Scene& scene, Volume& volume) {
   field_rows(ui, volume.medium);
-  Row row{"albedo", "Albedo", between(0, 1), {0, 1}, "", "share of events that scatter, per colour; the rest absorbs",
-          ""};
+  Row row = row_of("albedo", colour_meaning("albedo"), "");
   if (const Vec3d* colour = std::get_if<Vec3d>(&volume.albedo)) row.meaning = albedo_meaning(volume.medium, *colour);
   colour_rows(ui, scene, volume.albedo, row);
 }
@@ -126,19 +115,11 @@ void full_section(Ui& ui, Scene& scene, const ObjectPath& path) {
 
 void texture_rows(Ui& ui, Texture& texture) {
   const Scope scope(ui, texture.name);
-  if (Image* image = std::get_if<Image>(&texture.kind)) {
-    text_row(ui, {"file", "Picture", {}, {}, "", image->file, ""}, image->file);
-    return;
-  }
-  if (Solid<>* solid = std::get_if<Solid<>>(&texture.kind)) return field_rows(ui, *solid);
-  if (Checker<>* checker = std::get_if<Checker<>>(&texture.kind)) return field_rows(ui, *checker);
-  Noise<>& noise = std::get<Noise<>>(texture.kind);
-  field_rows(ui, noise);
-  std::vector<Choice> choices;
-  for (const auto& style : noise_styles) choices.push_back({style.name});
-  int chosen = static_cast<int>(noise.style);
-  if (choice_row(ui, {"style", "Style", {}, {}, "", "", ""}, choices, chosen))
-    noise.style = noise_styles[static_cast<std::size_t>(chosen)].value;
+  std::visit(Overloaded{[&](Image& image) {
+                          text_row(ui, {"file", "Picture", {}, {}, "", image.file, ""}, image.file);
+                        },
+                        [&](auto& kind) { field_rows(ui, kind); }},
+             texture.kind);
 }
 
 }  // namespace

@@ -13,9 +13,10 @@
 /// The column of panels. Panels change the scene that they are given (a copy) and leave wishes; they start nothing.
 namespace tyndall {
 
-/// The first six views are the renderer's; the last two are pictures of differences.
-inline constexpr int view_count = 9, cost_view = 6, error_view = 7, flip_view = 8;
-extern const char* const view_names[view_count];
+/// Views by number, as keys and buttons choose them: the renderer's own, then two pictures of differences.
+inline constexpr int cost_view = static_cast<int>(View::cost);
+inline constexpr int error_view = count_of<View>(), flip_view = error_view + 1, view_count = flip_view + 1;
+const char* view_name(int view);
 
 /// What panels ask the window to do.
 struct Wishes {
@@ -31,7 +32,7 @@ struct Wishes {
 struct PanelState {
   Scene scene;          ///< edited in place
   ObjectPath selected;  ///< edited in place
-  int view = 0;         ///< edited in place: index into view_names
+  int view = 0;         ///< edited in place: see view_name()
   Wishes wishes;        ///< out
   // What is shown.
   std::shared_ptr<const Frame> frame;  ///< null before the first

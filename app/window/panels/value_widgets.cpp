@@ -3,6 +3,7 @@
 #include "core/image/tonemap.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -29,8 +30,10 @@ bool accept(const Row& row, double wanted, double& value) {
 }
 
 std::string shown_text(const Row& row, double value, bool fixed_digits) {
-  if (row.whole) return std::to_string(std::llround(value)) + row.unit;
-  return (fixed_digits ? format_value(row.slider, value) : format_short(value)) + row.unit;
+  const bool word = std::isalpha(static_cast<unsigned char>(*row.unit)) != 0;
+  const std::string unit = (word ? " " : "") + std::string(row.unit);
+  if (row.whole) return std::to_string(std::llround(value)) + unit;
+  return (fixed_digits ? format_value(row.slider, value) : format_short(value)) + unit;
 }
 
 void begin_edit(Ui& ui, ImGuiID id, const std::string& text) {

@@ -132,7 +132,7 @@ void end_row(Ui& ui, const Row& row) {
   ImGui::PopID();
   if (row.meaning.empty()) return;
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
-  note(ui, row.meaning);
+  note(ui, row.meaning, true, row.warning ? palette::amber : palette::dim);
 }
 
 bool slider_row(Ui& ui, const Row& row, double& value) {
@@ -142,13 +142,6 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
   tooltip(ui, row.help);
   ImGui::SameLine(0, gap * ui.scale);
   changed = value_box(ui, "value", row, value, box_width * ui.scale, true) || changed;
-  end_row(ui, row);
-  return changed;
-}
-
-bool number_row(Ui& ui, const Row& row, double& value) {
-  begin_row(ui, row);
-  const bool changed = value_box(ui, "value", row, value, value_width(ui), false);
   end_row(ui, row);
   return changed;
 }
@@ -163,6 +156,7 @@ bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2
   const bool pressed = ImGui::Button(choice.name, size);
   ImGui::PopStyleColor(2);
   log_item(ui, row.name + "." + choice.name, on ? "on" : choice.missing ? "missing" : "off");
+  if (!choice.missing) tooltip(ui, choice.help);
   if (!choice.missing) return pressed && !on;
   tooltip(ui, choice.missing);
   if (pressed) ui.problem = std::string(choice.name) + ": " + choice.missing;

@@ -49,9 +49,10 @@ struct Row {
   Valid valid;
   Slider slider;
   const char* unit = "";
-  std::string help;     ///< tooltip
-  std::string meaning;  ///< grey line beneath; "": none
-  bool whole = false;   ///< whole numbers only
+  std::string help;      ///< tooltip
+  std::string meaning;   ///< grey line beneath; "": none
+  bool whole = false;    ///< whole numbers only
+  bool warning = false;  ///< the line beneath is one
 };
 
 /// A heading with a note on the right; a click folds the section. Returns whether it is open.
@@ -63,12 +64,11 @@ bool slider_row(Ui& ui, const Row& row, double& value);
 bool vector_row(Ui& ui, const Row& row, Vec3d& value);
 /// Label, three numbers and a swatch that opens a picker. Linear RGB; radiance may exceed 1.
 bool colour_row(Ui& ui, const Row& row, Vec3d& value);
-/// Label and a number to drag or type, without a slider.
-bool number_row(Ui& ui, const Row& row, double& value);
 /// One of the buttons of a choice.
 struct Choice {
   const char* name;
   const char* missing = nullptr;  ///< not null: it cannot be chosen, and why
+  const char* help = "";          ///< tooltip
 };
 /// Label and buttons side by side, one of them chosen; names are also the log's. In several lines if `columns` > 0 is
 /// less than their number. What is missing is grey and says why.

@@ -40,7 +40,7 @@ TEST_CASE("without a command: the window") {
   CHECK(std::get<ViewCommand>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
   const auto view = std::get<ViewCommand>(read_command({"--seed", "7", "a.json", "-t", "2"}));
   CHECK(view.scene.what == "a.json");
-  CHECK(view.scene.seed == 7u);
+  CHECK(view.scene.render.values.seed == 7u);
   CHECK(view.threads == 2);
 }
 
@@ -58,13 +58,13 @@ TEST_CASE("render: every option arrives") {
   CHECK(c.spp == 16u);
   CHECK(c.time_limit == 2.5);
   CHECK(c.target_error == 0.01);
-  CHECK(c.scene.max_depth == 7);
-  CHECK(c.scene.sampler == SamplerKind::random);
-  CHECK(c.scene.integrator == Integrator::path);
-  CHECK(c.scene.fresnel == FresnelKind::schlick);
-  CHECK(c.scene.exposure == -1.5);
-  CHECK(c.scene.tone_map == ToneMap::aces);
-  CHECK(c.scene.seed == 4294967295u);
+  CHECK(c.scene.render.values.max_depth == 7);
+  CHECK(c.scene.render.values.sampler == SamplerKind::random);
+  CHECK(c.scene.render.values.integrator == Integrator::path);
+  CHECK(c.scene.render.values.fresnel == FresnelKind::schlick);
+  CHECK(c.scene.display.values.exposure == -1.5);
+  CHECK(c.scene.display.values.tone_map == ToneMap::aces);
+  CHECK(c.scene.render.values.seed == 4294967295u);
   CHECK(c.region == Region{1, 2, 3, 4});
   CHECK(c.isa == "scalar");
   CHECK(c.stats == "s.json");
@@ -78,7 +78,7 @@ TEST_CASE("render: what is not given stays open") {
   CHECK_FALSE(c.spp);
   CHECK_FALSE(c.samples);
   CHECK_FALSE(c.scene.size);
-  CHECK_FALSE(c.scene.seed);
+  CHECK(c.scene.render.given.empty());
   CHECK_FALSE(c.resume);
   CHECK(c.threads == 0);
   CHECK(c.progress == ProgressStyle::automatic);
@@ -132,13 +132,13 @@ TEST_CASE("limits that exclude each other are named") {
 }
 
 TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered") {
-  CHECK_FALSE(render_command({}).scene.adaptive);
-  CHECK(render_command({"--adaptive"}).scene.adaptive);
-  CHECK(std::get<ViewCommand>(read_command({"view", "--adaptive", "box"})).scene.adaptive);
+  CHECK_FALSE(render_command({}).scene.render.values.adaptive);
+  CHECK(render_command({"--adaptive"}).scene.render.values.adaptive);
+  CHECK(std::get<ViewCommand>(read_command({"view", "--adaptive", "box"})).scene.render.values.adaptive);
   const auto chart = std::get<ChartCommand>(
       read_command({"chart", "box", "-o", "a.svg", "--method", "even=", "--method", "adaptive=--adaptive --seed 3"}));
-  CHECK_FALSE(chart.methods.at(0).scene.adaptive);
-  CHECK(chart.methods.at(1).scene.adaptive);
+  CHECK_FALSE(chart.methods.at(0).scene.render.values.adaptive);
+  CHECK(chart.methods.at(1).scene.render.values.adaptive);
   CHECK(has(refusal({"verify", "--adaptive"}), "unknown option"));
 }
 
@@ -150,8 +150,8 @@ TEST_CASE("verify: names, method, machine") {
   CHECK_FALSE(command.thorough);
   CHECK(command.isa == "scalar");
   CHECK(command.threads == 2);
-  CHECK(command.method.integrator == Integrator::nee);
-  CHECK(command.method.seed == 7u);
+  CHECK(command.method.render.values.integrator == Integrator::nee);
+  CHECK(command.method.render.values.seed == 7u);
   CHECK(command.progress == ProgressStyle::none);
   CHECK(std::get<VerifyCommand>(read_command({"verify", "--thorough"})).thorough);
   CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
@@ -171,9 +171,9 @@ TEST_CASE("chart: methods with flags of their own, reference, budget") {
   CHECK(command.budget == 7);
   REQUIRE(command.methods.size() == 2);
   CHECK(command.methods[0].name == "plain");
-  CHECK_FALSE(command.methods[0].scene.integrator);
+  CHECK_FALSE(command.methods[0].scene.render.given.contains("integrator"));
   CHECK(command.methods[1].name == "no MIS");
-  CHECK(command.methods[1].scene.integrator == Integrator::nee);
+  CHECK(command.methods[1].scene.render.values.integrator == Integrator::nee);
   CHECK(command.methods[1].isa == "scalar");
   CHECK(std::get<ChartCommand>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
   CHECK(has(refusal({"chart", "box"}), "-o FILE.svg"));

@@ -11,10 +11,10 @@ TEST_CASE("options change the scene after overrides") {
   request.what = "cornell-box";
   request.overrides = {{"/image/width", "100"}, {"/image/height", "90"}, {"/render/max_depth", "9"}};
   request.size = Size{64, 48};
-  request.seed = 7;
-  request.exposure = 2;
-  request.tone_map = ToneMap::aces;
-  request.fresnel = FresnelKind::schlick;
+  set(request.render, &RenderSettings::seed, 7);
+  set(request.render, &RenderSettings::fresnel, FresnelKind::schlick);
+  set(request.display, &Display::exposure, 2);
+  set(request.display, &Display::tone_map, ToneMap::aces);
   const Scene scene = open_scene(request).scene;
   CHECK(scene.width == 64);
   CHECK(scene.height == 48);
@@ -35,8 +35,8 @@ TEST_CASE("what options change is checked too") {
 TEST_CASE("methods named by options replace the scene's") {
   SceneRequest request;
   request.what = "cornell-box";
-  request.integrator = Integrator::nee;
-  request.sampler = SamplerKind::random;
+  set(request.render, &RenderSettings::integrator, Integrator::nee);
+  set(request.render, &RenderSettings::sampler, SamplerKind::random);
   const RenderSettings settings = open_scene(request).scene.render;
   CHECK(settings.integrator == Integrator::nee);
   CHECK(settings.sampler == SamplerKind::random);

@@ -85,7 +85,7 @@ TEST_CASE("an image of Tyndall belongs to its own scene, textures and all; the s
     const Document document = small_document(name);
     const fs::path file = folder / (std::string(name) + ".png");
     const Film film = two_halves(document.scene);
-    write_png(file, {8, 6, resolve(film)}, 0, ToneCurve::srgb,
+    write_png(file, {8, 6, resolve(film)}, 0, ToneMap::srgb,
               {embedded_scene(document.scene, document.origin->folder, film, file), ""});
     CHECK_FALSE(shows_no_scene(file));
     const Reference reference = read_reference(file, document);
@@ -104,7 +104,7 @@ TEST_CASE("an image of Tyndall belongs to its own scene, textures and all; the s
 TEST_CASE("which dropped images hold no scene") {
   const fs::path folder = scratch("dropped");
   write_pfm(folder / "a.pfm", grey_image(2, 2));
-  write_png(folder / "a.png", grey_image(2, 2), 0, ToneCurve::srgb, {});
+  write_png(folder / "a.png", grey_image(2, 2), 0, ToneMap::srgb, {});
   std::ofstream(folder / "a.json") << "{}";
   CHECK(shows_no_scene(folder / "a.pfm"));
   CHECK(shows_no_scene(folder / "a.png"));

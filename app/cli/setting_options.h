@@ -1,0 +1,109 @@
+#pragma once
+#include "app/cli/command_line.h"
+#include "app/files/scene_request.h"
+#include "core/base/text.h"
+#include "core/scene/place.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <type_traits>
+
+/// Options for the values that a struct lists in fields(): their names, values, ranges and help all follow from it.
+namespace tyndall {
+
+/// "tone_map" -> "--tone-map".
+inline std::string option_name(std::string_view field) {
+  std::string name = "--" + std::string(field);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+/// A value from the text of an option. Throw UsageError.
+template <class T>
+requires(std::is_integral_v<T> && !std::is_same_v<T, bool>) void read_option(const std::string& text, Meaning meaning,
+                                                                             T& out) {
+  Valid& valid = meaning.valid;
+  valid.low = std::max(valid.low, static_cast<double>(std::numeric_limits<T>::min()));
+  valid.high = std::min(valid.high, static_cast<double>(std::numeric_limits<T>::max()));
+  out = static_cast<T>(read_whole(text, valid, expected_text(meaning, Form::whole)));
+}
+inline void read_option(const std::string& text, const Meaning& meaning, double& out) {
+  out = read_number(text, meaning.valid, expected_text(meaning, Form::number));
+}
+inline void read_option(const std::string& text, const Meaning&, bool& out) {
+  out = read_name(text, {"off", "on"}) == 1;
+}
+template <NamedEnum E>
+void read_option(const std::string& text, const Meaning&, E& out) {
+  const std::vector<std::string_view> names = names_of<E>();
+  out = static_cast<E>(read_name(text, {names.begin(), names.end()}));
+}
+template <class T>
+void read_option(const std::string& text, const Meaning& meaning, std::optional<T>& out) {
+  read_option(text, meaning, out.emplace());
+}
+
+/// What the help calls the value of an option.
+template <class T>
+std::string placeholder(const Meaning& meaning, const T&) {
+  if constexpr (NamedEnum<T>) return "NAME";
+  if constexpr (std::is_same_v<T, bool>) return "on|off";
+  if constexpr (std::is_same_v<T, double>) return *meaning.unit ? meaning.unit : "X";
+  return "N";
+}
+
+/// "mis: light sampling, weighted; ..." where there are choices; "" elsewhere.
+template <class T>
+std::string choices_text(const T&) {
+  std::string text;
+  if constexpr (NamedEnum<T>)
+    for (int i = 0; i < count_of<T>(); ++i) {
+      const Word choice = word(static_cast<T>(i));
+      text += std::string(text.empty() ? ": " : "; ") + choice.name +
+              (*choice.help ? std::string(" (") + choice.help + ")" : "");
+    }
+  return text;
+}
+
+inline std::string default_text(double value) { return number_text(value); }
+inline std::string default_text(bool value) { return value ? "on" : "off"; }
+template <NamedEnum E>
+std::string default_text(E value) {
+  return name_of(value);
+}
+template <class T>
+requires(std::is_integral_v<T>) std::string default_text(T value) { return std::to_string(value); }
+template <class T>
+std::string default_text(const std::optional<T>& value) {
+  return value ? default_text(*value) : "not given";
+}
+
+/// One option. A switch that is off by default needs no value.
+template <class Owner, class T>
+void add_setting(CommandLine& line, Changes<Owner>& changes, const Field<Owner, T>& field) {
+  const T usual = Owner().*field.value;
+  const std::string help =
+      wrapped(field.help + choices_text(usual) + " [from the scene, else " + default_text(usual) + "]", help_width);
+  if constexpr (std::is_same_v<T, bool>)
+    if (!usual)
+      return line.flag(option_name(field.name), help, [&changes, field] {
+        changes.values.*field.value = true;
+        changes.given.insert(field.name);
+      });
+  line.value(option_name(field.name), placeholder(meaning_of(field), usual), help,
+             [&changes, field](const std::string& text) {
+               read_option(text, meaning_of(field), changes.values.*field.value);
+               changes.given.insert(field.name);
+             });
+}
+
+/// Options for all fields of a struct but some.
+template <class Owner>
+void add_settings(CommandLine& line, Changes<Owner>& changes, std::initializer_list<std::string_view> without = {}) {
+  const auto one = [&](const auto& field) {
+    if (std::find(without.begin(), without.end(), field.name) == without.end()) add_setting(line, changes, field);
+  };
+  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
+}
+
+}  // namespace tyndall

@@ -1,0 +1,63 @@
+#pragma once
+#include <concepts>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+/// Enums whose values have names in scene files, options and panels. Beside such an enum E stands
+///
+///   constexpr Word word(E value) {
+///     switch (value) {
+///       case E::first:
+///         return {"first", "what it does"};
+///       ...
+///     }
+///     return {};
+///   }
+///
+/// The switch has no default, so a value without a word does not compile (-Wswitch); everything else is a loop over it.
+/// Values count up from 0 without gaps.
+namespace tyndall {
+
+/// How one value of an enum is called, and what it does.
+struct Word {
+  const char* name = nullptr;  ///< as scene files and options spell it; null: there is no such value
+  const char* help = "";       ///< a few words; "" where the name says it all
+  bool approximation = false;  ///< wrong on purpose: marked wherever it is chosen
+};
+
+template <class E>
+concept NamedEnum = requires(E value) {
+  { word(value) } -> std::same_as<Word>;
+};
+
+/// Number of values.
+template <NamedEnum E>
+constexpr int count_of() {
+  int count = 0;
+  while (word(static_cast<E>(count)).name) ++count;
+  return count;
+}
+
+template <NamedEnum E>
+constexpr const char* name_of(E value) {
+  return word(value).name;
+}
+
+/// All names, in the order of the values.
+template <NamedEnum E>
+std::vector<std::string_view> names_of() {
+  std::vector<std::string_view> names;
+  for (int i = 0; i < count_of<E>(); ++i) names.emplace_back(name_of(static_cast<E>(i)));
+  return names;
+}
+
+/// The value of a name; nothing if there is none.
+template <NamedEnum E>
+constexpr std::optional<E> value_named(std::string_view name) {
+  for (int i = 0; i < count_of<E>(); ++i)
+    if (name == name_of(static_cast<E>(i))) return static_cast<E>(i);
+  return std::nullopt;
+}
+
+}  // namespace tyndall

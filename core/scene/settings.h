@@ -1,0 +1,122 @@
+#pragma once
+#include "core/base/choice.h"
+#include "core/base/fields.h"
+#include "core/base/vec.h"
+#include "core/image/tonemap.h"
+
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+/// What a scene says about how it is looked at: the camera, how the picture is computed, how it is shown.
+///
+/// To add a setting: a member with its default, and a line in the fields() below it. The scene file, its schema, the
+/// window's row and the command line's option follow from that line. A switch that is on by default gets an option that
+/// takes on or off; one that is off by default, an option that switches it on.
+namespace tyndall {
+
+/// Thin-lens camera; right-handed, looks from look_from to look_at.
+struct Camera {
+  Vec3d look_from{0, 0, 0}, look_at{0, 0, -1}, vup{0, 1, 0};
+  double vfov = 90;                        ///< vertical and full, degrees
+  double defocus_angle = 0;                ///< of the cone of rays through a pixel, degrees; 0: all is sharp
+  std::optional<double> focus_distance{};  ///< along the axis; absent: the distance from look_from to look_at
+  double shutter_open = 0, shutter_close = 0;
+  bool operator==(const Camera&) const = default;
+};
+
+inline constexpr auto fields(const Camera*) {
+  return std::tuple{
+      Field{"look_from", &Camera::look_from, any_number(), no_slider(), "", "position of the eye, scene units"},
+      Field{"look_at", &Camera::look_at, any_number(), no_slider(), "", "the point in the middle of the picture"},
+      Field{"vup", &Camera::vup, any_number(), no_slider(), "", "the direction that is up in the picture"},
+      Field{"vfov", &Camera::vfov, inside(0, 180), Slider{1, 120}, "°", "vertical field of view, full angle"},
+      Field{"defocus_angle", &Camera::defocus_angle, Valid{.low = 0, .high = 180, .high_open = true}, Slider{0, 5}, "°",
+            "opening of the cone of rays that meets in a point in focus; 0: all is sharp"},
+      Field{"focus_distance", &Camera::focus_distance, above(0), Slider{0.1, 100, true}, "",
+            "distance of the plane in focus, along the axis, scene units"}};
+}
+
+/// How paths find light.
+enum class Integrator { path, nee, mis };
+
+constexpr Word word(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::path:
+      return {"path", "no light sampling"};
+    case Integrator::nee:
+      return {"nee", "light sampling alone where it is possible"};
+    case Integrator::mis:
+      return {"mis", "light sampling, weighted"};
+  }
+  return {};
+}
+
+/// Where a path's random numbers come from.
+enum class SamplerKind { random, sobol };
+
+constexpr Word word(SamplerKind sampler) {
+  switch (sampler) {
+    case SamplerKind::random:
+      return {"random", "independent numbers"};
+    case SamplerKind::sobol:
+      return {"sobol", "a scrambled Sobol' sequence, less noise"};
+  }
+  return {};
+}
+
+/// How much light a smooth boundary reflects.
+enum class FresnelKind { exact, schlick };
+
+constexpr Word word(FresnelKind fresnel) {
+  switch (fresnel) {
+    case FresnelKind::exact:
+      return {"exact", "Fresnel's equations, unpolarised"};
+    case FresnelKind::schlick:
+      return {"schlick", "the books' rule, wrong by up to 0.93 inside glass", true};
+  }
+  return {};
+}
+
+/// Most samples a pixel that a film can add without losing exactness.
+inline constexpr std::uint32_t most_samples = 1u << 24;
+
+struct RenderSettings {
+  int max_depth = 1000;
+  std::optional<int> spp{};  ///< absent: the renderer's own choice
+  Integrator integrator = Integrator::mis;
+  SamplerKind sampler = SamplerKind::sobol;
+  FresnelKind fresnel = FresnelKind::exact;
+  std::uint32_t seed = 0;
+  bool adaptive = false;
+  bool operator==(const RenderSettings&) const = default;
+};
+
+inline constexpr auto fields(const RenderSettings*) {
+  return std::tuple{
+      Field{"max_depth", &RenderSettings::max_depth, at_least(0), Slider{1, 1000, true}, "",
+            "longest path, in scattering events"},
+      Field{"spp", &RenderSettings::spp, between(1, most_samples), Slider{1, 65536, true}, "", "samples per pixel"},
+      Field{"integrator", &RenderSettings::integrator, "how light is found"},
+      Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
+      Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
+      Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
+      Field{"adaptive", &RenderSettings::adaptive,
+            "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded"}};
+}
+
+/// How linear light becomes a picture; never part of rendering.
+struct Display {
+  double exposure = 0;
+  ToneMap tone_map = ToneMap::srgb;
+  bool operator==(const Display&) const = default;
+};
+
+inline constexpr auto fields(const Display*) {
+  // 2^100 and 2^-100 leave room for any picture within the range of single precision.
+  return std::tuple{Field{"exposure", &Display::exposure, between(-100, 100), Slider{-6, 6}, "EV",
+                          "stops: the picture's light is multiplied by 2 to this power"},
+                    Field{"tone_map", &Display::tone_map, "what happens to light that is too bright for a screen"}};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,17 @@
+#pragma once
+#include "core/base/vec.h"
+
+/// What a kernel tells a texture about the place whose colour it wants. Beside each kind of texture stands
+/// colour_at(kind, columns, point): `kind` only names it, `columns` are its numbers as compile() laid them out.
+namespace tyndall {
+
+/// Uv: a function object that gives u and v of the surface there, as a Pair; media have none.
+template <class F, class Uv>
+struct TexturePoint {
+  Vec3<F> point;           ///< in the compiled scene's coordinates
+  Vec3<F> scaled;          ///< columns.scale · point + columns.offset
+  const float* gradients;  ///< 3·256 floats for noise; null in scenes without it
+  const Uv& uv;
+};
+
+}  // namespace tyndall
