@@ -38,15 +38,16 @@ struct Frame {
   std::uint64_t pass = 0;  ///< counts up with every frame
   int width = 0, height = 0;
   std::vector<float> rgba;  ///< 4 floats a pixel, top row first, linear; holes of a coarse pass are filled
-  std::vector<float>
-      beauty;  ///< the same of the picture itself while `view` is another, without coarse passes; or empty
+  /// The picture itself, in the same form, while `view` is another one. Empty while `view` is beauty or only a coarse
+  /// pass is there.
+  std::vector<float> beauty;
   View view = View::beauty;
   int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
-  std::uint32_t spp = 0;      ///< samples that every pixel has, or with adaptive sampling their mean; the same film
-                              ///< as render() makes for that number; 0 while only a coarse pass is there
+  std::uint32_t spp = 0;      ///< samples that every pixel has, with adaptive sampling their mean. The film is the one
+                              ///< that render() makes for that number. 0 while only a coarse pass is there
   bool finished = false;      ///< the limit is reached
   double relative_error = 0;  ///< estimated; infinite before two samples
-  bool rare_bright_paths = false;  ///< the estimate says too little: see has_rare_bright_paths
+  bool rare_bright_paths = false;  ///< the estimate cannot be trusted: see has_rare_bright_paths
   double seconds = 0;              ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;          ///< of the last pass
   double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it
@@ -57,7 +58,7 @@ struct Frame {
   int lanes = 1, threads = 1;
 };
 
-/// An edit that cannot be shown (compile failed); the last good picture stays.
+/// An edit that cannot be shown, because its scene cannot be compiled. The scene before it stays on the screen.
 struct RenderProblem {
   std::uint64_t edit = 0;
   std::string what;

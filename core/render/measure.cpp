@@ -6,14 +6,14 @@
 namespace tyndall {
 namespace {
 
-constexpr double first_samples = 64;  // a pixel: sees what one path in some ten thousand finds
-constexpr double margin = 0.85;       // of the error to reach: the pilot may have been lucky
-constexpr double far_off = 8;         // standard errors: no chance, however many samples
-constexpr double most_growth = 16;    // from pilot to pilot: a poor pilot plans badly
+constexpr double first_samples = 64;  // a pixel, of the first pilot: enough to meet what one path in ten thousand finds
+constexpr double margin = 0.85;       // share of the error to aim at: the pilot may have shown too small an error
+constexpr double far_off = 8;         // standard errors from the known answer: more samples would not help
+constexpr double most_growth = 16;    // of samples from pilot to pilot, as a pilot with a rough error plans badly
 
 double cube(double x) { return x * x * x; }
 
-/// Samples a pixel for a standard error, from what a pilot of `spp` has shown.
+/// Samples a pixel that reach the standard error `wanted`, if a pilot of `spp` samples had `error`.
 double planned(double spp, double error, double wanted) {
   const double ratio = error / (margin * wanted);
   return std::clamp(spp * ratio * ratio, spp, most_growth * spp);
@@ -30,7 +30,7 @@ Measured measure_mean(RenderScene scene, const MeasureOptions& options, const Pr
     RenderOptions render_options;
     render_options.threads = options.threads;
     render_options.isa = options.isa;
-    render_options.spp = static_cast<std::uint32_t>(spp / 2) * 2;  // both halves alike
+    render_options.spp = static_cast<std::uint32_t>(spp / 2) * 2;  // even, so that both halves have as many
     const RenderResult result = render(scene, render_options, progress);
     seconds += result.seconds;
     measured = {film_mean(result.film), totals(result.film), seconds, result.interrupted};

@@ -5,45 +5,46 @@
 #include <cstdint>
 #include <limits>
 
-/// A number out of a picture, as accurate as asked for.
+/// Measures the mean of a picture as accurately as asked for, to compare it with a known answer.
 namespace tyndall {
 
 struct MeasureOptions {
   int threads = 0;                                             ///< 0: all cores
   std::string isa;                                             ///< "": the best
   double error = 0;                                            ///< standard error to reach, >= 0
-  double expected = std::numeric_limits<double>::quiet_NaN();  ///< what is far off from this needs no small error
+  double expected = std::numeric_limits<double>::quiet_NaN();  ///< if known: a clear failure ends early
 };
 
 struct Measured {
   FilmMean value;
-  FilmTotals totals;  ///< of the samples behind the value alone
+  FilmTotals totals;  ///< of the samples that `value` was found from
   double seconds = 0;
-  bool interrupted = false;  ///< the callback said stop: the rest means nothing
+  bool interrupted = false;  ///< the callback said stop: the other members mean nothing
 };
 
-/// Most seeds and samples that one measurement takes.
+/// One measurement takes at most so many rounds, each with a seed of its own, and so many samples a round.
 inline constexpr std::uint32_t most_rounds = 16;
 inline constexpr double most_samples_measured = 4e9;
 
-/// The mean over a picture's pixels and channels. Pilots find out how many samples its standard error takes; as many
-/// others, of another seed, are the measurement: samples that decide when to stop are not unbiased. Takes the scene's
-/// seed and those that follow. Gives up at most_samples_measured: look at value.error.
+/// The mean over a picture's pixels and channels. First renders (pilots) find out how many samples the standard error
+/// takes. Then so many samples of another seed are the measurement: a mean of samples that also decide when to stop is
+/// biased. Uses the scene's seed and those that follow it. Stops at most_samples_measured even if the error is larger
+/// than asked for, so look at value.error.
 Measured measure_mean(RenderScene scene, const MeasureOptions& options, const ProgressCallback& progress = {});
 
-/// Standard errors below this share of a value drown in the rounding of single precision.
+/// Standard errors below this share of a value mean nothing, because the rounding of single precision is larger.
 inline constexpr double rounding_share = 1e-6;
 
-/// Deviation from a known answer in standard errors, the share for rounding included; from 0: 0 or infinite if the
-/// standard error is 0.
+/// How many standard errors a mean deviates from a known answer; rounding_share of the answer counts as error too. With
+/// the answer 0 and no standard error it is 0 if the mean is 0, else infinite.
 double z_score(const FilmMean& measured, double expected);
 
 struct SquareBand {
   double low = 0, high = 0;
 };
-/// Where the mean square of `count` z-scores lies if their standard errors are honest: about 1, within 4 standard
-/// deviations of its cube root. Too small is as wrong as too large. E. Wilson, M. Hilferty, The Distribution of
-/// Chi-Square, Proceedings of the National Academy of Sciences 17 (1931).
+/// The range in which the mean square of `count` z-scores lies if their standard errors are right: around 1, within 4
+/// standard deviations of its cube root. A value below it is as wrong as one above. E. Wilson, M. Hilferty, The
+/// Distribution of Chi-Square, Proceedings of the National Academy of Sciences 17 (1931).
 SquareBand mean_square_band(int count);
 
 }  // namespace tyndall

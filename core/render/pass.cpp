@@ -8,29 +8,29 @@ namespace tyndall {
 namespace {
 
 constexpr double unit_paths = 2048;
-constexpr int least_tile = 8, most_tile = 64;  // most_tile² pixels are most_unit_pixels of a kernel
+constexpr int least_tile = 8, most_tile = 64;  // kernels take at most most_tile² pixels (most_unit_pixels)
 
-/// Edge for units of about unit_paths paths; a multiple of 8, so that coarse grids line up.
+/// Edge of tiles whose units have about unit_paths paths; a multiple of 8, as coarse passes sample every 8th pixel.
 int chosen_tile(std::uint32_t samples, int step) {
   const double pixels = unit_paths * step * step / std::max(1u, samples);
   return std::clamp(static_cast<int>(std::sqrt(pixels)) / 8 * 8, least_tile, most_tile);
 }
 
-/// A worker's buffer, made once: nothing is allocated within a pass after its first unit.
+/// The buffer of a thread, kept from unit to unit: after its first unit a thread allocates nothing.
 std::vector<FilmPixel>& buffer() {
   thread_local std::vector<FilmPixel> pixels;
   return pixels;
 }
 
-/// Mean number of samples that pixels lack.
+/// How many samples pixels lack on average.
 std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& wanted) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) sum += wanted[i] - std::min(wanted[i], film.pixels[i].taken);
   return static_cast<std::uint32_t>(sum / wanted.size());
 }
 
-/// First and last sample of the next unit of a tile, for each of its pixels: of those that lack samples, as many as
-/// make about unit_paths. False if none lacks any.
+/// Fills in the first and last sample of the next unit of a tile, for each of its pixels. Pixels that lack samples get
+/// so many that the unit has about unit_paths. False if no pixel lacks any.
 bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile,
                   std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) {
   first.clear(), last.clear();
@@ -45,7 +45,7 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
     }
   if (lacking == 0) return false;
   const std::uint32_t most = std::max(static_cast<std::uint32_t>(unit_paths) / lacking, 1u);
-  if (deepest > most + most / 2)  // else no small rest
+  if (deepest > most + most / 2)  // otherwise all that is lacking goes into this unit, so that no small rest is left
     for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + most);
   return true;
 }
@@ -103,7 +103,7 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
   add_counts(counts);
 }
 
-/// Unit after unit until the tile's pixels have what is wanted; false if it was given up before.
+/// Runs units until the tile's pixels have what is wanted. False if `give_up` was set before.
 bool Pass::fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
                      const std::atomic<bool>& give_up) {
   const Region where = tile(unit);

@@ -8,21 +8,23 @@
 #include <functional>
 #include <vector>
 
+/// Takes samples with all threads, so that it can be interrupted within 2 ms without losing what was computed.
 namespace tyndall {
 
-/// One sweep over an image: the same sample indices for every pixel, or for each up to a count of its own; cut into
-/// units of about 2,000 paths. A unit is added to the film whole or not at all, so a pixel's samples are always a
-/// prefix. A pass that was given up can go on later.
+/// One sweep over an image. It takes the same range of sample indices for every pixel, or brings each pixel up to a
+/// count of its own. The work is cut into units of about 2,000 paths. A unit is added to the film whole or not at all,
+/// so each pixel always has the first n of its samples, without gaps. A pass that was interrupted can go on later.
 class Pass {
  public:
   /// Samples first … last - 1 of the region's pixels. step, skip_step: see Unit. tile: edge in pixels, 0: chosen.
   Pass(Region region, std::uint32_t first, std::uint32_t last, int step = 1, int skip_step = 0, int tile = 0);
 
-  /// For every pixel of the film's region, row by row, the samples that it lacks of `wanted`.
+  /// Brings each pixel of the film's region to `wanted` samples (row by row); pixels that have more keep them.
   Pass(const Film& film, std::vector<std::uint32_t> wanted, int tile = 0);
 
-  /// Runs the units that are left and adds them to `film` (the film's first sample replaces what the pixel held), until
-  /// all are done or `give_up` is set: then within one unit. Answers whether all are done. poll: see Crew::for_each.
+  /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then it returns
+  /// within one unit. Returns whether all are done. A sample of index film.first_sample replaces what its pixel held,
+  /// so that a film can be begun anew without clearing it. poll: see Crew::for_each.
   bool run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& film, const std::atomic<bool>& give_up,
            const std::function<void()>& poll = {});
 
@@ -44,12 +46,12 @@ class Pass {
 
   Region region_;
   std::uint32_t first_ = 0, last_ = 0;
-  std::vector<std::uint32_t> wanted_;  ///< counts of the pixels; empty: first_ to last_ for all
+  std::vector<std::uint32_t> wanted_;  ///< for each pixel; empty: first_ to last_ for all
   int step_ = 1, skip_step_ = 0, tile_;
   int columns_, rows_;
-  std::vector<std::uint8_t> done_;  ///< a flag a unit; each is written by the one thread that runs it
+  std::vector<std::uint8_t> done_;  ///< for each unit; written only by the thread that runs it
   std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
-  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< limbs of what the film does not know yet
+  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< part of film.cut_throughput, not added to it yet
 };
 
 }  // namespace tyndall

@@ -24,7 +24,7 @@ Vec3f get(const std::vector<float>& rgba, std::size_t pixel) {
 
 Vec3f mix(Vec3f a, Vec3f b, float t) { return a + t * (b - a); }
 
-/// Fills row y between the pixels of the coarse grid, which are there already.
+/// Fills row y between the sampled pixels, which have their colours already.
 void fill_row(std::vector<float>& rgba, int width, int height, int y, int step) {
   const int top = y / step * step, bottom = std::min(top + step, (height - 1) / step * step);
   const float down = static_cast<float>(y - top) / static_cast<float>(step);
@@ -76,7 +76,7 @@ std::vector<float> noise_rgba(const Film& film) {
   const std::vector<float> errors = pixel_relative_error(film);
   std::vector<float> rgba(4 * errors.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const float error = std::min(errors[i], 1.0f);  // infinite before two samples
+    const float error = std::min(errors[i], 1.0f);  // the error is infinite before two samples
     put(rgba, i, {error, error, error});
   }
   return rgba;

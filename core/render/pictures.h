@@ -9,17 +9,19 @@
 #include <mutex>
 #include <vector>
 
-/// From a film to what is shown. Values are linear; exposure and tone mapping are the display's.
+/// Turns a film, first hits or costs into pictures. Values are linear: exposure and tone mapping come when a picture is
+/// shown.
 namespace tyndall {
 
-/// RGBA of a film's means, in `rgba`. step > 1: only every step-th pixel has samples; the others are filled in between
-/// (bilinear), in the picture only.
+/// Writes the means of a film into `rgba`. step > 1: only every step-th pixel in x and y has samples; the others get
+/// colours in between (bilinear). The film stays as it is.
 void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
 
-/// Memory of frames that nobody looks at any more: fresh memory costs more than the picture that is written to it.
+/// Keeps the memory of frames that nobody uses any more for new ones: to get fresh memory from the system takes longer
+/// than to draw a picture into it.
 class FrameMemory {
  public:
-  /// A frame with what a former one's `rgba` held. Keep this object for as long as there are frames.
+  /// A new frame whose `rgba` may hold an old picture. When its last owner drops it, its memory comes back here.
   std::shared_ptr<Frame> take();
 
  private:
@@ -30,27 +32,27 @@ class FrameMemory {
   std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
 };
 
-/// A picture of one grey.
+/// A picture that has the same grey everywhere.
 std::vector<float> grey_rgba(std::size_t pixels, float grey);
 
-/// Estimated relative error of each pixel (see pixel_relative_error) as grey: 1 is 100 % and more.
+/// The estimated relative error of each pixel (see pixel_relative_error) as grey: white is an error of 100 % or more.
 std::vector<float> noise_rgba(const Film& film);
 
-/// Samples of each pixel over the most any pixel has, as grey.
+/// The number of samples of each pixel as grey: the pixel with most samples is white.
 std::vector<float> samples_rgba(const Film& film);
 
-/// Rays of a path through each pixel, a mean over cells of 4 x 4 pixels and their first samples, which are taken once
-/// more for it. Empty if `give_up` was set meanwhile.
+/// How many rays a path through each pixel takes: the mean over cells of 4 x 4 pixels. Their first 4 samples are
+/// rendered once more to count it. Empty if `give_up` was set meanwhile.
 std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
                               const std::atomic<bool>& give_up);
 
-/// Numbers >= 0 as grey, 1 for the largest.
+/// Numbers >= 0 as grey: the largest is white.
 std::vector<float> relative_rgba(const std::vector<float>& values);
 
-/// Albedo, normal (x, y, z in [0, 1]) or depth (grey; 1 at the farthest) of what is first seen. hits: a frame's worth.
+/// Albedo, normal (x, y, z mapped to [0, 1]) or depth (grey, the farthest is white) of what each pixel sees first.
 std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view);
 
-/// What is first seen through every pixel of the image.
+/// What is first seen through the centre of each pixel of the image.
 std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, Crew& crew);
 
 }  // namespace tyndall

@@ -32,7 +32,7 @@ struct Cells {
     const auto width = static_cast<std::size_t>(columns);
     return pixels(static_cast<int>(i % width), static_cast<int>(i / width));
   }
-  /// Pixels of each.
+  /// The number of pixels of each cell: fewer than 16 at the right and lower edge.
   std::vector<std::uint64_t> areas() const {
     std::vector<std::uint64_t> found;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -43,14 +43,14 @@ struct Cells {
   }
 };
 
-constexpr double most_taken = 1 << 24;  // what a film's sums hold
+constexpr double most_taken = 1 << 24;  // more samples do not fit into a film's sums
 
 void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
   if (crew) return crew->for_each(rows, job);
   for (int row = 0; row < rows; ++row) job(row);
 }
 
-/// Sums over pixels that have samples in both halves.
+/// The noise of some pixels: sums over those that have samples in both halves.
 struct Variance {
   double sum = 0;  ///< of squared relative error times count²
   int pixels = 0;
@@ -69,8 +69,8 @@ Variance variance_in(const Film& film, const Region& where) {
   return found;
 }
 
-/// Cube root of the mean in the window around a cell, without the cell itself: counts in proportion to that make the
-/// sum of error · count² / count'² least.
+/// Cube root of the mean over the window around a cell, without the cell itself. If squared error falls with the square
+/// of the count, counts in proportion to this number make the sum of squared errors smallest.
 double need_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
   Variance around;
   for (int v = std::max(row - window_reach, 0); v <= std::min(row + window_reach, cells.rows - 1); ++v)
@@ -83,7 +83,7 @@ double need_of(const std::vector<Variance>& variances, const Cells& cells, int c
   return around.pixels > 0 ? std::cbrt(around.sum / around.pixels) : 0;
 }
 
-/// What the cells need, relative to their mean; at least a little, so that a round can always reach its mean.
+/// What each cell needs, relative to the mean over all cells; at least a little, so that a round can reach its mean.
 std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
   std::vector<Variance> variances(cells.count());
   for_rows(crew, cells.rows, [&](int row) {
@@ -100,15 +100,15 @@ std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
   return needs;
 }
 
-/// A number in [0, 2^16) for each cell, evenly spread over any few of them: cells that need the same do not all step up
-/// at once. Multiples of the golden ratio.
+/// A number in [0, 2^16) for each cell, evenly spread over any few neighbours in the list: part of the way through a
+/// round, cells with equal counts do not all get their next sample at once. Multiples of the golden ratio.
 std::uint64_t dither(std::size_t cell) { return (cell * 40503) & 0xffff; }
 
-/// The nearest power of two: the points of a Sobol' sequence are most even there. In between, where little is hard, the
-/// error would be up to a third higher.
+/// The nearest power of two, because the points of a Sobol' sequence are spread most evenly then. With counts in
+/// between the error would be up to a third higher in smooth parts of a picture.
 std::uint32_t rounded(double count) { return std::bit_floor(static_cast<std::uint32_t>(std::numbers::sqrt2 * count)); }
 
-/// The count of each cell if needs were to be served by `scale` samples each, and their sum over the pixels.
+/// The count that each cell gets if a need of 1 gets `scale` samples, and the sum of the counts over all pixels.
 struct Shares {
   std::vector<std::uint64_t> areas;
   const std::vector<double>& needs;
@@ -128,7 +128,7 @@ struct Shares {
   }
 };
 
-/// The highest scale whose total is within `budget`.
+/// The highest scale whose total is at most `budget`.
 double find_scale(const Shares& shares, double budget) {
   double low = 0, high = shares.mean;
   while (shares.total(high) <= budget && high < 1e6 * shares.mean) low = high, high *= 2;
@@ -139,7 +139,8 @@ double find_scale(const Shares& shares, double budget) {
   return low;
 }
 
-/// Spends what rounding left of the budget on cells that were rounded down, so that the mean is what it is called.
+/// Spends what rounding has left of the budget on cells that were rounded down, so that the mean becomes what it is
+/// labelled with.
 void spend(double left, const Shares& shares, double scale, std::vector<PlannedSamples>& planned) {
   for (std::size_t i = 0; i < planned.size(); ++i) {
     if (shares.wish(i, scale) <= planned[i].to) continue;
@@ -150,14 +151,15 @@ void spend(double left, const Shares& shares, double scale, std::vector<PlannedS
   }
 }
 
-/// How many times less error the best counts, in proportion to the root of the variance, would have than even ones.
+/// How many times less squared error the best counts would have than even ones, if it falls as 1/count. The best ones
+/// are in proportion to the root of the variance.
 double best_gain(const std::vector<double>& needs) {
   double variances = 0, roots = 0;
   for (const double need : needs) variances += need * need * need, roots += need * std::sqrt(need);
   return variances * static_cast<double>(needs.size()) / (roots * roots);
 }
 
-/// How many times less error a plan has than even counts, were error to fall as one over the count.
+/// How many times less squared error a plan has than even counts, if it falls as 1/count.
 double expected_gain(const std::vector<double>& needs, const std::vector<PlannedSamples>& planned, double mean) {
   double even = 0, as_planned = 0;
   for (std::size_t i = 0; i < needs.size(); ++i) {
@@ -167,7 +169,7 @@ double expected_gain(const std::vector<double>& needs, const std::vector<Planned
   return even / as_planned;
 }
 
-/// The power of two that a count's mean falls short of by less than a half: what the round was to reach.
+/// The mean that a round was to reach: the mean of the counts, rounded up to a power of two.
 std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count) {
   const std::vector<std::uint64_t> areas = Cells(film.region).areas();
   std::uint64_t sum = 0;
@@ -191,7 +193,7 @@ void plan_round(Film& film, Crew* crew) {
   const auto stay_even = [&] {
     for (PlannedSamples& p : film.planned) p.to = static_cast<std::uint32_t>(mean);
   };
-  if (still_even && best_gain(needs) < least_gain) return stay_even();  // saves finding the scale
+  if (still_even && best_gain(needs) < least_gain) return stay_even();  // not even the best counts would gain enough
   const Shares shares{cells.areas(), needs, film.planned, mean};
   const double budget = mean * static_cast<double>(film.pixels.size()), scale = find_scale(shares, budget);
   const double left = budget - shares.total(scale);
@@ -227,7 +229,7 @@ std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
     for (std::size_t i = 0; i < film.planned.size(); ++i) sum += count(i, part) * areas[i];
     return sum <= spp * film.pixels.size();
   };
-  std::uint64_t part = 0;  // of the round, in 65536ths
+  std::uint64_t part = 0;  // how far the round has come, in 65536ths
   for (std::uint64_t step = 0x10000; step > 0; step /= 2)
     if (part + step <= 0x10000 && fits(part + step)) part += step;
   std::vector<std::uint32_t> counts(film.pixels.size());

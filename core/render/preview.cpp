@@ -10,7 +10,8 @@ double picture_budget(bool only_camera, double since) { return only_camera ? 0.0
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before) {
   if (!(paths_per_second > 0)) return 8;
   const double wanted = std::sqrt(static_cast<double>(pixels) / (paths_per_second * budget));
-  // `before` serves wanted steps from before/2 to before; beyond, room on both sides, less on the one that costs time.
+  // A step is right for wanted steps from half of it up to itself. It is kept a little beyond both ends: less far where
+  // keeping it makes the picture late than where it only makes it coarse.
   const bool fits = wanted <= 1.1 * before && (before == 1 || wanted > before / 2.0 / 1.4);
   if (before > 0 && fits) return before;
   int step = 1;

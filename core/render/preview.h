@@ -1,17 +1,19 @@
 #pragma once
 #include <cstdint>
 
-/// How the first pictures after an edit are paced. Pure decisions, so that they can be tested.
+/// How coarse the first picture after an edit is, so that it comes in time. Pure functions, so that they can be tested.
 namespace tyndall {
 
-/// Seconds that the first picture of an edit should take. A camera wants fluency and gets a frame of a 60 Hz display,
-/// so that its picture is there in two of them on a busy machine too; a slider that is dragged gets two; a single
-/// change is looked at. since: seconds from the edit before it; within 0.3 they are one movement.
+/// Seconds that the first picture of an edit should take. A camera that moves has to look fluent: it gets the time of
+/// one frame of a 60 Hz display, so that even on a busy machine its picture is there after two. A slider that is
+/// dragged gets the time of two frames. A single change may take longer, because the user looks at the result. since:
+/// seconds from the edit before; below 0.3 both count as one movement.
 double picture_budget(bool only_camera, double since);
 
-/// Every how many pixels (8, 4, 2 or 1, in x and y) a first picture samples, so that `pixels / step²` paths take about
-/// `budget` seconds at `paths_per_second` (<= 0: unknown). `before`: the last answer, kept while the ideal is at
-/// most 1.1 times coarser or 1.4 times finer, or the picture's sharpness would flicker.
+/// The step of a first picture, 8, 4, 2 or 1: it samples every step-th pixel in x and y, so that `pixels / step²` paths
+/// take about `budget` seconds at `paths_per_second` (<= 0: unknown). before: the last answer. It is kept as long as
+/// the ideal step is at most 1.1 times coarser or 1.4 times finer; otherwise the sharpness would flicker while
+/// something is dragged.
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before);
 
 /// What the renderer has learnt from the first pictures of earlier edits, and what follows for the next edit.

@@ -19,11 +19,11 @@ struct RenderOptions {
   std::string isa;                 ///< "": the best
   std::optional<Region> region;    ///< absent: the whole image
   std::uint32_t first_sample = 0;  ///< index of the first sample
-  std::optional<std::uint32_t>
-      spp;  ///< samples a pixel in all (see adaptive), those of a continued film included; absent: no limit
+  /// Samples a pixel at which to stop, those of a continued film included (see also `adaptive`); absent: no limit.
+  std::optional<std::uint32_t> spp;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
   double target_error = 0;                                      ///< estimated relative error at which to stop; 0: none
-  bool adaptive = false;  ///< spends samples where the error is (see plan.h); spp is their mean then
+  bool adaptive = false;  ///< more samples where the error is larger (see plan.h); spp is then their mean
   int tile = 0;           ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
 };
 
@@ -45,12 +45,12 @@ struct RenderResult {
   std::optional<double> relative_error{};  ///< of the film as it is, if a limit or the callback needed it
 };
 
-/// Called between passes (and at least every 50 ms or so within long ones, from the calling thread); returns false to
-/// stop.
+/// Called on the calling thread between passes, and about every 50 ms within long ones. Returns false to stop.
 using ProgressCallback = std::function<bool(const RenderProgress&)>;
 
-/// Renders until the first of the limits. Continues `film` if it is not empty (it must be of this scene and region, and
-/// made with the same `adaptive`).
+/// Renders until the first of the limits is reached. Goes on with `film` if it is not empty: it must be of this scene
+/// and region, and made with the same `adaptive`. Throws std::invalid_argument for an unknown options.isa,
+/// std::bad_alloc where the film does not fit into memory.
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
 

@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
+/// Interactive rendering: for the window.
 namespace tyndall {
 
-/// Renders progressively on its own threads: scenes go in through a mailbox (newest wins), frames come out. No call
-/// waits for rendering. The picture of a scene does not depend on what was shown before it.
+/// Renders progressively on its own threads: scenes go in (a newer one replaces one that is not begun yet), frames come
+/// out. No call but film() waits for rendering. The picture of a scene does not depend on what was shown before it.
 class Renderer {
  public:
   struct Options {
@@ -28,11 +29,11 @@ class Renderer {
   /// Replaces the scene and returns the edit's number. A scene that renders to the same picture as the current one
   /// (equal but for names and display) restarts nothing and keeps the number of the current edit.
   std::uint64_t submit(Scene scene);
-  /// The same, without a copy where the caller keeps the scene too.
+  /// The same for a scene that the caller goes on using: it is shared, not copied.
   std::uint64_t submit(std::shared_ptr<const Scene> scene);
   /// The newest frame; null before the first.
   std::shared_ptr<const Frame> latest() const;
-  /// The newest problem, if the newest edit could not be compiled.
+  /// What is wrong with the newest edit if its scene cannot be compiled; else null.
   std::shared_ptr<const RenderProblem> problem() const;
 
   void pause(bool paused);
@@ -42,10 +43,11 @@ class Renderer {
   void set_view(View view);
   void set_threads(int threads);
 
-  /// A copy of the current film (for EXR snapshots), taken between passes; empty before the first full pass.
+  /// A copy of the film, for example for snapshots. Waits for the end of the pass that is under way, so that all pixels
+  /// have as many samples as they are to have. Empty before the first full pass.
   Film film() const;
-  /// Object under a pixel of the newest compiled scene: index path into Scene::objects (groups nest), empty for none;
-  /// depth along the axis and distance to it.
+  /// What is seen at a pixel of the newest compiled scene: the object as a path of indices into Scene::objects (one for
+  /// each group that it is in; empty: nothing), its depth along the camera's axis, and the point, in world space.
   struct Pick {
     std::vector<int> object;
     double depth = 0;
