@@ -51,7 +51,7 @@ struct UnitSamples {
     ++round;
     if (round == next_finish) drop_finished();
   }
-  /// Takes pixels that have all their samples off the list.
+  /// Removes the pixels that have all their samples from the list.
   TYNDALL_INLINE void drop_finished() {
     int kept = 0;
     next_finish = ~0u;
@@ -90,7 +90,7 @@ TYNDALL_INLINE void list_samples(const Unit& unit, UnitSamples& list) {
   list.drop_finished();
 }
 
-/// A group of fresh camera rays that waits for lanes to become free: so that all lanes of a group are computed at once.
+/// New camera rays, computed in all lanes at once, that wait until lanes of the path loop become free.
 template <class F>
 struct CameraQueue {
   static constexpr int lanes = lanes_of<F>;

@@ -1,4 +1,4 @@
-// The same over double, for any processor: what rounding costs the others.
+// The kernels over double, for any CPU: they show what rounding costs the others.
 #include "core/kernel/entry.h"
 
 namespace tyndall {

@@ -66,8 +66,8 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
-/// The table of one instruction set. Internal to each file that asks for it: an ordinary template, compiled with wide
-/// instructions, could be the copy the linker keeps for all.
+/// The table of one instruction set. Internal to each file that uses it: of an ordinary template the linker could keep
+/// the copy with wide instructions for all files, which would crash older CPUs.
 template <class F, KernelSet set>
 static void render_unit_entry(const SceneView& s, const Unit& u, double film_unit, FilmPixel* p, UnitCounts& c) {
   render_unit<F>(SceneViewFor<set>{s}, u, film_unit, p, c);

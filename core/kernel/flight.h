@@ -49,8 +49,8 @@ TYNDALL_INLINE Interval<F> medium_interval(const MediumColumns& m, Vec3<F> origi
   return any(start.here) ? leave_sphere(line, to_center, direction, from, start) : line;
 }
 
-/// Where a ray starts its way in a medium. Its point of entry is found again from close by where the rounding of a long
-/// way would be felt: above a thousandth of a mean free path.
+/// Where the way of a ray in a medium begins. After a long way to it, rounding moves this point; where it could move by
+/// more than a thousandth of a mean free path, the point is computed again from close by.
 template <class F>
 TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, const Interval<F>& inside,
                                     MaskOf<F> lanes) {
@@ -66,8 +66,8 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
   return along(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
 }
 
-/// The nearest of the media's independent exponential flights, if it ends before the surface: right for media that
-/// overlap, whose densities add. Shortens `nearest` to it.
+/// Where a path scatters next: the shortest of independent flights, one for each medium, if it ends before the surface.
+/// This is right where media overlap too, as their densities add. Shortens `nearest` to it.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
                                                 F& nearest) {

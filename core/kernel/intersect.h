@@ -19,8 +19,8 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
   return best;
 }
 
-/// Lanes whose way to `distance` is blocked by something else than element `aim`; the other faces of a box are in its
-/// way.
+/// Lanes whose way to `distance` is blocked by anything but element `aim`. If `aim` is a face of a box, the other faces
+/// do block.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// The door to the kernels: one table of functions per instruction set, all from one source over the number type.
+/// The kernels as the rest of the program sees them: a table of functions for each instruction set, all of one source.
 namespace tyndall {
 
 /// A unit of work: samples [first, last) of the pixels of a tile.
@@ -23,7 +23,7 @@ struct Unit {
 struct UnitCounts {
   std::uint64_t rays = 0;         ///< closest-hit and occlusion queries
   std::uint64_t shadow_rays = 0;  ///< of them, occlusion queries
-  ExactSum cut_throughput;        ///< what paths that max_depth ended carried: their brightest channels, summed
+  ExactSum cut_throughput;        ///< sum over paths that max_depth cut off: their throughput's brightest channel
 };
 
 using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
@@ -69,18 +69,18 @@ struct Kernels {
   KernelSet set_for(KernelSet least) const;
 };
 
-// One per file that is compiled with its set's flags.
+// Each is in a file of its own, which is compiled with that instruction set's flags.
 Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
-/// The same source over double: what rounding costs the others. It reads the same scene, whose columns are float, and
-/// draws the same random numbers; slow. Its name is "double"; none of available_kernels().
+/// The same source over double, to see what rounding costs the others. It reads the same columns of floats and draws
+/// the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
 Kernels double_kernels();
 
 /// What this build has and this CPU runs, narrowest first ("scalar" always).
 std::vector<Kernels> available_kernels();
-/// The best of them (""), or the named one; nothing if there is none of that name.
+/// The widest of them for "", else the one of that name; nothing if there is none.
 std::optional<Kernels> choose_kernels(std::string_view isa);
 
 }  // namespace tyndall

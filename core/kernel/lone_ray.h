@@ -1,11 +1,11 @@
 #pragma once
 #include "core/kernel/primitives.h"
 
-/// Rays that few others accompany through a part of the tree go alone: the lanes take the boxes of a node, or the
-/// spheres of a leaf, instead of rays. The arithmetic is the same, and so are the hits.
+/// A ray that few others follow into a part of the tree goes alone: each lane then holds a box of a node, or a sphere
+/// of a leaf, in place of a ray. The arithmetic is the same, and so are the hits.
 namespace tyndall {
 
-/// A ray as the slab test wants it: box edge e is reached at e·slope + start.
+/// A ray in the form that the slab test needs: it reaches the edge e of a box at e·slope + start.
 template <class F>
 struct Slopes {
   Vec3<F> slope, start;
@@ -34,7 +34,7 @@ TYNDALL_INLINE Entry<F> enter_boxes(const auto& low, const auto& high, const Slo
   return {less_equal(near, far * F(slab_room)), near};
 }
 
-/// The narrowest group of an instruction set that holds a node's boxes; what its other lanes read means nothing.
+/// The narrowest group of lanes that holds a node's boxes; what further lanes read means nothing.
 template <class F>
 struct RowFor {
   using type = F;
@@ -152,7 +152,7 @@ struct LoneRay {
   }
 };
 
-/// The rays of a group, in memory for those that leave it.
+/// The rays of a group, kept in memory for lanes that go on alone.
 template <class F>
 struct LoneRays {
   static constexpr int lanes = lanes_of<F>;

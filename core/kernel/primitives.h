@@ -15,7 +15,7 @@ struct Hit {
   IntOf<F> element;  ///< -1: nothing hit
 };
 
-/// Relative room for the rounding of box tests: far more than it needs, far less than costs time.
+/// By how much boxes are widened against rounding: far more than rounding can be, far less than would cost time.
 /// T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
@@ -29,7 +29,7 @@ struct Asked {
   std::int32_t common_aim;  ///< the one that all lanes leave out, or -1
 };
 
-/// Where candidate hits beat the best so far, whose distance is negative in lanes that are not asked.
+/// Lanes whose candidate hit is closer than the best so far. The latter is negative in lanes that take no part.
 template <class F, class Q>
 TYNDALL_INLINE MaskOf<F> beats(F t, IntOf<F> element, MaskOf<F> hit, const Hit<F>& best, const Q& asked) {
   const auto ahead = mask_and(hit, less(F(0.0f), t));

@@ -1,4 +1,4 @@
-// Compiled like the scalar kernel: the same steps, looked at one by one.
+// Compiled like the scalar kernel, so that its steps are the same to the last bit.
 #include "core/kernel/replay.h"
 
 #include "core/kernel/path.h"
@@ -11,7 +11,7 @@ bool finite(Vec3f v) {
   return sum == 0.0f;
 }
 
-/// What a path meets next: the same queries that its step makes.
+/// What a path meets next, found by the same queries as in its step.
 struct Meeting {
   PathVertex vertex;
   Vec3f colour;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-/// One path of the scalar kernel, event by event: to see what made a sample.
+/// One path of the scalar kernel, event by event, to see how a sample came about.
 namespace tyndall {
 
 enum class Met { nothing, surface, medium };
@@ -14,14 +14,14 @@ enum class Fate { goes_on, ends_at_light, escapes, absorbed, roulette, cut, lost
 struct PathVertex {
   Met met = Met::nothing;
   Fate fate = Fate::goes_on;
-  std::int32_t element = -1;      ///< of the surface, or the first of the medium's boundary
-  std::int32_t medium = -1;       ///< index into RenderScene::media
-  bool inside = false;            ///< the path goes on there; of a quad, against its normal
-  float distance = 0;             ///< from the vertex before
-  Vec3f direction;                ///< by which it came, unit
-  Vec3f point;                    ///< RenderScene coordinates
-  Vec3f throughput;               ///< with which it came
-  Vec3f radiance;                 ///< gathered so far, this vertex included
+  std::int32_t element = -1;  ///< of the surface, or the first of the medium's boundary
+  std::int32_t medium = -1;   ///< index into RenderScene::media
+  bool inside = false;        ///< whether the path goes on inside the shape; for a quad, on the side against its normal
+  float distance = 0;         ///< from the vertex before
+  Vec3f direction;            ///< by which it came, unit
+  Vec3f point;                ///< RenderScene coordinates
+  Vec3f throughput;           ///< with which it came
+  Vec3f radiance;             ///< gathered so far, this vertex included
   std::uint32_t first_dimension;  ///< of the event's random numbers
 };
 

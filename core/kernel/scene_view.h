@@ -1,8 +1,8 @@
 #pragma once
 #include "core/compile/render_scene.h"
 
-/// A RenderScene as plain pointers. Kernels see only this: a container's member function, compiled in a wide object,
-/// could be the copy the linker keeps for all.
+/// A RenderScene as plain pointers. Kernels use nothing else: of a container's member function the linker could keep
+/// the copy with wide instructions for all files, which would crash older CPUs.
 namespace tyndall {
 
 struct SphereView {
@@ -69,7 +69,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_lamps_in_fog() const { return near_count > 0; }
 };
 
-/// The same for a kernel that leaves models out: what it asks about them is known when it is compiled.
+/// The same for a kernel that leaves models out: the answers about these are constants when it is compiled.
 template <KernelSet set>
 struct SceneViewFor : SceneView {
   static constexpr bool fog_and_textures = set != KernelSet::no_fog_nor_textures;

@@ -1,17 +1,17 @@
 #pragma once
 #include "core/kernel/lone_ray.h"
 
-/// Through the tree, all lanes together as long as enough of them meet the same boxes.
+/// Takes rays through the tree: all lanes together, as long as enough of them meet the same boxes.
 namespace tyndall {
 
-/// Nodes still to visit, and where each lane enters them; infinity: it does not.
+/// Nodes still to visit, and the distance at which each lane enters them; infinity: it does not.
 template <class F>
 struct Stack {
   F near[bvh_stack];
   std::int32_t node[bvh_stack];
   int size = 0;
 
-  /// Brings what the first lanes enter first among the nodes from `bottom` on to the top.
+  /// Of the nodes from `bottom` on, brings the one that a lane enters at the least distance to the top.
   TYNDALL_INLINE void raise_nearest(int bottom) {
     const int top = size - 1;
     int nearest = top;
@@ -28,13 +28,13 @@ struct Stack {
   }
 };
 
-/// From a node that no more lanes have a reason to enter they go on alone: what company costs is then more than what it
-/// shares. 4 of 32 and 2 of 16 are best in the order of paths; rays without any order would like twice as many. A leaf
-/// is too little work to part for.
+/// At a node that at most so many lanes have to enter, each of them goes on alone (lone_ray.h): tests for all lanes
+/// cost more than these few save by sharing them. 4 of 32 and 2 of 16 lanes are best for the rays of paths; for rays in
+/// random order twice as many are. Leaves are entered together all the same: there is too little work in them.
 template <class F>
 inline constexpr int few_lanes = lanes_of<F> < bvh_width ? 0 : lanes_of<F> / 8;
 
-/// Takes the next node from the stack that lanes have a reason to enter, and where they do. Answers which; none: done.
+/// Takes nodes off the stack up to one in which some lane may find a closer hit. Returns these lanes; none: finished.
 template <class F, class Q>
 TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& asked, const Hit<F>& best) {
   const F infinity = F(__builtin_inff());
@@ -49,7 +49,7 @@ TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& a
   return 0;
 }
 
-/// Puts the children of a node that some lane meets on the stack.
+/// Puts those children of a node on the stack that some lane meets.
 template <class F>
 TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F limit, Stack<F>& stack) {
   const int bottom = stack.size;
@@ -64,7 +64,7 @@ TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F li
   if (stack.size > bottom + 1) stack.raise_nearest(bottom);
 }
 
-/// best.t: how far to look; negative in lanes that are not asked.
+/// best.t: how far to look; negative in lanes that take no part.
 template <class F, class Q>
 TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hit<F>& best) {
   const Slopes<F> slopes = slopes_of(ray);
