@@ -6,7 +6,7 @@
 #include "app/files/outputs.h"
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 
 #include <algorithm>
 #include <chrono>

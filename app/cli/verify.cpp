@@ -5,6 +5,7 @@
 #include "app/files/open_scene.h"
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
+#include "core/base/crew.h"
 #include "core/compile/compile.h"
 
 #include <chrono>

@@ -1,6 +1,7 @@
 #include "app/curves/curve.h"
 
 #include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 

@@ -1,5 +1,6 @@
 #include "core/accuracy/error.h"
 
+#include "core/accuracy/relative.h"
 #include "core/image/tonemap.h"
 
 #include <algorithm>
@@ -13,97 +14,11 @@ namespace tyndall {
 
 namespace {
 
-constexpr double floor_of_square = 0.01;  // keeps black pixels from dominating
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double square(double x) { return x * x; }
 
 }  // namespace
-
-double squared_relative_error(const Film& film, const FilmPixel& pixel) {
-  const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
-  if (count_a == 0 || count_b == 0) return infinity;
-  const double per_a = film.unit / count_a, per_b = film.unit / count_b, per_both = film.unit / (count_a + count_b);
-  double sum = 0;
-  for (int channel = 0; channel < 3; ++channel) {
-    const double a = pixel.sum[0][channel].value(), b = pixel.sum[1][channel].value();
-    sum += square((a * per_a - b * per_b) / 2) / (square((a + b) * per_both) + floor_of_square);
-  }
-  return sum / 3;
-}
-
-double estimated_relative_error(const Film& film, Crew* crew) {
-  const std::size_t width = static_cast<std::size_t>(film.region.width());
-  std::vector<double> rows(static_cast<std::size_t>(film.region.height()));
-  const auto add_row = [&](int y) {
-    const auto row = static_cast<std::size_t>(y);
-    for (std::size_t x = 0; x < width; ++x) rows[row] += squared_relative_error(film, film.pixels[row * width + x]);
-  };
-  if (crew)
-    crew->for_each(film.region.height(), add_row);
-  else
-    for (int y = 0; y < film.region.height(); ++y) add_row(y);
-  if (film.pixels.empty()) return infinity;
-  return std::sqrt(std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(film.pixels.size()));
-}
-
-namespace {
-
-/// Sums of errors, each against the mean around its pixel, and of their squares.
-struct Spread {
-  double sum = 0, squares = 0;
-};
-
-constexpr int block_edge = 8;
-
-void add_block(const Film& film, const Region& block, Spread& to) {
-  double own[block_edge * block_edge][3], apart[block_edge * block_edge][3], around[3] = {};
-  int count = 0;
-  for (int y = block.y0; y < block.y1; ++y)
-    for (int x = block.x0; x < block.x1; ++x) {
-      const FilmPixel& pixel = film.at(x, y);
-      const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
-      if (count_a == 0 || count_b == 0) continue;
-      for (int k = 0; k < 3; ++k) {
-        const double a = pixel.sum[0][k].value(), b = pixel.sum[1][k].value();
-        own[count][k] = (a + b) * film.unit / (count_a + count_b);
-        apart[count][k] = (a / count_a - b / count_b) * film.unit;
-        around[k] += own[count][k];
-      }
-      ++count;
-    }
-  for (int i = 0; i < count; ++i) {
-    double error = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double others = (around[k] - own[i][k]) / std::max(count - 1, 1);
-      error += square(apart[i][k] / 2) / (square(std::min(own[i][k], others)) + floor_of_square);
-    }
-    to.sum += error, to.squares += square(error);
-  }
-}
-
-}  // namespace
-
-bool rests_on_few_pixels(const Film& film, Crew* crew) {
-  const Region& r = film.region;
-  std::vector<Spread> bands(static_cast<std::size_t>((r.height() + block_edge - 1) / block_edge));
-  const auto add_band = [&](int band) {
-    const int y = r.y0 + band * block_edge;
-    for (int x = r.x0; x < r.x1; x += block_edge)
-      add_block(film, {x, y, std::min(x + block_edge, r.x1), std::min(y + block_edge, r.y1)},
-                bands[static_cast<std::size_t>(band)]);
-  };
-  const int count = static_cast<int>(bands.size());
-  if (crew)
-    crew->for_each(count, add_band);
-  else
-    for (int band = 0; band < count; ++band) add_band(band);
-  Spread all;
-  for (const Spread& band : bands) all.sum += band.sum, all.squares += band.squares;
-  const double few =
-      0.35 + 3 / std::sqrt(static_cast<double>(film.pixels.size()));  // small pictures vary by themselves
-  return std::sqrt(all.squares) > few * all.sum;
-}
 
 FilmMean film_mean(const Film& film) {
   const auto grey = [](Vec3f v) {
@@ -140,7 +55,8 @@ void sum_window(Sum* numbers, int count, std::size_t stride, int reach, std::vec
   }
 }
 
-/// For each pixel the root of the mean over the 7 x 7 pixels around it, less those that are infinite.
+}  // namespace
+
 std::vector<float> root_window_means(const std::vector<double>& squares, int width, int height) {
   constexpr int reach = 3;
   std::vector<Sum> sums, row;
@@ -157,6 +73,8 @@ std::vector<float> root_window_means(const std::vector<double>& squares, int wid
   return errors;
 }
 
+namespace {
+
 /// (x - ref)² / (ref² + 0.01): relMSE is its mean.
 double squared_error(float image, float reference) {
   const double x = static_cast<double>(image), ref = static_cast<double>(reference);
@@ -164,13 +82,6 @@ double squared_error(float image, float reference) {
 }
 
 }  // namespace
-
-std::vector<float> pixel_relative_error(const Film& film) {
-  std::vector<double> squares;
-  squares.reserve(film.pixels.size());
-  for (const FilmPixel& pixel : film.pixels) squares.push_back(squared_relative_error(film, pixel));
-  return root_window_means(squares, film.region.width(), film.region.height());
-}
 
 std::vector<float> pixel_relative_error(const std::vector<float>& image, const std::vector<float>& reference, int width,
                                         int height) {

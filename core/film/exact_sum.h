@@ -5,11 +5,13 @@ namespace tyndall {
 
 /// A sum of numbers that does not depend on their order, so that threads, tiles, pauses and machines cannot change a
 /// picture. It is held in fixed point as two integers: `high` counts 2^-29 of the film's `unit`, `low` counts 2^-61.
-/// Smaller bits of each number are cut off before it is added. 2^24 numbers of less than 256 units fit.
+/// Smaller bits of each number are cut off before it is added. 2^24 numbers of less than 2^30 units fit if their sum is
+/// below 2^34 units. That holds for the samples of a pixel: their mean is at most one unit, so a sample of 2^30 units
+/// has a chance of at most 2^-30, and 16 of them among 2^24 samples have one of 2^-140.
 struct ExactSum {
   std::int64_t high = 0, low = 0;
 
-  /// x: the number divided by the film's unit, |x| < 256.
+  /// x: the number divided by the film's unit, |x| < 2^30.
   TYNDALL_INLINE void add(double x) {
     const double scaled = x * 0x1p29;
     const auto whole = static_cast<std::int64_t>(scaled);

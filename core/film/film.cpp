@@ -33,13 +33,6 @@ double film_unit(double brightest) {
   return std::ldexp(1.0, std::max(exponent, -126));  // 1 / unit stays a number
 }
 
-std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half) {
-  const bool first_is_odd = film.first_sample % 2 != 0;
-  const bool starts_here = first_is_odd == (half == 1);
-  const std::uint32_t taken = pixel.taken / 2 + (starts_here ? pixel.taken % 2 : 0);
-  return taken - pixel.rejected[half];
-}
-
 namespace {
 
 float mean_of(const ExactSum& sum, double unit, std::uint64_t count) {

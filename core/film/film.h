@@ -62,19 +62,30 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
 double film_unit(double brightest);
 
 /// Samples that count in one half (0 or 1) of a pixel.
-std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half);
+inline std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half) {
+  const bool first_is_odd = film.first_sample % 2 != 0;
+  const bool starts_here = first_is_odd == (half == 1);
+  const std::uint32_t taken = pixel.taken / 2 + (starts_here ? pixel.taken % 2 : 0);
+  return taken - pixel.rejected[half];
+}
 
 /// Mean radiance of a pixel, and of one of its halves; black before the first sample.
 Vec3f mean(const Film& film, const FilmPixel& pixel);
 Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half);
 
-/// Adds one sample of a pixel; half is its index & 1. What is not finite or not within 256 units is counted as rejected
-/// instead. Does not change `taken`.
+/// What a sample has to stay below, in units of its film: see ExactSum. Only light sampling without MIS comes near it,
+/// where a phase function has a peak of g > 0.9998.
+inline constexpr double sample_limit = 0x1p30;
+
+/// Adds one sample of a pixel; half is its index & 1. What is not finite or not within sample_limit units is counted as
+/// rejected instead. Does not change `taken`.
 TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
   const double x = static_cast<double>(radiance.x) * per_unit, y = static_cast<double>(radiance.y) * per_unit,
                z = static_cast<double>(radiance.z) * per_unit;
-  const bool good = x > -256 && x < 256 && y > -256 && y < 256 && z > -256 && z < 256;
-  if (!good) {
+  const auto fits = [](double value) __attribute__((always_inline)) {
+    return value > -sample_limit && value < sample_limit;
+  };
+  if (!fits(x) || !fits(y) || !fits(z)) {
     ++pixel.rejected[half];
     return;
   }

@@ -1,6 +1,6 @@
 #include "core/render/pictures.h"
 
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 
 #include <algorithm>
 #include <cmath>

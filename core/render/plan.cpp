@@ -1,6 +1,6 @@
 #include "core/render/plan.h"
 
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 
 #include <algorithm>
 #include <bit>
@@ -56,14 +56,14 @@ struct Variance {
   int pixels = 0;
 };
 
-Variance variance_in(const Film& film, const Region& where) {
+/// errors: squared_relative_errors of the film.
+Variance variance_in(const Film& film, const std::vector<double>& errors, const Region& where) {
   Variance found;
   for (int y = where.y0; y < where.y1; ++y)
     for (int x = where.x0; x < where.x1; ++x) {
-      const FilmPixel& pixel = film.at(x, y);
-      const double error = squared_relative_error(film, pixel);
+      const double error = errors[film.index(x, y)], taken = film.at(x, y).taken;
       if (!std::isfinite(error)) continue;
-      found.sum += error * pixel.taken * pixel.taken;
+      found.sum += error * taken * taken;
       ++found.pixels;
     }
   return found;
@@ -85,10 +85,11 @@ double need_of(const std::vector<Variance>& variances, const Cells& cells, int c
 
 /// What each cell needs, relative to the mean over all cells; at least a little, so that a round can reach its mean.
 std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
+  const std::vector<double> errors = squared_relative_errors(film, crew);
   std::vector<Variance> variances(cells.count());
   for_rows(crew, cells.rows, [&](int row) {
     for (int column = 0; column < cells.columns; ++column)
-      variances[cells.index(column, row)] = variance_in(film, cells.pixels(column, row));
+      variances[cells.index(column, row)] = variance_in(film, errors, cells.pixels(column, row));
   });
   std::vector<double> needs(cells.count());
   for_rows(crew, cells.rows, [&](int row) {

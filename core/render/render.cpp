@@ -1,6 +1,6 @@
 #include "core/render/render.h"
 
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 #include "core/render/plan.h"
 #include "core/render/progression.h"
 

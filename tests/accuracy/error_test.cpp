@@ -4,117 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 using namespace tyndall;
-
-namespace {
-
-constexpr int width = 192, height = 128;
-
-/// What the synthetic film would converge to: a ramp from nearly black to bright.
-float truth(int x) { return 0.02f * std::exp2(static_cast<float>(x) / 20.0f); }
-
-std::vector<float> true_image() {
-  std::vector<float> image;
-  for (int i = 0; i < width * height; ++i) image.insert(image.end(), 3, truth(i % width));
-  return image;
-}
-
-/// Samples with exponential noise (standard deviation = mean), `power` samples averaged into one in the right half.
-Film noisy_film(std::uint32_t spp, int right_divisor) {
-  Film film = make_film(width, height, {0, 0, width, height}, 0, 64);
-  std::mt19937 engine(3);
-  std::exponential_distribution<float> noise;
-  for (int i = 0; i < width * height; ++i) {
-    const int x = i % width;
-    FilmPixel& pixel = film.pixels[static_cast<std::size_t>(i)];
-    const float spread = x < width / 2 ? 1.0f : 1.0f / static_cast<float>(right_divisor);
-    const auto draw = [&] { return truth(x) * (1 + spread * (noise(engine) - 1)); };
-    for (std::uint32_t s = 0; s < spp; ++s) add_sample(pixel, s & 1, {draw(), draw(), draw()}, 1 / film.unit);
-    pixel.taken = spp;
-  }
-  return film;
-}
-
-/// True relative error of the columns x0 <= x < x1.
-double true_error(const Film& film, int x0, int x1) {
-  double sum = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = x0; x < x1; ++x) {
-      const Vec3f m = mean(film, film.at(x, y));
-      const auto ref = static_cast<double>(truth(x));
-      for (const float v : {m.x, m.y, m.z}) sum += std::pow(static_cast<double>(v) - ref, 2) / (ref * ref + 0.01);
-    }
-  }
-  return std::sqrt(sum / (3.0 * height * (x1 - x0)));
-}
-
-}  // namespace
-
-TEST_CASE("estimated error: close to the true one on noise of known size") {
-  for (const std::uint32_t spp : {16u, 64u}) {
-    const Film film = noisy_film(spp, 1);
-    const double ratio = estimated_relative_error(film) / true_error(film, 0, width);
-    CHECK(ratio == doctest::Approx(1).epsilon(0.03));
-    const ImageError error = image_error(resolve(film), true_image());
-    CHECK(estimated_relative_error(film) == doctest::Approx(std::sqrt(error.rel_mse)).epsilon(0.03));
-  }
-}
-
-TEST_CASE("estimated error: by hand for one pixel") {
-  Film film = make_film(1, 1, {0, 0, 1, 1}, 0, 1);
-  add_sample(film.pixels[0], 0, {0.5f, 0.25f, 0}, 1);
-  add_sample(film.pixels[0], 1, {0.25f, 0.25f, 0}, 1);
-  film.pixels[0].taken = 2;
-  // Red: ((0.5 - 0.25) / 2)^2 / (0.375^2 + 0.01); the others agree.
-  const double expected = std::sqrt(0.125 * 0.125 / (0.375 * 0.375 + 0.01) / 3);
-  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(1e-6));
-  CHECK(pixel_relative_error(film)[0] == doctest::Approx(expected).epsilon(1e-6));
-}
-
-TEST_CASE("estimated error: infinite while a half of any pixel is empty") {
-  Film film = noisy_film(2, 1);
-  CHECK(std::isfinite(estimated_relative_error(film)));
-  film.pixels[5].rejected[1] = 1;
-  CHECK(estimated_relative_error(film) == std::numeric_limits<double>::infinity());
-  CHECK(std::isfinite(pixel_relative_error(film)[5]));  // from its neighbours
-  CHECK(std::isinf(pixel_relative_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1))[4]));
-  CHECK(std::isinf(estimated_relative_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1))));
-}
-
-TEST_CASE("pixel error: follows the noise from place to place") {
-  const Film film = noisy_film(16, 4);
-  const std::vector<float> errors = pixel_relative_error(film);
-  REQUIRE(errors.size() == film.pixels.size());
-  const auto average = [&](int x0, int x1) {
-    double sum = 0;
-    for (int y = 0; y < height; ++y) {
-      for (int x = x0; x < x1; ++x) sum += std::pow(static_cast<double>(errors[film.index(x, y)]), 2);
-    }
-    return std::sqrt(sum / (height * (x1 - x0)));
-  };
-  CHECK(average(64, 92) == doctest::Approx(true_error(film, 64, 92)).epsilon(0.05));
-  CHECK(average(100, 128) == doctest::Approx(true_error(film, 100, 128)).epsilon(0.05));
-  CHECK(average(100, 128) < 0.5 * average(64, 92));
-}
-
-TEST_CASE("pixel error: an average over 7 x 7 pixels, fewer at the border") {
-  Film film = make_film(20, 20, {0, 0, 20, 20}, 0, 1);
-  for (FilmPixel& pixel : film.pixels) pixel.taken = 2;
-  add_sample(film.at(10, 10), 0, {0.2f, 0.2f, 0.2f}, 1);
-  add_sample(film.at(10, 10), 1, {-0.2f, -0.2f, -0.2f}, 1);  // mean 0: squared error 0.04 / 0.01 = 4
-  const std::vector<float> errors = pixel_relative_error(film);
-  const auto at = [&](int x, int y) { return static_cast<double>(errors[film.index(x, y)]); };
-  CHECK(at(10, 10) == doctest::Approx(std::sqrt(4.0 / 49)));
-  CHECK(at(7, 13) == doctest::Approx(std::sqrt(4.0 / 49)));
-  CHECK(at(6, 10) == 0);
-  CHECK(at(10, 14) == 0);
-  Film corner = make_film(20, 20, {0, 0, 20, 20}, 0, 1);
-  for (FilmPixel& pixel : corner.pixels) pixel.taken = 2;
-  corner.at(0, 0) = film.at(10, 10);
-  CHECK(static_cast<double>(pixel_relative_error(corner)[0]) == doctest::Approx(std::sqrt(4.0 / 16)));
-}
 
 TEST_CASE("film mean: by hand for two pixels that show different things") {
   Film film = make_film(2, 1, {0, 0, 2, 1}, 0, 8);
@@ -157,15 +48,6 @@ TEST_CASE("image error: equal images, and what is not a number") {
   const ImageError bad = image_error({std::numeric_limits<float>::quiet_NaN(), 0, 0}, image);
   CHECK(std::isnan(bad.mse));
   CHECK(std::isnan(bad.psnr));
-}
-
-TEST_CASE("few pixels: noise of known size does not rest on them, one bright sample does") {
-  Film film = noisy_film(16, 1);
-  CHECK_FALSE(rests_on_few_pixels(film));
-  add_sample(film.at(100, 60), 0, {60 * 64, 60 * 64, 60 * 64}, 1 / film.unit);
-  CHECK(rests_on_few_pixels(film));
-  Crew crew(2);
-  CHECK(rests_on_few_pixels(film, &crew));
 }
 
 TEST_CASE("relMSE alone is that of all the errors") {

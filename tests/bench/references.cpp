@@ -1,6 +1,6 @@
 #include "tests/bench/references.h"
 
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/image/image_io.h"
 #include "core/render/render.h"

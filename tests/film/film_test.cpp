@@ -21,7 +21,7 @@ std::vector<double> wild_numbers(int count) {
   std::normal_distribution<double> normal;
   std::vector<double> numbers;
   for (int i = 0; i < count; ++i) numbers.push_back(std::copysign(std::exp(8 * normal(engine)), normal(engine)));
-  for (double& x : numbers) x = std::clamp(x, -255.0, 255.0);
+  for (double& x : numbers) x = std::clamp(x, -0x1p29, 0x1p29);
   return numbers;
 }
 
@@ -81,11 +81,13 @@ TEST_CASE("film: 2^25 samples of 0.3 lose nothing") {
   CHECK(half_mean(film, pixel, 1).x == 0.3f);
 }
 
-TEST_CASE("film: the limit of the sums is 2^24 of the brightest numbers in each half") {
-  ExactSum sum, most;
-  most.add(255.99999);
+TEST_CASE("film: the limit of the sums is 2^24 numbers of 1023 units in each half, or 15 of the brightest") {
+  ExactSum most, brightest;
+  most.add(1022.99999);
   for (int doubling = 0; doubling < 24; ++doubling) most.add(ExactSum(most));
-  CHECK(most.value() == doctest::Approx(255.99999 * 0x1p24).epsilon(1e-12));
+  CHECK(most.value() == doctest::Approx(1022.99999 * 0x1p24).epsilon(1e-12));
+  for (int i = 0; i < 15; ++i) brightest.add(0.99999 * sample_limit);
+  CHECK(brightest.value() == doctest::Approx(15 * 0.99999 * sample_limit).epsilon(1e-12));
   CHECK(most.high > 0);
   CHECK(most.low > 0);
 }
@@ -108,13 +110,13 @@ TEST_CASE("film: what is not finite or too bright is counted and left out") {
   add_sample(pixel, 0, {nan, 0, 0}, 0.5);
   add_sample(pixel, 1, {0, infinity, 0}, 0.5);
   add_sample(pixel, 0, {0, 0, -infinity}, 0.5);
-  add_sample(pixel, 1, {0, 0, 512}, 0.5);  // 256 units
+  add_sample(pixel, 1, {0, 0, 0x1p31f}, 0.5);  // 2^30 units
   pixel.taken = 6;
   CHECK(pixel.rejected[0] == 2);
   CHECK(pixel.rejected[1] == 2);
   CHECK(mean(film, pixel) == Vec3f{2, 2, 2});
   CHECK(half_mean(film, pixel, 0) == Vec3f{1, 2, 3});
-  add_sample(pixel, 0, {511, -511, 0}, 0.5);
+  add_sample(pixel, 0, {0x1.fffffep30f, -0x1.fffffep30f, 0}, 0.5);
   CHECK(pixel.rejected[0] == 2);
 }
 
@@ -134,7 +136,7 @@ TEST_CASE("film: each half counts its own indices, wherever the first one is") {
 TEST_CASE("film: black before the first sample and where all were rejected") {
   Film film = one_pixel();
   CHECK(mean(film, film.pixels[0]) == Vec3f{});
-  add_sample(film.pixels[0], 0, {-1000, 0, 0}, 1);
+  add_sample(film.pixels[0], 0, {-0x1p30f, 0, 0}, 1);
   film.pixels[0].taken = 1;
   CHECK(counted(film, film.pixels[0], 0) == 0);
   CHECK(mean(film, film.pixels[0]) == Vec3f{});

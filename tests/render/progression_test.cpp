@@ -1,6 +1,6 @@
 #include "core/render/progression.h"
 
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"

@@ -2,7 +2,7 @@
 
 #include "app/text/numbers.h"
 #include "app/text/values.h"
-#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 #include "core/image/image_io_file.h"
 #include "core/scene/load.h"
 

@@ -1,0 +1,178 @@
+#include "core/accuracy/estimate.h"
+
+#include "core/accuracy/relative.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float tiny = std::numeric_limits<float>::min();
+constexpr int reach = 2;               // pixels to each side that tell about a pixel's level
+constexpr int window = 2 * reach + 1;  // their edge
+constexpr int band_rows = 32;          // rows that one thread does in one go
+
+constexpr float largest = 1e30f;  // of a squared error: what is infinite means an empty half
+
+/// Numbers for each pixel of a row, in units of the film, with `reach` zeros to both sides. A plane for each channel's
+/// mean m, its squared error n and the product of its halves, one that counts the pixel, and the lesser half of each
+/// channel; all 0 where a half is empty. The first planes are summed over windows. Single precision: what is lost in s
+/// is small against mu², and then g hardly depends on s.
+struct Row {
+  static constexpr std::size_t means = 0, noises = 3, products = 6, counts = 9, summed = 10, least = 10, planes = 13;
+  std::array<std::vector<float>, planes> of;
+  explicit Row(int width) {
+    for (auto& plane : of) plane.resize(static_cast<std::size_t>(width + 2 * reach));
+  }
+};
+
+void read_row(const Film& film, int row, Row& to) {
+  const auto width = static_cast<std::size_t>(film.region.width());
+  const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(row) * width;
+  std::array<float*, Row::planes> planes{};
+  for (std::size_t i = 0; i < Row::planes; ++i) planes[i] = to.of[i].data() + reach;
+  for (std::size_t x = 0; x < width; ++x) {
+    const FilmPixel& pixel = pixels[x];
+    const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
+    const bool whole = count_a > 0 && count_b > 0;
+    const double per_a = whole ? 1 / count_a : 0, per_b = whole ? 1 / count_b : 0,
+                 share_a = whole ? count_a / (count_a + count_b) : 0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const double a = pixel.sum[0][channel].value() * per_a, b = pixel.sum[1][channel].value() * per_b;
+      planes[Row::means + channel][x] = static_cast<float>(b + share_a * (a - b));
+      planes[Row::noises + channel][x] = static_cast<float>((a - b) * (a - b) / 4);
+      planes[Row::products + channel][x] = static_cast<float>(a * b);
+      planes[Row::least + channel][x] = static_cast<float>(std::min(a, b));
+    }
+    planes[Row::counts][x] = whole ? 1.0f : 0.0f;
+  }
+}
+
+/// Sums over the window around each pixel of the middle row, without the pixel itself. Nothing is subtracted: a bright
+/// pixel would leave its rounding behind. `columns`: memory for the sums of columns without the middle.
+void sum_around(const std::array<const Row*, window>& rows, Row& columns, Row& sums) {
+  static_assert(reach == 2);
+  for (std::size_t plane = 0; plane < Row::summed; ++plane) {
+    const float *up2 = rows[0]->of[plane].data(), *up = rows[1]->of[plane].data(), *own = rows[2]->of[plane].data(),
+                *down = rows[3]->of[plane].data(), *down2 = rows[4]->of[plane].data();
+    float* __restrict column = columns.of[plane].data();
+    float* __restrict sum = sums.of[plane].data();
+    const std::size_t size = columns.of[plane].size();
+    for (std::size_t i = 0; i < size; ++i) column[i] = (up2[i] + up[i]) + (down[i] + down2[i]);
+    for (std::size_t i = 2; i < size - 2; ++i) {
+      const float left = (column[i - 2] + own[i - 2]) + (column[i - 1] + own[i - 1]);
+      const float right = (column[i + 1] + own[i + 1]) + (column[i + 2] + own[i + 2]);
+      sum[i] = column[i] + (left + right);
+    }
+  }
+}
+
+/// Adds n / (g² + 0.01) of a channel of each pixel of a row, of which `sums` tells what is around. floor: 0.01 in
+/// squared units of the film.
+void add_errors(const Row& row, const Row& sums, std::size_t channel, float floor, std::vector<float>& errors) {
+  const float *own_m = row.of[Row::means + channel].data() + reach,
+              *own_n = row.of[Row::noises + channel].data() + reach,
+              *own_least = row.of[Row::least + channel].data() + reach,
+              *sum_m = sums.of[Row::means + channel].data() + reach,
+              *sum_n = sums.of[Row::noises + channel].data() + reach,
+              *sum_ab = sums.of[Row::products + channel].data() + reach, *counts = sums.of[Row::counts].data() + reach;
+  float* __restrict to = errors.data();
+  for (std::size_t x = 0; x < errors.size(); ++x) {
+    const float m = own_m[x], n = own_n[x], per = 1 / std::max(counts[x], 1.0f);
+    const float mu = sum_m[x] * per, noise = std::max(n, sum_n[x] * per);
+    const float s = std::max(sum_ab[x] * per - mu * mu, 0.0f);
+    const float alike = noise / std::max(s + noise, tiny), doubt = 4 * n / std::max(m * m, tiny);
+    const float drawn = std::min(std::min(alike, doubt), counts[x]);  // 1 - w; none where there is no one around
+    const float g = std::max(m + drawn * (mu - m), own_least[x]);
+    to[x] += std::min(n / (g * g + floor), largest);
+  }
+}
+
+/// The squared relative errors of the middle row.
+void find_errors(const std::array<const Row*, window>& rows, float floor, Row& columns, Row& sums,
+                 std::vector<float>& errors) {
+  sum_around(rows, columns, sums);
+  std::fill(errors.begin(), errors.end(), 0.0f);
+  for (std::size_t channel = 0; channel < 3; ++channel) add_errors(*rows[reach], sums, channel, floor, errors);
+  const float* counts = rows[reach]->of[Row::counts].data() + reach;
+  for (std::size_t x = 0; x < errors.size(); ++x) errors[x] = counts[x] > 0 ? errors[x] / 3 : infinity;
+}
+
+/// Calls use(y, errors of the row y of the region) for the rows of a band.
+template <class Use>
+void for_rows_of_band(const Film& film, int band, const Use& use) {
+  const int width = film.region.width(), height = film.region.height();
+  const int first = band * band_rows, last = std::min(first + band_rows, height);
+  const auto floor = std::max(static_cast<float>(floor_of_square / film.unit / film.unit), tiny);
+  const Row empty(width);
+  Row columns(width), sums(width);
+  std::vector<Row> ring(window, empty);
+  std::vector<float> errors(static_cast<std::size_t>(width));
+  const auto is_there = [height](int y) { return y >= 0 && y < height; };
+  const auto in_ring = [&](int y) -> Row& { return ring[static_cast<std::size_t>((y + window) % window)]; };
+  for (int y = first - reach; y < last + reach; ++y) {
+    if (is_there(y)) read_row(film, y, in_ring(y));
+    const int middle = y - reach;
+    if (middle < first) continue;
+    std::array<const Row*, window> rows{};
+    for (int i = 0; i < window; ++i) {
+      const int at = middle + i - reach;
+      rows[static_cast<std::size_t>(i)] = is_there(at) ? &in_ring(at) : &empty;
+    }
+    find_errors(rows, floor, columns, sums, errors);
+    use(middle, errors);
+  }
+}
+
+int bands_of(const Film& film) { return (film.region.height() + band_rows - 1) / band_rows; }
+
+void for_bands(const Film& film, Crew* crew, const std::function<void(int)>& job) {
+  if (crew) return crew->for_each(bands_of(film), job);
+  for (int band = 0; band < bands_of(film); ++band) job(band);
+}
+
+/// Sums of squared relative errors, and of their squares.
+struct Spread {
+  double sum = 0, squares = 0;
+};
+
+}  // namespace
+
+ErrorEstimate estimate_error(const Film& film, Crew* crew) {
+  if (film.pixels.empty()) return {};
+  std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
+  for_bands(film, crew, [&](int band) {
+    Spread& to = bands[static_cast<std::size_t>(band)];
+    for_rows_of_band(film, band, [&](int, const std::vector<float>& errors) {
+      for (const double error : errors) to.sum += error, to.squares += error * error;
+    });
+  });
+  Spread all;
+  for (const Spread& band : bands) all.sum += band.sum, all.squares += band.squares;
+  if (all.sum == infinity) return {};
+  const auto pixels = static_cast<double>(film.pixels.size());
+  const double few = 0.35 + 3 / std::sqrt(pixels);  // small pictures vary by themselves
+  return {std::sqrt(all.sum / pixels), std::sqrt(all.squares) > few * all.sum};
+}
+
+double estimated_relative_error(const Film& film, Crew* crew) { return estimate_error(film, crew).relative_error; }
+
+std::vector<double> squared_relative_errors(const Film& film, Crew* crew) {
+  std::vector<double> all(film.pixels.size());
+  const auto width = static_cast<std::size_t>(film.region.width());
+  for_bands(film, crew, [&](int band) {
+    for_rows_of_band(film, band, [&](int y, const std::vector<float>& errors) {
+      std::copy(errors.begin(), errors.end(), all.data() + static_cast<std::size_t>(y) * width);
+    });
+  });
+  return all;
+}
+
+std::vector<float> pixel_relative_error(const Film& film, Crew* crew) {
+  return root_window_means(squared_relative_errors(film, crew), film.region.width(), film.region.height());
+}
+
+}  // namespace tyndall

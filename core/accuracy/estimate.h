@@ -1,0 +1,51 @@
+#pragma once
+#include "core/base/crew.h"
+#include "core/film/film.h"
+
+#include <limits>
+#include <vector>
+
+/// How far a film is likely to be from the truth, told from its two halves A and B alone.
+///
+/// The squared relative error of a pixel's channel is n / (g² + 0.01), where n = ((A-B)/2)² estimates the variance of
+/// the mean m = (A+B)/2 without bias, and g stands for the true level. It must not be m itself: a pixel that a rare
+/// bright path has met has a large m and a large n, so that n / m² is at most 1 and hides how wrong the pixel is.
+/// g is the pixel's level freed of its own noise: drawn to the mean of the pixels around it as far as what differs
+/// between them is noise.
+///
+///     g = max(mu + w (m - mu), min(A, B)),  w = max(s / (s + max(n, nu)), clip(1 - 4 n / m², 0, 1))
+///
+/// mu, nu: the means of m and n over the 5 x 5 pixels around, without the pixel itself and without those that have an
+/// empty half; s = max(0, mean of A B - mu²): how much the true levels around differ, as A B estimates the square of a
+/// level without bias. The first part of w is Wiener's weight of a level of variance s that is seen with a noise of n
+/// (or nu, if that is more: n itself comes from two numbers). The second, and min(A, B), keep a pixel that both halves
+/// show to differ from those around it, such as a small lamp. Without any pixel around, g = m. What is left: a lamp
+/// smaller than a pixel, met by one half only, looks like a rare path, and its error is taken for larger than it is.
+namespace tyndall {
+
+struct ErrorEstimate {
+  /// sqrt(mean over pixels and channels of n / (g² + 0.01)). Its square estimates relMSE. Infinite while a half of any
+  /// pixel is empty.
+  double relative_error = std::numeric_limits<double>::infinity();
+  /// Whether a few pixels make up so much of the error that it means little: rare bright paths have been met in these,
+  /// and not yet in others; or lamps smaller than a pixel. True where the standard deviation of the mean of the pixels'
+  /// squared errors is more than 0.35 of it, in large pictures: where it rests on about 8 pixels. False while a half of
+  /// any pixel is empty.
+  bool rests_on_few_pixels = false;
+};
+
+/// crew: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
+ErrorEstimate estimate_error(const Film& film, Crew* crew = nullptr);
+
+/// The relative error of estimate_error alone.
+double estimated_relative_error(const Film& film, Crew* crew = nullptr);
+
+/// The mean over the channels of n / (g² + 0.01) of each pixel of the region, row by row; infinite where a half is
+/// empty.
+std::vector<double> squared_relative_errors(const Film& film, Crew* crew = nullptr);
+
+/// The estimated relative error of each pixel of the region from the 7 x 7 pixels around it, less those with an empty
+/// half; infinite where none is left.
+std::vector<float> pixel_relative_error(const Film& film, Crew* crew = nullptr);
+
+}  // namespace tyndall

@@ -1,0 +1,230 @@
+#include "core/accuracy/estimate.h"
+
+#include "core/accuracy/error.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr int width = 192, height = 128;
+
+/// What the synthetic film would converge to: a ramp from nearly black to bright.
+float truth(int x) { return 0.02f * std::exp2(static_cast<float>(x) / 20.0f); }
+
+std::vector<float> true_image() {
+  std::vector<float> image;
+  for (int i = 0; i < width * height; ++i) image.insert(image.end(), 3, truth(i % width));
+  return image;
+}
+
+/// Samples with exponential noise (standard deviation = mean), `power` samples averaged into one in the right half.
+Film noisy_film(std::uint32_t spp, int right_divisor) {
+  Film film = make_film(width, height, {0, 0, width, height}, 0, 64);
+  std::mt19937 engine(3);
+  std::exponential_distribution<float> noise;
+  for (int i = 0; i < width * height; ++i) {
+    const int x = i % width;
+    FilmPixel& pixel = film.pixels[static_cast<std::size_t>(i)];
+    const float spread = x < width / 2 ? 1.0f : 1.0f / static_cast<float>(right_divisor);
+    const auto draw = [&] { return truth(x) * (1 + spread * (noise(engine) - 1)); };
+    for (std::uint32_t s = 0; s < spp; ++s) add_sample(pixel, s & 1, {draw(), draw(), draw()}, 1 / film.unit);
+    pixel.taken = spp;
+  }
+  return film;
+}
+
+/// True relative error of the columns x0 <= x < x1.
+double true_error(const Film& film, int x0, int x1) {
+  double sum = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const Vec3f m = mean(film, film.at(x, y));
+      const auto ref = static_cast<double>(truth(x));
+      for (const float v : {m.x, m.y, m.z}) sum += std::pow(static_cast<double>(v) - ref, 2) / (ref * ref + 0.01);
+    }
+  }
+  return std::sqrt(sum / (3.0 * height * (x1 - x0)));
+}
+
+}  // namespace
+
+TEST_CASE("estimated error: close to the true one on noise of known size") {
+  for (const std::uint32_t spp : {16u, 64u}) {
+    const Film film = noisy_film(spp, 1);
+    const double ratio = estimated_relative_error(film) / true_error(film, 0, width);
+    CHECK(ratio == doctest::Approx(1).epsilon(0.03));
+    const ImageError error = image_error(resolve(film), true_image());
+    CHECK(estimated_relative_error(film) == doctest::Approx(std::sqrt(error.rel_mse)).epsilon(0.03));
+  }
+}
+
+TEST_CASE("estimated error: by hand for one pixel") {
+  Film film = make_film(1, 1, {0, 0, 1, 1}, 0, 1);
+  add_sample(film.pixels[0], 0, {0.5f, 0.25f, 0}, 1);
+  add_sample(film.pixels[0], 1, {0.25f, 0.25f, 0}, 1);
+  film.pixels[0].taken = 2;
+  // Red: ((0.5 - 0.25) / 2)^2 / (0.375^2 + 0.01); the others agree.
+  const double expected = std::sqrt(0.125 * 0.125 / (0.375 * 0.375 + 0.01) / 3);
+  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(1e-6));
+  CHECK(pixel_relative_error(film)[0] == doctest::Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("estimated error: infinite while a half of any pixel is empty") {
+  Film film = noisy_film(2, 1);
+  CHECK(std::isfinite(estimated_relative_error(film)));
+  film.pixels[5].rejected[1] = 1;
+  CHECK(estimated_relative_error(film) == std::numeric_limits<double>::infinity());
+  CHECK(std::isfinite(pixel_relative_error(film)[5]));  // from its neighbours
+  CHECK(std::isinf(pixel_relative_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1))[4]));
+  CHECK(std::isinf(estimated_relative_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1))));
+}
+
+TEST_CASE("pixel error: follows the noise from place to place") {
+  const Film film = noisy_film(16, 4);
+  const std::vector<float> errors = pixel_relative_error(film);
+  REQUIRE(errors.size() == film.pixels.size());
+  const auto average = [&](int x0, int x1) {
+    double sum = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = x0; x < x1; ++x) sum += std::pow(static_cast<double>(errors[film.index(x, y)]), 2);
+    }
+    return std::sqrt(sum / (height * (x1 - x0)));
+  };
+  CHECK(average(64, 92) == doctest::Approx(true_error(film, 64, 92)).epsilon(0.05));
+  CHECK(average(100, 128) == doctest::Approx(true_error(film, 100, 128)).epsilon(0.05));
+  CHECK(average(100, 128) < 0.5 * average(64, 92));
+}
+
+TEST_CASE("pixel error: an average over 7 x 7 pixels, fewer at the border") {
+  Film film = make_film(20, 20, {0, 0, 20, 20}, 0, 1);
+  for (FilmPixel& pixel : film.pixels) pixel.taken = 2;
+  add_sample(film.at(10, 10), 0, {0.2f, 0.2f, 0.2f}, 1);
+  add_sample(film.at(10, 10), 1, {-0.2f, -0.2f, -0.2f}, 1);  // mean 0: squared error 0.04 / 0.01 = 4
+  const std::vector<float> errors = pixel_relative_error(film);
+  const auto at = [&](int x, int y) { return static_cast<double>(errors[film.index(x, y)]); };
+  CHECK(at(10, 10) == doctest::Approx(std::sqrt(4.0 / 49)));
+  CHECK(at(7, 13) == doctest::Approx(std::sqrt(4.0 / 49)));
+  CHECK(at(6, 10) == 0);
+  CHECK(at(10, 14) == 0);
+  Film corner = make_film(20, 20, {0, 0, 20, 20}, 0, 1);
+  for (FilmPixel& pixel : corner.pixels) pixel.taken = 2;
+  corner.at(0, 0) = film.at(10, 10);
+  CHECK(static_cast<double>(pixel_relative_error(corner)[0]) == doctest::Approx(std::sqrt(4.0 / 16)));
+}
+
+TEST_CASE("estimated error: samples that are rare and bright do not hide how wrong their pixels are") {
+  // One sample in 20 is 18.1, the others 0.1: the true level is 1. Were g the pixel's own mean, each bright pixel would
+  // count 1 at most.
+  Film film = make_film(width, height, {0, 0, width, height}, 0, 64);
+  std::mt19937 engine(5);
+  double sum = 0;
+  for (FilmPixel& pixel : film.pixels) {
+    for (std::uint32_t s = 0; s < 16; ++s) {
+      const float value = engine() % 20 == 0 ? 18.1f : 0.1f;
+      add_sample(pixel, s & 1, {value, value, value}, 1 / film.unit);
+    }
+    pixel.taken = 16;
+    sum += std::pow(static_cast<double>(mean(film, pixel).x) - 1, 2) / 1.01;
+  }
+  const double expected = std::sqrt(sum / (width * height));
+  CHECK(expected > 0.9);
+  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(0.1));
+}
+
+namespace {
+
+/// A 9 x 9 film of level 0.3 in both halves but for the pixel in the middle.
+Film flat_film(float middle_a, float middle_b) {
+  Film film = make_film(9, 9, {0, 0, 9, 9}, 0, 4);
+  for (int i = 0; i < 81; ++i) {
+    FilmPixel& pixel = film.pixels[static_cast<std::size_t>(i)];
+    for (const std::uint32_t half : {0u, 1u}) {
+      const float value = i != 40 ? 0.3f : half == 0 ? middle_a : middle_b;
+      add_sample(pixel, half, {value, value, value}, 1 / film.unit);
+    }
+    pixel.taken = 2;
+  }
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("estimated error: by hand for a pixel that one half shows bright, and for one that both do") {
+  const double rare = squared_relative_errors(flat_film(8.3f, 0.3f))[40];
+  CHECK(rare == doctest::Approx(4.0 * 4.0 / (0.3 * 0.3 + 0.01)).epsilon(1e-5));  // against the level around it
+  const double lamp = squared_relative_errors(flat_film(9, 7))[40];
+  // n = 1, m = 8: w = 1 - 4 / 64, g = 0.3 + w 7.7.
+  CHECK(lamp == doctest::Approx(1 / (std::pow(0.3 + 0.9375 * 7.7, 2) + 0.01)).epsilon(1e-5));
+  const double both = squared_relative_errors(flat_film(9, 1))[40];
+  CHECK(both == doctest::Approx(16 / (1 + 0.01)).epsilon(1e-5));  // at least what both halves show
+}
+
+TEST_CASE("estimated error: pixels that have an empty half tell nothing about the ones around them") {
+  Film film = flat_film(8.3f, 0.3f);
+  film.at(3, 4).rejected[1] = 1;
+  film.at(3, 4).sum[0][0].add(100.0);
+  const std::vector<double> errors = squared_relative_errors(film);
+  CHECK(std::isinf(errors[39]));
+  CHECK(errors[40] == doctest::Approx(4.0 * 4.0 / (0.3 * 0.3 + 0.01)).epsilon(1e-5));
+}
+
+TEST_CASE("estimated error: the same bits for any number of threads, and pictures of any shape") {
+  for (const auto& [columns, rows] : {std::pair{1, 1}, {1, 2}, {1, 97}, {97, 1}, {2, 33}, {5, 5}, {61, 67}}) {
+    CAPTURE(columns);
+    CAPTURE(rows);
+    Film film = make_film(100, 100, {3, 2, 3 + columns, 2 + rows}, 0, 2);
+    std::mt19937 engine(7);
+    for (FilmPixel& pixel : film.pixels) {
+      pixel.taken = static_cast<std::uint32_t>(2 + engine() % 5);  // as a pass under way leaves them
+      for (std::uint32_t s = 0; s < pixel.taken; ++s) {
+        const auto value = static_cast<float>(engine() % 100) * 0.01f;
+        add_sample(pixel, s & 1, {value, 1 - value, 0.5f}, 1 / film.unit);
+      }
+    }
+    const ErrorEstimate alone = estimate_error(film);
+    const std::vector<double> errors = squared_relative_errors(film);
+    double sum = 0;
+    for (const double error : errors) sum += error;
+    CHECK(std::isfinite(alone.relative_error));
+    CHECK(alone.relative_error == doctest::Approx(std::sqrt(sum / static_cast<double>(errors.size()))));
+    for (const int threads : {1, 2, 3}) {
+      Crew crew(threads);
+      CHECK(estimate_error(film, &crew).relative_error == alone.relative_error);
+      CHECK(squared_relative_errors(film, &crew) == errors);
+    }
+  }
+}
+
+TEST_CASE("estimated error: the unit of a film does not matter, however bright or dim its lamps") {
+  double bright = 0;  // the error of a film whose levels are far above 0.1
+  for (const double unit : {0x1p20, 0x1p60, 0x1p126, 0x1p-20, 0x1p-100}) {
+    CAPTURE(unit);
+    Film film = make_film(8, 8, {0, 0, 8, 8}, 0, unit);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+      film.pixels[i].taken = 2;
+      for (const std::uint32_t half : {0u, 1u}) film.pixels[i].sum[half][0].add(i % 3 == half ? 0.5 : 0.25);
+    }
+    const double error = estimated_relative_error(film);
+    CHECK(std::isfinite(error));
+    if (bright == 0) bright = error;
+    if (unit > 1)
+      CHECK(error == doctest::Approx(bright).epsilon(1e-6));
+    else
+      CHECK(error < unit);  // black against 0.1
+  }
+}
+
+TEST_CASE("few pixels: noise of known size does not rest on them, one bright sample does") {
+  Film film = noisy_film(16, 1);
+  CHECK_FALSE(estimate_error(film).rests_on_few_pixels);
+  add_sample(film.at(100, 60), 0, {60 * 64, 60 * 64, 60 * 64}, 1 / film.unit);
+  CHECK(estimate_error(film).rests_on_few_pixels);
+  Crew crew(2);
+  CHECK(estimate_error(film, &crew).rests_on_few_pixels);
+}
