@@ -1,7 +1,8 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/cli/signals.h"
-#include "app/curves/svg.h"
+#include "app/curves/chart_files.h"
+#include "app/curves/measure.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/text/progress.h"
@@ -52,15 +53,17 @@ class ChartJob {
     if (methods.empty()) methods = default_methods(scene);
     const double budget = command_.budget;
     Chart chart;
-    chart.reference = command_.reference.empty() ? rendered(scene, share_of_reference * budget) : read(scene);
+    const ChartReference reference =
+        command_.reference.empty() ? rendered(scene, share_of_reference * budget) : read(scene);
+    chart.reference_noise = reference.noise;
     const double left = command_.reference.empty() ? (1 - share_of_reference) * budget : budget;
     for (std::size_t i = 0; i < methods.size() && !stopped(); ++i)
-      chart.curves.push_back(measure_curve(scene, methods[i], chart.reference,
-                                           left / static_cast<double>(methods.size()), run(methods[i].name)));
+      chart.curves.push_back(measure_curve(scene, methods[i], reference, left / static_cast<double>(methods.size()),
+                                           run(methods[i].name)));
     chart.title = scene.name.empty() ? loaded.name : scene.name;
     const int threads = command_.threads > 0 ? command_.threads : static_cast<int>(std::thread::hardware_concurrency());
     chart.subtitle = std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + std::to_string(threads) +
-                     (threads == 1 ? " thread" : " threads") + "; reference: " + chart.reference.about;
+                     (threads == 1 ? " thread" : " threads") + "; reference: " + reference.about;
     return chart;
   }
   bool stopped() const { return signals_.received() != 0; }
@@ -80,7 +83,7 @@ class ChartJob {
     if (is_exr(file))
       if (const auto film = read_film(file)) {
         const double error = estimated_relative_error(*film);
-        if (std::isfinite(error)) reference.rel_mse = error * error;
+        if (std::isfinite(error)) reference.noise = error * error;
       }
     return reference;
   }
@@ -99,13 +102,6 @@ class ChartJob {
   Clock::time_point start_ = Clock::now();
 };
 
-std::filesystem::path csv_beside(std::filesystem::path svg) { return svg.replace_extension(".csv"); }
-
-void write(const Chart& chart, const std::filesystem::path& file) {
-  write_text_file(file, chart_svg(chart));
-  write_text_file(csv_beside(file), chart_csv(chart));
-}
-
 int chart_all(const ChartCommand& command, const SignalWatch& signals) {
   for (const char* name : gallery) {
     const std::filesystem::path file = command.output / (std::string(name) + ".svg");
@@ -116,7 +112,7 @@ int chart_all(const ChartCommand& command, const SignalWatch& signals) {
     const Chart chart = job.make(request);
     if (chart.curves.empty()) break;
     job.finish(std::string("charted ") + name);
-    write(chart, file);
+    write_chart(chart, file);
     write_standard_output(std::string(name) + "\n" + chart_table(chart) + "\n");
     if (job.stopped()) break;
   }
@@ -138,7 +134,7 @@ int run(const ChartCommand& command) {
     return code;
   }
   job.finish("charted " + command.scene.what);
-  write(chart, command.output);
+  write_chart(chart, command.output);
   write_standard_output(chart_table(chart));
   return code;
 }

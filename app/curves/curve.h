@@ -1,70 +1,52 @@
 #pragma once
-#include "core/image/image_io.h"
-#include "core/scene/scene.h"
-
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-/// Speed against accuracy: the error of a growing picture over the seconds it took.
+/// This room knows how the error of a growing picture falls with time. The command `chart` and the window's live chart
+/// share one kind of point, one kind of curve and one way to read between points. Times are seconds of rendering, and
+/// errors are relMSE, the square of the relative error.
 namespace tyndall {
 
-/// A way of rendering, to be compared with others.
-struct ChartMethod {
-  std::string name;
-  RenderSettings settings;
-  std::string isa;  ///< "": the best
+/// The error of a picture at one moment.
+struct ErrorPoint {
+  double seconds = 0;     ///< of rendering, > 0
+  double rel_mse = 0;     ///< estimated, or against a reference whose own noise is taken off (then it may be <= 0)
+  std::uint32_t spp = 0;  ///< samples that every pixel had
+  double noise = 0;       ///< the part of rel_mse that is noise, from the two halves of each pixel; infinite at 1 spp
 };
 
-/// The books' method, and each improvement switched on in turn, as far as the scene has a use for it; then what is
-/// approximate, alone.
-std::vector<ChartMethod> default_methods(const Scene& scene);
-
-/// What curves are measured against.
-struct ChartReference {
-  LinearImage image;
-  double rel_mse = 0;  ///< the part of measured errors that is its own noise; 0: not known, floors may be that
-  std::string about;   ///< "nee, random, 512 spp"
+/// The error of one way of rendering over time.
+struct ErrorCurve {
+  std::string method;              ///< "mis · sobol"
+  std::vector<ErrorPoint> points;  ///< seconds and spp grow
+  std::uint64_t edit = 0;          ///< in the window: number of the edit whose picture this is
 };
 
-struct ChartPoint {
-  std::uint32_t spp = 0;
-  double seconds = 0;  ///< of rendering
-  double rel_mse = 0;  ///< against the reference, the reference's own noise taken off
-  double noise = 0;    ///< the part of it that is noise, as the picture's halves tell; infinite at 1 spp
-};
+/// The point of the curve at that time, read between its points on logarithmic scales. Nothing before the curve's first
+/// and after its last point.
+std::optional<ErrorPoint> point_at(const ErrorCurve& curve, double seconds);
 
-struct ChartCurve {
-  std::string method;
-  std::vector<ChartPoint> points;  ///< spp grows
-};
+/// The time at which the curve first reaches an error > 0, read between its points on logarithmic scales. Nothing if it
+/// never does.
+std::optional<double> seconds_to(const ErrorCurve& curve, double rel_mse);
 
-/// Error below which the reference's own noise would show.
-double least_measurable(const ChartReference& reference);
+/// How many seconds more to render, `seconds` having passed, until the relative error (the root of relMSE) is `target`,
+/// if relMSE goes on falling as 1/time from a known point. 0 when it should be there already.
+double seconds_left(double target, const ErrorPoint& known, double seconds);
 
-/// Seconds at which the curve crosses an error, between its points on logarithmic scales; nothing if it does not.
-std::optional<double> seconds_to(const ChartCurve& curve, double rel_mse);
+/// How many times less time a curve takes than the first one to reach the lowest error that both reach; nothing if
+/// there is no such error. Another error can give another answer: for example, Sobol' points gain more on random
+/// numbers the lower the error is.
+std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& curve);
 
-/// How many times less time a curve takes than the first one to the least error that both reach; nothing if there is
-/// none. The answer depends on the error: Sobol' points gain on random numbers the lower it is.
-std::optional<double> speed_against(const ChartCurve& first, const ChartCurve& curve);
+/// Errors below this one would be mostly the reference's own noise. reference_noise: relMSE of the reference; 0: not
+/// known.
+double least_measurable(double reference_noise);
 
-/// The error that does not go away when the samples double, from the last points: what the noise does not explain.
-/// Nothing where it cannot be told from noise.
-std::optional<double> bias_of(const ChartCurve& curve, const ChartReference& reference);
-
-struct ChartRun {
-  int threads = 0;                              ///< 0: all cores
-  std::function<bool(double seconds)> go_on{};  ///< asked often, with the seconds of rendering so far; false: stop
-};
-
-/// A reference of about `seconds`: mis, random numbers of another seed, exact.
-ChartReference render_reference(Scene scene, double seconds, const ChartRun& run);
-
-/// The curve of a method over about `seconds` of rendering, or until the reference's noise would show.
-ChartCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
-                         const ChartRun& run);
+/// The error that stays although the samples double: what noise does not explain in the last points. Nothing where it
+/// cannot be told from noise, the picture's or the reference's.
+std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise);
 
 }  // namespace tyndall

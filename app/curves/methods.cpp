@@ -1,4 +1,4 @@
-#include "app/curves/curve.h"
+#include "app/curves/measure.h"
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
 

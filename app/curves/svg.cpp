@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <optional>
 
 namespace tyndall {
 namespace {
@@ -53,14 +53,14 @@ std::string line(double x0, double y0, double x1, double y1, const std::string& 
   return format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"%s\"/>\n", x0, y0, x1, y1, kind.c_str());
 }
 
-/// Whole decades that hold all points, and where things are in them.
+/// The range of the axes, in whole decades that hold all points, and where times and errors are on the page.
 struct Plot {
   int x0 = 0, x1 = 1, y0 = -3, y1 = 0;
 
-  explicit Plot(const std::vector<ChartCurve>& curves) {
+  explicit Plot(const std::vector<ErrorCurve>& curves) {
     double first = 1e300, last = 0, least = 1e-2, most = 1e-1;
-    for (const ChartCurve& curve : curves)
-      for (const ChartPoint& p : curve.points) {
+    for (const ErrorCurve& curve : curves)
+      for (const ErrorPoint& p : curve.points) {
         first = std::min(first, p.seconds), last = std::max(last, p.seconds);
         if (p.rel_mse > 0) least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
       }
@@ -101,11 +101,11 @@ std::string grid(const Plot& plot) {
              (top + height - bottom) / 2);
 }
 
-/// The line along which error times seconds stays what it is: what more samples alone buy.
-std::string slope_guide(const Plot& plot, const std::vector<ChartCurve>& curves) {
+/// A line of slope -1: along it the error halves when the time doubles, which is what more samples alone give.
+std::string slope_guide(const Plot& plot, const std::vector<ErrorCurve>& curves) {
   double best = 1e300;
-  for (const ChartCurve& curve : curves)
-    for (const ChartPoint& p : curve.points)
+  for (const ErrorCurve& curve : curves)
+    for (const ErrorPoint& p : curve.points)
       if (p.rel_mse > 0) best = std::min(best, p.rel_mse * p.seconds);
   if (best > 1e299) return "";
   best *= 0.6;
@@ -117,9 +117,9 @@ std::string slope_guide(const Plot& plot, const std::vector<ChartCurve>& curves)
   return line(x, y, plot.x(to), plot.y(best / to), "guide") + text_at(x + 6, y + 14, "class=\"dim\"", "slope -1");
 }
 
-std::string curve_lines(const Plot& plot, const ChartCurve& curve, const std::optional<double>& bias, std::size_t i) {
+std::string curve_lines(const Plot& plot, const ErrorCurve& curve, const std::optional<double>& bias, std::size_t i) {
   std::string points, dots;
-  for (const ChartPoint& p : curve.points) {
+  for (const ErrorPoint& p : curve.points) {
     if (!(p.rel_mse > 0)) continue;
     points += format("%.1f,%.1f ", plot.x(p.seconds), plot.y(p.rel_mse));
     dots += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.6\" class=\"f%zu\"/>\n", plot.x(p.seconds), plot.y(p.rel_mse),
@@ -131,10 +131,7 @@ std::string curve_lines(const Plot& plot, const ChartCurve& curve, const std::op
   return out;
 }
 
-/// Against a picture whose noise is not known, a floor may be that.
-const char* floor_name(const Chart& chart) { return chart.reference.rel_mse > 0 ? "bias" : "floor"; }
-
-/// Names in the right margin at the height of the curves' ends, pushed apart.
+/// The curves' names in the right margin, each as near to the height of its curve's end as the others leave room.
 std::string names(const Plot& plot, const Chart& chart) {
   constexpr double apart = 17;
   std::vector<std::size_t> order;
@@ -154,12 +151,12 @@ std::string names(const Plot& plot, const Chart& chart) {
     const double latest = height - bottom - (static_cast<double>(order.size() - k) - 1) * apart;
     const double y = std::min(std::max(at[i], next), std::max(latest, height - bottom - room));
     next = y + apart;
-    const ChartCurve& curve = chart.curves[i];
-    const ChartPoint& end = curve.points.back();
+    const ErrorCurve& curve = chart.curves[i];
+    const ErrorPoint& end = curve.points.back();
     const std::size_t colour = i % colours;
     out += format("<polyline class=\"lead s%zu\" points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\"/>\n", colour,
                   plot.x(end.seconds) + 5, plot.y(end.rel_mse), width - right + 4, y, width - right + 12, y);
-    const auto bias = bias_of(curve, chart.reference);
+    const auto bias = bias_of(curve, chart.reference_noise);
     out += text_at(width - right + 16, y + 4, format("class=\"f%zu\"", colour),
                    curve.method + (bias ? format(" (%s %.2g)", floor_name(chart), *bias) : ""));
   }
@@ -179,44 +176,8 @@ std::string chart_svg(const Chart& chart) {
   out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
   out += grid(plot) + slope_guide(plot, chart.curves);
   for (std::size_t i = 0; i < chart.curves.size(); ++i)
-    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference), i);
+    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference_noise), i);
   return out + names(plot, chart) + "</svg>\n";
-}
-
-std::string chart_csv(const Chart& chart) {
-  std::string out = "method,spp,seconds,relmse\n";
-  for (const ChartCurve& curve : chart.curves) {
-    std::string name = curve.method;
-    if (name.find_first_of(",\"\n") != std::string::npos) {
-      std::string quoted;
-      for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-      name = '"' + quoted + '"';
-    }
-    for (const ChartPoint& p : curve.points) out += name + format(",%u,%.6g,%.6g\n", p.spp, p.seconds, p.rel_mse);
-  }
-  return out;
-}
-
-std::string chart_table(const Chart& chart) {
-  const auto time = [](const ChartCurve& curve, double error) {
-    const auto seconds = seconds_to(curve, error);
-    return seconds ? format("%.3g s", *seconds) : std::string("-");
-  };
-  std::size_t longest = 6;
-  for (const ChartCurve& curve : chart.curves) longest = std::max(longest, curve.method.size());
-  const auto padded = [](std::string text, std::size_t to) {
-    return text += std::string(to - std::min(to, text.size()), ' ');
-  };
-  std::string out = padded("method", longest + 2) + "to 0.01    to 0.001   speed     " + floor_name(chart) + "\n";
-  const ChartCurve* first = chart.curves.empty() ? nullptr : &chart.curves.front();
-  for (const ChartCurve& curve : chart.curves) {
-    const auto bias = bias_of(curve, chart.reference);
-    const auto speed = bias ? std::nullopt : speed_against(*first, curve);
-    out += padded(curve.method, longest + 2) + padded(time(curve, 0.01), 11) + padded(time(curve, 0.001), 11) +
-           padded(speed ? format("%.3gx", *speed) : "-", 10) +
-           (bias ? format("%.2g", *bias) : std::string("none seen")) + "\n";
-  }
-  return out;
 }
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
 #include "app/window/main_window.h"
 
+#include "app/window/accuracy/views.h"
 #include "app/window/document/open_document.h"
-#include "app/window/system/clock.h"
 #include "app/window/system/display_lost.h"
 #include "app/window/tools/camera_control.h"
 #include "core/base/error.h"
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 namespace tyndall {
 namespace {
@@ -24,48 +25,46 @@ std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
 
 }  // namespace
 
+void FrameAlarm::on_frame() {
+  if (clock_seconds() >= due && !rang.exchange(true)) Platform::wake();
+}
+
 MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference)
     : log_(open_log(options.ui_log)),
       platform_(options.scene.scene.width, options.scene.scene.height),
       session_(
-          options, [] { Platform::wake(); },
-          [this] {
-            if (clock_seconds() >= due_ && !posted_.exchange(true)) Platform::wake();
-          },
-          log_.get()),
-      scenes_(built_in_scenes()) {
+          options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
+      picture_(session_),
+      commands_(session_, platform_, panels_, pacing_, tools_.gestures) {
   ui_.log = log_.get();
-  panels_.scenes = &scenes_;
+  panels_.scenes = built_in_scenes();
   panels_.accuracy = &session_.accuracy();
-  if (reference) session_.set_reference(std::move(reference));
+  if (reference) session_.references().set(std::move(reference));
 }
 
 void MainWindow::run() {
   while (!platform_.closing()) {
     platform_.wait(waiting_time(clock_seconds()));
-    posted_ = false;
+    alarm_.rang = false;
     const InputEvents events = platform_.take_events();
     if (events.any || session_.collect()) pacing_.on_event();
-    take_input(events);
+    commands_.take(events);
     const double now = clock_seconds();
     if (session_.collect_errors()) pacing_.wake_at(now);
-    session_.send(now);
-    if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
+    send(now);
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
   }
   platform_.hide();  // a comparison or a snapshot may still take a second
 }
 
-/// A frame that is not on the screen, the last one of a render if there is one; null: there is none.
-std::shared_ptr<const Frame> MainWindow::unseen() const {
-  const auto latest = session_.latest(), kept = session_.latest_kept();
-  const bool new_kept = kept && kept != shown_kept_;
-  if (latest && latest != shown_ && (latest->finished || !new_kept)) return latest;
-  return new_kept ? kept : nullptr;
+void MainWindow::send(double now) {
+  session_.send(now);
+  const std::uint64_t edit = session_.renderers().edit(Half::current);
+  if (edit != paced_edit_) pacing_.on_edit(paced_edit_ = edit, now);
 }
 
 bool MainWindow::picture_due(double now) const {
-  const auto frame = unseen();
+  const auto frame = picture_.unseen();
   if (!frame || now < pacing_.next_drawing()) return false;
   return now >= pacing_.picture_due() || frame->finished;
 }
@@ -75,14 +74,14 @@ bool MainWindow::hidden() const { return platform_.framebuffer_width() <= 0 || p
 double MainWindow::waiting_time(double now) {
   const double sends = std::max(0.0, session_.send_time() - now);
   if (hidden()) {  // nothing to draw until an event shows the window again
-    due_ = std::numeric_limits<double>::infinity();
+    alarm_.due = std::numeric_limits<double>::infinity();
     return sends;
   }
-  // The order matters: from here on a frame that comes after its time wakes the window, one that came is seen below,
-  // and one that comes between is seen when its time has come.
+  // The order matters: a frame that comes from here on, after its time, wakes the window. One that came before is seen
+  // below. One that comes in between is seen when its time has come.
   const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
-  due_ = due;
-  const auto frame = unseen();
+  alarm_.due = due;
+  const auto frame = picture_.unseen();
   double wait = pacing_.wait(now);
   if (frame)
     wait = std::min(wait, std::max(0.0, (frame->finished ? pacing_.next_drawing() : due) - now));
@@ -93,11 +92,11 @@ double MainWindow::waiting_time(double now) {
 
 void MainWindow::update_scale() {
   const float pixels = platform_.pixels(), scale = platform_.scale();
-  if (pixels == pixels_ && scale == ui_.scale) return;
+  if (pixels == ui_.pixels && scale == ui_.scale) return;
   set_style(scale);
   ui_.fonts = load_fonts(pixels, scale);
-  if (pixels_ != 0) platform_.renew_fonts();
-  pixels_ = pixels;
+  if (ui_.pixels != 0) platform_.renew_fonts();
+  ui_.pixels = pixels;
   ui_.scale = scale;
 }
 
@@ -109,89 +108,115 @@ void MainWindow::draw(double now) {
   platform_.begin_frame();
   ui_.wake_in = 1e300;
   ui_.problem.clear();
-  count_gestures(now);
   const bool fresh = picture_due(now);
-  if (fresh) take_pictures();
+  if (fresh) picture_.take();
   // The old picture keeps its shape until the new one is there.
-  const Scene& scene = session_.scene();
-  const Layout layout =
-      make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
-                  shown_ ? shown_->width : scene.width, shown_ ? shown_->height : scene.height, ui_.scale, columns_);
+  const Scene& scene = session_.editor().scene();
+  const Frame* shown = picture_.shown().get();
+  const Layout layout = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
+                                    shown ? shown->width : scene.width, shown ? shown->height : scene.height, ui_.scale,
+                                    commands_.shows_panels());
+  fill_panels();
   draw_interface(layout);
-  pointer(layout, now);
-  fly(now);
+  use_mouse_and_keys(layout, now);
   apply_panels(now);
-  show_picture(layout);
+  picture_.show(platform_, layout.image);
   finish_drawing(now, cpu_before, fresh);
 }
 
-void MainWindow::draw_interface(const Layout& layout) {
-  panels_.scene = session_.scene();
-  panels_.frame = shown_;
-  panels_.title = session_.document().origin->title;
-  panels_.paused = session_.paused();
-  panels_.threads = session_.threads();
-  panels_.kept_method = session_.split() ? session_.method(Half::kept) : "";
+void MainWindow::fill_panels() {
+  panels_.scene = session_.editor().scene();
+  panels_.frame = picture_.shown();
+  panels_.title = session_.editor().document().origin->title;
+  panels_.paused = session_.renderers().paused();
+  panels_.threads = session_.renderers().threads();
+  panels_.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
   panels_.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
   if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
+}
+
+void MainWindow::draw_interface(const Layout& layout) {
   draw_column(ui_, panels_, layout.column);
   draw_outline(ui_, layout.image, outline(panels_.scene, panels_.selected));
-  draw_halves(layout);
+  picture_.draw_halves(ui_, layout.image);
+  const RendererPair& renderers = session_.renderers();
+  const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(ui_, layout.status,
-              status_cells(shown_.get(), session_.accuracy().curves(Half::current).current(), session_.document(),
-                           {session_.paused(), session_.accuracy().is_true(), session_.split()}));
-  draw_message(ui_, layout.area, session_.message());
-  if (help_) draw_help(ui_, layout.area, help_);
-  const ReferenceWish reference =
-      draw_reference_dialog(ui_, layout.area, dialog_, session_.accuracy().reference() != nullptr);
-  if (reference.file) session_.open_reference(*reference.file);
-  if (reference.keep) session_.keep_as_reference();
-  if (reference.drop) session_.drop_reference();
-  if (const auto file = draw_dialog(ui_, layout.area, dialog_, session_.document())) session_.save(*file);
-  if (ui_.log) {
-    ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
-    ui_.log->end_of_widgets();
+              status_cells(panels_.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
+                           {renderers.paused(), accuracy.is_true(), renderers.split()}));
+  draw_message(ui_, layout.area, session_.messages().current());
+  commands_.draw(ui_, layout.area);
+  if (!ui_.log) return;
+  ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
+  ui_.log->end_of_widgets();
+}
+
+void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
+  const Mouse mouse = read_mouse();
+  const std::set<int>& held = platform_.held();
+  PointerTool& pointer = tools_.pointer;
+  tools_.gestures.update(mouse.any_down() || holds_fly_key(held) || pointer.is_turning(now));
+  const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.asks();
+  if (!picture_.drag_divider(ui_, layout.image, mouse, free) &&
+      pointer.update(mouse, layout, ui_.scale, !commands_.asks(), now, panels_.scene.camera))
+    click(layout, mouse);
+  const bool flies =
+      tools_.flight.update(mouse.control ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
+  if (flies) pacing_.wake_at(now + least_frame_interval);
+}
+
+void MainWindow::click(const Layout& layout, const Mouse& mouse) {
+  if (!layout.image.contains(mouse.x, mouse.y)) return;
+  const PictureClick click = click_at(layout.image, mouse.x, mouse.y, panels_.scene.width, panels_.scene.height);
+  const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
+  if (!mouse.shift) {
+    panels_.selected = clicked_object(panels_.scene, pick, click.at, panels_.selected);
+    pacing_.on_event();
+  } else if (pick.object.empty() || !(pick.depth > 0)) {
+    session_.messages().say("nothing to focus on there");
+  } else {
+    panels_.scene.camera = focus(panels_.scene.camera, pick.depth, mouse.control);
   }
 }
 
 void MainWindow::apply_panels(double now) {
-  session_.edit(panels_.scene, gesture_);
-  if (!ui_.problem.empty()) session_.say(ui_.problem, true);
-  if (panels_.wishes.open) session_.open(*panels_.wishes.open);
-  if (panels_.wishes.export_chart) session_.export_chart();
-  if (panels_.wishes.split) {
-    session_.set_split(*panels_.wishes.split);
+  const Wishes& wishes = panels_.wishes;
+  session_.editor().edit(panels_.scene, tools_.gestures.current());
+  if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
+  if (wishes.open) session_.editor().open(*wishes.open);
+  if (wishes.export_chart) session_.export_chart();
+  if (wishes.split) {
+    session_.set_split(*wishes.split);
     pacing_.on_new_start(now);
   }
-  if (panels_.wishes.reference) ask_reference(dialog_);
-  if (panels_.wishes.threads) session_.set_threads(*panels_.wishes.threads);
-  select_view(panels_.view < error_view || session_.can_show_errors() ? panels_.view : 0);
-  session_.send(now);
-  if (session_.edit_number() != paced_edit_) pacing_.on_edit(paced_edit_ = session_.edit_number(), now);
-  const Message& message = session_.message();
-  if (!message.text.empty() && !message.error) {
-    if (now >= message.until) {
-      session_.dismiss();
-      pacing_.on_event();  // this drawing still has it
-    } else {
-      pacing_.wake_at(message.until);
-    }
-  }
+  if (wishes.reference) commands_.ask_reference();
+  if (wishes.threads) session_.set_threads(*wishes.threads);
+  commands_.select_view(shows_errors(panels_.view) && !session_.can_show_errors() ? 0 : panels_.view);
+  send(now);
+  keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
-  const Document& document = session_.document();
-  const std::string title = document.origin->title + (edited(document) ? " (edited)" : "") + " – Tyndall";
-  if (title != window_title_) platform_.set_title(window_title_ = title);
+  const Document& document = session_.editor().document();
+  platform_.set_title(document.origin->title + (edited(document) ? " (edited)" : "") + " – Tyndall");
+}
+
+/// Takes a message off the screen when its time has come; errors stay.
+void MainWindow::keep_message(double now) {
+  const Message& message = session_.messages().current();
+  if (message.text.empty() || message.error) return;
+  if (now < message.until) return pacing_.wake_at(message.until);
+  session_.messages().dismiss();
+  pacing_.on_event();  // this drawing still has it
 }
 
 void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   pacing_.on_drawn(now);
   const double after = clock_seconds();
-  const bool shown = fresh && shown_;
-  if (shown) pacing_.on_picture(shown_->edit, after);
+  const Frame* shown = fresh ? picture_.shown().get() : nullptr;
+  if (shown) pacing_.on_picture(shown->edit, after);
   if (!log_) return;
-  if (shown) log_->shown(*shown_, after);
+  if (shown) log_->shown(*shown, after);
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }
 

@@ -1,7 +1,7 @@
 #include "app/window/overlays.h"
 
+#include "app/window/actions.h"
 #include "app/window/system/imgui_compat.h"
-#include "app/window/system/shortcuts.h"
 
 #include <algorithm>
 #include <cstring>
@@ -54,9 +54,9 @@ void draw_help(Ui& ui, const Rect& area, bool& open) {
   ImGui::Separator();
   ImGui::Dummy({0, 2 * s});
   for (const HelpLine& line : help_lines()) {
-    ImGui::TextUnformatted(line.input);
+    ImGui::TextUnformatted(line.input.c_str());
     ImGui::SameLine(210 * s);
-    ImGui::TextColored(palette::dim, "%s", line.action);
+    ImGui::TextColored(palette::dim, "%s", line.effect.c_str());
   }
   const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);
   if (outside && !ImGui::IsWindowAppearing()) open = false;

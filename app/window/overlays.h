@@ -1,8 +1,10 @@
 #pragma once
+#include "app/curves/curve.h"
 #include "app/window/document/document.h"
+#include "app/window/document/message.h"
 #include "app/window/panels/widgets.h"
-#include "app/window/session.h"
 #include "app/window/tools/outline.h"
+#include "core/render/frame.h"
 
 #include <filesystem>
 #include <optional>
@@ -26,7 +28,7 @@ struct StatusState {
 };
 
 /// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.
-std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
+std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
                                      StatusState state);
 
 /// Which cells fit: drops those of the highest rank, last ones first, until the rest is at most `room` wide.

@@ -1,247 +1,158 @@
 #include "app/window/session.h"
 
+#include "app/curves/chart_files.h"
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
-#include "app/window/system/clock.h"
 #include "core/base/error.h"
-#include "core/scene/check.h"
 
 #include <algorithm>
-#include <exception>
-#include <limits>
 #include <thread>
 #include <utility>
 
 namespace tyndall {
+namespace {
 
-namespace fs = std::filesystem;
-
-bool same_picture(const Scene& a, const Scene& b) {
-  Scene shown = a;
-  shown.display = b.display;
-  shown.name = b.name;
-  return shown == b;
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-Session::Session(const WindowOptions& options, std::function<void()> wake, std::function<void()> on_frame, UiLog* log)
-    : reload_(options.reload),
-      isa_(options.isa),
-      reloads_(options.scene.source),
-      log_(log),
-      wake_(std::move(wake)),
-      on_frame_([this, on_frame = std::move(on_frame)] {
-        share_.on_frame();
-        on_frame();
-      }),
-      history_(document_of(options.scene)),
-      accuracy_(wake_),
-      threads_(options.threads > 0 ? options.threads
-                                   : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-      renderer_({options.threads, options.isa}, on_frame_),
-      loading_([this] { came_ = true, wake_(); }),
-      saving_([this] { came_ = true, wake_(); }) {
-  share_.set_threads(threads_);
-  accuracy_.set_threads(threads_);
-  picture_changed();
+}  // namespace
+
+Session::Session(const WindowOptions& options, const std::function<void()>& wake, std::function<void()> on_frame,
+                 UiLog* log)
+    : log_(log),
+      messages_(log),
+      accuracy_(wake),
+      renderers_(thread_count(options.threads), options.isa, std::move(on_frame)),
+      editor_(options.scene, options.reload,
+              {[this] { timer_.on_change(clock_seconds()); }, [this] { accuracy_.clear(), set_split(false); }, wake},
+              loading_, messages_, log),
+      references_(editor_, accuracy_, messages_),
+      snapshots_({".png", ".exr"}, saving_, messages_, log),
+      charts_({".csv", ".svg"}, saving_, messages_, log),
+      loading_(wake),
+      saving_(wake) {
+  accuracy_.set_threads(renderers_.threads());
+  timer_.on_change(clock_seconds());
   submit(clock_seconds());
-  watch();
 }
 
-Session::~Session() {
-  closing_ = true;
-  share_.share_with(nullptr);  // the second renderer goes first
-}
-
-void Session::picture_changed() {
-  if (changed_at_ < 0) changed_at_ = clock_seconds();
-}
-
-double Session::send_time() const {
-  constexpr double patience = 0.4;  // seconds; longer, and what is shown is too far behind
-  return changed_at_ < 0 ? std::numeric_limits<double>::infinity() : sent_at_ + patience;
-}
+Session::~Session() { closing_ = true; }
 
 bool Session::send(double now) {
-  if (changed_at_ < 0) return false;
-  const auto frame = latest();
-  const bool seen = edit_ == 0 || (frame && frame->edit >= edit_);
-  if (!seen && now < send_time()) return false;
+  const std::uint64_t edit = renderers_.edit(Half::current);
+  const auto frame = renderers_.latest(Half::current);
+  const bool seen = edit == 0 || (frame && frame->edit >= edit);
+  if (!timer_.due(seen, now)) return false;
   submit(now);
   return true;
 }
 
 void Session::submit(double now) {
-  const std::uint64_t before = edit_;
-  edit_ = renderer_.submit(scene());
-  if (edit_ != before) accuracy_.set_scene(Half::current, scene());
-  if (second_) submit_kept();
-  if (log_ && edit_ != before) log_->submitted(edit_, changed_at_);
-  changed_at_ = -1;
-  sent_at_ = now;
+  const Scene& scene = editor_.scene();
+  const RendererPair::Begun begun = renderers_.submit(scene);
+  if (begun.current) accuracy_.set_scene(Half::current, scene);
+  if (begun.kept) accuracy_.set_scene(Half::kept, renderers_.kept_scene(scene));
+  if (log_ && begun.current) log_->submitted(renderers_.edit(Half::current), timer_.changed_at());
+  timer_.on_send(now);
 }
 
-void Session::edit(Scene next, std::uint64_t gesture) {
-  if (next == scene()) return;
-  if (const auto broken = check(next)) {
-    say(broken->where + ": found " + broken->found + ", expected " + broken->expected, true);
-    return;
-  }
-  const bool same = same_picture(next, scene());
-  history_.record({std::move(next), document().origin}, gesture);
-  if (message_.error) dismiss();
-  if (!same) picture_changed();
-}
-
-void Session::undo() {
-  const Scene before = scene();
-  if (!history_.undo()) return say("nothing to undo");
-  if (!same_picture(before, scene())) picture_changed();
-  watch();
-}
-
-void Session::redo() {
-  const Scene before = scene();
-  if (!history_.redo()) return say("nothing to redo");
-  if (!same_picture(before, scene())) picture_changed();
-  watch();
-}
-
-void Session::show(Document next, bool own_file) {
-  const bool same = same_picture(next.scene, scene());
-  if (own_file && next.scene == scene()) {
-    history_.set_origin(next.origin);  // the file now holds what is shown
-    return;
-  }
-  history_.record(std::move(next), 0);
-  if (!same) {
-    if (!own_file) accuracy_.clear(), set_split(false);
-    picture_changed();
-  }
-  watch();
-  say((own_file ? "read again: " : "opened ") + document().origin->title);
-}
-
-void Session::read_in_background(const std::function<JobQueue::Result()>& read) {
-  loading_.run([this, read]() -> JobQueue::Result {
-    try {
-      return read();
-    } catch (const std::exception& error) {
-      return [this, text = std::string(error.what())] { say(text, true); };
-    }
-  });
-}
-
-void Session::open(const std::string& what) {
-  read_in_background([this, what]() -> JobQueue::Result {
-    return [this, next = document_of(load_scene(what))] { show(next, false); };
-  });
-}
-
-void Session::open_dropped(const fs::path& file) {
-  read_in_background([this, file, document = document()]() -> JobQueue::Result {
-    if (!shows_no_scene(file)) return [this, file] { open(file.string()); };
-    return [this, reference = std::make_shared<const Reference>(read_reference(file, document))] {
-      set_reference(reference);
-    };
-  });
-}
-
-void Session::reload() {
-  const fs::path file = document().origin->file;
-  const bool first = reload_ && file == reloads_;
-  read_in_background([this, file, first]() -> JobQueue::Result {
-    Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
-    return [this, file, next = std::move(next)] {
-      if (document().origin->file == file) show(next, true);
-    };
-  });
-}
-
-void Session::watch() {
-  const fs::path& file = document().origin->file;
-  if (file == watched_) return;
-  watch_.reset();
-  watched_ = file;
-  if (file.empty()) return;
-  watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, came_ = true, wake_(); });
-}
-
-void Session::save(fs::path file) {  // a copy: it may be that of the origin which is replaced here
-  try {
-    history_.set_origin(save_document(document(), file));
-    watch();
-    say("saved " + file.string());
-    if (log_) log_->line("saved " + file.string());
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-  }
-}
-
-void Session::snapshot() {
-  const auto frame = latest();
-  if (!frame) return say("there is no picture yet");
-  if (changed_at_ >= 0) submit(clock_seconds());  // what is saved is what is edited
-  std::error_code gone;                           // the current folder may be; writing then says so
-  const fs::path folder = fs::current_path(gone);
-  const std::string stem = stem_of(document().origin->title);
-  Snapshot snapshot{document(), numbered_base(folder, stem, snapshots_ + 1, {".png", ".exr"}), frame->isa,
-                    frame->threads};
-  snapshots_ = number_of(snapshot.base);
-  say("saving " + snapshot.base.filename().string() + " …");
-  saving_.run([this, snapshot = std::move(snapshot), edit = edit_number()]() -> JobQueue::Result {
-    std::string text;
-    bool failed = false;
-    try {
-      Film film = wait_for_film([this] { return renderer_.film(); }, [this, edit] { return edit_ == edit; },
-                                [this] { return !closing_; });
-      failed = film.pixels.empty();
-      text = failed ? "no snapshot: the picture was edited before it had a sample everywhere"
-                    : write_snapshot(snapshot, std::move(film));
-    } catch (const std::exception& error) {
-      text = error.what();
-      failed = true;
-    }
-    return [this, text, failed, base = snapshot.base] {
-      say(text, failed);
-      if (log_ && !failed) log_->line("saved " + base.string());
-    };
-  });
-}
-
-void Session::pause(bool paused) {
-  paused_ = paused;
-  share_.pause(paused);
-  accuracy_.set_resting(resting());
-}
-
-void Session::restart() {
-  renderer_.restart();
-  if (second_) second_->restart();
-}
-
-void Session::set_threads(int threads) {
-  if (threads == threads_) return;
-  threads_ = threads;
-  share_.set_threads(threads);
-  accuracy_.set_threads(threads);
+void Session::shown(Half half, const std::shared_ptr<const Frame>& frame) {
+  accuracy_.shown(half, frame, method(half), frame->edit == renderers_.edit(half));
+  accuracy_.set_resting(renderers_.resting());
 }
 
 bool Session::collect() {
-  const bool came = came_.exchange(false);
-  loading_.collect();
-  saving_.collect();
-  if (file_changed_.exchange(false)) reload();
-  const auto problem = renderer_.problem();
+  bool came = loading_.collect();
+  came = saving_.collect() || came;
+  came = editor_.collect() || came;
+  const auto problem = renderers_.problem();
   if (!problem || problem->edit <= problem_edit_) return came;
   problem_edit_ = problem->edit;
-  say(problem->what, true);
+  messages_.say(problem->what, true);
   return true;
 }
 
-void Session::say(const std::string& text, bool error) {
-  constexpr double seconds = 6;
-  message_ = {text, error, clock_seconds() + seconds};
-  if (log_) log_->line("message " + text);
+void Session::pause(bool paused) {
+  renderers_.pause(paused);
+  accuracy_.set_resting(renderers_.resting());
+}
+
+void Session::set_threads(int threads) {
+  if (threads == renderers_.threads()) return;
+  renderers_.set_threads(threads);
+  accuracy_.set_threads(threads);
+}
+
+void Session::set_view(View view, ErrorView error) {
+  renderers_.set_view(view);
+  accuracy_.set_view(error);
+}
+
+void Session::set_split(bool split) {
+  if (split == renderers_.split()) return;
+  accuracy_.set_split(split);
+  if (split) {
+    renderers_.begin_split(editor_.scene());
+    accuracy_.set_scene(Half::kept, renderers_.kept_scene(editor_.scene()));
+  } else {
+    saving_.run([second = renderers_.end_split()]() mutable -> JobQueue::Result {
+      second.reset();
+      return {};
+    });
+  }
+}
+
+std::string Session::method(Half half) const {
+  const RenderSettings& settings = half == Half::kept ? renderers_.kept_settings() : editor_.scene().render;
+  return method_of(settings, editor_.document().origin->saved.render);
+}
+
+bool Session::can_show_errors() const {
+  return accuracy_.split() || (accuracy_.reference() && accuracy_.fit(Half::current) != ReferenceFit::other_size);
+}
+
+void Session::keep_as_reference() {
+  const auto frame = renderers_.latest(Half::current);
+  const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
+  if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
+  references_.set(std::make_shared<const Reference>(reference_of(*frame, editor_.scene())));
+}
+
+void Session::snapshot() {
+  const auto frame = renderers_.latest(Half::current);
+  if (!frame) return messages_.say("there is no picture yet");
+  if (timer_.waits()) submit(clock_seconds());  // what is saved is what is edited
+  const Document& document = editor_.document();
+  Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), frame->isa, frame->threads};
+  messages_.say("saving " + snapshot.base.filename().string() + " …");
+  const std::filesystem::path base = snapshot.base;
+  snapshots_.write(base, [this, snapshot = std::move(snapshot), edit = renderers_.edit(Half::current)] {
+    Film film =
+        wait_for_film([this] { return renderers_.film(); },
+                      [this, edit] { return renderers_.edit(Half::current) == edit; }, [this] { return !closing_; });
+    if (film.pixels.empty()) throw IoError("no snapshot: the picture was edited before it had a sample everywhere");
+    return write_snapshot(snapshot, std::move(film));
+  });
+}
+
+void Session::export_chart() {
+  const bool against = accuracy_.is_true();
+  const Scene& scene = editor_.scene();
+  const std::string stem = stem_of(editor_.document().origin->title);
+  Chart chart;
+  chart.curves = copies_of(accuracy_.named_curves());
+  if (chart.curves.empty()) return messages_.say("there is no curve yet");
+  chart.title = stem + (against ? ": true error against " + accuracy_.reference()->about : ": estimated error");
+  const int threads = renderers_.threads();
+  chart.subtitle = std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + std::to_string(threads) +
+                   (threads == 1 ? " thread" : " threads") +
+                   (against ? "" : "; estimated from two halves of each pixel");
+  const std::filesystem::path base = charts_.next_base(stem + "-chart");
+  charts_.write(base, [chart = std::move(chart), base] {
+    write_chart(chart, base.string() + ".svg");
+    return "saved " + base.filename().string() + ".csv and .svg";
+  });
 }
 
 }  // namespace tyndall

@@ -1,3 +1,4 @@
+#include "app/curves/convergence.h"
 #include "app/text/progress.h"
 #include "app/window/overlays.h"
 #include "app/window/system/imgui_compat.h"
@@ -29,15 +30,15 @@ std::string state_of(const Frame* frame, bool paused) {
   return frame->finished ? "finished" : "rendering";
 }
 
-std::string time_left(const Frame& frame, const ConvergenceRun& run) {
+std::string time_left(const Frame& frame, const ErrorCurve& run) {
   if (run.edit != frame.edit || run.points.empty()) return "?";
-  const double seconds = seconds_to(0.01, run.points.back(), frame.seconds);
+  const double seconds = seconds_left(0.01, run.points.back(), frame.seconds);
   return seconds > 0 ? duration(seconds) : "reached";
 }
 
 }  // namespace
 
-std::vector<StatusCell> status_cells(const Frame* frame, const ConvergenceRun& run, const Document& document,
+std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
                                      StatusState state) {
   std::vector<StatusCell> cells{{state.split ? "B" : "", state_of(frame, state.paused), 0}};
   if (frame) {

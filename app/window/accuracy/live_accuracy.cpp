@@ -96,6 +96,10 @@ bool LiveAccuracy::collect() {
 
 const Convergence& LiveAccuracy::curves(Half half) const { return is_true() ? side(half).truth : side(half).estimated; }
 
+std::vector<NamedCurve> LiveAccuracy::named_curves() const {
+  return tyndall::named_curves(curves(Half::current), split_ ? &curves(Half::kept) : nullptr);
+}
+
 bool LiveAccuracy::wanted(Task task) const {
   const bool newest = side(Half::current).newest, kept_newest = side(Half::kept).newest;
   switch (task) {

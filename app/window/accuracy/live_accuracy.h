@@ -1,17 +1,16 @@
 #pragma once
 #include "app/curves/convergence.h"
 #include "app/window/accuracy/comparison.h"
+#include "app/window/accuracy/half.h"
 #include "app/window/document/job_queue.h"
 
 #include <array>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace tyndall {
-
-/// The halves of a split view; without one, all is `current`.
-enum class Half { current, kept };
 
 /// A picture of differences, 4 floats a pixel.
 struct ErrorMap {
@@ -60,6 +59,8 @@ class LiveAccuracy {
   /// True errors are shown, else estimated ones.
   bool is_true() const;
   const Convergence& curves(Half half) const;
+  /// All curves of the chart, under their names.
+  std::vector<NamedCurve> named_curves() const;
   const PairErrors& pair() const { return pair_; }
   /// Of the chosen view; null: there is none yet.
   std::shared_ptr<const ErrorMap> map() const { return map_; }

@@ -18,7 +18,7 @@ void JobQueue::run(Job job) {
   wake_.notify_one();
 }
 
-void JobQueue::collect() {
+bool JobQueue::collect() {
   std::vector<Result> results;
   {
     const std::lock_guard lock(mutex_);
@@ -26,6 +26,7 @@ void JobQueue::collect() {
   }
   for (const Result& result : results)
     if (result) result();
+  return !results.empty();
 }
 
 void JobQueue::work(const std::stop_token& stop) {

@@ -23,8 +23,8 @@ class JobQueue {
   JobQueue& operator=(const JobQueue&) = delete;
 
   void run(Job job);
-  /// Calls the results that have come. For the main thread.
-  void collect();
+  /// Calls the results that have come; whether there were any. For the main thread.
+  bool collect();
 
  private:
   void work(const std::stop_token& stop);

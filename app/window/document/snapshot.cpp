@@ -7,34 +7,12 @@
 #include "app/window/system/clock.h"
 #include "core/compile/compile.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <thread>
 #include <utility>
 
 namespace tyndall {
 
 namespace fs = std::filesystem;
-
-fs::path numbered_base(const fs::path& folder, const std::string& stem, int least,
-                       std::initializer_list<const char*> endings) {
-  for (int number = least;; ++number) {
-    char text[16];
-    std::snprintf(text, sizeof text, "-%03d", number);
-    fs::path base = folder / (stem + text);
-    std::error_code ignored;
-    const auto taken = [&](const char* ending) {
-      return fs::symlink_status(base.string() + ending, ignored).type() != fs::file_type::not_found;
-    };
-    if (std::none_of(endings.begin(), endings.end(), taken)) return base;
-  }
-}
-
-int number_of(const fs::path& base) {
-  const std::string name = base.filename().string();
-  return std::atoi(name.c_str() + name.rfind('-') + 1);
-}
 
 std::string write_snapshot(const Snapshot& snapshot, Film film) {
   const Scene& scene = snapshot.document.scene;

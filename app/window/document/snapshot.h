@@ -4,18 +4,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <string>
 
 namespace tyndall {
-
-/// FOLDER/STEM-001, or with the first number from `least` on for which no file with one of the endings exists. Without
-/// its ending.
-std::filesystem::path numbered_base(const std::filesystem::path& folder, const std::string& stem, int least,
-                                    std::initializer_list<const char*> endings);
-
-/// The number in what numbered_base gave.
-int number_of(const std::filesystem::path& base);
 
 struct Snapshot {
   Document document;

@@ -13,22 +13,22 @@ namespace {
 
 /// A curve as it is drawn.
 struct ChartLine {
-  const ConvergenceRun* run;
+  const ErrorCurve* curve;
   std::string name;
   ImU32 colour;
   float width;  ///< in units of the design
 };
 
-ChartLine line_of(const NamedRun& named) {
+ChartLine line_of(const NamedCurve& named) {
   switch (named.role) {
-    case NamedRun::Role::earlier:
+    case NamedCurve::Role::earlier:
       break;
-    case NamedRun::Role::kept:
-      return {named.run, named.name, shade(palette::amber), 2};
-    case NamedRun::Role::current:
-      return {named.run, named.name, shade(palette::blue), 2.5f};
+    case NamedCurve::Role::kept:
+      return {named.curve, named.name, shade(palette::amber), 2};
+    case NamedCurve::Role::current:
+      return {named.curve, named.name, shade(palette::blue), 2.5f};
   }
-  return {named.run, named.name, shade(palette::dim, 0.7f), 1.5f};
+  return {named.curve, named.name, shade(palette::dim, 0.7f), 1.5f};
 }
 
 /// Where the chart is on the screen.
@@ -36,15 +36,15 @@ struct Plot {
   ImDrawList* draw;
   const Ui& ui;
   std::vector<ChartLine> lines;
-  std::vector<const ConvergenceRun*> runs;  ///< of the lines
+  std::vector<const ErrorCurve*> curves;  ///< of the lines
   ChartAxes axes;
 
-  Plot(const Ui& the_ui, const std::vector<NamedRun>& named, const Rect& frame)
+  Plot(const Ui& the_ui, const std::vector<NamedCurve>& named, const Rect& frame)
       : draw(ImGui::GetWindowDrawList()), ui(the_ui) {
-    for (const NamedRun& run : named) lines.push_back(line_of(run)), runs.push_back(run.run);
-    axes = {decades_of(runs), frame};
+    for (const NamedCurve& one : named) lines.push_back(line_of(one)), curves.push_back(one.curve);
+    axes = {decades_of(curves), frame};
   }
-  ImVec2 at(const ConvergencePoint& p) const { return {axes.x(p.seconds), axes.y(p.rel_mse)}; }
+  ImVec2 at(const ErrorPoint& p) const { return {axes.x(p.seconds), axes.y(p.rel_mse)}; }
   void text(ImVec2 at, ImU32 colour, const std::string& words) const { draw->AddText(at, colour, words.c_str()); }
 };
 
@@ -81,13 +81,13 @@ void draw_grid(const Plot& plot) {
 }
 
 /// The target, and through the newest point the line that the error follows if nothing is wrong.
-void draw_guides(const Plot& plot, const ConvergenceRun& run) {
+void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   const Rect& f = plot.axes.frame;
   const float y = plot.axes.y(target_rel_mse);
   plot.draw->AddLine({f.x0, y}, {f.x1, y}, shade(palette::blue, 0.35f));
   plot.text({f.x0 + 5 * plot.ui.scale, y - ImGui::GetFontSize() - 1}, shade(palette::blue, 0.9f), "1 % error");
-  if (run.points.empty()) return;
-  const ConvergencePoint last = run.points.back();
+  if (curve.points.empty()) return;
+  const ErrorPoint last = curve.points.back();
   const double end = std::pow(10.0, plot.axes.decades.x1 + 1);
   const ImVec2 a = plot.at(last), b = plot.at({end, last.rel_mse * last.seconds / end});
   const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 4 * plot.ui.scale;
@@ -100,17 +100,17 @@ void draw_guides(const Plot& plot, const ConvergenceRun& run) {
 
 void draw_curve(const Plot& plot, const ChartLine& line) {
   std::vector<ImVec2> points;
-  for (const ConvergencePoint& p : line.run->points) points.push_back(plot.at(p));
+  for (const ErrorPoint& p : line.curve->points) points.push_back(plot.at(p));
   if (points.size() > 1)
     plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
 }
 
 /// A curve's name beneath its end, where a falling curve leaves room, off the words that are there.
 void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
-  if (curve.run->points.empty()) return;
+  if (curve.curve->points.empty()) return;
   const Rect& f = plot.axes.frame;
   const float line = ImGui::GetFontSize(), s = plot.ui.scale;
-  const ImVec2 end = plot.at(curve.run->points.back());
+  const ImVec2 end = plot.at(curve.curve->points.back());
   const float width = ImGui::CalcTextSize(curve.name.c_str()).x;
   const float x = std::clamp(end.x - width - 2 * s, f.x0 + 4 * s, std::max(f.x0 + 4 * s, f.x1 - width));
   float y = end.y + 5 * s;
@@ -124,7 +124,7 @@ void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& word
 
 void draw_lines(const Plot& plot) {
   const Rect& f = plot.axes.frame;
-  const ConvergenceRun& current = *plot.runs.back();
+  const ErrorCurve& current = *plot.curves.back();
   plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
   draw_guides(plot, current);
   for (const ChartLine& line : plot.lines) draw_curve(plot, line);
@@ -146,10 +146,10 @@ std::string printed(const char* format, double value) {
 void read_out(Ui& ui, const Plot& plot) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!ImGui::IsItemHovered() || !plot.axes.frame.contains(mouse.x, mouse.y)) return;
-  const auto found = nearest_curve(plot.runs, plot.axes, mouse.x, mouse.y, 14 * ui.scale);
+  const auto found = nearest_curve(plot.curves, plot.axes, mouse.x, mouse.y, 14 * ui.scale);
   if (!found) return;
-  const ChartLine& line = plot.lines[found->run];
-  const ConvergencePoint& p = found->at;
+  const ChartLine& line = plot.lines[found->curve];
+  const ErrorPoint& p = found->at;
   plot.draw->AddCircleFilled(plot.at(p), 4.5f * ui.scale, shade(palette::ink));
   plot.draw->AddCircle(plot.at(p), 4.5f * ui.scale, shade(palette::text), 0, 1.5f * ui.scale);
   const std::string numbers = printed("%.2g s, ", p.seconds) + format_count(p.spp) + " spp\nrelMSE " +
@@ -168,12 +168,11 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("chart", size);
   const LiveAccuracy& accuracy = *state.accuracy;
-  const Convergence& runs = accuracy.curves(Half::current);
-  log_item(ui, "chart", runs.current().method);
+  log_item(ui, "chart", accuracy.curves(Half::current).current().method);
   compat::push_font(ui.fonts.small);
   ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, shade(palette::ink), 6 * s);
   const Rect frame{at.x + 38 * s, at.y + 10 * s, at.x + size.x - 14 * s, at.y + size.y - 22 * s};
-  const Plot plot(ui, named_runs(runs, accuracy.split() ? &accuracy.curves(Half::kept) : nullptr), frame);
+  const Plot plot(ui, accuracy.named_curves(), frame);
   draw_grid(plot);
   draw_lines(plot);
   ImGui::PopFont();

@@ -5,11 +5,11 @@
 
 namespace tyndall {
 
-Decades decades_of(std::span<const ConvergenceRun* const> runs) {
+Decades decades_of(std::span<const ErrorCurve* const> curves) {
   Decades d;
   double first = 1e300, last = 0, least = target_rel_mse, most = target_rel_mse;
-  for (const ConvergenceRun* run : runs)
-    for (const ConvergencePoint& p : run->points) {
+  for (const ErrorCurve* curve : curves)
+    for (const ErrorPoint& p : curve->points) {
       first = std::min(first, p.seconds), last = std::max(last, p.seconds);
       least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
     }
@@ -40,18 +40,18 @@ double ChartAxes::rel_mse(float y) const {
   return std::pow(10.0, decades.y0 + t * (decades.y1 - decades.y0));
 }
 
-std::optional<CurvePoint> nearest_curve(std::span<const ConvergenceRun* const> runs, const ChartAxes& axes, float x,
-                                        float y, float reach) {
-  std::optional<CurvePoint> nearest;
+std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
+                                          float y, float reach) {
+  std::optional<CurveReading> nearest;
   float least = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const ConvergenceRun& run = *runs[i];
-    if (run.points.empty()) continue;
-    const ConvergencePoint &first = run.points.front(), &last = run.points.back();
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const ErrorCurve& curve = *curves[i];
+    if (curve.points.empty()) continue;
+    const ErrorPoint &first = curve.points.front(), &last = curve.points.back();
     if (x < axes.x(first.seconds) - reach || x > axes.x(last.seconds) + reach) continue;
-    const auto at = point_at(run, std::clamp(axes.seconds(x), first.seconds, last.seconds));
+    const auto at = point_at(curve, std::clamp(axes.seconds(x), first.seconds, last.seconds));
     const float distance = std::abs(axes.y(at->rel_mse) - y);
-    if (!nearest || distance < least) nearest = CurvePoint{i, *at}, least = distance;
+    if (!nearest || distance < least) nearest = CurveReading{i, *at}, least = distance;
   }
   return nearest;
 }

@@ -1,11 +1,11 @@
 #pragma once
-#include "app/curves/convergence.h"
+#include "app/curves/curve.h"
 #include "app/window/system/layout.h"
 
 #include <optional>
 #include <span>
 
-/// Where the curves of the live chart are. Pure: window units, y down.
+/// Where the curves of the live chart are, in window units with y down. No drawing happens here.
 namespace tyndall {
 
 inline constexpr double target_rel_mse = 1e-4;  ///< of 1 % relative error
@@ -16,7 +16,7 @@ struct Decades {
 };
 
 /// Decades that hold all curves and the target.
-Decades decades_of(std::span<const ConvergenceRun* const> runs);
+Decades decades_of(std::span<const ErrorCurve* const> curves);
 
 /// Logarithmic axes in a rectangle.
 struct ChartAxes {
@@ -29,15 +29,15 @@ struct ChartAxes {
   double rel_mse(float y) const;
 };
 
-/// A point of one of the curves.
-struct CurvePoint {
-  std::size_t run = 0;  ///< index
-  ConvergencePoint at;
+/// A place on one of the curves.
+struct CurveReading {
+  std::size_t curve = 0;  ///< its index
+  ErrorPoint at;
 };
 
 /// The curve that is nearest above or beneath a place, at that time; a curve that ends less than `reach` beside it
 /// counts with its end. Nothing where there is none.
-std::optional<CurvePoint> nearest_curve(std::span<const ConvergenceRun* const> runs, const ChartAxes& axes, float x,
-                                        float y, float reach);
+std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
+                                          float y, float reach);
 
 }  // namespace tyndall

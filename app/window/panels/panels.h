@@ -1,7 +1,6 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
 #include "app/window/panels/widgets.h"
-#include "app/window/system/shortcuts.h"
 #include "app/window/tools/selection.h"
 #include "core/render/renderer.h"
 #include "core/scene/load.h"
@@ -13,16 +12,9 @@
 /// The column of panels. Panels change the scene that they are given (a copy) and leave wishes; they start nothing.
 namespace tyndall {
 
-/// Views by number, as keys and buttons choose them: the renderer's own, then two pictures of differences.
-inline constexpr int cost_view = static_cast<int>(View::cost);
-inline constexpr int error_view = count_of<View>(), flip_view = error_view + 1, view_count = flip_view + 1;
-const char* view_name(int view);
-
 /// What panels ask the window to do.
 struct Wishes {
-  std::vector<Action> actions;
-  std::optional<std::string> open;     ///< a scene by what load_scene takes
-  std::optional<std::string> save_as;  ///< a file's name
+  std::optional<std::string> open;  ///< a scene by what load_scene takes
   std::optional<int> threads;
   bool export_chart = false;  ///< the chart's curves as files
   bool reference = false;     ///< ask for one
@@ -32,14 +24,14 @@ struct Wishes {
 struct PanelState {
   Scene scene;          ///< edited in place
   ObjectPath selected;  ///< edited in place
-  int view = 0;         ///< edited in place: see view_name()
+  int view = 0;         ///< edited in place: see view_entry()
   Wishes wishes;        ///< out
   // What is shown.
   std::shared_ptr<const Frame> frame;  ///< null before the first
   const LiveAccuracy* accuracy = nullptr;
   std::string kept_method;       ///< of the left half of a split view; "": there is no split view
   bool can_show_errors = false;  ///< there is something to measure the picture against
-  const std::vector<BuiltIn>* scenes = nullptr;
+  std::vector<BuiltIn> scenes;
   std::string title;  ///< of the open scene
   bool paused = false;
   int threads = 1;

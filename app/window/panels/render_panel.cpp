@@ -1,4 +1,5 @@
 #include "app/report/contents.h"
+#include "app/window/accuracy/views.h"
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/panels.h"
 #include "core/base/crew.h"
@@ -9,13 +10,6 @@
 #include <thread>
 
 namespace tyndall {
-
-const char* view_name(int view) {
-  if (view == error_view) return "error";
-  if (view == flip_view) return "FLIP";
-  return name_of(static_cast<View>(view));
-}
-
 namespace {
 
 std::string share_cut_off(const Frame* frame) {
@@ -29,9 +23,8 @@ std::string share_cut_off(const Frame* frame) {
 }
 
 const char* view_meaning(const PanelState& state) {
-  if (state.view < error_view) return word(static_cast<View>(state.view)).help;
-  if (!state.accuracy->map()) return "is being computed";
-  return state.view == flip_view ? "what an eye sees; bright: much" : "white: wrong by 100 % and more";
+  if (shows_errors(state.view) && !state.accuracy->map()) return "is being computed";
+  return view_entry(state.view).meaning;
 }
 
 /// The grey line beneath a setting's row.
@@ -91,11 +84,12 @@ void image_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Image", "never starts over")) return;
   ui.scope = "image.";
   field_rows(ui, state.scene.display);
-  Choice views[view_count];
-  for (int k = 0; k < view_count; ++k) views[k] = {view_name(k)};
-  if (!state.can_show_errors)
-    for (const int k : {error_view, flip_view}) views[k].missing = "needs a reference: see Speed and accuracy";
-  choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, views, state.view, 3);
+  Choice choices[view_count];
+  for (int k = 0; k < view_count; ++k) {
+    const bool missing = shows_errors(k) && !state.can_show_errors;
+    choices[k] = {view_entry(k).name, missing ? "needs a reference: see Speed and accuracy" : nullptr};
+  }
+  choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, choices, state.view, 3);
   ui.scope.clear();
 }
 

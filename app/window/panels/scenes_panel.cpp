@@ -79,8 +79,8 @@ void objects_panel(Ui& ui, PanelState& state) {
 void scenes_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Scenes", "or drop a file")) return;
   ui.scope = "scenes.";
-  if (begin_list(ui, "scenes", state.scenes->size()))
-    for (const BuiltIn& scene : *state.scenes) {
+  if (begin_list(ui, "scenes", state.scenes.size()))
+    for (const BuiltIn& scene : state.scenes) {
       const bool on = scene.name == state.title;
       if (list_line(ui, scene.name, scene.name, "", on)) state.wishes.open = scene.name;
       tooltip(ui, scene.title);

@@ -11,6 +11,17 @@ bool Divider::is_at(const Rect& image, float mouse_x, float mouse_y, float reach
   return image.width() > 0 && mouse_y >= image.y0 && mouse_y < image.y1 && std::abs(mouse_x - x(image)) <= reach;
 }
 
+bool Divider::follow(const Mouse& mouse, const Rect& image, bool free, float reach) {
+  const bool at = free && is_at(image, mouse.x, mouse.y, reach);
+  // Where drawing is slow, the mouse may have left when its press is seen.
+  if ((at || hovered) && free && mouse.clicked[0]) dragged = true;
+  hovered = at;
+  if (dragged && mouse.down[0]) drag_to(image, mouse.x);
+  const bool has_it = dragged;
+  dragged = dragged && mouse.down[0];
+  return has_it;
+}
+
 void Divider::drag_to(const Rect& image, float mouse_x) {
   if (image.width() > 0) part = std::clamp((mouse_x - image.x0) / image.width(), 0.02f, 0.98f);
 }

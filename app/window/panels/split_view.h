@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/panels/widgets.h"
+#include "app/window/system/mouse.h"
 
 #include <string>
 
@@ -14,6 +15,9 @@ struct Divider {
   float x(const Rect& image) const { return image.x0 + part * image.width(); }
   /// Whether a press at that place takes the divider. reach: to either side.
   bool is_at(const Rect& image, float mouse_x, float mouse_y, float reach) const;
+  /// Goes along with the mouse while it is dragged; to be called in each drawing. free: nothing else has the mouse.
+  /// Returns whether the divider has the mouse.
+  bool follow(const Mouse& mouse, const Rect& image, bool free, float reach);
   /// Goes to the mouse; a little of each half stays.
   void drag_to(const Rect& image, float mouse_x);
 };

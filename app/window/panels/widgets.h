@@ -27,6 +27,7 @@ struct TextEdit {
 struct Ui {
   Fonts fonts;
   float scale = 1;       ///< window units per unit of the design
+  float pixels = 0;      ///< font pixels per unit of the design; 0: the fonts are not loaded yet
   UiLog* log = nullptr;  ///< null: none
   std::string scope;     ///< prefix of names in the log: "gold." or ""
   double size = 10;      ///< of the scene: dragging a coordinate by 200 units of the design changes it by this much

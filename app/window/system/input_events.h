@@ -1,23 +1,25 @@
 #pragma once
-#include "app/window/system/shortcuts.h"
-
 #include <filesystem>
 #include <vector>
 
 namespace tyndall {
 
+/// Keys that are held while another one is pressed.
+struct Modifiers {
+  bool control = false, shift = false, alt = false;
+};
+
 struct KeyPress {
-  int key = 0;
+  int key = 0;  ///< GLFW's number; letters by what is printed on the user's keyboard
   Modifiers modifiers;
   bool typing = false;  ///< a control took the keyboard when it was pressed
 };
 
-/// What came in since it was last taken.
+/// What the user did since this was last taken.
 struct InputEvents {
-  bool any = false;  ///< anything that may change what is drawn
+  bool any = false;  ///< something happened that may change what is drawn
   std::vector<KeyPress> keys;
-  std::vector<std::filesystem::path> dropped;
-  bool rescaled = false;  ///< another density of the screen
+  std::vector<std::filesystem::path> dropped;  ///< files
 };
 
 }  // namespace tyndall

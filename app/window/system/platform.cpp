@@ -138,7 +138,11 @@ bool Platform::shift_held() const {
   return state_->held.contains(GLFW_KEY_LEFT_SHIFT) || state_->held.contains(GLFW_KEY_RIGHT_SHIFT);
 }
 
-void Platform::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+void Platform::set_title(const std::string& title) {
+  if (title == state_->title) return;
+  glfwSetWindowTitle(state_->window, title.c_str());
+  state_->title = title;
+}
 
 void Platform::toggle_full_screen() {
   GLFWwindow* window = state_->window;

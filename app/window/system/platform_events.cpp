@@ -76,8 +76,7 @@ void install_callbacks(GLFWwindow* window) {
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { state_of(w).events.any = true; });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).events.any = true; });
   glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { state_of(w).events.any = true; });
-  glfwSetWindowContentScaleCallback(
-      window, [](GLFWwindow* w, float, float) { state_of(w).events.any = state_of(w).events.rescaled = true; });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { state_of(w).events.any = true; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
     state_of(w).events.any = true;
     for (int k = 0; k < count; ++k) state_of(w).events.dropped.emplace_back(files[k]);

@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace tyndall {
 /// What a window and its callbacks share; the window's user pointer.
 struct WindowState {
   GLFWwindow* window = nullptr;
+  std::string title;
   InputEvents events;
   std::set<int> held;
   std::set<int> pressed;                  ///< since the last frame

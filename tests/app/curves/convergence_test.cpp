@@ -31,7 +31,7 @@ TEST_CASE("the newest run of each method stays, and not more than a few") {
   CHECK(runs.earlier().back().edit == 18);
   for (std::uint64_t edit = 20; edit < 24; ++edit) run(runs, edit, "same", 2);
   int same = 0;
-  for (const ConvergenceRun& earlier : runs.earlier()) same += earlier.method == "same";
+  for (const ErrorCurve& earlier : runs.earlier()) same += earlier.method == "same";
   CHECK(same == 1);
 }
 
@@ -59,13 +59,6 @@ TEST_CASE("errors that are unknown leave no point") {
   CHECK(runs.current().method == "a");
 }
 
-TEST_CASE("time to a target: four times as long for half the error, less what has passed since the estimate") {
-  CHECK(seconds_to(0.01, {10, 0.0004}, 10) == doctest::Approx(30));
-  CHECK(seconds_to(0.01, {10, 0.0004}, 25) == doctest::Approx(15));
-  CHECK(seconds_to(0.01, {10, 0.0001}, 10) == 0);
-  CHECK(seconds_to(0.01, {10, 0.00001}, 10) == 0);
-}
-
 TEST_CASE("an error that was not estimated anew is no point") {
   Convergence runs;
   for (int k = 1; k < 100; ++k) runs.add(1, "a", {0.1 * k, k < 50 ? 0.5 : 0.25});
@@ -80,16 +73,16 @@ TEST_CASE("curves have names of their own: two of one method, and the halves of 
   run(runs, 3, "mis", 3);
   run(runs, 4, "path", 3);
   run(kept, 1, "nee", 1);
-  const auto names = [](const std::vector<NamedRun>& named) {
+  const auto names = [](const std::vector<NamedCurve>& named) {
     std::string text;
-    for (const NamedRun& one : named) text += one.name + ";";
+    for (const NamedCurve& one : named) text += one.name + ";";
     return text;
   };
-  CHECK(names(named_runs(runs, nullptr)) == "path before;mis;path;");
-  const auto named = named_runs(runs, &kept);
+  CHECK(names(named_curves(runs, nullptr)) == "path before;mis;path;");
+  const auto named = named_curves(runs, &kept);
   CHECK(names(named) == "path before;mis;A: nee;B: path;");
-  CHECK(named[2].run == &kept.current());
-  CHECK(named.back().role == NamedRun::Role::current);
+  CHECK(named[2].curve == &kept.current());
+  CHECK(named.back().role == NamedCurve::Role::current);
 }
 
 TEST_CASE("methods are named by what differs from the file's") {
@@ -100,4 +93,15 @@ TEST_CASE("methods are named by what differs from the file's") {
   settings.seed = 3;
   settings.fresnel = FresnelKind::schlick;
   CHECK(method_of(settings, file) == "mis · sobol · schlick · depth 5 · seed 3");
+}
+
+TEST_CASE("for files curves are copied under their names, those without points are left out") {
+  Convergence curves, kept;
+  run(curves, 1, "mis", 3);
+  run(curves, 2, "path", 3);
+  const std::vector<ErrorCurve> copies = copies_of(named_curves(curves, &kept));
+  REQUIRE(copies.size() == 2);
+  CHECK(copies[0].method == "mis");
+  CHECK(copies[1].method == "B: path");
+  CHECK(copies[1].points.size() == curves.current().points.size());
 }

@@ -49,11 +49,11 @@ class Opened {
                         << fuzz << R"( } },
       "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "gold" }] })";
   }
-  double fuzz() const { return std::get<Metal<>>(session->scene().materials[0].kind).fuzz; }
+  double fuzz() const { return std::get<Metal<>>(session->editor().scene().materials[0].kind).fuzz; }
   void set_fuzz(double fuzz, std::uint64_t gesture = 0) {
-    Scene scene = session->scene();
+    Scene scene = session->editor().scene();
     std::get<Metal<>>(scene.materials[0].kind).fuzz = fuzz;
-    session->edit(scene, gesture);
+    session->editor().edit(scene, gesture);
   }
   template <class Condition>
   bool comes_true(const Condition& condition) {
@@ -67,8 +67,9 @@ class Opened {
   }
   bool finishes() {
     return comes_true([&] {
-      const auto frame = session->latest();
-      return frame && frame->finished && frame->edit == session->edit_number() && session->send_time() > 1e100;
+      const auto frame = session->renderers().latest(Half::current);
+      return frame && frame->finished && frame->edit == session->renderers().edit(Half::current) &&
+             session->send_time() > 1e100;
     });
   }
 
@@ -85,31 +86,31 @@ class Opened {
 TEST_CASE("an edit goes to the renderer, the same value again does not") {
   Opened opened("edit");
   REQUIRE(opened.finishes());
-  CHECK(opened.session->edit_number() == 1);
+  CHECK(opened.session->renderers().edit(Half::current) == 1);
   opened.set_fuzz(0.25);
   CHECK_FALSE(opened.session->send(1e9));
   opened.set_fuzz(0.5);
   REQUIRE(opened.finishes());
-  CHECK(opened.session->edit_number() == 2);
-  opened.session->undo();
+  CHECK(opened.session->renderers().edit(Half::current) == 2);
+  opened.session->editor().undo();
   CHECK(opened.fuzz() == 0.25);
-  CHECK_FALSE(edited(opened.session->document()));
+  CHECK_FALSE(edited(opened.session->editor().document()));
   REQUIRE(opened.finishes());
-  CHECK(opened.session->edit_number() == 3);
+  CHECK(opened.session->renderers().edit(Half::current) == 3);
 }
 
 TEST_CASE("exposure, tone map and name start nothing over, but can be undone") {
   Opened opened("display");
   REQUIRE(opened.finishes());
-  Scene scene = opened.session->scene();
+  Scene scene = opened.session->editor().scene();
   scene.display.exposure = 2;
   scene.display.tone_map = ToneMap::aces;
-  opened.session->edit(scene, 0);
+  opened.session->editor().edit(scene, 0);
   CHECK_FALSE(opened.session->send(1e9));
-  CHECK(edited(opened.session->document()));
-  opened.session->undo();
-  CHECK(opened.session->scene().display.exposure == 0);
-  CHECK(opened.session->edit_number() == 1);
+  CHECK(edited(opened.session->editor().document()));
+  opened.session->editor().undo();
+  CHECK(opened.session->editor().scene().display.exposure == 0);
+  CHECK(opened.session->renderers().edit(Half::current) == 1);
 }
 
 TEST_CASE("while a picture is awaited the newest scene waits, and none between is begun") {
@@ -126,40 +127,40 @@ TEST_CASE("while a picture is awaited the newest scene waits, and none between i
     CHECK_FALSE(opened.session->send(0));
     opened.set_fuzz(0.5, 7);
     CHECK_FALSE(opened.session->send(0));
-    CHECK(opened.session->edit_number() == 2);
+    CHECK(opened.session->renderers().edit(Half::current) == 2);
     CHECK(opened.session->send(1e9));  // out of patience
-    CHECK(opened.session->edit_number() == 3);
+    CHECK(opened.session->renderers().edit(Half::current) == 3);
   }
   REQUIRE(opened.finishes());
   CHECK(opened.fuzz() == 0.5);
-  opened.session->undo();
+  opened.session->editor().undo();
   CHECK(opened.fuzz() == 0.25);
 }
 
 TEST_CASE("what is broken is refused with a reason, and goes away with the next good edit") {
   Opened opened("broken");
-  Scene scene = opened.session->scene();
+  Scene scene = opened.session->editor().scene();
   scene.camera.look_at = scene.camera.look_from;
-  opened.session->edit(scene, 0);
-  CHECK(opened.session->message().error);
-  CHECK(opened.session->message().text.find("/camera") == 0);
-  CHECK_FALSE(edited(opened.session->document()));
+  opened.session->editor().edit(scene, 0);
+  CHECK(opened.session->messages().current().error);
+  CHECK(opened.session->messages().current().text.find("/camera") == 0);
+  CHECK_FALSE(edited(opened.session->editor().document()));
   opened.set_fuzz(0.75);
-  CHECK(opened.session->message().text.empty());
+  CHECK(opened.session->messages().current().text.empty());
 }
 
 TEST_CASE("opening another scene can be undone, with where it came from") {
   Opened opened("open");
   opened.set_fuzz(0.5);
   Opened::write(0.125, "other.json");
-  opened.session->open(fs::absolute("other.json").string());
+  opened.session->editor().open(fs::absolute("other.json").string());
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
-  CHECK(opened.session->document().origin->title == "other.json");
-  opened.session->undo();
+  CHECK(opened.session->editor().document().origin->title == "other.json");
+  opened.session->editor().undo();
   CHECK(opened.fuzz() == 0.5);
-  CHECK(opened.session->document().origin->title == "scene.json");
-  opened.session->open("no such file");
-  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  CHECK(opened.session->editor().document().origin->title == "scene.json");
+  opened.session->editor().open("no such file");
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
   CHECK(opened.fuzz() == 0.5);
 }
 
@@ -168,11 +169,11 @@ TEST_CASE("the file is read again when it changes, and what was edited is one un
   opened.set_fuzz(0.5);
   Opened::write(0.75);
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.75; }));
-  CHECK_FALSE(edited(opened.session->document()));
-  opened.session->undo();
+  CHECK_FALSE(edited(opened.session->editor().document()));
+  opened.session->editor().undo();
   CHECK(opened.fuzz() == 0.5);
   std::ofstream("scene.json") << "{";
-  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
   CHECK(opened.fuzz() == 0.5);
 }
 
@@ -180,15 +181,15 @@ TEST_CASE("saving is no edit, and is not read again as one") {
   Opened opened("save");
   opened.set_fuzz(0.5);
   REQUIRE(opened.finishes());
-  const std::uint64_t edits = opened.session->edit_number();
-  opened.session->save(opened.session->document().origin->file);
-  CHECK_FALSE(edited(opened.session->document()));
+  const std::uint64_t edits = opened.session->renderers().edit(Half::current);
+  opened.session->editor().save(opened.session->editor().document().origin->file);
+  CHECK_FALSE(edited(opened.session->editor().document()));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   REQUIRE(opened.finishes());
-  CHECK(opened.session->edit_number() == edits);
+  CHECK(opened.session->renderers().edit(Half::current) == edits);
   CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[0].kind).fuzz == 0.5);
-  opened.session->save("no/such/folder/a.json");
-  CHECK(opened.session->message().error);
+  opened.session->editor().save("no/such/folder/a.json");
+  CHECK(opened.session->messages().current().error);
 }
 
 TEST_CASE("a snapshot holds the newest edit, also when it was not sent yet, and is finished when the window closes") {
@@ -214,15 +215,15 @@ TEST_CASE("the picture on the screen as reference: of other scenes after an edit
   opened.set_fuzz(0.5);
   REQUIRE(opened.finishes());
   CHECK(accuracy.fit(Half::current) == ReferenceFit::other_scene);
-  opened.session->undo();
-  Scene scene = opened.session->scene();
+  opened.session->editor().undo();
+  Scene scene = opened.session->editor().scene();
   scene.render.seed = 4;
-  opened.session->edit(scene, 0);
+  opened.session->editor().edit(scene, 0);
   REQUIRE(opened.finishes());
   CHECK(accuracy.fit(Half::current) == ReferenceFit::fits);
-  opened.session->shown(Half::current, opened.session->latest());
+  opened.session->shown(Half::current, opened.session->renderers().latest(Half::current));
   REQUIRE(opened.comes_true([&] { return accuracy.pair().flip.has_value(); }));
-  opened.session->drop_reference();
+  opened.session->references().drop();
   CHECK_FALSE(opened.session->can_show_errors());
 }
 
@@ -231,15 +232,15 @@ TEST_CASE("references from files: read in the background, refused with a reason,
   REQUIRE(opened.finishes());
   write_pfm("good.pfm", {8, 8, std::vector<float>(192, 1.0f)});
   write_pfm("small.pfm", {4, 8, std::vector<float>(96, 1.0f)});
-  opened.session->open_reference("small.pfm");
-  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
-  CHECK(opened.session->message().text == "small.pfm: found 4x8 pixels, expected 8x8 as the picture has");
+  opened.session->references().open("small.pfm");
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.session->messages().current().text == "small.pfm: found 4x8 pixels, expected 8x8 as the picture has");
   CHECK_FALSE(opened.session->accuracy().reference());
-  opened.session->open_dropped(fs::absolute("good.pfm"));
+  opened.session->references().open_dropped(fs::absolute("good.pfm"));
   REQUIRE(opened.comes_true([&] { return opened.session->accuracy().reference() != nullptr; }));
   CHECK(opened.session->accuracy().is_true());
   Opened::write(0.125, "other.json");
-  opened.session->open_dropped(fs::absolute("other.json"));
+  opened.session->references().open_dropped(fs::absolute("other.json"));
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
   CHECK_FALSE(opened.session->accuracy().is_true());
 }
@@ -247,9 +248,9 @@ TEST_CASE("references from files: read in the background, refused with a reason,
 TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
   Opened opened("export");
   opened.session->export_chart();
-  CHECK(opened.session->message().text == "there is no curve yet");
+  CHECK(opened.session->messages().current().text == "there is no curve yet");
   REQUIRE(opened.finishes());
-  opened.session->shown(Half::current, opened.session->latest());
+  opened.session->shown(Half::current, opened.session->renderers().latest(Half::current));
   opened.session->export_chart();
   opened.session->export_chart();
   REQUIRE(opened.comes_true([&] { return fs::exists("scene-chart-002.svg"); }));
@@ -257,11 +258,11 @@ TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
   const fs::path folder = fs::current_path();
   fs::remove_all(folder);
   opened.session->export_chart();
-  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
-  CHECK(opened.session->message().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
-  opened.session->dismiss();
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.session->messages().current().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
+  opened.session->messages().dismiss();
   opened.session->snapshot();
-  REQUIRE(opened.comes_true([&] { return opened.session->message().error; }));
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
   fs::create_directories(folder);
 }
 
@@ -269,35 +270,37 @@ TEST_CASE("a split view keeps the settings on its left, and follows edits of the
   Opened opened("split");
   REQUIRE(opened.finishes());
   Session& session = *opened.session;
-  CHECK_FALSE(session.latest_kept());
+  CHECK_FALSE(session.renderers().latest(Half::kept));
   session.set_split(true);
   session.set_split(false);
   session.set_split(true);
-  Scene scene = session.scene();
+  Scene scene = session.editor().scene();
   scene.render.fresnel = FresnelKind::schlick;
   scene.render.sampler = SamplerKind::sobol;
-  session.edit(scene, 0);
+  session.editor().edit(scene, 0);
   const auto both_finish = [&] {
     return opened.finishes() && opened.comes_true([&] {
-      const auto kept = session.latest_kept();
+      const auto kept = session.renderers().latest(Half::kept);
       return kept && kept->finished;
     });
   };
   REQUIRE(both_finish());
   CHECK(session.method(Half::kept) == "path · random");
   CHECK(session.method(Half::current) == "path · sobol · schlick");
-  session.shown(Half::kept, session.latest_kept());
-  session.shown(Half::current, session.latest());
+  session.shown(Half::kept, session.renderers().latest(Half::kept));
+  session.shown(Half::current, session.renderers().latest(Half::current));
   REQUIRE(opened.comes_true([&] { return session.accuracy().pair().flip.has_value(); }));
-  const auto before = session.latest_kept();
+  const auto before = session.renderers().latest(Half::kept);
   opened.set_fuzz(1);
   REQUIRE(opened.finishes());
-  REQUIRE(opened.comes_true([&] { return session.latest_kept() != before && session.latest_kept()->finished; }));
-  CHECK(session.latest_kept()->rgba != before->rgba);
+  REQUIRE(opened.comes_true([&] {
+    return session.renderers().latest(Half::kept) != before && session.renderers().latest(Half::kept)->finished;
+  }));
+  CHECK(session.renderers().latest(Half::kept)->rgba != before->rgba);
   Opened::write(0.125, "other.json");
-  session.open(fs::absolute("other.json").string());
+  session.editor().open(fs::absolute("other.json").string());
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
-  CHECK_FALSE(session.split());
+  CHECK_FALSE(session.renderers().split());
 }
 
 TEST_CASE("two scenes give the same picture if they differ in name and display only") {

@@ -32,7 +32,7 @@ TEST_CASE("the status line tells what is on the screen") {
   frame.lanes = 32;
   frame.threads = 2;
   frame.film_bytes = 103'000'000;
-  const std::string text = text_of(status_cells(&frame, {0, "", {{10, 1.23e-4}}}, document(), {}));
+  const std::string text = text_of(status_cells(&frame, {"", {{10, 1.23e-4}}, 0}, document(), {}));
   for (const char* part : {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;",
                            "avx512 x32=2 threads;", "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
@@ -71,7 +71,7 @@ TEST_CASE("against a reference the true error is told, and what is only estimate
   frame.edit = 3;
   frame.spp = 64;
   frame.relative_error = 0.011;
-  const ConvergenceRun run{3, "", {{1, 4e-4}}};
+  const ErrorCurve run{"", {{1, 4e-4}}, 3};
   std::string text = text_of(status_cells(&frame, run, document(), {false, true}));
   CHECK(text.find("true error=2 %;estimated=1.1 %;") != std::string::npos);
   frame.edit = 4;  // not measured yet

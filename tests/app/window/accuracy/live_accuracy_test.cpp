@@ -59,9 +59,7 @@ struct Watched {
     }
     return condition();
   }
-  const std::vector<ConvergencePoint>& points(Half half = Half::current) {
-    return accuracy.curves(half).current().points;
-  }
+  const std::vector<ErrorPoint>& points(Half half = Half::current) { return accuracy.curves(half).current().points; }
   std::string lines() {
     std::string text;
     for (const AccuracyLine& line : accuracy_lines(accuracy)) text += (line.warning ? "! " : "") + line.text + "\n";

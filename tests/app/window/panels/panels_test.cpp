@@ -1,5 +1,6 @@
 #include "app/window/panels/panels.h"
 
+#include "app/window/accuracy/views.h"
 #include "core/scene/check.h"
 #include "tests/app/window/panels/null_imgui.h"
 
@@ -23,8 +24,7 @@ class Column {
                            {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
     state.scene.camera.look_from = {0, 1, 6};
     state.accuracy = &accuracy_;
-    state.scenes = &scenes_;
-    scenes_ = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
+    state.scenes = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
     state.title = "showroom";
     draw();
     draw();
@@ -89,7 +89,6 @@ class Column {
   NullImGui imgui_{372, 2400};
   UiLog log_;
   LiveAccuracy accuracy_{[] {}};
-  std::vector<BuiltIn> scenes_;
 };
 
 }  // namespace
@@ -204,9 +203,9 @@ TEST_CASE("choices change what they say, and only that") {
   column.click("image.view.normal");
   CHECK(column.state.view == 2);
   column.click("image.view.cost");
-  CHECK(column.state.view == cost_view);
+  CHECK(column.state.view == view_named("cost"));
   column.click("image.view.FLIP");
-  CHECK(column.state.view == cost_view);
+  CHECK(column.state.view == view_named("cost"));
   CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
   column.click("scenes.cover");
   CHECK(column.opened == "cover");
@@ -232,9 +231,9 @@ TEST_CASE("errors are seen only where there is something to measure against") {
   CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
   column.state.can_show_errors = true;
   column.click("image.view.FLIP");
-  CHECK(column.state.view == flip_view);
+  CHECK(column.state.view == view_named("FLIP"));
   column.click("image.view.error");
-  CHECK(column.state.view == error_view);
+  CHECK(column.state.view == view_named("error"));
 }
 
 TEST_CASE("selecting in the list shows the object whole, and again nothing") {

@@ -38,3 +38,21 @@ TEST_CASE("a split view can be drawn at any size") {
   for (const Rect& rect : {Rect{0, 0, 20, 10}, Rect{0, 0, 1, 50}, Rect{0, 0, 0, 0}, Rect{0, 0, 372, 400}})
     imgui.frame([&] { draw_split(ui, rect, {}, {"mis · sobol", "path"}); });
 }
+
+TEST_CASE("the divider follows the mouse that took it, also where its press is seen late") {
+  const Rect image{0, 0, 200, 100};
+  Divider divider;
+  Mouse mouse;
+  mouse.x = 101, mouse.y = 50;
+  CHECK_FALSE(divider.follow(mouse, image, true, 6));
+  CHECK(divider.hovered);
+  mouse.x = 150, mouse.clicked[0] = mouse.down[0] = true;  // pressed at 101, and gone when this is drawn
+  CHECK(divider.follow(mouse, image, true, 6));
+  CHECK(divider.x(image) == doctest::Approx(150));
+  mouse.clicked[0] = mouse.down[0] = false;
+  CHECK(divider.follow(mouse, image, true, 6));  // the release is the divider's too
+  CHECK_FALSE(divider.follow(mouse, image, true, 6));
+  mouse.clicked[0] = mouse.down[0] = true;
+  CHECK_FALSE(divider.follow(mouse, image, false, 6));  // something else has the mouse
+  CHECK(divider.x(image) == doctest::Approx(150));
+}

@@ -1,11 +1,11 @@
 #include "app/window/system/pacing.h"
+
 #include "app/window/system/layout.h"
-#include "app/window/system/shortcuts.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <set>
+#include <initializer_list>
 
 using namespace tyndall;
 
@@ -111,28 +111,4 @@ TEST_CASE("no size is too small for a layout") {
         CHECK(r.y1 <= h + 1);
       }
     }
-}
-
-TEST_CASE("each shortcut has one action, with exactly its modifiers") {
-  CHECK(action_of('Z', {.control = true}) == Action::undo);
-  CHECK(action_of('Z', {.control = true, .shift = true}) == Action::redo);
-  CHECK(action_of('S', {.control = true}) == Action::save);
-  CHECK_FALSE(action_of('S', {}).has_value());
-  CHECK_FALSE(action_of('Z', {}).has_value());
-  CHECK_FALSE(action_of('P', {.control = true, .alt = true}).has_value());
-  CHECK(action_of('1', {}) == Action::view_beauty);
-  CHECK(action_of('7', {}) == Action::view_cost);
-  std::set<Action> seen;
-  for (int key = 32; key < 350; ++key)
-    for (int mods = 0; mods < 4; ++mods)
-      if (const auto action = action_of(key, {(mods & 1) != 0, (mods & 2) != 0, false})) seen.insert(*action);
-  CHECK(seen.size() == 23);
-}
-
-TEST_CASE("flight keys are three opposite pairs") {
-  for (const auto& [plus, minus] : {std::pair{'D', 'A'}, {'E', 'Q'}, {'W', 'S'}}) {
-    CHECK(fly_key(plus)->axis == fly_key(minus)->axis);
-    CHECK(fly_key(plus)->sign == -fly_key(minus)->sign);
-  }
-  CHECK_FALSE(fly_key('X').has_value());
 }

@@ -1,0 +1,14 @@
+#pragma once
+#include "app/curves/chart.h"
+
+#include <filesystem>
+
+namespace tyndall {
+
+/// The table that is written beside a chart: the same name, ending in .csv.
+std::filesystem::path csv_beside(std::filesystem::path svg);
+
+/// Writes the table and the drawing. svg: name of the drawing. Throws ImageFileError if one of them cannot be written.
+void write_chart(const Chart& chart, const std::filesystem::path& svg);
+
+}  // namespace tyndall

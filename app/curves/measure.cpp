@@ -1,0 +1,76 @@
+#include "app/curves/measure.h"
+
+#include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+/// A picture that is rendered further and further, each time from where it was left.
+class GrowingPicture {
+ public:
+  GrowingPicture(const Scene& scene, const std::string& isa, const ChartRun& run) : scene_(compile(scene)), run_(run) {
+    options_.isa = isa;
+    options_.threads = run.threads;
+    options_.adaptive = scene.render.adaptive;
+  }
+  /// Renders on until each pixel has `spp` samples; false if it was stopped on the way.
+  bool grow(std::uint32_t spp) {
+    options_.spp = spp;
+    const auto progress = [this](const RenderProgress& now) { return run_.go_on(seconds_ + now.seconds); };
+    RenderResult result = render(scene_, options_, progress, std::move(film_));
+    film_ = std::move(result.film);
+    seconds_ += result.seconds;
+    return !result.interrupted;
+  }
+  double seconds() const { return seconds_; }
+  const Film& film() const { return film_; }
+
+ private:
+  RenderScene scene_;
+  const ChartRun& run_;
+  RenderOptions options_{};
+  Film film_{};
+  double seconds_ = 0;
+};
+
+double squared(double x) { return x * x; }
+
+}  // namespace
+
+ChartReference render_reference(Scene scene, double seconds, const ChartRun& run) {
+  scene.render.integrator = Integrator::mis;
+  scene.render.sampler = SamplerKind::random;
+  scene.render.fresnel = FresnelKind::exact;
+  scene.render.adaptive = false;
+  scene.render.seed += 0x5eed;
+  GrowingPicture picture(scene, "", run);
+  std::uint32_t spp = 2;
+  while (picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds() < seconds * 1.4) spp *= 2;
+  const Film& film = picture.film();
+  const FilmTotals sum = totals(film);
+  if (sum.least_taken < 2) return {};
+  return {{scene.width, scene.height, resolve(film)},
+          squared(estimated_relative_error(film)),
+          "mis, random numbers of another seed, " + std::to_string(sum.least_taken) + " spp"};
+}
+
+ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
+                         const ChartRun& run) {
+  scene.render = method.settings;
+  GrowingPicture picture(scene, method.isa, run);
+  ErrorCurve curve{method.name, {}};
+  for (std::uint32_t spp = 1; spp < (1u << 22) && picture.grow(spp); spp *= 2) {
+    const double measured = image_error(resolve(picture.film()), reference.image.rgb).rel_mse;
+    const double noise = squared(estimated_relative_error(picture.film()));
+    curve.points.push_back({picture.seconds(), measured - reference.noise, spp, noise});
+    if (measured < least_measurable(reference.noise) || 2 * picture.seconds() > seconds * 1.4) break;
+  }
+  return curve;
+}
+
+}  // namespace tyndall

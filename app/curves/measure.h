@@ -1,0 +1,45 @@
+#pragma once
+#include "app/curves/curve.h"
+#include "core/image/image_io.h"
+#include "core/scene/scene.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// Renders a scene in different ways and measures the error of each over time, for the command `chart`.
+namespace tyndall {
+
+/// A way of rendering, to be compared with others.
+struct ChartMethod {
+  std::string name;
+  RenderSettings settings;
+  std::string isa;  ///< "": the best
+};
+
+/// First the method of the books, then each improvement switched on in addition to those before it, then approximations
+/// alone. What makes no difference to the scene is left out: without glass there is no choice of Fresnel's equations.
+std::vector<ChartMethod> default_methods(const Scene& scene);
+
+/// The picture that errors are measured against.
+struct ChartReference {
+  LinearImage image;
+  double noise = 0;   ///< its own relMSE, which measured errors contain; 0: not known, a floor may be just that
+  std::string about;  ///< "nee, random, 512 spp"
+};
+
+struct ChartRun {
+  int threads = 0;                              ///< 0: all cores
+  std::function<bool(double seconds)> go_on{};  ///< asked often, with the seconds of rendering so far; false: stop
+};
+
+/// Renders a reference for about `seconds`: mis, random numbers of another seed, nothing approximate. Its image is
+/// empty if it was stopped before every pixel had two samples.
+ChartReference render_reference(Scene scene, double seconds, const ChartRun& run);
+
+/// Renders by a method for about `seconds`, or until the reference's noise would show, and measures the error at each
+/// power of two of samples a pixel.
+ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
+                         const ChartRun& run);
+
+}  // namespace tyndall

@@ -1,0 +1,75 @@
+#pragma once
+#include "app/window/accuracy/fair_share.h"
+#include "app/window/accuracy/half.h"
+#include "core/render/renderer.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace tyndall {
+
+/// The window's renderer and, in a split view, a second one for the left half. The second one renders the same scene
+/// with the settings that were kept, and both get as many core-seconds. For the main thread but where said otherwise;
+/// nothing here waits for rendering.
+class RendererPair {
+ public:
+  /// threads: of both together, > 0. on_frame: called from a thread of a renderer after each frame.
+  RendererPair(int threads, std::string isa, std::function<void()> on_frame);
+  ~RendererPair();
+  RendererPair(const RendererPair&) = delete;
+  RendererPair& operator=(const RendererPair&) = delete;
+
+  /// Which halves have begun another picture.
+  struct Begun {
+    bool current = false, kept = false;
+  };
+  /// Hands a scene to both. A scene with the same picture as the one before restarts nothing.
+  Begun submit(const Scene& scene);
+  /// Throws the samples of both away and starts over.
+  void restart();
+
+  /// Splits the view: the left half keeps the scene's settings, and the right one starts over.
+  void begin_split(const Scene& scene);
+  /// Ends it. Returns the second renderer: it may be within a pass, and should end where nobody waits.
+  std::shared_ptr<Renderer> end_split();
+  bool split() const { return second_ != nullptr; }
+  /// The scene that the left half of a split view renders, and its settings.
+  Scene kept_scene(const Scene& scene) const;
+  const RenderSettings& kept_settings() const { return kept_; }
+
+  void pause(bool paused);
+  bool paused() const { return paused_; }
+  void set_threads(int threads);
+  int threads() const { return threads_; }
+  void set_view(View view);
+
+  /// The newest frame; null: there is none.
+  std::shared_ptr<const Frame> latest(Half half) const;
+  /// Number of the newest edit that a half was given. That of the current half from any thread.
+  std::uint64_t edit(Half half) const { return half == Half::kept ? kept_edit_ : edit_.load(); }
+  /// Nothing renders: paused, or all pictures are finished.
+  bool resting() const;
+  /// Of the current half, see Renderer; the film from any thread.
+  Film film() const { return renderer_.film(); }
+  Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
+  std::shared_ptr<const RenderProblem> problem() const { return renderer_.problem(); }
+
+ private:
+  bool submit_kept(const Scene& scene);
+
+  std::string isa_;
+  std::function<void()> on_frame_;
+  int threads_;
+  bool paused_ = false;
+  View view_ = View::beauty;
+  std::atomic<std::uint64_t> edit_ = 0;
+  RenderSettings kept_;  ///< of the left half
+  std::uint64_t kept_edit_ = 0;
+  FairShare share_{renderer_};
+  Renderer renderer_;
+  std::shared_ptr<Renderer> second_;  ///< of the left half; null: there is no split view
+};
+
+}  // namespace tyndall

@@ -1,0 +1,118 @@
+#include "app/window/actions.h"
+
+#include "app/window/accuracy/views.h"
+
+namespace tyndall {
+namespace {
+
+// GLFW's numbers for keys that are no characters.
+constexpr int key_escape = 256, key_tab = 258, key_home = 268, key_f1 = 290, key_f11 = 300, key_space = 32;
+
+constexpr ActionEntry entries[] = {
+    {Action::deselect, "deselect", {key_escape}},
+    {Action::frame, "frame the selection", {'F'}},
+    {Action::reset_camera, "reset the camera", {key_home}, {}, "", true},
+    {Action::pause, "pause or go on", {key_space}},
+    {Action::restart, "start over", {'R'}, {}, "", true},
+    {Action::undo, "undo", {'Z', true}},
+    {Action::redo, "redo", {'Z', true, true}, {'Y', true}, "", true},
+    {Action::save, "save the scene", {'S', true}},
+    {Action::save_as, "save as", {'S', true, true}, {}, "", true},
+    {Action::snapshot, "snapshot", {'P', true}, {}, "PNG and EXR, numbered"},
+    {Action::panels, "hide the panels", {key_tab}},
+    {Action::full_screen, "full screen", {key_f11}, {}, "", true},
+    {Action::quit, "close the window", {'Q', true}},
+    {Action::help, "this table", {key_f1}, {'H'}},
+};
+
+const HelpLine mouse_lines[] = {{"Left drag", "orbit"},
+                                {"Middle drag", "pan"},
+                                {"Right drag, wheel", "nearer, farther"},
+                                {"Ctrl + wheel", "field of view"},
+                                {"W A S D Q E", "fly; with Shift faster"},
+                                {"Click", "select the object under the cursor"},
+                                {"Shift + click", "focus on that point"},
+                                {"Ctrl + Shift + click", "focus, the blur keeps its look"},
+                                {"Drop a file", "open a scene or a snapshot; another image: the reference"},
+                                {"Numbers", "drag sideways, or click and type; Shift: finer"}};
+
+bool is_pressed(const Key& key, int code, Modifiers modifiers) {
+  return code != 0 && key.code == code && key.control == modifiers.control && key.shift == modifiers.shift;
+}
+
+/// The help line of the views that the renderer draws, "1 … 7" and "views: beauty, albedo, …", or of those that show
+/// errors.
+HelpLine views_line(bool of_errors) {
+  int first = 0, last = -1;
+  std::string names;
+  for (int k = 0; k < view_count; ++k) {
+    if (shows_errors(k) != of_errors) continue;
+    if (last < 0) first = k;
+    names += (last < 0 ? "" : of_errors ? " and " : ", ") + std::string(view_entry(k).name);
+    last = k;
+  }
+  const char* to = last == first + 1 ? ", " : " … ";
+  const std::string input = std::to_string(first + 1) + to + std::to_string(last + 1);
+  return {input, of_errors ? names + " against the reference or the other half" : "views: " + names};
+}
+
+/// A new line of the help table, or the end of the last one.
+void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
+  const std::string effect = entry.name + (*entry.help ? ": " + std::string(entry.help) : "");
+  if (entry.on_line_of_previous) {
+    lines.back().input += ", " + text_of(entry.key);
+    lines.back().effect += ", " + effect;
+  } else {
+    const bool two = entry.other_key.code != 0;
+    lines.push_back({text_of(entry.key) + (two ? ", " + text_of(entry.other_key) : ""), effect});
+  }
+}
+
+}  // namespace
+
+std::span<const ActionEntry> actions() { return entries; }
+
+std::optional<KeyCommand> command_of_key(int key, Modifiers modifiers) {
+  if (modifiers.alt) return {};
+  for (const ActionEntry& entry : entries)
+    if (is_pressed(entry.key, key, modifiers) || is_pressed(entry.other_key, key, modifiers))
+      return KeyCommand{entry.action};
+  for (int k = 0; k < view_count; ++k)
+    if (is_pressed({'1' + k}, key, modifiers)) return KeyCommand{Action::view, k};
+  return {};
+}
+
+std::string text_of(const Key& key) {
+  std::string text = key.control ? "Ctrl + " : "";
+  if (key.shift) text += "Shift + ";
+  switch (key.code) {
+    case key_escape:
+      return text + "Esc";
+    case key_tab:
+      return text + "Tab";
+    case key_home:
+      return text + "Home";
+    case key_f1:
+      return text + "F1";
+    case key_f11:
+      return text + "F11";
+    case key_space:
+      return text + "Space";
+    default:
+      return text + static_cast<char>(key.code);
+  }
+}
+
+std::vector<HelpLine> help_lines() {
+  std::vector<HelpLine> lines(std::begin(mouse_lines), std::end(mouse_lines));
+  for (const ActionEntry& entry : entries) {
+    if (entry.action == Action::panels) {
+      lines.push_back(views_line(false));
+      lines.push_back(views_line(true));
+    }
+    add_line(lines, entry);
+  }
+  return lines;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,69 @@
+#pragma once
+#include "app/window/system/input_events.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// What a key can ask for.
+enum class Action {
+  deselect,
+  frame,
+  reset_camera,
+  pause,
+  restart,
+  undo,
+  redo,
+  save,
+  save_as,
+  snapshot,
+  view,
+  panels,
+  full_screen,
+  quit,
+  help
+};
+
+/// A key with the modifiers that must be held with it, and no others. code: GLFW's number, for letters and digits their
+/// capital ASCII; 0: no key.
+struct Key {
+  int code = 0;
+  bool control = false, shift = false;
+};
+
+/// A line of the list of actions. The keys, the help table and every menu are loops over this list.
+struct ActionEntry {
+  Action action;
+  const char* name;
+  Key key, other_key{};
+  const char* help = "";             ///< follows the name in the help table; "": the name says enough
+  bool on_line_of_previous = false;  ///< the help table shows it in the line of the entry before
+};
+
+/// All actions but the views, which views.h lists.
+std::span<const ActionEntry> actions();
+
+/// An action, and for Action::view which: the number of the view, see views.h.
+struct KeyCommand {
+  Action action = Action::help;
+  int view = 0;
+  bool operator==(const KeyCommand&) const = default;
+};
+
+/// What a key asks for; nothing for keys that have no action.
+std::optional<KeyCommand> command_of_key(int key, Modifiers modifiers);
+
+/// "Ctrl + Shift + Z".
+std::string text_of(const Key& key);
+
+/// One line of the help table.
+struct HelpLine {
+  std::string input, effect;
+};
+/// The help table: what the mouse does, then the keys.
+std::vector<HelpLine> help_lines();
+
+}  // namespace tyndall

@@ -1,0 +1,135 @@
+#include "app/window/commands.h"
+
+#include "app/window/accuracy/views.h"
+#include "app/window/document/open_document.h"
+#include "app/window/tools/camera_control.h"
+
+#include <utility>
+
+namespace tyndall {
+
+void Commands::take(const InputEvents& events) {
+  for (const KeyPress& press : events.keys) {
+    const auto command = command_of_key(press.key, press.modifiers);
+    const bool answers = command && command->action == Action::deselect;
+    if (!command || (press.typing && !asks()) || (asks() && !answers)) continue;
+    act(*command);
+  }
+  for (const std::filesystem::path& file : events.dropped)
+    session_.references().open_dropped(std::filesystem::absolute(file));
+}
+
+void Commands::act(const KeyCommand& command) {
+  switch (command.action) {
+    case Action::help:
+      shows_help_ = !shows_help_;
+      break;
+    case Action::deselect:
+      escape();
+      break;
+    case Action::pause:
+      session_.pause(!session_.renderers().paused());
+      break;
+    case Action::restart:
+      session_.restart();
+      pacing_.on_new_start(clock_seconds());
+      break;
+    case Action::view:
+      select_view(command.view);
+      break;
+    case Action::panels:
+      shows_panels_ = !shows_panels_;
+      break;
+    case Action::full_screen:
+      platform_.toggle_full_screen();
+      break;
+    case Action::quit:
+      platform_.close();
+      break;
+    default:
+      act_on_document(command.action);
+  }
+}
+
+void Commands::act_on_document(Action action) {
+  switch (action) {
+    case Action::frame:
+      return frame_selection();
+    case Action::reset_camera:
+      return reset_camera();
+    case Action::undo:
+      return session_.editor().undo();
+    case Action::redo:
+      return session_.editor().redo();
+    case Action::save:
+      return save();
+    case Action::save_as:
+      return save_as();
+    case Action::snapshot:
+      return session_.snapshot();
+    default:
+      return;
+  }
+}
+
+void Commands::reset_camera() {
+  Scene scene = session_.editor().scene();
+  scene.camera = session_.editor().document().origin->saved.camera;
+  session_.editor().edit(std::move(scene), gestures_.begin());
+}
+
+void Commands::frame_selection() {
+  const auto ball = ball_around(session_.editor().scene(), panels_.selected);
+  if (!ball) return session_.messages().say("select an object first: click on it");
+  Scene scene = session_.editor().scene();
+  scene.camera = frame_ball(scene.camera, ball->center, ball->radius, static_cast<double>(scene.width) / scene.height);
+  session_.editor().edit(std::move(scene), gestures_.begin());
+}
+
+void Commands::save_as() {
+  const Origin& origin = *session_.editor().document().origin;
+  ask_name(dialog_, origin.file.empty() ? std::filesystem::path(stem_of(origin.title) + ".json") : origin.file);
+}
+
+void Commands::save() {
+  const Origin& origin = *session_.editor().document().origin;
+  if (origin.file.empty())
+    save_as();
+  else if (origin.comments)
+    ask_comments(dialog_);
+  else
+    session_.editor().save(origin.file);
+}
+
+void Commands::select_view(int index) {
+  if (shows_errors(index) && !session_.can_show_errors())
+    return session_.messages().say("load a reference first: see Speed and accuracy");
+  panels_.view = index;
+  if (index == shown_view_) return;
+  shown_view_ = index;
+  session_.set_view(view_entry(index).view, view_entry(index).error);
+  pacing_.on_new_start(clock_seconds());
+}
+
+void Commands::escape() {
+  if (asks())
+    dialog_.kind = Dialog::Kind::none;
+  else if (shows_help_)
+    shows_help_ = false;
+  else if (session_.messages().current().error)
+    session_.messages().dismiss();
+  else
+    panels_.selected.clear();
+}
+
+void Commands::draw(Ui& ui, const Rect& area) {
+  if (shows_help_) draw_help(ui, area, shows_help_);
+  const ReferenceWish wish = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
+  if (wish.file) session_.references().open(*wish.file);
+  if (wish.keep) session_.keep_as_reference();
+  if (wish.drop) session_.references().drop();
+  const auto file = draw_dialog(ui, area, dialog_, session_.editor().document());
+  if (file) session_.editor().save(*file);
+}
+
+}  // namespace tyndall

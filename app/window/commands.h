@@ -1,0 +1,51 @@
+#pragma once
+#include "app/window/actions.h"
+#include "app/window/overlays.h"
+#include "app/window/panels/panels.h"
+#include "app/window/session.h"
+#include "app/window/system/pacing.h"
+#include "app/window/system/platform.h"
+#include "app/window/tools/gestures.h"
+
+namespace tyndall {
+
+/// Carries out what keys, dropped files and dialogs ask for.
+class Commands {
+ public:
+  /// All of them belong to the window and outlive this.
+  Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures)
+      : session_(session), platform_(platform), panels_(panels), pacing_(pacing), gestures_(gestures) {}
+
+  /// What the user did since the last drawing.
+  void take(const InputEvents& events);
+  /// Shows a view; one of errors only where there is something to measure against. index: see views.h.
+  void select_view(int index);
+  /// Asks which picture errors are measured against.
+  void ask_reference() { tyndall::ask_reference(dialog_); }
+  /// Draws the help table and the question that waits for an answer, and does what was answered.
+  void draw(Ui& ui, const Rect& area);
+
+  /// Whether a question waits for an answer.
+  bool asks() const { return dialog_.kind != Dialog::Kind::none; }
+  bool shows_panels() const { return shows_panels_; }
+
+ private:
+  void act(const KeyCommand& command);
+  void act_on_document(Action action);
+  void reset_camera();
+  void frame_selection();
+  void save();
+  void save_as();
+  void escape();
+
+  Session& session_;
+  Platform& platform_;
+  PanelState& panels_;
+  Pacing& pacing_;
+  Gestures& gestures_;
+  Dialog dialog_;
+  int shown_view_ = 0;
+  bool shows_help_ = false, shows_panels_ = true;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,128 @@
+#include "app/window/document/editor.h"
+
+#include "app/window/document/open_document.h"
+#include "core/scene/check.h"
+
+#include <exception>
+#include <utility>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+bool same_picture(const Scene& a, const Scene& b) {
+  Scene shown = a;
+  shown.display = b.display;
+  shown.name = b.name;
+  return shown == b;
+}
+
+Editor::Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, EditorEvents events, JobQueue& jobs,
+               MessageLine& messages, UiLog* log)
+    : reload_(std::move(reload)),
+      reloads_(scene.source),
+      events_(std::move(events)),
+      jobs_(jobs),
+      messages_(messages),
+      log_(log),
+      history_(document_of(scene)) {
+  watch();
+}
+
+void Editor::edit(Scene next, std::uint64_t gesture) {
+  if (next == scene()) return;
+  if (const auto broken = check(next)) {
+    messages_.say(broken->where + ": found " + broken->found + ", expected " + broken->expected, true);
+    return;
+  }
+  const bool same = same_picture(next, scene());
+  history_.record({std::move(next), document().origin}, gesture);
+  if (messages_.current().error) messages_.dismiss();
+  if (!same) events_.picture_changed();
+}
+
+void Editor::undo() {
+  const Scene before = scene();
+  step(history_.undo(), before, "nothing to undo");
+}
+
+void Editor::redo() {
+  const Scene before = scene();
+  step(history_.redo(), before, "nothing to redo");
+}
+
+void Editor::step(bool moved, const Scene& before, const char* otherwise) {
+  if (!moved) return messages_.say(otherwise);
+  if (!same_picture(before, scene())) events_.picture_changed();
+  watch();
+}
+
+void Editor::show(Document next, bool own_file) {
+  const bool same = same_picture(next.scene, scene());
+  if (own_file && next.scene == scene()) {
+    history_.set_origin(next.origin);  // the file now holds what is shown
+    return;
+  }
+  history_.record(std::move(next), 0);
+  if (!same) {
+    if (!own_file) events_.other_scene();
+    events_.picture_changed();
+  }
+  watch();
+  messages_.say((own_file ? "read again: " : "opened ") + document().origin->title);
+}
+
+void Editor::read_in_background(const std::function<JobQueue::Result()>& read) {
+  jobs_.run([this, read]() -> JobQueue::Result {
+    try {
+      return read();
+    } catch (const std::exception& error) {
+      return [this, text = std::string(error.what())] { messages_.say(text, true); };
+    }
+  });
+}
+
+void Editor::open(const std::string& what) {
+  read_in_background([this, what]() -> JobQueue::Result {
+    return [this, next = document_of(load_scene(what))] { show(next, false); };
+  });
+}
+
+void Editor::reload() {
+  const fs::path file = document().origin->file;
+  const bool first = reload_ && file == reloads_;
+  read_in_background([this, file, first]() -> JobQueue::Result {
+    Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
+    return [this, file, next = std::move(next)] {
+      if (document().origin->file == file) show(next, true);
+    };
+  });
+}
+
+void Editor::watch() {
+  const fs::path& file = document().origin->file;
+  if (file == watched_) return;
+  watch_.reset();
+  watched_ = file;
+  if (file.empty()) return;
+  watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, events_.wake(); });
+}
+
+void Editor::save(fs::path file) {  // a copy: it may be that of the origin which is replaced here
+  try {
+    history_.set_origin(save_document(document(), file));
+    watch();
+    messages_.say("saved " + file.string());
+    if (log_) log_->line("saved " + file.string());
+  } catch (const std::exception& error) {
+    messages_.say(error.what(), true);
+  }
+}
+
+bool Editor::collect() {
+  if (!file_changed_.exchange(false)) return false;
+  reload();
+  return true;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,76 @@
+#pragma once
+#include "app/files/watch.h"
+#include "app/window/document/history.h"
+#include "app/window/document/job_queue.h"
+#include "app/window/document/message.h"
+#include "core/scene/load.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+/// This room holds the document, that is the scene that is edited with its history and its file, and the work that is
+/// done for it in the background. It knows nothing of rendering.
+namespace tyndall {
+
+/// Whether both scenes render to the same picture: equal but for what is applied when it is shown.
+bool same_picture(const Scene& a, const Scene& b);
+
+/// What an editor tells.
+struct EditorEvents {
+  std::function<void()> picture_changed;  ///< the scene renders to another picture now
+  std::function<void()> other_scene;      ///< another scene was opened; told before picture_changed
+  std::function<void()> wake;             ///< collect() has something to do; called from any thread
+};
+
+/// The open document: takes edits, undoes, opens, saves, and reads the file again when another program has written it.
+/// For the main thread; never waits for files but when it saves.
+class Editor {
+ public:
+  /// reload: reads the first scene again, as the command line asked for it; may be empty. jobs: for reading; it may be
+  /// constructed later than the editor, and ends before it. log: may be null.
+  Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, EditorEvents events, JobQueue& jobs,
+         MessageLine& messages, UiLog* log);
+  Editor(const Editor&) = delete;
+  Editor& operator=(const Editor&) = delete;
+
+  const Document& document() const { return history_.current(); }
+  const Scene& scene() const { return history_.current().scene; }
+
+  /// Takes an edited scene: checks and remembers it. What is broken is refused with a message. gesture: edits of the
+  /// same number that follow each other are one step to undo; 0: none.
+  void edit(Scene scene, std::uint64_t gesture);
+  void undo();
+  void redo();
+
+  /// Opens a file or a built-in scene, in the background. what: as the command line takes it.
+  void open(const std::string& what);
+  /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced.
+  void save(std::filesystem::path file);
+
+  /// Runs `read` in the background. What it returns is called by collect(); what it throws is said.
+  void read_in_background(const std::function<JobQueue::Result()>& read);
+  /// Reads the file again, in the background, if another program has changed it. Whether it had.
+  bool collect();
+
+ private:
+  void show(Document document, bool own_file);
+  void step(bool moved, const Scene& before, const char* otherwise);
+  void watch();
+  void reload();
+
+  std::function<LoadedScene()> reload_;
+  std::filesystem::path reloads_;  ///< the file that reload_ reads
+  EditorEvents events_;
+  JobQueue& jobs_;
+  MessageLine& messages_;
+  UiLog* log_;
+  History history_;
+  std::atomic<bool> file_changed_ = false;
+  std::filesystem::path watched_;
+  std::unique_ptr<FileWatch> watch_;  // last: it uses the others
+};
+
+}  // namespace tyndall

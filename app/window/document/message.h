@@ -1,0 +1,35 @@
+#pragma once
+#include "app/window/system/clock.h"
+#include "app/window/system/ui_log.h"
+
+#include <string>
+
+namespace tyndall {
+
+/// What the user is told, one line.
+struct Message {
+  std::string text;  ///< "": none
+  bool error = false;
+  double until = 0;  ///< clock second at which it goes; errors stay until something is done about them
+};
+
+/// The newest message.
+class MessageLine {
+ public:
+  /// log: may be null.
+  explicit MessageLine(UiLog* log) : log_(log) {}
+
+  void say(const std::string& text, bool error = false) {
+    constexpr double seconds = 6;
+    current_ = {text, error, clock_seconds() + seconds};
+    if (log_) log_->line("message " + text);
+  }
+  void dismiss() { current_ = {}; }
+  const Message& current() const { return current_; }
+
+ private:
+  UiLog* log_;
+  Message current_;
+};
+
+}  // namespace tyndall

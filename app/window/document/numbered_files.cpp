@@ -1,0 +1,53 @@
+#include "app/window/document/numbered_files.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <utility>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+fs::path numbered_base(const fs::path& folder, const std::string& stem, int least,
+                       const std::vector<const char*>& endings) {
+  for (int number = least;; ++number) {
+    char text[16];
+    std::snprintf(text, sizeof text, "-%03d", number);
+    fs::path base = folder / (stem + text);
+    std::error_code ignored;
+    const auto taken = [&](const char* ending) {
+      return fs::symlink_status(base.string() + ending, ignored).type() != fs::file_type::not_found;
+    };
+    if (std::none_of(endings.begin(), endings.end(), taken)) return base;
+  }
+}
+
+int number_of(const fs::path& base) {
+  const std::string name = base.filename().string();
+  return std::atoi(name.c_str() + name.rfind('-') + 1);
+}
+
+fs::path NumberedFiles::next_base(const std::string& stem) {
+  std::error_code gone;  // the current folder may be; writing then says so
+  fs::path base = numbered_base(fs::current_path(gone), stem, last_ + 1, endings_);
+  last_ = number_of(base);
+  return base;
+}
+
+void NumberedFiles::write(const fs::path& base, std::function<std::string()> work) {
+  jobs_.run([this, base, work = std::move(work)]() -> JobQueue::Result {
+    try {
+      const std::string text = work();
+      return [this, text, base] {
+        messages_.say(text);
+        if (log_) log_->line("saved " + base.string());
+      };
+    } catch (const std::exception& error) {
+      return [this, text = std::string(error.what())] { messages_.say(text, true); };
+    }
+  });
+}
+
+}  // namespace tyndall

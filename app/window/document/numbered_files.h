@@ -1,0 +1,42 @@
+#pragma once
+#include "app/window/document/job_queue.h"
+#include "app/window/document/message.h"
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// FOLDER/STEM-001, or with the first number from `least` on for which no file with one of the endings exists. Without
+/// its ending.
+std::filesystem::path numbered_base(const std::filesystem::path& folder, const std::string& stem, int least,
+                                    const std::vector<const char*>& endings);
+
+/// The number in what numbered_base gave.
+int number_of(const std::filesystem::path& base);
+
+/// Writes files of one kind into the current folder, in the background: numbered, never replacing one, and never giving
+/// a number twice.
+class NumberedFiles {
+ public:
+  /// jobs: may be constructed later, and ends before this. log: may be null.
+  NumberedFiles(std::vector<const char*> endings, JobQueue& jobs, MessageLine& messages, UiLog* log)
+      : endings_(std::move(endings)), jobs_(jobs), messages_(messages), log_(log) {}
+
+  /// The next name: STEM-001, without its ending. Files that are still to be written count as written.
+  std::filesystem::path next_base(const std::string& stem);
+  /// Runs `work` in the background: it writes the files of that base and returns what to tell the user, or throws.
+  void write(const std::filesystem::path& base, std::function<std::string()> work);
+
+ private:
+  std::vector<const char*> endings_;
+  JobQueue& jobs_;
+  MessageLine& messages_;
+  UiLog* log_;
+  int last_ = 0;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,48 @@
+#pragma once
+#include "app/window/panels/split_view.h"
+#include "app/window/session.h"
+#include "app/window/system/display.h"
+#include "app/window/system/mouse.h"
+#include "app/window/system/platform.h"
+
+#include <memory>
+
+namespace tyndall {
+
+/// The picture in the window: which frames are on the screen, how they are shown, and the divider of a split view.
+class PictureView {
+ public:
+  /// Lives within the window's OpenGL context. Throws IoError if the shaders do not compile.
+  explicit PictureView(Session& session);
+
+  /// A frame that is not on the screen yet, the last one of a render if there is one; null: there is none.
+  std::shared_ptr<const Frame> unseen() const;
+  /// Puts the newest frames on the screen, with the next drawing, and tells the session.
+  void take();
+  /// The frame that is on the screen, of the right half in a split view; null: there is none.
+  const std::shared_ptr<const Frame>& shown() const { return right_.frame; }
+
+  /// The divider of a split view and what is said of its halves.
+  void draw_halves(Ui& ui, const Rect& image) const;
+  /// Moves the divider with the mouse. free: nothing else has the mouse. Returns whether the divider has it.
+  bool drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free);
+  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing.
+  void show(Platform& platform, const Rect& image);
+
+ private:
+  /// A half, and what its display holds: its frame or a map of errors.
+  struct Side {
+    std::shared_ptr<const Frame> frame;
+    std::shared_ptr<const void> uploaded;
+    std::unique_ptr<FrameDisplay> display;
+  };
+  bool shows_halves() const;
+  std::string text_of(Half half) const;
+  void upload();
+
+  Session& session_;
+  Side left_, right_;  ///< without a split view all is in right_
+  Divider divider_;
+};
+
+}  // namespace tyndall

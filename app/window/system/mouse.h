@@ -1,0 +1,23 @@
+#pragma once
+
+namespace tyndall {
+
+/// The mouse as one drawing of the window finds it. Places are in window units, y down; the buttons are left, right,
+/// middle.
+struct Mouse {
+  float x = 0, y = 0;
+  float dx = 0, dy = 0;  ///< how far it went since the last drawing
+  float wheel = 0;       ///< notches turned since the last drawing, positive: away from the user
+  bool clicked[3] = {};  ///< pressed since the last drawing, and maybe released again
+  bool down[3] = {};
+  float pressed_x[3] = {}, pressed_y[3] = {};  ///< where each button went down last
+  bool control = false, shift = false;
+  bool taken = false;  ///< a control of the panels or a dialog has it
+
+  bool any_down() const { return down[0] || down[1] || down[2]; }
+};
+
+/// What Dear ImGui knows of the mouse. Within one of its frames.
+Mouse read_mouse();
+
+}  // namespace tyndall

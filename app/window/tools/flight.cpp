@@ -1,0 +1,46 @@
+#include "app/window/tools/flight.h"
+
+#include "app/window/tools/camera_control.h"
+
+#include <algorithm>
+
+namespace tyndall {
+
+std::optional<FlyKey> fly_key(int key) {
+  switch (key) {
+    case 'D':
+      return FlyKey{0, 1};
+    case 'A':
+      return FlyKey{0, -1};
+    case 'E':
+      return FlyKey{1, 1};
+    case 'Q':
+      return FlyKey{1, -1};
+    case 'W':
+      return FlyKey{2, 1};
+    case 'S':
+      return FlyKey{2, -1};
+    default:
+      return {};
+  }
+}
+
+bool holds_fly_key(const std::set<int>& held) {
+  return std::any_of(held.begin(), held.end(), [](int key) { return fly_key(key).has_value(); });
+}
+
+bool Flight::update(const std::set<int>& held, bool fast, double now, Camera& camera) {
+  double way[3] = {0, 0, 0};
+  for (const int key : held)
+    if (const auto direction = fly_key(key)) way[direction->axis] += direction->sign;
+  const bool flies = way[0] != 0 || way[1] != 0 || way[2] != 0;
+  if (flies && last_ >= 0) {
+    const double speed = (fast ? 3.0 : 0.75) * target_distance(camera);  // scene units a second
+    const double step = speed * std::min(now - last_, 0.1);
+    camera = fly(camera, step * way[0], step * way[1], step * way[2]);
+  }
+  last_ = flies ? now : -1;
+  return flies;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,30 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <optional>
+#include <set>
+
+namespace tyndall {
+
+/// A direction of flight: axis 0 right, 1 up, 2 forward; sign 1 or -1.
+struct FlyKey {
+  int axis = 0, sign = 0;
+};
+/// What a key does while it is held; nothing for all but W, A, S, D, Q, E. key: GLFW's number.
+std::optional<FlyKey> fly_key(int key);
+
+/// Flies the camera while keys are held.
+class Flight {
+ public:
+  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; fast: four times as fast. Returns
+  /// whether it flies: then the window is to be drawn again soon.
+  bool update(const std::set<int>& held, bool fast, double now, Camera& camera);
+
+ private:
+  double last_ = -1;  ///< second of the last drawing in flight; < 0: it does not fly
+};
+
+/// Whether a key of flight is among these.
+bool holds_fly_key(const std::set<int>& held);
+
+}  // namespace tyndall

@@ -1,0 +1,63 @@
+#include "app/window/tools/pointer.h"
+
+#include "app/window/tools/camera_control.h"
+#include "app/window/tools/medium_pick.h"
+#include "core/base/math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tyndall {
+
+bool PointerTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, double now, Camera& camera) {
+  const bool over = !mouse.taken && layout.area.contains(mouse.x, mouse.y);
+  if (button_ < 0 && over && free)
+    for (int button = 0; button < 3; ++button)
+      if (mouse.clicked[button]) button_ = button, moved_ = false;
+  if (over) turn_wheel(mouse, now, camera);
+  if (button_ < 0) return false;
+  float dx = mouse.dx, dy = mouse.dy;
+  if (!moved_) {
+    dx = mouse.x - mouse.pressed_x[button_], dy = mouse.y - mouse.pressed_y[button_];
+    moved_ = std::hypot(dx, dy) > 4 * scale;
+  }
+  if (moved_) drag(layout, static_cast<double>(dx), static_cast<double>(dy), camera);
+  if (mouse.down[button_]) return false;
+  const bool clicked = !moved_ && button_ == 0;
+  button_ = -1, moved_ = false;
+  return clicked;
+}
+
+void PointerTool::drag(const Layout& layout, double dx, double dy, Camera& camera) const {
+  const double height = std::max(1.0, static_cast<double>(layout.image.height()));
+  const double x = dx / height, y = dy / height;
+  if (x == 0 && y == 0) return;
+  if (button_ == 0) camera = orbit(camera, pi * x, pi * y);
+  if (button_ == 1) camera = dolly(camera, std::exp(3 * y));
+  if (button_ == 2) camera = pan(camera, -x, y);
+}
+
+void PointerTool::turn_wheel(const Mouse& mouse, double now, Camera& camera) {
+  if (mouse.wheel == 0) return;
+  wheel_time_ = now;
+  const double notches = static_cast<double>(mouse.wheel);
+  camera = mouse.control ? zoom(camera, std::pow(0.95, notches)) : dolly(camera, std::pow(0.9, notches));
+}
+
+PictureClick click_at(const Rect& image, float mouse_x, float mouse_y, int width, int height) {
+  const float x = (mouse_x - image.x0) / image.width(), y = (mouse_y - image.y0) / image.height();
+  const auto pixel = [](float part, int count) {
+    return std::clamp(static_cast<int>(part * static_cast<float>(count)), 0, count - 1);
+  };
+  return {{static_cast<double>(x), static_cast<double>(y)}, pixel(x, width), pixel(y, height)};
+}
+
+ObjectPath clicked_object(const Scene& scene, const Renderer::Pick& pick, ImagePoint at, const ObjectPath& selected) {
+  const bool nothing = pick.object.empty(), again = !nothing && pick.object == selected;
+  const double behind = nothing ? std::numeric_limits<double>::infinity() : pick.depth;
+  const ObjectPath medium = medium_at(scene, at, behind);
+  return (again || nothing) && !medium.empty() ? medium : pick.object;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,20 @@
+#include "app/curves/measure.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+TEST_CASE("chart: the books' method first, each improvement in turn, what a scene has no use for left out") {
+  const auto names = [](const char* scene) {
+    std::string all;
+    for (const ChartMethod& m : default_methods(load_scene(scene).scene)) all += m.name + "; ";
+    return all;
+  };
+  CHECK(names("cornell-smoke").find("the books' method; + light sampling; + MIS; + Sobol'; ") == 0);
+  CHECK(names("cover").find("the books' method; + exact Fresnel; + Sobol'; ") == 0);
+  CHECK(names("cover").find("light sampling") == std::string::npos);
+  CHECK(names("cover").find("+ adaptive; Schlick; ") != std::string::npos);
+  for (const ChartMethod& m : default_methods(load_scene("cover").scene))
+    CHECK(m.settings.adaptive == (m.name == "+ adaptive"));
+}

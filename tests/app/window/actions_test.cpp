@@ -1,0 +1,55 @@
+#include "app/window/actions.h"
+
+#include "app/window/accuracy/views.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace tyndall;
+
+namespace {
+
+std::string effect_of(const std::string& input) {
+  for (const HelpLine& line : help_lines())
+    if (line.input == input) return line.effect;
+  return "no such line";
+}
+
+}  // namespace
+
+TEST_CASE("each shortcut has one action, with exactly its modifiers") {
+  CHECK(command_of_key('Z', {.control = true}) == KeyCommand{Action::undo});
+  CHECK(command_of_key('Z', {.control = true, .shift = true}) == KeyCommand{Action::redo});
+  CHECK(command_of_key('Y', {.control = true}) == KeyCommand{Action::redo});
+  CHECK(command_of_key('S', {.control = true}) == KeyCommand{Action::save});
+  CHECK_FALSE(command_of_key('S', {}).has_value());
+  CHECK_FALSE(command_of_key('Z', {}).has_value());
+  CHECK_FALSE(command_of_key('P', {.control = true, .alt = true}).has_value());
+  CHECK_FALSE(command_of_key(0, {}).has_value());
+}
+
+TEST_CASE("every action of the list has a key of its own, and every view has a digit") {
+  std::set<Action> seen;
+  for (const ActionEntry& entry : actions()) {
+    CHECK_MESSAGE(seen.insert(entry.action).second, entry.name);
+    for (const Key& key : {entry.key, entry.other_key})
+      if (key.code != 0) CHECK(command_of_key(key.code, {key.control, key.shift, false}) == KeyCommand{entry.action});
+  }
+  CHECK(seen.size() == static_cast<std::size_t>(Action::help));  // all but Action::view
+  for (int k = 0; k < view_count; ++k) CHECK(command_of_key('1' + k, {}) == KeyCommand{Action::view, k});
+  CHECK_FALSE(command_of_key('1' + view_count, {}).has_value());
+}
+
+TEST_CASE("the help table tells of every action and every view") {
+  CHECK(effect_of("Left drag") == "orbit");
+  CHECK(effect_of("F, Home") == "frame the selection, reset the camera");
+  CHECK(effect_of("Ctrl + Z, Ctrl + Shift + Z") == "undo, redo");
+  CHECK(effect_of("Ctrl + P") == "snapshot: PNG and EXR, numbered");
+  CHECK(effect_of("1 … 7") == "views: beauty, albedo, normal, depth, noise, samples, cost");
+  CHECK(effect_of("8, 9") == "error and FLIP against the reference or the other half");
+  CHECK(effect_of("F1, H") == "this table");
+  std::string all;
+  for (const HelpLine& line : help_lines()) all += line.effect + "\n";
+  for (const ActionEntry& entry : actions()) CHECK_MESSAGE(all.find(entry.name) != std::string::npos, entry.name);
+}

@@ -1,0 +1,61 @@
+#include "app/window/tools/flight.h"
+
+#include "app/window/tools/camera_control.h"
+#include "app/window/tools/gestures.h"
+
+#include <doctest/doctest.h>
+
+#include <utility>
+
+using namespace tyndall;
+
+TEST_CASE("flight keys are three opposite pairs") {
+  for (const auto& [plus, minus] : {std::pair{'D', 'A'}, {'E', 'Q'}, {'W', 'S'}}) {
+    CHECK(fly_key(plus)->axis == fly_key(minus)->axis);
+    CHECK(fly_key(plus)->sign == -fly_key(minus)->sign);
+  }
+  CHECK_FALSE(fly_key('X').has_value());
+}
+
+TEST_CASE("the camera flies while a key is held, by the time between drawings") {
+  Flight flight;
+  Camera camera;
+  const double distance = target_distance(camera);
+  CHECK(flight.update({'W'}, false, 1, camera));  // no time has passed yet
+  CHECK(camera == Camera());
+  CHECK(flight.update({'W'}, false, 1.05, camera));
+  CHECK(camera.look_from.z == doctest::Approx(-0.05 * 0.75 * distance));
+  CHECK(target_distance(camera) == doctest::Approx(distance));
+  CHECK(flight.update({'W'}, true, 1.1, camera));  // with Shift four times as far
+  CHECK(camera.look_from.z == doctest::Approx(-0.25 * 0.75 * distance));
+  CHECK_FALSE(flight.update({}, false, 1.2, camera));
+}
+
+TEST_CASE("opposite keys and other keys do not fly, and a long drawing makes no leap") {
+  Flight flight;
+  Camera camera;
+  CHECK_FALSE(flight.update({'W', 'S'}, false, 1, camera));
+  CHECK_FALSE(flight.update({'X'}, false, 1, camera));
+  CHECK(holds_fly_key({'X', 'D'}));
+  CHECK_FALSE(holds_fly_key({'X'}));
+  flight.update({'D'}, false, 2, camera);
+  flight.update({'D'}, false, 9, camera);
+  CHECK(camera.look_from.x == doctest::Approx(0.1 * 0.75 * target_distance(camera)));
+}
+
+TEST_CASE("what is held is one gesture, what is not is one each") {
+  Gestures gestures;
+  gestures.update(true);
+  const std::uint64_t first = gestures.current();
+  gestures.update(true);
+  CHECK(gestures.current() == first);
+  gestures.update(false);
+  const std::uint64_t second = gestures.current();
+  CHECK(second != first);
+  gestures.update(false);
+  CHECK(gestures.current() != second);
+  const std::uint64_t before = gestures.current();
+  CHECK(gestures.begin() != before);
+  gestures.update(true);
+  CHECK(gestures.current() != before);
+}
