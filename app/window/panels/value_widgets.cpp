@@ -74,7 +74,8 @@ bool edit_box(Ui& ui, const Row& row, double& value, float width) {
                                       4 * ui.scale);
   ui.edit.started = ui.edit.started || active;
   ++ui.edit.waited;
-  if (!active) ui.wake_in = 0;  // the keyboard reaches it a frame later
+  // The keyboard reaches it a frame later, and shortcuts lose it a frame after that.
+  if (!active || !ImGui::GetIO().WantTextInput) ui.wake_in = 0;
   if (active && !tab) return false;
   if (!ui.edit.started && ui.edit.waited < 6) return false;
   const bool changed = finish_edit(ui, row, value);
