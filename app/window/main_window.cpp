@@ -44,10 +44,15 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
 
 void MainWindow::run() {
   while (!platform_.closing()) {
-    platform_.wait(waiting_time(clock_seconds()));
+    const bool at_rest = log_ && session_.at_rest();  // asked first: a picture that comes later is not missed
+    const double wait = waiting_time(clock_seconds());
+    if (at_rest && wait >= 1) log_->rest();
+    platform_.wait(wait);
     alarm_.rang = false;
     const InputEvents events = platform_.take_events();
     if (events.any || session_.collect()) pacing_.on_event();
+    for (const KeyPress& press : events.keys)
+      if (log_) log_->line("key " + std::to_string(press.key));
     commands_.take(events);
     const double now = clock_seconds();
     if (session_.collect_errors()) pacing_.wake_at(now);
@@ -155,6 +160,7 @@ void MainWindow::draw_interface(const Layout& layout) {
 
 void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const Mouse mouse = read_mouse();
+  if (log_) log_->mouse(mouse);
   const std::set<int>& held = platform_.held();
   PointerTool& pointer = tools_.pointer;
   tools_.gestures.update(mouse.any_down() || holds_fly_key(held) || pointer.is_turning(now));
@@ -217,6 +223,7 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   if (shown) pacing_.on_picture(shown->edit, after);
   if (!log_) return;
   if (shown) log_->shown(*shown, after);
+  log_->changed("size", std::to_string(platform_.width()) + " " + std::to_string(platform_.height()));
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }
 

@@ -73,6 +73,11 @@ bool Session::collect() {
   return true;
 }
 
+bool Session::at_rest() const {
+  const bool known = !timer_.waits() && !editor_.file_changed();
+  return known && renderers_.finished() && loading_.idle() && saving_.idle() && !accuracy_.busy();
+}
+
 void Session::pause(bool paused) {
   renderers_.pause(paused);
   accuracy_.set_resting(renderers_.resting());

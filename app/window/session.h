@@ -42,6 +42,9 @@ class Session {
   bool collect_errors() { return accuracy_.collect(); }
   /// Takes what the background has done, a changed file, a problem of the renderer. Whether anything came.
   bool collect();
+  /// Whether nothing will change until something happens: the pictures are finished, and nothing is being read, written
+  /// or measured.
+  bool at_rest() const;
 
   void pause(bool paused);
   void restart() { renderers_.restart(); }

@@ -1,15 +1,14 @@
 #include "app/window/accuracy/live_accuracy.h"
 
-#include "app/window/system/clock.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace tyndall {
 
-LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result)
-    : measured_{{{ProcessorShare(0.003)},
+LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
+    : clock_(std::move(clock)),
+      measured_{{{ProcessorShare(0.003)},
                  {ProcessorShare(0.003)},
                  {ProcessorShare(0.002)},
                  {ProcessorShare(0.01)},
@@ -167,7 +166,7 @@ LiveAccuracy::PairId LiveAccuracy::id_of(const ComparisonOrder& order) {
 }
 
 void LiveAccuracy::consider() {
-  const double now = clock_seconds();
+  const double now = clock_();
   for (int k = 0; k < task_count; ++k) {
     const Task task = static_cast<Task>(k);
     if (!busy_[is_slow(task)] && due(task, now)) start(task, now);

@@ -3,6 +3,7 @@
 #include "app/window/accuracy/comparison.h"
 #include "app/window/accuracy/half.h"
 #include "app/window/document/job_queue.h"
+#include "app/window/system/clock.h"
 
 #include <array>
 #include <functional>
@@ -31,8 +32,8 @@ struct PairErrors {
 /// which takes 10 %. For the main thread.
 class LiveAccuracy {
  public:
-  /// on_result: called from another thread when collect() has something to do.
-  explicit LiveAccuracy(const std::function<void()>& on_result);
+  /// on_result: called from another thread when collect() has something to do; clock: seconds that never go back.
+  explicit LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock = clock_seconds);
 
   void set_reference(std::shared_ptr<const Reference> reference);  ///< null: none
   const std::shared_ptr<const Reference>& reference() const { return reference_; }
@@ -55,6 +56,8 @@ class LiveAccuracy {
   void shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest);
   /// Takes what was measured. Whether it is to be shown before the next picture comes: a map, or the last numbers.
   bool collect();
+  /// Something is being measured, or was and is not collected yet.
+  bool busy() const { return busy_[0] || busy_[1]; }
 
   /// True errors are shown, else estimated ones.
   bool is_true() const;
@@ -104,6 +107,7 @@ class LiveAccuracy {
   Side& side(Half half) { return sides_[static_cast<std::size_t>(half)]; }
   const Side& side(Half half) const { return sides_[static_cast<std::size_t>(half)]; }
 
+  std::function<double()> clock_;
   std::shared_ptr<const Reference> reference_;
   ErrorView view_ = ErrorView::none;
   bool split_ = false, resting_ = false, news_ = false;

@@ -29,6 +29,7 @@ RendererPair::Begun RendererPair::submit(const Scene& scene) {
 }
 
 void RendererPair::restart() {
+  if (const auto frame = renderer_.latest()) restarted_after_ = frame->pass;
   renderer_.restart();
   if (second_) second_->restart();
 }
@@ -80,6 +81,15 @@ void RendererPair::set_view(View view) {
 std::shared_ptr<const Frame> RendererPair::latest(Half half) const {
   if (half == Half::current) return renderer_.latest();
   return second_ ? second_->latest() : nullptr;
+}
+
+bool RendererPair::finished() const {
+  const auto ended = [this](Half half) {
+    const auto frame = latest(half);
+    return frame && frame->edit == edit(half) && frame->finished && frame->view == view_;
+  };
+  const bool current = ended(Half::current) && renderer_.latest()->pass > restarted_after_;
+  return current && (!second_ || ended(Half::kept));
 }
 
 bool RendererPair::resting() const {

@@ -51,6 +51,9 @@ class RendererPair {
   std::uint64_t edit(Half half) const { return half == Half::kept ? kept_edit_ : edit_.load(); }
   /// Nothing renders: paused, or all pictures are finished.
   bool resting() const;
+  /// Whether the newest pictures of all halves are finished, in the chosen view: no other frame comes by itself. A
+  /// paused picture is not finished.
+  bool finished() const;
   /// Of the current half, see Renderer; the film from any thread.
   Film film() const { return renderer_.film(); }
   Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
@@ -67,6 +70,7 @@ class RendererPair {
   std::atomic<std::uint64_t> edit_ = 0;
   RenderSettings kept_;  ///< of the left half
   std::uint64_t kept_edit_ = 0;
+  std::uint64_t restarted_after_ = 0;  ///< the newest pass of the current half when it was last started over
   FairShare share_{renderer_};
   Renderer renderer_;
   std::shared_ptr<Renderer> second_;  ///< of the left half; null: there is no split view

@@ -94,6 +94,7 @@ void Editor::reload() {
   read_in_background([this, file, first]() -> JobQueue::Result {
     Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
     return [this, file, next = std::move(next)] {
+      if (log_) log_->line("read " + file.string());
       if (document().origin->file == file) show(next, true);
     };
   });

@@ -54,6 +54,8 @@ class Editor {
   void read_in_background(const std::function<JobQueue::Result()>& read);
   /// Reads the file again, in the background, if another program has changed it. Whether it had.
   bool collect();
+  /// Whether the file was changed and collect() has not been called since.
+  bool file_changed() const { return file_changed_; }
 
  private:
   void show(Document document, bool own_file);

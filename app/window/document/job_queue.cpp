@@ -13,6 +13,7 @@ JobQueue::~JobQueue() {
 }
 
 void JobQueue::run(Job job) {
+  ++open_;
   const std::lock_guard lock(mutex_);
   jobs_.push_back(std::move(job));
   wake_.notify_one();
@@ -24,6 +25,7 @@ bool JobQueue::collect() {
     const std::lock_guard lock(mutex_);
     results.swap(results_);
   }
+  open_ -= results.size();
   for (const Result& result : results)
     if (result) result();
   return !results.empty();

@@ -25,6 +25,8 @@ class JobQueue {
   void run(Job job);
   /// Calls the results that have come; whether there were any. For the main thread.
   bool collect();
+  /// Whether the results of all jobs were collected. For the main thread.
+  bool idle() const { return open_ == 0; }
 
  private:
   void work(const std::stop_token& stop);
@@ -34,7 +36,8 @@ class JobQueue {
   std::condition_variable_any wake_;
   std::deque<Job> jobs_;
   std::vector<Result> results_;
-  std::jthread thread_;  // last: it uses the others
+  std::size_t open_ = 0;  ///< jobs whose results were not collected; the main thread's
+  std::jthread thread_;   // last: it uses the others
 };
 
 }  // namespace tyndall

@@ -24,7 +24,10 @@ class MessageLine {
     current_ = {text, error, clock_seconds() + seconds};
     if (log_) log_->line("message " + text);
   }
-  void dismiss() { current_ = {}; }
+  void dismiss() {
+    if (log_ && !current_.text.empty()) log_->line("message");
+    current_ = {};
+  }
   const Message& current() const { return current_; }
 
  private:

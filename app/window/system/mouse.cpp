@@ -18,6 +18,7 @@ Mouse read_mouse() {
   }
   mouse.control = io.KeyCtrl, mouse.shift = io.KeyShift;
   mouse.taken = io.WantCaptureMouse;
+  mouse.typing = io.WantTextInput;
   return mouse;
 }
 

@@ -12,7 +12,8 @@ struct Mouse {
   bool down[3] = {};
   float pressed_x[3] = {}, pressed_y[3] = {};  ///< where each button went down last
   bool control = false, shift = false;
-  bool taken = false;  ///< a control of the panels or a dialog has it
+  bool taken = false;   ///< a control of the panels or a dialog has it
+  bool typing = false;  ///< a control has the keyboard
 
   bool any_down() const { return down[0] || down[1] || down[2]; }
 };

@@ -40,6 +40,7 @@ UiLog::~UiLog() {
 }
 
 void UiLog::line(const std::string& text) {
+  resting_ = false;
   std::fprintf(stream_, "%s\n", text.c_str());
   std::fflush(stream_);
 }
@@ -97,6 +98,21 @@ void UiLog::shown(const Frame& frame, double now) {
 void UiLog::drawn(double cpu_seconds, bool picture) {
   (picture ? cpu_picture_ : cpu_plain_).push_back(1e3 * cpu_seconds);
   line(printed("drawn %.2f %d", 1e3 * cpu_seconds, picture ? 1 : 0));
+}
+
+void UiLog::mouse(const Mouse& mouse) {
+  const bool somewhere = mouse.x > -1e6f && mouse.y > -1e6f;
+  const double x = static_cast<double>(mouse.x), y = static_cast<double>(mouse.y);
+  changed("mouse", somewhere ? printed("%.0f %.0f", x, y) : "none");
+  changed("buttons", printed("%d %d %d", mouse.down[0], mouse.down[1], mouse.down[2]));
+  changed("keyboard", mouse.typing ? "control" : "shortcuts");
+  if (mouse.wheel != 0) line(printed("wheel %.0f", static_cast<double>(mouse.wheel)));
+}
+
+void UiLog::rest() {
+  if (resting_) return;
+  line("rest");
+  resting_ = true;
 }
 
 void UiLog::changed(const std::string& kind, const std::string& value) {

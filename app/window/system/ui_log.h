@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/system/layout.h"
+#include "app/window/system/mouse.h"
 #include "core/render/renderer.h"
 
 #include <cstdint>
@@ -25,8 +26,18 @@ namespace tyndall {
 ///   accuracy TEXT                    the lines beneath the chart
 ///   halves A SECONDS B SECONDS       of rendering, in a split view
 ///   cursor plain|divider
-///   message TEXT                     what the user is told
+///   message TEXT                     what the user is told; without TEXT: it has gone from the screen
 ///   saved FILE
+///   read FILE                        the open file had changed and was read again
+/// What the window took in, so that a test can wait until what it sent has arrived and a drawing has shown it:
+///   mouse X Y                        the pointer in this drawing, in window coordinates; or "mouse none"
+///   buttons LEFT RIGHT MIDDLE        in this drawing, each 1 where it is held down, else 0
+///   keyboard control|shortcuts       who gets what is typed: a control that is being edited, or the shortcuts
+///   key NUMBER                       a key was pressed, with GLFW's number; modifiers are keys too
+///   wheel STEPS
+///   size WIDTH HEIGHT                of the window
+///   rest                             all of it was shown and the picture is finished: nothing will be drawn, rendered,
+///                                    read or measured for the next second unless something happens
 /// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms.
 class UiLog {
  public:
@@ -46,6 +57,10 @@ class UiLog {
   /// now: seconds, after the picture was put on the screen.
   void shown(const Frame& frame, double now);
   void drawn(double cpu_seconds, bool picture);
+  /// Where the mouse is (far below 0: nowhere), which of its buttons are down, and what its wheel did.
+  void mouse(const Mouse& mouse);
+  /// The window is at rest; written once until another line follows.
+  void rest();
   /// A line that is written only when it differs from the last one of the same kind.
   void changed(const std::string& kind, const std::string& value);
 
@@ -63,6 +78,7 @@ class UiLog {
   std::map<std::uint64_t, double> submits_;  ///< of the edit that is shown and newer ones
   std::vector<double> latencies_, cpu_picture_, cpu_plain_;
   std::uint64_t drawing_ = 1, shown_ = 0, pass_ = 0;
+  bool resting_ = false;  ///< "rest" is the last line
 };
 
 /// The value below which a share q in [0, 1] of the values lies; 0 for none. Sorts.

@@ -5,6 +5,7 @@
 #include "app/window/system/ui_log.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/news.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
@@ -34,12 +35,6 @@ std::string read(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
-}
-
-template <class Condition>
-bool comes_true(const Condition& condition) {
-  for (int k = 0; k < 500 && !condition(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  return condition();
 }
 
 }  // namespace
@@ -111,16 +106,16 @@ TEST_CASE("a film is waited for, but not when the picture changed or the window 
 TEST_CASE("a watched file tells of writing and of renaming over it, not of its neighbours") {
   const fs::path folder = scratch("watch");
   write(folder / "a.json", "1");
-  std::atomic<int> told = 0;
-  const FileWatch watch(folder / "a.json", [&] { ++told; });
-  write(folder / "b.json", "2");
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  CHECK(told == 0);
+  test::News news;
+  const FileWatch watch(folder / "a.json", [&] { news.tell(); });
+  for (int k = 0; k < 100; ++k) write(folder / "b.json", "2");
+  CHECK(news.told() == 0);
   write(folder / "a.json", "3");
-  CHECK(comes_true([&] { return told > 0; }));
-  told = 0;
+  CHECK(news.wait_until([&] { return news.told() > 0; }));
+  CHECK(news.told() == 1);  // what happens in the folder is told in order: none was for the neighbour
   fs::rename(folder / "b.json", folder / "a.json");
-  CHECK(comes_true([&] { return told > 0; }));
+  CHECK(news.wait_until([&] { return news.told() > 1; }));
+  CHECK(news.told() == 2);
 }
 
 TEST_CASE("a folder that is not there is watched without harm") {
@@ -129,21 +124,25 @@ TEST_CASE("a folder that is not there is watched without harm") {
 
 TEST_CASE("jobs run in order elsewhere, results here, and none is lost at the end") {
   std::vector<int> order;
-  std::atomic<int> ran = 0, signals = 0;
+  std::atomic<int> ran = 0;
+  test::News news;
   {
-    JobQueue jobs([&] { ++signals; });
+    JobQueue jobs([&] { news.tell(); });
+    CHECK(jobs.idle());
     for (int k = 0; k < 3; ++k)
       jobs.run([&, k]() -> JobQueue::Result {
         ++ran;
         return [&, k] { order.push_back(k); };
       });
-    CHECK(comes_true([&] { return signals == 3; }));
+    CHECK(news.wait_until([&] { return news.told() == 3; }));
     CHECK(order.empty());
+    CHECK_FALSE(jobs.idle());
     jobs.collect();
+    CHECK(jobs.idle());
     CHECK(order == std::vector<int>{0, 1, 2});
     for (int k = 0; k < 3; ++k)
       jobs.run([&]() -> JobQueue::Result {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the queue goes before
         ++ran;
         return {};
       });
@@ -173,10 +172,22 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
     frame.edit = 2;
     log.shown(frame, 10.6);
     log.drawn(0.002, true);
+    Mouse mouse;
+    mouse.x = mouse.y = -3e38f;
+    log.mouse(mouse);
+    mouse.x = 12, mouse.y = 34, mouse.down[0] = true, mouse.typing = true;
+    log.mouse(mouse);
+    mouse.down[0] = false, mouse.wheel = -1;
+    log.mouse(mouse);
+    for (int k = 0; k < 2; ++k) log.rest();
+    log.line("key 82");
+    log.rest();
   }
   CHECK(read(file) ==
         "widget gold.fuzz 1 2 3 4 0.1\nwidget a_name 0 0 1 1 x\ngone a_name\nwidget gold.fuzz 1 2 3 4 0.2\n"
         "submit 1\nsubmit 2\nframe 1 0 8 20.0 15.0\nframe 1 1 1 50.0 15.0\nframe 2 1 1 100.0 15.0\ndrawn 2.00 1\n"
+        "mouse none\nbuttons 0 0 0\nkeyboard shortcuts\nmouse 12 34\nbuttons 1 0 0\nkeyboard control\n"
+        "buttons 0 0 0\nwheel -1\nrest\nkey 82\nrest\n"
         "latency n 2 p50 20.0 p95 100.0 p99 100.0 max 100.0 ms\n"
         "cpu picture n 1 p50 2.0 p95 2.0 p99 2.0 max 2.0 ms\ncpu plain n 0 p50 0.0 p95 0.0 p99 0.0 max 0.0 ms\n");
   CHECK_THROWS_AS(UiLog("/no/such/folder/log"), std::exception);

@@ -1,16 +1,15 @@
 #include "app/window/session.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/news.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <thread>
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -30,9 +29,10 @@ class Opened {
     options.scene = load_scene("scene.json");
     options.threads = 1;
     session = std::make_unique<Session>(
-        options, [] {},
+        options, [this] { news.tell(); },
         [this] {
           ++frames;
+          news.tell();
           const std::lock_guard wait(gate);
         },
         nullptr);
@@ -57,13 +57,12 @@ class Opened {
   }
   template <class Condition>
   bool comes_true(const Condition& condition) {
-    for (int k = 0; k < 1000 && !condition(); ++k) {
+    return news.wait_until([&] {
       session->collect();
       session->collect_errors();
       session->send(1e9);  // out of patience
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return condition();
+      return condition();
+    });
   }
   bool finishes() {
     return comes_true([&] {
@@ -73,6 +72,7 @@ class Opened {
     });
   }
 
+  test::News news;
   std::mutex gate;  ///< holds the renderer after its next frame
   std::atomic<int> frames = 0;
   std::unique_ptr<Session> session;
@@ -119,7 +119,7 @@ TEST_CASE("while a picture is awaited the newest scene waits, and none between i
     const std::lock_guard hold(opened.gate);
     const int before = opened.frames;
     opened.session->restart();
-    while (opened.frames == before) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    REQUIRE(opened.news.wait_until([&] { return opened.frames != before; }));
     // The renderer has shown the first edit and stands still.
     opened.set_fuzz(0.3, 7);
     CHECK(opened.session->send(0));
@@ -184,7 +184,9 @@ TEST_CASE("saving is no edit, and is not read again as one") {
   const std::uint64_t edits = opened.session->renderers().edit(Half::current);
   opened.session->editor().save(opened.session->editor().document().origin->file);
   CHECK_FALSE(edited(opened.session->editor().document()));
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto saved = opened.session->editor().document().origin;
+  // The file was read again.
+  REQUIRE(opened.comes_true([&] { return opened.session->editor().document().origin != saved; }));
   REQUIRE(opened.finishes());
   CHECK(opened.session->renderers().edit(Half::current) == edits);
   CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[0].kind).fuzz == 0.5);

@@ -1,9 +1,15 @@
 #include "app/window/accuracy/fair_share.h"
 
+#include "tests/support/news.h"
+#include "tests/support/pictures.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
+#include <vector>
 
 using namespace tyndall;
 
@@ -21,6 +27,65 @@ double greatest_lead(double first_pass, double second_pass, bool together) {
   }
   return greatest;
 }
+
+/// Two renderers that share threads, and how far each was ahead of the other when it began a pass.
+class Sharing {
+ public:
+  explicit Sharing(int threads) {
+    second_ = std::make_unique<Renderer>(Renderer::Options{threads, ""}, [this] { on_frame(true); });
+    share_.set_threads(threads);
+    share_.share_with(second_.get());
+    first_.submit(test::small_scene("cornell-box", 60, 60, 1000000));
+    second_->submit(test::small_scene("cornell-box", 60, 60, 1000000));
+  }
+  ~Sharing() {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;  // one renderer goes before the other
+    }
+    share_.share_with(nullptr);
+  }
+  Sharing(const Sharing&) = delete;
+  Sharing& operator=(const Sharing&) = delete;
+
+  /// Waits until each has rendered that many passes.
+  bool both_make(int passes) {
+    return news_.wait_until([&] {
+      const std::lock_guard lock(mutex_);
+      return passes_[0] >= passes && passes_[1] >= passes;
+    });
+  }
+  /// Seconds, of those passes that began after the other had begun too.
+  double greatest_lead() const {
+    const std::lock_guard lock(mutex_);
+    return greatest_;
+  }
+
+ private:
+  void on_frame(bool second) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (ended_) return;
+      const auto mine = (second ? *second_ : first_).latest(), other = (second ? first_ : *second_).latest();
+      double& before = seconds_[second];
+      // The other one may have gone on since this pass began: its lead was at least this.
+      if (mine && other && before > 0) greatest_ = std::max(greatest_, before - other->seconds);
+      if (mine) before = mine->seconds;
+      ++passes_[second];
+    }
+    share_.on_frame();
+    news_.tell();
+  }
+
+  mutable std::mutex mutex_;
+  double seconds_[2] = {0, 0}, greatest_ = 0;
+  int passes_[2] = {0, 0};
+  bool ended_ = false;
+  test::News news_;
+  FairShare share_{first_};
+  Renderer first_{{1, ""}, [this] { on_frame(false); }};
+  std::unique_ptr<Renderer> second_;  // last: stopped first
+};
 
 }  // namespace
 
@@ -40,6 +105,14 @@ TEST_CASE("in turns one works at a time; side by side both, unless one is far ah
   CHECK(next_turn(Turn::both, {1, false}, {1.2, false}, false) == Turn::first);
   CHECK(next_turn(Turn::first, {1.4, false}, {1.2, false}, false) == Turn::first);
   CHECK(next_turn(Turn::first, {1.6, false}, {1.2, false}, false) == Turn::second);
+}
+
+TEST_CASE("renderers that share threads begin no pass while they are well ahead, however slow the machine is") {
+  for (const int threads : {1, 2}) {
+    Sharing sharing(threads);
+    REQUIRE(sharing.both_make(12));
+    CHECK(sharing.greatest_lead() < 0.5 + 1e-9);
+  }
 }
 
 TEST_CASE("one that has finished keeps nobody waiting") {

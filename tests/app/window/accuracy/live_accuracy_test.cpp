@@ -1,12 +1,11 @@
 #include "app/window/accuracy/live_accuracy.h"
 
 #include "app/window/panels/panels.h"
+#include "tests/support/news.h"
 
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 using namespace tyndall;
 
@@ -44,7 +43,9 @@ std::shared_ptr<const Reference> reference(float grey, const Scene& scene) {
 }
 
 struct Watched {
-  LiveAccuracy accuracy{[] {}};
+  test::News news;
+  double now = 0;  ///< seconds; they do not pass by themselves
+  LiveAccuracy accuracy{[this] { news.tell(); }, [this] { return now; }};
 
   Watched() { accuracy.set_scene(Half::current, scene_with(40)); }
   void show(const std::shared_ptr<Frame>& frame, Half half = Half::current, bool resting = true) {
@@ -53,11 +54,10 @@ struct Watched {
   }
   template <class Condition>
   bool comes_true(const Condition& condition) {
-    for (int k = 0; k < 1000 && !condition(); ++k) {
+    return news.wait_until([&] {
       accuracy.collect();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return condition();
+      return condition();
+    });
   }
   const std::vector<ErrorPoint>& points(Half half = Half::current) { return accuracy.curves(half).current().points; }
   std::string lines() {
@@ -116,8 +116,7 @@ TEST_CASE("a picture of the scene before is not measured against the reference o
   Watched w;
   w.accuracy.set_reference(reference(1, scene_with(40, 9)));
   w.accuracy.shown(Half::current, picture(1.5f, 1, 1), "mis", false);
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  w.accuracy.collect();
+  CHECK_FALSE(w.accuracy.busy());
   CHECK_FALSE(w.accuracy.pair().flip);
   CHECK(w.points().empty());
   w.show(picture(1.1f, 2, 1));
@@ -180,13 +179,15 @@ TEST_CASE("halves are measured against each other, and each against the referenc
 TEST_CASE("while it renders, a new picture is not always measured at once") {
   Watched w;
   w.accuracy.set_reference(reference(1, scene_with(40, 9)));
-  int measured = 0;
-  for (int k = 0; k < 300; ++k) {
-    w.show(picture(1.1f + 0.001f * static_cast<float>(k), 1, 1 + 0.001 * k), Half::current, false);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    w.accuracy.collect();
-  }
-  REQUIRE(w.comes_true([&] { return !w.points().empty(); }));
-  measured = static_cast<int>(w.points().size());
-  CHECK(measured < 250);
+  const auto show_and_measure = [&](double seconds) {
+    w.show(picture(1.1f + 0.1f * static_cast<float>(seconds), 1, seconds), Half::current, false);
+    REQUIRE(w.comes_true([&] { return !w.accuracy.busy(); }));
+    return w.points().size();
+  };
+  CHECK(show_and_measure(1) == 1);
+  for (int k = 1; k < 250; ++k) CHECK(show_and_measure(1 + 0.001 * k) == 1);  // its share of this time is used up
+  CHECK(show_and_measure(1.3) == 2);  // a curve that begins has points close to each other
+  w.now += 1000;
+  CHECK(show_and_measure(1.6) == 3);
+  CHECK(show_and_measure(1.61) == 3);
 }
