@@ -40,7 +40,7 @@ for file in no.png no.exr; do [ ! -e "$file" ] || fail "$file was written"; done
 # Ctrl-C: the picture so far, with the mean of its samples.
 "$tyndall" render "${scene[@]}" --spp 10000000 --adaptive -o long.png --stats long.json -q &
 render=$! code=0
-sleep 1.5
+wait_worked "$render" 2
 kill -INT "$render"
 wait "$render" || code=$?
 same 'exit code after Ctrl-C' "$code" 130

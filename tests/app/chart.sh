@@ -26,9 +26,10 @@ complains nowhere
 
 # Ctrl-C writes what there is.
 "$tyndall" chart cornell-box --size 32x32 --budget 20 -q --reference reference.pfm -o cut.svg >out 2>err &
-sleep 3
-kill -INT $!
-wait $!
-[ $? -eq 130 ] || fail 'exit code after Ctrl-C'
+chart=$! code=0
+wait_worked "$chart" 4
+kill -INT "$chart"
+wait "$chart" || code=$?
+[ "$code" -eq 130 ] || fail 'exit code after Ctrl-C'
 [ -s cut.svg ] && [ "$(wc -l <cut.csv)" -gt 3 ] || fail "nothing written at Ctrl-C: $(cat err)"
 exit $((failures > 0))

@@ -5,12 +5,12 @@
 files=(long.png)
 if has_exr; then files+=(long.exr); fi
 
-# interrupted SIGNAL CODE: a long render that gets the signal after a second.
+# interrupted SIGNAL CODE: a long render that gets the signal after a while.
 interrupted() {
   rm -f long.*
   "$tyndall" render cornell-box --size 64x64 --spp 10000000 "${files[@]/#/--output=}" --stats long.json -q &
   local render=$! code=0
-  sleep 1.5
+  wait_worked "$render" 2
   kill -"$1" "$render"
   wait "$render" || code=$?
   [ "$code" -eq "$2" ] || fail "SIG$1: exit code $code instead of $2"
@@ -34,7 +34,7 @@ fi
 # The second signal ends at once, even where the first one cannot be heeded.
 "$tyndall" render cornell-box --size 64x64 --spp 10000000 -o twice.png -q &
 render=$!
-sleep 1
+wait_worked "$render" 2
 kill -STOP "$render"
 kill -TERM "$render"
 kill -INT "$render"

@@ -35,7 +35,7 @@ TEST_CASE("edits: of 300 quick ones the newest is shown, each frame whole and of
   for (int i = 1; i <= 300; ++i) {
     edit = renderer->submit(plain(i));
     CHECK(edit == static_cast<std::uint64_t>(i));
-    if (i % 20 == 0) sleep_ms(3);
+    if (i % 20 == 0) let_it_work(std::chrono::milliseconds(3));
   }
   renderer.wait_finished(edit);
   std::uint64_t before = 0;
@@ -54,7 +54,7 @@ TEST_CASE("edits: of 1000 cameras in the middle of passes nothing is left in the
   for (int i = 0; i < 1000; ++i) {
     scene.camera.look_from.x += 0.01 * (i % 7 - 3);
     edit = renderer->submit(scene);
-    if (i % 9 == 0) sleep_ms(i % 4);
+    if (i % 9 == 0) let_it_work(std::chrono::milliseconds(i % 4));
   }
   renderer.wait_finished(edit);
   CHECK(rgb_of(*renderer->latest()) == reference_picture(scene));
@@ -100,7 +100,7 @@ TEST_CASE("edits: what is equal, or differs in name and display only, restarts n
   CHECK(renderer->submit(scene) == edit);
   renderer->set_view(View::beauty);
   renderer->set_threads(2);
-  sleep_ms(50);
+  renderer.catch_up();
   CHECK(renderer->latest()->pass == pass);
   scene.render.seed = 1;
   CHECK(renderer->submit(scene) == edit + 1);
@@ -175,21 +175,24 @@ TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene
   CHECK_FALSE(renderer->paused());
   renderer->pause(true);
   CHECK(renderer->paused());
-  sleep_ms(400);  // the pass that is under way ends
+  renderer.catch_up();  // the pass that is under way ends
   const std::uint64_t pass = renderer->latest()->pass;
-  const double seconds = renderer->latest()->seconds;
-  sleep_ms(100);
+  renderer.catch_up();
   CHECK(renderer->latest()->pass == pass);
   scene.camera.look_from.x += 50;
+  const double submitted = wall_seconds();
   const std::uint64_t edit = renderer->submit(scene);
   const FramePointer shown = renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.spp == 1; });
   CHECK_FALSE(shown->finished);
-  sleep_ms(50);
+  const double until_shown = wall_seconds() - submitted;
+  renderer.catch_up();
   CHECK(renderer->latest()->spp == 1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // a pause, however long
   const std::size_t before = renderer.frames().size();
+  const double resumed = wall_seconds();
   renderer->pause(false);
   const FramePointer next = renderer.wait_for([](const Frame& f) { return f.spp > 1; }, before);
-  CHECK(next->seconds < seconds + 0.3);  // pauses are no rendering time
+  CHECK(next->seconds <= until_shown + wall_seconds() - resumed);  // pauses are no rendering time
 }
 
 TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and says what is wrong") {
@@ -201,8 +204,7 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
   gigantic.width = gigantic.height = 2000000000;  // no machine has the memory
   for (int round = 0; round < 2; ++round) {
     const std::uint64_t bad = renderer->submit(gigantic);
-    for (int i = 0; i < 10000 && !(renderer->problem() && renderer->problem()->edit == bad); ++i) sleep_ms(1);
-    REQUIRE(renderer->problem());
+    renderer.wait_until([&] { return renderer->problem() && renderer->problem()->edit == bad; });
     CHECK(renderer->problem()->edit == bad);
     CHECK(renderer->problem()->what.size() > 0);
     CHECK(is_plain(*renderer->latest(), 2));
@@ -225,15 +227,17 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
 }
 
 TEST_CASE("edits: the renderer may go while it renders, at once") {
+  double going = 0;  // seconds of processor time
   for (int round = 0; round < 20; ++round) {
-    const auto start = std::chrono::steady_clock::now();
-    {
-      Renderer renderer({2, ""});
-      renderer.submit(small_scene(round % 2 ? "next-week" : "showroom", 300, 200, 100000));
-      sleep_ms(round);
-    }
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
+    auto renderer = std::make_unique<WatchedRenderer>();
+    (*renderer)->submit(small_scene(round % 2 ? "next-week" : "showroom", 300, 200, 100000));
+    renderer->wait_for([&](const Frame& f) { return f.pass > static_cast<std::uint64_t>(round % 8); });
+    let_it_work(std::chrono::milliseconds(round));
+    const double before = cpu_seconds();
+    renderer.reset();
+    going += cpu_seconds() - before;
   }
+  CHECK(going < 0.5);
   Renderer idle({1, ""});  // never used
   CHECK(idle.latest() == nullptr);
   CHECK(idle.problem() == nullptr);

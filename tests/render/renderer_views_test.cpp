@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
-#include <thread>
 
 /// Views, picking, films, and doing nothing when there is nothing to do.
 using namespace tyndall;
@@ -37,9 +35,6 @@ Vec3f pixel(const Frame& frame, int x, int y) {
   const float* p = frame.rgba.data() + 4 * (y * frame.width + x);
   return {p[0], p[1], p[2]};
 }
-
-/// Seconds of processor time that the whole process has used.
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -95,7 +90,7 @@ TEST_CASE("views: the costs of the last scene stay until those of the new one ar
   for (int i = 0; i < 30; ++i) {
     scene.camera.look_at.x += 0.01;
     edit = renderer->submit(scene);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    let_it_work(std::chrono::milliseconds(5));
   }
   renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.finished; }, before);
   const auto frames = renderer.frames();
@@ -103,13 +98,14 @@ TEST_CASE("views: the costs of the last scene stay until those of the new one ar
 }
 
 TEST_CASE("pick: the object's path, how deep it is, and where") {
-  Renderer renderer({1, ""});
+  WatchedRenderer watched(1);
+  Renderer& renderer = *watched;
   Scene scene = wall_and_ball();
   scene.objects[1].transform = {Translate{{-1 + 1e5, 0, -3}}};  // far from the origin the point keeps its digits
   scene.objects[2].transform = {Translate{{1e5, 0, 0}}};
   scene.camera.look_from.x = scene.camera.look_at.x = 1e5;
   renderer.submit(scene);
-  while (!renderer.latest()) sleep_ms(1);
+  watched.wait_for([](const Frame&) { return true; });
   const Renderer::Pick ball = renderer.pick(27, 30), wall = renderer.pick(50, 10), sky = renderer.pick(88, 30);
   CHECK(ball.object == std::vector<int>{1, 0});
   CHECK(ball.depth == doctest::Approx(2.5).epsilon(0.01));
@@ -126,9 +122,10 @@ TEST_CASE("pick: the object's path, how deep it is, and where") {
 
 TEST_CASE("film: a copy of what was gathered, the same number of samples everywhere") {
   Scene scene = small_scene("showroom", 120, 90, 1000000);
-  Renderer renderer({2, ""});
+  WatchedRenderer watched;
+  Renderer& renderer = *watched;
   renderer.submit(scene);
-  while (!renderer.latest() || renderer.latest()->spp < 1) sleep_ms(1);
+  watched.wait_for([](const Frame& f) { return f.spp >= 1; });
   for (int i = 0; i < 5; ++i) {
     const Film film = renderer.film();
     const FilmTotals t = totals(film);
@@ -143,11 +140,6 @@ TEST_CASE("film: a copy of what was gathered, the same number of samples everywh
 
 TEST_CASE("idle: a renderer that is finished, paused or unused takes no processor time") {
   const Scene scene = small_scene("showroom", 200, 150, 2);
-  const auto used_in_300_ms = [] {
-    const double before = cpu_seconds();
-    sleep_ms(300);
-    return cpu_seconds() - before;
-  };
   WatchedRenderer unused, finished, paused;
   finished.wait_finished(finished->submit(scene));
   Scene endless = scene;
@@ -155,6 +147,10 @@ TEST_CASE("idle: a renderer that is finished, paused or unused takes no processo
   paused->submit(endless);
   paused.wait_for([](const Frame& f) { return f.spp >= 2; });
   paused->pause(true);
-  sleep_ms(400);
-  CHECK(used_in_300_ms() < 0.03);
+  for (WatchedRenderer* renderer : {&unused, &finished, &paused}) renderer->catch_up();
+  const std::size_t calls = unused.calls() + finished.calls() + paused.calls();
+  const double before = cpu_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // not to wait for anything: the time that is looked at
+  CHECK(cpu_seconds() - before < 0.03);
+  CHECK(unused.calls() + finished.calls() + paused.calls() == calls);
 }

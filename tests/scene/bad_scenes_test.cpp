@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
+#include <ctime>
 
 using namespace tyndall;
 
@@ -64,10 +64,10 @@ TEST_CASE("bad scenes: what a file cannot show") {
 }
 
 TEST_CASE("bad scenes: nesting is refused before it is built, 64 levels are not") {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // processor time
   const std::string deep = complaint(std::string(1000000, '['));
   const auto more = complaint("{ \"tyndall\": 1, \"objects\": " + std::string(1000000, '['));
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
+  CHECK(std::clock() - start < 2 * CLOCKS_PER_SEC);
   CHECK(deep == "/0/0/0/…: found brackets nested more than 64 deep, expected at most 64 levels");
   CHECK(more == "/objects/0/0/…: found brackets nested more than 64 deep, expected at most 64 levels");
   const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };

@@ -6,9 +6,11 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <ctime>
 #include <mutex>
+#include <thread>
 
-/// A Renderer that remembers every frame it has published.
+/// A Renderer that remembers every frame it has published. Tests wait for frames, never for a time.
 namespace tyndall::test {
 
 using FramePointer = std::shared_ptr<const Frame>;
@@ -21,7 +23,8 @@ class WatchedRenderer {
   Renderer& operator*() { return renderer_; }
   Renderer* operator->() { return &renderer_; }
 
-  /// The first frame, from the `skip`-th on, that the condition holds for; waits for it. Null after 60 s.
+  /// The first frame, from the `skip`-th on, that the condition holds for; waits for it. Fails after 60 s, which only
+  /// ends a test that hangs.
   template <class Condition>
   FramePointer wait_for(Condition condition, std::size_t skip = 0) {
     std::unique_lock lock(mutex_);
@@ -36,6 +39,19 @@ class WatchedRenderer {
   }
   FramePointer wait_finished(std::uint64_t edit, std::size_t skip = 0) {
     return wait_for([&](const Frame& f) { return f.edit == edit && f.finished; }, skip);
+  }
+  /// Waits until the condition holds; it is asked again after each frame and problem.
+  template <class Condition>
+  void wait_until(Condition condition) {
+    std::unique_lock lock(mutex_);
+    if (!news_.wait_for(lock, std::chrono::seconds(60), condition)) FAIL("it did not come true within a minute");
+  }
+  /// Waits until all that the renderer was told before has been done; a finished or paused one then stands still,
+  /// another one has made a whole pass meanwhile. A film is handed out between passes, after orders were taken and
+  /// before what they make of the same samples is shown: the second film comes after that.
+  void catch_up() {
+    renderer_.film();
+    renderer_.film();
   }
   std::vector<FramePointer> frames() const {
     const std::lock_guard lock(mutex_);
@@ -74,6 +90,16 @@ inline std::vector<float> rgb_of(const Frame& frame) {
   return rgb;
 }
 
-inline void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+/// Lets the renderer work for a while, so that what is done next comes in the middle of something. For tests that hold
+/// wherever it then is.
+inline void let_it_work(std::chrono::microseconds time) { std::this_thread::sleep_for(time); }
+
+/// Seconds of processor time that the whole process has used: other processes do not add to it.
+inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Seconds of a clock that never goes back, for bounds that hold on the slowest machine.
+inline double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 }  // namespace tyndall::test

@@ -9,6 +9,7 @@ root=$(realpath "$3")
 mkdir -p "$scratch"
 cd "$scratch"
 
+# The screen repeats no key that is held down (-r): on a busy machine it would be held for long.
 if [ -z "${IN_XVFB:-}" ]; then
   for tool in xvfb-run xdotool python3; do
     command -v "$tool" >/dev/null && continue
@@ -17,7 +18,7 @@ if [ -z "${IN_XVFB:-}" ]; then
     exit 77
   done
   rm -rf "${scratch:?}"/* && mkdir -p "$scratch/screen"
-  IN_XVFB=1 exec xvfb-run -a -s "-screen 0 1280x1820x24 -nolisten tcp -fbdir $scratch/screen" \
+  IN_XVFB=1 exec xvfb-run -a -s "-r -screen 0 1280x1820x24 -nolisten tcp -fbdir $scratch/screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 
@@ -57,6 +58,64 @@ SCENE
   mv "$1.new" "$1"
 }
 
+# Nothing here waits for a time: a test sends something and waits until the window's log says that it has arrived and
+# what came of it. This many seconds end a test that hangs, and do nothing else.
+patience=60
+
+# wait_until COMMAND...: until it succeeds.
+wait_until() {
+  local end=$((SECONDS + patience)) alive
+  while :; do
+    alive=yes
+    kill -0 "$pid" 2>/dev/null || alive=
+    "$@" && return 0
+    [ "$alive" ] || fail "the program ended; never came true: $*"
+    [ "$SECONDS" -lt "$end" ] || fail "did not come true within $patience seconds: $*"
+    sleep 0.03
+  done
+}
+
+# logged PATTERN LINE: whether a line of the log matches, from that line on.
+logged() { grep -qE -- "$1" < <(tail -n "+$2" "$scratch/log"); }
+
+# wait_for PATTERN [LINE]: until a line of the log matches; from that line on, if it is given.
+wait_for() { wait_until logged "$1" "${2:-1}"; }
+
+# The number of lines in the log and one, for wait_for's second argument.
+here() { echo $(($(wc -l <"$scratch/log") + 1)); }
+
+# The number of edits that were submitted.
+submits() { grep -c '^submit' "$scratch/log"; }
+
+# Waits until the window is at rest: all that was sent to it is shown, the picture is finished.
+# What was sent must have arrived before; the helpers below see to that.
+settle() { wait_until at_rest; }
+at_rest() { [ "$(tail -1 "$scratch/log")" = rest ]; }
+
+# Waits until the last message has gone from the screen, and for rest.
+settle_without_message() {
+  wait_until no_message
+  settle
+}
+no_message() { [ -z "$(last_of message)" ]; }
+
+# last_of KIND: the newest line of a kind, without its first word.
+last_of() { awk -v kind="$1" '$1 == kind { line = $0 } END { print substr(line, length(kind) + 2) }' "$scratch/log"; }
+
+# sends COUNT PATTERN COMMAND...: runs the command, which sends input, and waits until the log has that many more lines
+# that match, and a drawing after them.
+sends() {
+  local count=$1 pattern=$2 from
+  from=$(here)
+  shift 2
+  "$@"
+  wait_until drawn_after "$count" "$pattern" "$from"
+}
+drawn_after() {
+  awk -v left="$1" -v pattern="$2" '$0 ~ pattern { --left } /^drawn/ && left <= 0 { drawn = 1 } END { exit !drawn }' \
+    < <(tail -n "+$3" "$scratch/log")
+}
+
 # start ARGUMENTS: opens the window and waits for its first picture.
 start() {
   : >"$scratch/log"
@@ -66,38 +125,9 @@ start() {
   wait_for '^frame 1 '
   window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
   # All of the column is on the screen.
-  xdotool windowsize --sync "$window" 1280 1780
-  xdotool mousemove 5 5
+  sends 1 '^size 1280 1780$' xdotool windowsize "$window" 1280 1780
+  move 5 5
   wait_for '^widget scenes.cover '
-}
-
-# Waits until a line of the log matches; from line $2 on, if it is given.
-wait_for() {
-  local tries
-  for tries in $(seq 300); do
-    tail -n "+${2:-1}" "$scratch/log" | grep -qE "$1" && return 0
-    kill -0 "$pid" 2>/dev/null || fail "the program ended; never saw: $1"
-    sleep 0.1
-  done
-  fail "never saw: $1 (after $tries tries)"
-}
-
-# The number of lines in the log, for wait_for's second argument.
-here() { echo $(($(wc -l <"$scratch/log") + 1)); }
-
-# The number of edits that were submitted.
-submits() { grep -c '^submit' "$scratch/log"; }
-
-# Waits until nothing has been written to the log for half a second.
-settle() {
-  local before now=-1 tries
-  for tries in $(seq 100); do
-    before=$now
-    now=$(wc -c <"$scratch/log")
-    [ "$now" = "$before" ] && return 0
-    sleep 0.5
-  done
-  fail "the window does not come to rest after $tries tries"
 }
 
 # at NAME ACROSS [DOWN]: window coordinates of a point of a control; ACROSS and DOWN in percent.
@@ -114,42 +144,58 @@ at() {
 
 # The value that a control had last.
 value() { grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1 | cut -d' ' -f7-; }
+has_value() { [ "$(value "$1")" = "$2" ]; }
+has_other_value() { [ "$(value "$1")" != "$2" ]; }
 
+# move X Y: the pointer.
+move() { [ "$(last_of mouse)" = "$1 $2" ] || sends 1 "^mouse $1 $2\$" xdotool mousemove "$1" "$2"; }
+# point NAME ACROSS [DOWN]: see at.
 point() {
-  local place
-  place=$(at "$@") || exit 1
-  # shellcheck disable=SC2086
-  xdotool mousemove $place
-  sleep 0.08
+  local place now
+  now=$(at "$@") || exit 1
+  while [ "$now" != "${place:-}" ]; do # what has just appeared may find its place one drawing later
+    place=$now
+    # shellcheck disable=SC2086
+    move $place
+    now=$(at "$@") || exit 1
+  done
 }
+# Buttons: 1 left, 2 middle, 3 right.
+press() { sends 1 '^buttons .*1' xdotool mousedown "$1"; }
+release() { sends 1 '^buttons 0 0 0' xdotool mouseup "$1"; }
 click() {
   point "$1" "${2:-50}" "${3:-50}"
-  xdotool mousedown 1
-  sleep 0.08
-  xdotool mouseup 1
-  sleep 0.15
+  press 1
+  release 1
 }
+# A step of the wheel over the picture.
+roll() { sends 1 '^wheel ' xdotool click 4; }
+hold() { sends 1 '^key ' xdotool keydown "$1"; }
 key() {
-  xdotool keydown "$1"
-  sleep 0.1
+  hold "$1"
   xdotool keyup "$1"
-  sleep 0.1
 }
 # With modifiers: chord ctrl z
-chord() {
-  xdotool key --delay 60 "$(IFS=+; echo "$*")"
-  sleep 0.15
+chord() { sends $# '^key ' xdotool key --delay 60 "$(IFS=+; echo "$*")"; }
+# type_text TEXT: into the control that has the keyboard, as soon as one has it.
+type_text() {
+  wait_until has_keyboard control
+  sends ${#1} '^key ' xdotool type --delay 40 "$1"
+}
+has_keyboard() { [ "$(last_of keyboard)" = "$1" ]; }
+enter() {
+  wait_until has_keyboard control
+  key Return
+  wait_until has_keyboard shortcuts
 }
 type_value() {
   click "$1"
-  sleep 0.25
-  xdotool type --delay 40 "$2"
-  sleep 0.1
-  key Return
-  sleep 0.2
+  type_text "$2"
+  enter
 }
 
-# Mean of the screen's red, green and blue within a control's rectangle.
+# Mean of the screen's red, green and blue within a control's rectangle. The X server puts a drawing on the screen some
+# time after the log has told of it: what is expected of the screen is waited for.
 brightness() {
   local line
   line=$(grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1)
@@ -171,12 +217,12 @@ print(round(total / count, 2))
 PY
 }
 
-# The screen's bytes, to see whether anything changed.
-screen_hash() { md5sum <"$scratch/screen/Xvfb_screen0" | cut -d' ' -f1; }
+# compares A OPERATOR B: Python's comparison of two numbers.
+compares() { python3 -c "import sys; sys.exit(not ($*))"; }
 
 # Closes with Ctrl+Q and checks how it ended.
 finish() {
-  chord ctrl q
+  xdotool key --delay 60 ctrl+q
   local status=0
   wait "$pid" || status=$?
   [ "$status" = 0 ] || fail "exit code $status"

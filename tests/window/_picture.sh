@@ -13,6 +13,5 @@ pid=$!
 trap 'kill $pid 2>/dev/null || true; rm -f "$log"' EXIT
 window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
 xdotool windowsize --sync "$window" 1600 900
-for _ in $(seq 1200); do grep -qE '^state finished' "$log" && break; sleep 0.1; done
-sleep 1
+until grep -qE '^size 1600 900' "$log" && [ "$(tail -1 "$log")" = rest ]; do sleep 0.1; done
 import -window "$window" "$picture"

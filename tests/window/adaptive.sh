@@ -4,7 +4,6 @@
 
 write_scene scene.json 0.3 40
 start scene.json
-wait_for '^state finished'
 settle
 [ "$(submits)" = 1 ] || fail "$(submits) submits instead of 1"
 lines=$(here)

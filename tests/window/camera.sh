@@ -4,19 +4,18 @@
 
 write_scene scene.json 0.2
 start scene.json
-wait_for '^state finished'
+settle
 
 drag() { # BUTTON FROM_X FROM_Y TO_X TO_Y, in percent of the picture
   point picture "$2" "$3"
-  xdotool mousedown "$1"
-  sleep 0.08
+  press "$1"
   point picture $((($2 + $4) / 2)) $((($3 + $5) / 2))
   point picture "$4" "$5"
-  xdotool mouseup "$1"
-  sleep 0.3
+  release "$1"
+  settle
 }
 changed() { # NAME BEFORE
-  [ "$(value "$1")" != "$2" ] || fail "$1 is still $2"
+  has_other_value "$1" "$2" || fail "$1 is still $2"
 }
 
 x=$(value camera.look_from.x)
@@ -29,49 +28,46 @@ wait_for '^widget camera.look_from.x .* 0$' "$lines"
 drag 2 40 50 60 60
 changed camera.look_at.x 0
 chord ctrl z
-sleep 0.3
+settle
 z=$(value camera.look_from.z)
 drag 3 50 40 50 60
 changed camera.look_from.z "$z"
 chord ctrl z
-sleep 0.3
+settle
 [ "$(value camera.look_from.z)" = "$z" ] || fail "undo: $(value camera.look_from.z) instead of $z"
 point picture 50 50
-xdotool click 4
-sleep 0.8
+roll
+settle
 changed camera.look_from.z "$z"
 fov=$(value camera.vfov)
-xdotool keydown ctrl
-sleep 0.1
-xdotool click 4
-sleep 0.1
+hold ctrl
+roll
 xdotool keyup ctrl
-sleep 0.8
+settle
 changed camera.vfov "$fov"
 z=$(value camera.look_from.z)
-xdotool keydown w
-sleep 0.5
+hold w
+wait_until has_other_value camera.look_from.z "$z"
 xdotool keyup w
-sleep 0.3
-changed camera.look_from.z "$z"
+settle # it flies as long as the key is held
 key Home
-sleep 0.3
+settle
 [ "$(value camera.vfov)" = "$fov" ] || fail "Home: field of view $(value camera.vfov)"
 [ "$(value camera.look_at.z)" = 0 ] || fail "Home: target $(value camera.look_at.z)"
 
 click picture 50 45
 wait_for '^widget picture .* Ball$'
 key f
-sleep 0.3
+settle
 [ "$(value camera.look_at.y)" = 0.8 ] || fail "F: target $(value camera.look_at.y)"
 key Escape
 wait_for '^gone Ball.center.x'
-xdotool keydown shift
-sleep 0.1
+hold shift
 click picture 50 45
 xdotool keyup shift
-sleep 0.3
-python3 -c "import sys; d = $(value camera.focus_distance); z = $(value camera.look_from.z); sys.exit(not z - 1.2 < d < z)" ||
+settle
+z=$(value camera.look_from.z)
+compares "$z - 1.2 < $(value camera.focus_distance) < $z" ||
   fail "focus: $(value camera.focus_distance)"
 
 key Tab

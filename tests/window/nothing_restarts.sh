@@ -5,18 +5,15 @@
 
 write_scene scene.json 0.3
 start scene.json
-wait_for '^state finished'
 settle
 dark=$(brightness picture)
 
 point image.exposure 50
-xdotool mousedown 1
-sleep 0.1
+press 1
 for across in 55 60 65; do point image.exposure $across; done
-xdotool mouseup 1
-settle
-bright=$(brightness picture)
-python3 -c "import sys; sys.exit(not $bright > $dark + 10)" || fail "exposure: $dark, then $bright"
+release 1
+brighter() { compares "$(brightness picture) > $dark + 10"; }
+wait_until brighter
 click image.tone_map.aces
 for view in albedo normal depth noise samples cost beauty; do
   lines=$(here)
@@ -24,33 +21,33 @@ for view in albedo normal depth noise samples cost beauty; do
   wait_for '^frame' "$lines"
 done
 lines=$(here)
-xdotool key 3
+key 3
 wait_for '^widget image.view.normal .* on' "$lines"
-xdotool key 7
+key 7
 wait_for '^widget image.view.cost .* on' "$lines"
-xdotool key 1
+key 1
 wait_for '^widget image.view.beauty .* on' "$lines"
 
 # The click alone, the same number typed, a number that is not valid.
 click gold.fuzz.value
-sleep 0.3
-key Return
+enter
 type_value gold.fuzz.value 0.3
 type_value gold.fuzz.value 0.300
 lines=$(here)
 type_value gold.fuzz.value 1.5
 wait_for '^message fuzz: found 1.5, expected a number in \[0, 1\]' "$lines"
+settle
 [ "$(submits)" = 1 ] || fail "$(submits) submits instead of 1"
 [ "$(value gold.fuzz)" = 0.3 ] || fail "fuzz is $(value gold.fuzz)"
 
-# Messages go after a few seconds; then nothing is drawn and nothing computed.
+# The message goes; then nothing is drawn and nothing computed, for as long as one looks.
 key Escape
-sleep 7
-settle
+move 6 6 # the key was released before
+settle_without_message
 lines=$(wc -l <log)
 busy() { awk '{ print $14 + $15 }' "/proc/$pid/stat"; }
 ticks=$(busy)
-sleep 3
+sleep 3 # not to wait for anything: the time that is looked at
 [ "$(wc -l <log)" = "$lines" ] || fail "an idle window draws"
 [ $(($(busy) - ticks)) -le 2 ] || fail "an idle window uses $(($(busy) - ticks)) ticks of 300"
 finish

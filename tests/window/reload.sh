@@ -5,7 +5,7 @@
 
 write_scene scene.json 0.1
 start scene.json
-wait_for '^state finished'
+settle
 
 write_scene scene.json 0.4 # renames
 wait_for '^widget gold.fuzz .* 0.4$'
@@ -28,11 +28,13 @@ wait_for '^message scene.json: ' "$lines"
 settle
 [ "$(submits)" = "$edits" ] || fail "a broken file was submitted"
 [ "$(value gold.fuzz)" = 0.6 ] || fail "the last good scene is gone: $(value gold.fuzz)"
+lines=$(here)
 write_scene scene.json 0.6
+wait_for '^read ' "$lines"
 settle
 [ "$(submits)" = "$edits" ] || fail "an equal file started over"
-after=$(brightness picture)
-python3 -c "import sys; sys.exit(not abs($after - $before) < 3)" || fail "the picture changed: $before, $after"
+looks_as_before() { compares "abs($(brightness picture) - $before) < 3"; }
+wait_until looks_as_before
 
 # Ctrl+S: the comments are asked about, then lost; the file holds the edit and is not read again as a new one.
 type_value gold.fuzz.value 0.25
@@ -40,22 +42,24 @@ chord ctrl s
 wait_for '^widget dialog.cancel'
 grep -q 'A comment' scene.json || fail "saved without asking"
 click dialog.cancel
+settle
 grep -q 'A comment' scene.json || fail "saved though it was cancelled"
 lines=$(here)
 chord ctrl s
 wait_for '^widget dialog.save' "$lines"
-sleep 0.2
+lines=$(here)
 click dialog.save
 wait_for '^saved scene.json' "$lines"
+wait_for '^read ' "$lines"
+settle
 grep -q '"fuzz": *0.25' scene.json || fail "not saved"
 edits=$(submits)
 lines=$(here)
 chord ctrl shift s
 wait_for '^widget dialog.name' "$lines"
-sleep 0.3
-xdotool key --delay 40 ctrl+a
-xdotool type --delay 30 copy.json
-sleep 0.2
+wait_until has_keyboard control
+chord ctrl a
+type_text copy.json
 key Return
 wait_for '^saved copy.json' "$lines"
 [ -s copy.json ] || fail "no copy"

@@ -4,24 +4,17 @@
 
 write_scene scene.json 0.2
 start scene.json
-wait_for '^state finished'
+settle
 for size in "1 1" "160 120" "40 700" "1200 30" "373 31" "1280 800" "900 600"; do
   # shellcheck disable=SC2086
-  xdotool windowsize "$window" $size
-  sleep 0.3
-  kill -0 "$pid" || fail "size $size"
+  sends 1 "^size $size\$" xdotool windowsize "$window" $size
 done
-for _ in 1 2; do
-  key F11
-  sleep 0.3
-done
-xdotool windowunmap "$window"
-sleep 0.5
-xdotool windowmap "$window"
-sleep 0.5
-lines=$(here)
-xdotool mousemove 100 100
-wait_for '^drawn' "$lines"
+sends 1 '^size 1280 1820$' key F11 # all of the screen
+sends 1 '^size 900 600$' key F11
+settle
+xdotool windowunmap --sync "$window"
+xdotool windowmap --sync "$window"
+move 100 100
 type_value gold.fuzz.value 0.9
 wait_for '^submit 2'
 finish
@@ -38,10 +31,10 @@ exec 3> >(cat >server)
 Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 2>/dev/null &
 server=$!
 exec 3>&-
-for _ in $(seq 100); do
-  [ -s server ] && break
-  sleep 0.1
-done
+pid=$server
+has_display() { [ -s server ]; }
+wait_until has_display
+: >log
 DISPLAY=:$(cat server) "$tyndall" view scene.json --ui-log log 2>errors &
 pid=$!
 wait_for '^frame 1 '
