@@ -68,7 +68,7 @@ std::string outcome(const Job& job) {
   const RenderResult& r = job.result;
   const RenderProgress end{job.picture.spp, r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
-                           job.picture.relative_error};
+                           job.picture.estimate.relative_error};
   return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(job.picture.totals);
 }
 
@@ -94,7 +94,7 @@ void render(Job& job, const SignalWatch& signals) {
   }
   job.picture = finished_picture(job.result);
   job.rare_bright_paths =
-      has_rare_bright_paths(job.result.film, job.picture.totals.least_taken, chance_of_caustics(job.loaded.scene));
+      has_rare_bright_paths(job.picture.estimate, job.picture.totals.least_taken, chance_of_caustics(job.loaded.scene));
   report.finish(outcome(job));
 }
 

@@ -33,7 +33,7 @@ void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["integrator"] = name_of(settings.integrator);
   json["sampler"] = name_of(settings.sampler);
   json["fresnel"] = name_of(settings.fresnel);
-  json["relative_error_estimate"] = number(run.picture.relative_error);
+  json["relative_error_estimate"] = number(run.picture.estimate.relative_error);
   json["rejected_samples"] = sum.rejected;
   json["truncated_paths"] = sum.truncated;
 }

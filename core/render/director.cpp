@@ -27,11 +27,10 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step) {
 
 }  // namespace
 
-void RarePathWatch::look(const Scene& scene, const Progression& picture, Crew& crew) {
-  if (picture.taken() < next_look_) return;
+void RarePathWatch::look(const Scene& scene, const Progression& picture) {
+  if (picture.taken() < least_rare_spp || !picture.estimate_is_new()) return;
   if (!chance_) chance_ = chance_of_caustics(scene);
-  found_ = has_rare_bright_paths(picture.film(), picture.taken(), *chance_, &crew);
-  next_look_ = 2 * picture.taken();
+  found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), *chance_);
 }
 
 Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
@@ -98,7 +97,7 @@ void Director::start_over(double budget) {
 
 void Director::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
-  rare_paths_.look(*shown_.scene, picture_, *crew_);
+  rare_paths_.look(*shown_.scene, picture_);
   publish();
 }
 

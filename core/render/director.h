@@ -25,16 +25,14 @@ struct ShownScene {
 class RarePathWatch {
  public:
   void change_scene() { *this = {}; }
-  /// A pass ended. Looks whenever the samples have doubled: it takes longer than estimating the error.
-  void look(const Scene& scene, const Progression& picture, Crew& crew);
+  /// A pass ended. Looks where the error was estimated after it.
+  void look(const Scene& scene, const Progression& picture);
   bool found() const { return found_; }
-  void start_over() { found_ = false, next_look_ = first_look; }
+  void start_over() { found_ = false; }
 
  private:
-  static constexpr std::uint32_t first_look = 8;  // samples a pixel; before, every estimate is rough
-  std::optional<double> chance_;                  ///< of meeting such light, once it was asked for: see caustics.h
+  std::optional<double> chance_;  ///< of meeting such light, once it was asked for: see caustics.h
   bool found_ = false;
-  std::uint32_t next_look_ = first_look;
 };
 
 class Director {

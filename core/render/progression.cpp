@@ -99,15 +99,15 @@ void Progression::begin(PassSchedule schedule, const ProgressionOptions& options
   tally_ = {};
   last_write_ = Clock::now();
   pass_seconds_ = 0;
-  error_ = std::numeric_limits<double>::infinity();
-  error_of_ = 0;
+  estimate_ = {};
+  estimate_of_ = 0;
   next_estimate_ = options.estimates.seconds;
 }
 
 bool Progression::reached(const Limits& limits) const {
   if (limits.spp && taken() >= *limits.spp) return true;
   if (taken() == 0) return false;
-  return tally_.seconds >= limits.seconds || (limits.error > 0 && error_ <= limits.error);
+  return tally_.seconds >= limits.seconds || (limits.error > 0 && error() <= limits.error);
 }
 
 bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
@@ -123,8 +123,8 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
   if (!whole) return false;
   finish_pass();
   if (!estimate_is_due(limits)) return true;
-  error_ = estimated_relative_error(film_, &engine.crew);
-  error_of_ = taken();
+  estimate_ = estimate_error(film_, &engine.crew);
+  estimate_of_ = taken();
   next_estimate_ = (1 + options_.estimates.growth) * tally_.seconds + options_.estimates.seconds;
   return true;
 }

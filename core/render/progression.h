@@ -1,4 +1,5 @@
 #pragma once
+#include "core/accuracy/estimate.h"
 #include "core/compile/render_scene.h"
 #include "core/render/pass.h"
 
@@ -127,9 +128,11 @@ class Progression {
   /// Mean over all samples of what paths carried that were cut off at the longest length.
   double cut_throughput() const;
   /// Estimated relative error; infinite before two samples.
-  double error() const { return error_; }
-  /// Whether error() is of the film as it is now.
-  bool error_is_new() const { return error_of_ == taken() && taken() >= 2 && !within_pass(); }
+  double error() const { return estimate_.relative_error; }
+  /// The estimate that error() is taken from.
+  const ErrorEstimate& estimate() const { return estimate_; }
+  /// Whether estimate() is of the film as it is now.
+  bool estimate_is_new() const { return estimate_of_ == taken() && taken() >= 2 && !within_pass(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -144,8 +147,9 @@ class Progression {
   Clock::time_point last_write_;
   std::optional<Clock::time_point> running_from_;  ///< while run_pass() runs: from when its seconds count
   double pass_seconds_ = 0;                        ///< of the pass that is under way
-  double error_ = std::numeric_limits<double>::infinity(), next_estimate_ = 0;
-  std::uint32_t error_of_ = 0;  ///< samples a pixel that error_ was estimated from
+  ErrorEstimate estimate_;
+  std::uint32_t estimate_of_ = 0;  ///< samples a pixel that it was made from
+  double next_estimate_ = 0;       ///< in seconds of rendering
 };
 
 }  // namespace tyndall

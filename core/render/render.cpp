@@ -1,6 +1,5 @@
 #include "core/render/render.h"
 
-#include "core/accuracy/estimate.h"
 #include "core/render/plan.h"
 #include "core/render/progression.h"
 
@@ -60,7 +59,7 @@ RenderResult render(const RenderScene& scene, const RenderOptions& options, cons
   result.seconds = tally.seconds;
   result.threads = crew.size();
   result.interrupted = stop;
-  if (picture.error_is_new()) result.relative_error = picture.error();
+  if (picture.estimate_is_new()) result.estimate = picture.estimate();
   result.film = picture.take_film();
   result.first_rejected = find_rejected(result.kernels, view.view(), result.film);
   return result;
@@ -71,7 +70,7 @@ FinishedPicture finished_picture(const RenderResult& result) {
   FinishedPicture picture;
   picture.totals = totals(film);
   picture.spp = labelled_spp(film, picture.totals);
-  picture.relative_error = result.relative_error ? *result.relative_error : estimated_relative_error(film);
+  picture.estimate = result.estimate ? *result.estimate : estimate_error(film);
   picture.image = {film.region.width(), film.region.height(), resolve(film)};
   picture.hash = image_hash(picture.image.width, picture.image.height, picture.image.rgb);
   return picture;

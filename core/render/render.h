@@ -1,4 +1,5 @@
 #pragma once
+#include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
@@ -40,9 +41,9 @@ struct RenderResult {
   std::uint64_t rays = 0, shadow_rays = 0;
   double seconds = 0;  ///< from the first sample started to the last film write, thread start included
   int threads = 0;
-  Kernels kernels{};                       ///< that made the film
-  bool interrupted = false;                ///< the callback said stop
-  std::optional<double> relative_error{};  ///< of the film as it is, if a limit or the callback needed it
+  Kernels kernels{};                        ///< that made the film
+  bool interrupted = false;                 ///< the callback said stop
+  std::optional<ErrorEstimate> estimate{};  ///< of the film as it is, if a limit or the callback needed it
 };
 
 /// Called on the calling thread between passes, and about every 50 ms within long ones. Returns false to stop.
@@ -58,10 +59,10 @@ RenderResult render(const RenderScene& scene, const RenderOptions& options, cons
 /// once and handed to all that show it or write it.
 struct FinishedPicture {
   FilmTotals totals;
-  std::uint32_t spp = 0;                                            ///< see labelled_spp
-  double relative_error = std::numeric_limits<double>::infinity();  ///< estimated
-  LinearImage image;                                                ///< the pixels' means
-  std::uint64_t hash = 0;                                           ///< see image_hash
+  std::uint32_t spp = 0;  ///< see labelled_spp
+  ErrorEstimate estimate;
+  LinearImage image;       ///< the pixels' means
+  std::uint64_t hash = 0;  ///< see image_hash
 };
 FinishedPicture finished_picture(const RenderResult& result);
 

@@ -93,6 +93,9 @@ TEST_CASE("progression: a coarse pass, the rest of the first sample, then growin
     CHECK(taken == std::vector<std::uint32_t>{0, 1, 2, 4, 8, 16, 21});
     CHECK(picture.step() == 1);
     CHECK(picture.film() == film_of(scene, 0, 21));
+    RenderOptions blocking;
+    blocking.spp = 21;
+    CHECK(picture.tally().rays == render(scene, blocking).rays);  // no path is followed twice
   }
 }
 
@@ -111,10 +114,10 @@ TEST_CASE("progression: ends at the first of the limits, but not before a pass")
   picture.run_pass(engine, rough, false);
   CHECK(picture.reached(no_time));
   CHECK_FALSE(picture.reached(rough));  // one sample tells nothing of the error
-  CHECK_FALSE(picture.error_is_new());
+  CHECK_FALSE(picture.estimate_is_new());
   picture.run_pass(engine, rough, false);
   CHECK(picture.reached(rough));
-  CHECK(picture.error_is_new());
+  CHECK(picture.estimate_is_new());
   CHECK(picture.error() == estimated_relative_error(picture.film()));
   CHECK_FALSE(picture.reached({}));
 }
@@ -133,7 +136,7 @@ TEST_CASE("progression: the error is estimated when it is due, not after each pa
     std::vector<std::uint32_t> found;
     while (!picture.reached({.spp = 32})) {
       picture.run_pass(engine, {.spp = 32}, false);
-      if (picture.error_is_new()) found.push_back(picture.taken());
+      if (picture.estimate_is_new()) found.push_back(picture.taken());
     }
     return found;
   };

@@ -17,7 +17,7 @@ bool is_rare(Scene scene, std::uint32_t spp) {
   RenderOptions options;
   options.spp = spp;
   const Film film = render(compile(scene), options).film;
-  return has_rare_bright_paths(film, spp, chance_of_caustics(scene));
+  return has_rare_bright_paths(estimate_error(film), spp, chance_of_caustics(scene));
 }
 
 /// A glass ball under a lamp of the same power, however small.
