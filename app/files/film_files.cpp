@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-/// Without what changes no sample.
+/// The scene with everything at its default that changes no sample: names, display, number of samples.
 void strip(Scene& scene) {
   scene.name.clear();
   scene.display = {};

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+/// What an EXR file holds beside the picture.
 namespace tyndall {
 
 /// What goes with a picture into EXR. Seen first through the middle of each pixel: albedo, normal (towards the outside

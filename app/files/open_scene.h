@@ -2,6 +2,7 @@
 #include "app/files/scene_request.h"
 #include "core/scene/load.h"
 
+/// This room reads and writes files: scenes as the user asks for them, pictures, films and figures.
 namespace tyndall {
 
 /// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks

@@ -102,7 +102,7 @@ std::string embedded_stats_text(const RunFigures& run) {
 }
 
 std::size_t peak_memory() {
-  // ru_maxrss may be what the process had before it became this program; the kernel's own mark is not.
+  // ru_maxrss also counts the program that started this one (before exec); VmHWM of the kernel does not.
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
     unsigned long long kilobytes = 0;

@@ -5,6 +5,7 @@
 
 #include <string>
 
+/// The figures of a run, for --stats and for the files that a render writes.
 namespace tyndall {
 
 /// What --stats says about a run, and what made it.

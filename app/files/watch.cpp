@@ -27,7 +27,7 @@ struct FileWatch::State {
   bool told() const;
 };
 
-/// Reads what has come; whether any of it is about the file.
+/// Reads the events that have come. Returns whether any of them is about the watched file.
 bool FileWatch::State::told() const {
   alignas(inotify_event) char buffer[4096];
   const ssize_t size = read(events, buffer, sizeof buffer);

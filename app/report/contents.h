@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+/// This room finds out what both the window and the commands tell about scenes, pictures and kernels.
 namespace tyndall {
 
 /// What a scene contains, counted through all groups.

@@ -9,11 +9,11 @@
 namespace tyndall {
 namespace {
 
-// Of the scale, in pixels: a gap, the colours, marks, and text.
+// Heights of the parts of the scale, in pixels, from its top: a gap, the colours, the marks, the text.
 constexpr int gap = 4, bar = 8, mark = 3, dot = 2;
 static_assert(gap + bar + mark + 5 * dot + 1 == heat_scale_rows);
 
-/// 3 x 5 dots, row by row, of the few signs that the scale needs.
+/// The few signs that the scale needs, each as 3 x 5 dots, row by row.
 std::array<std::string_view, 5> dots_of(char sign) {
   switch (sign) {
     case '0':

@@ -5,6 +5,7 @@
 
 #include <string>
 
+/// What happened along one path of light, told in words.
 namespace tyndall {
 
 /// One path as text, a paragraph a vertex: what it met (by its name in the scene, else by its place in the file) and

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What is drawn over and under the picture: status line, messages, the help table, dialogs, the selection's outline.
+/// What is drawn over and beneath the picture: status line, messages, help table, dialogs, the selection's outline.
 namespace tyndall {
 
 /// A part of the status line: a grey word and a value.

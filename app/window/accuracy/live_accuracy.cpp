@@ -64,7 +64,7 @@ void LiveAccuracy::clear() {
   forget_results();
 }
 
-/// What was measured is of another pair of pictures; the curves stay.
+/// Drops all results, because they were measured for another pair of pictures. The curves stay.
 void LiveAccuracy::forget_results() {
   ++generation_;
   pair_ = {};
@@ -142,17 +142,18 @@ bool LiveAccuracy::due(Task task, double now) const {
   if (!can_compare(order)) return false;
   if (id_of(order) == measured.newest) return false;
   if (resting_) return true;
-  // FLIP of the first samples is of no use.
+  // FLIP takes a second and says little about the noise of the first samples: it waits for 16.
   if (task == flip_task && (order.frame->spp < 16 || !has_grown(task, order, 2))) return false;
   return measured.share.due(now) || is_early(task, order);
 }
 
-/// A curve that begins has points close to each other; what they take is little after a second.
+/// Whether a point is measured before its share of the processors allows it: at the start of a curve the error falls
+/// fast, so points are wanted close to each other. After a second, what they took is little again.
 bool LiveAccuracy::is_early(Task task, const ComparisonOrder& order) const {
   return (task == truth_task || task == kept_truth_task) && has_grown(task, order, 1.25);
 }
 
-/// Whether the picture has rendered that many times longer than when this was done, or begun anew.
+/// Whether the picture has rendered `times` times as long as when this was measured last, or has begun anew.
 bool LiveAccuracy::has_grown(Task task, const ComparisonOrder& order, double times) const {
   const Measured& measured = measured_[task];
   const double seconds = order.frame->seconds;

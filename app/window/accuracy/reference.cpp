@@ -18,7 +18,8 @@ namespace {
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-/// The scene in an image that Tyndall made, its textures as the document would name them.
+/// The scene inside an image that Tyndall made, with the paths of its textures as the document would write them;
+/// nothing where there is none.
 std::optional<Scene> scene_in(const fs::path& file, const Document& document) {
   try {
     if (!read_embedded_scene(file)) return {};
@@ -29,7 +30,7 @@ std::optional<Scene> scene_in(const fs::path& file, const Document& document) {
   }
 }
 
-/// What is rendered, but for the method.
+/// The scene with default settings: two scenes that agree in this have the same true picture.
 Scene without_method(Scene scene) {
   scene.render = {};
   scene.display = {};

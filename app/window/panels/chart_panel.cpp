@@ -80,7 +80,7 @@ void draw_grid(const Plot& plot) {
   }
 }
 
-/// The target, and through the newest point the line that the error follows if nothing is wrong.
+/// The target of 1 %, and from the newest point on the line along which relMSE halves when the time doubles.
 void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   const Rect& f = plot.axes.frame;
   const float y = plot.axes.y(target_rel_mse);
@@ -105,7 +105,7 @@ void draw_curve(const Plot& plot, const ChartLine& line) {
     plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
 }
 
-/// A curve's name beneath its end, where a falling curve leaves room, off the words that are there.
+/// Writes a curve's name beneath its end, where a falling curve leaves room, without covering other words.
 void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
   if (curve.curve->points.empty()) return;
   const Rect& f = plot.axes.frame;
@@ -142,7 +142,7 @@ std::string printed(const char* format, double value) {
   return text;
 }
 
-/// The curve next to the mouse, marked, and its numbers.
+/// Marks the point of the curve nearest to the mouse, and shows its numbers in a tooltip.
 void read_out(Ui& ui, const Plot& plot) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!ImGui::IsItemHovered() || !plot.axes.frame.contains(mouse.x, mouse.y)) return;

@@ -7,7 +7,7 @@
 namespace tyndall {
 namespace {
 
-/// Scope of names in the log while it lives.
+/// Puts a prefix before the names of controls in the log, as long as it lives.
 class Scope {
  public:
   Scope(Ui& ui, const std::string& name) : ui_(ui), before_(ui.scope) {
@@ -74,7 +74,7 @@ std::string kinds_of(const Scene& scene, const Object& object) {
   return kind_name(object) + (material ? std::string(" · ") + material_name(*material) : "");
 }
 
-/// What is worth touching without selecting anything: the material, and a metal ball's radius.
+/// The rows that are shown of an object while nothing is selected: its material, and a metal ball's radius.
 void brief_section(Ui& ui, Scene& scene, const ObjectPath& path) {
   Object& object = *find_object(scene, path);
   if (!section(ui, title_of(scene, path), kinds_of(scene, object))) return;

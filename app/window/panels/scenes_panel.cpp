@@ -6,7 +6,7 @@
 namespace tyndall {
 namespace {
 
-/// A line of a list: a name, a grey word on the right.
+/// A line of a list, with a grey word on the right. Returns whether it was clicked.
 bool list_line(Ui& ui, const std::string& name, const std::string& label, const std::string& word, bool on) {
   const float right = ImGui::GetWindowContentRegionMax().x;
   const bool pressed = ImGui::Selectable(("##" + name).c_str(), on, 0, {0, ImGui::GetTextLineHeight()});
@@ -21,7 +21,7 @@ bool list_line(Ui& ui, const std::string& name, const std::string& label, const 
   return pressed;
 }
 
-/// A field of lines that scrolls when they are many.
+/// Begins a list that is eight lines high at most, and scrolls when it has more.
 bool begin_list(Ui& ui, const char* name, std::size_t lines) {
   const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
   const float height = line * static_cast<float>(std::clamp<std::size_t>(lines, 1, 8)) + 8 * ui.scale;

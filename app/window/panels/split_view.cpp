@@ -28,7 +28,7 @@ void Divider::drag_to(const Rect& image, float mouse_x) {
 
 namespace {
 
-/// A name on a dark ground, within its half, in the outer corner.
+/// What a half is, on a dark ground in the half's upper outer corner.
 void draw_label(Ui& ui, const Rect& half, const std::string& text, bool right) {
   const float s = ui.scale, pad = 8 * s, height = ImGui::GetFontSize() + 2 * pad;
   const float mark = ImGui::CalcTextSize("A").x + pad, width = mark + ImGui::CalcTextSize(text.c_str()).x + 2 * pad;

@@ -43,7 +43,8 @@ void begin_edit(Ui& ui, ImGuiID id, const std::string& text) {
   std::strncpy(ui.edit.text, text.c_str(), sizeof ui.edit.text - 1);
 }
 
-/// Takes what was typed. Text that was not touched changes nothing, though the number has more digits than it shows.
+/// Takes what was typed. Text that was not changed leaves the value as it is: the text may show fewer digits than the
+/// value has.
 bool finish_edit(Ui& ui, const Row& row, double& value) {
   const std::string text = ui.edit.text;
   const bool touched = text != ui.edit.start;

@@ -148,7 +148,7 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
 
 namespace {
 
-/// A button of a choice; whether it was pressed though it was not on.
+/// A button of a choice. Returns whether it was pressed and so becomes the chosen one.
 bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2 size) {
   constexpr Tone chosen{0.24f, 0.40f, 0.56f, 1}, other{0.72f, 0.75f, 0.79f, 1}, missing{0.42f, 0.45f, 0.49f, 1};
   ImGui::PushStyleColor(ImGuiCol_Button, on ? chosen : palette::field);

@@ -10,7 +10,7 @@ namespace {
 
 using Handler = int (*)(void* display);
 
-/// Must not return. No destructors: they would talk to the server.
+/// Ends the program, as X demands of such a handler. Destructors are left out: they would talk to the lost server.
 int on_lost(void*) {
   constexpr char text[] = "tyndall: the display went away\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);

@@ -12,7 +12,8 @@ constexpr double degree = pi / 180;
 
 double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }
 
-/// Steps that print short: powers of ten, divided rather than multiplied by where they are below 1.
+/// Rounds to six digits of `size`, so that saved files stay readable. Steps below 1 divide by a power of ten, which is
+/// exact: the result prints short.
 double tidy_number(double value, double size) {
   const double digits = std::floor(std::log10(size)) - 5;
   if (digits >= 0) return rounded(value, std::pow(10.0, digits));
@@ -31,7 +32,7 @@ Camera tidy(Camera camera) {
   return camera;
 }
 
-/// v turned about the unit axis by an angle: Rodrigues' formula.
+/// v turned about the unit axis by an angle in radians (Rodrigues' formula).
 Vec3d turned(Vec3d v, Vec3d axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;

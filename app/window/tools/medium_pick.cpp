@@ -13,7 +13,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Distance at which the ray enters, or never. direction: unit.
+/// Distance at which a ray enters the shape from outside; `never` if it does not. direction: unit.
 double entry(const Sphere<>& sphere, Vec3d origin, Vec3d direction) {
   const Interval<double> line = sphere_interval(sphere.center - origin, sphere.radius, direction);
   return line.hit && line.near > 0 ? line.near : never;

@@ -29,7 +29,7 @@ Ball ball_of(const Shape& shape, const Placement& placement) {
   return ball;
 }
 
-/// A ball around two.
+/// A ball that holds both balls.
 Ball joined(const Ball& a, const Ball& b) {
   const double apart = length(b.center - a.center);
   if (apart + b.radius <= a.radius) return a;
