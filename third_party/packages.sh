@@ -11,6 +11,9 @@ build_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libgl-dev libimgui
 run_packages=(libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono)
 # shellcheck disable=SC2034
 test_packages=(xvfb xauth xdotool libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono python3)
+# Only ./test --all needs them: large, and all that they check is style. The version is part of the style.
+# shellcheck disable=SC2034
+style_packages=(clang-format-14 clang-tidy-14)
 
 packages_changed=0 # 1 after something was installed
 
@@ -66,4 +69,13 @@ MSG
 configure_build() {
   [ -f "build/$1/build.ninja" ] && [ "$packages_changed" = 0 ] && return 0
   cmake --preset "$1" >/dev/null
+}
+
+# say_how_long PRESET TARGET MINUTES: where nobody sees ninja's progress, a first build says how long it takes. MINUTES
+# on two cores, without a compiler cache.
+say_how_long() {
+  [ -t 2 ] && return 0
+  local program=build/$1/tyndall
+  [ "$2" = all ] && program=build/$1/tests/core_tests
+  [ -e "$program" ] || printf 'building, about %s minutes\n' "$3" >&2
 }

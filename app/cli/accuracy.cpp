@@ -14,12 +14,12 @@
 namespace tyndall {
 namespace {
 
-constexpr int pixels = 96 * 72;  // about: pictures keep their shape
-constexpr std::uint32_t spp = 256;
+constexpr int picture_pixels = 96 * 72;  // about: pictures keep their shape
+constexpr std::uint32_t picture_spp = 256;
 
 Film film_of(const Scene& scene, bool reference = false) {
   RenderOptions options;
-  options.spp = spp;
+  options.spp = picture_spp;
   if (reference) options.isa = "double";
   return render(compile(scene), options).film;
 }
@@ -104,7 +104,8 @@ std::string row(const std::string& name, const Accuracy& a) {
 }  // namespace
 
 Accuracy measure_accuracy(Scene scene) {
-  const double scale = std::sqrt(static_cast<double>(pixels) / (static_cast<double>(scene.width) * scene.height));
+  const double scale =
+      std::sqrt(static_cast<double>(picture_pixels) / (static_cast<double>(scene.width) * scene.height));
   scene.width = std::max(static_cast<int>(std::lround(scene.width * scale)), 1);
   scene.height = std::max(static_cast<int>(std::lround(scene.height * scale)), 1);
   scene.render.fresnel = FresnelKind::exact;

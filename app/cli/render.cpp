@@ -8,6 +8,7 @@
 #include "app/files/stats.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
+#include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
@@ -21,8 +22,6 @@ namespace tyndall {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// One headless render from command to files.
 struct Job {

@@ -6,6 +6,7 @@
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/base/crew.h"
+#include "core/base/seconds.h"
 #include "core/compile/compile.h"
 
 #include <chrono>
@@ -15,8 +16,6 @@ namespace tyndall {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Tells cases apart, whatever else is in the table. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
 std::uint32_t seed_of(const std::string& name) {

@@ -9,7 +9,7 @@ namespace {
 
 double grey(Vec3f v) { return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3; }
 
-struct Sum {
+struct RegionSum {
   double value = 0, variance = 0;
   bool whole = true;  ///< both halves have samples
 
@@ -30,7 +30,7 @@ BlockScores block_scores(const Film& a, const Film& b, int edge) {
   double squares = 0;
   for (int y0 = r.y0; y0 < r.y1; y0 += edge)
     for (int x0 = r.x0; x0 < r.x1; x0 += edge) {
-      Sum of_a, of_b;
+      RegionSum of_a, of_b;
       for (int y = y0; y < std::min(y0 + edge, r.y1); ++y)
         for (int x = x0; x < std::min(x0 + edge, r.x1); ++x) of_a.add(a, a.at(x, y)), of_b.add(b, b.at(x, y));
       if (!of_a.whole || !of_b.whole) return {};

@@ -94,7 +94,7 @@ ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Heade
 
 /// The film's size, region and settings, without pixels.
 Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   const auto [region_width, region_height] = size_of(file, window);
   Film film;
   film.width = value_of<Imf::IntAttribute>(file, header, exr_name::width);

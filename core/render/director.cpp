@@ -1,5 +1,6 @@
 #include "core/render/director.h"
 
+#include "core/base/seconds.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
 #include "core/render/rare.h"
@@ -11,10 +12,6 @@ namespace tyndall {
 namespace {
 
 constexpr double pass_budget = 0.15;  // seconds: how often a new picture should come while it sharpens
-
-double seconds_between(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
 
 ProgressionOptions progression_options(const Scene& scene, int coarse_step) {
   ProgressionOptions options;

@@ -1,6 +1,7 @@
 #include "core/render/progression.h"
 
 #include "core/accuracy/estimate.h"
+#include "core/base/seconds.h"
 #include "core/render/plan.h"
 
 #include <algorithm>
@@ -8,14 +9,6 @@
 #include <utility>
 
 namespace tyndall {
-namespace {
-
-double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
-
-}  // namespace
-
 std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second) {
   std::uint32_t most = length.most;
   if (std::isfinite(length.seconds)) {

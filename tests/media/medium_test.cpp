@@ -139,7 +139,8 @@ TEST_CASE("henyey-greenstein: directions are as dense as the phase function says
       const Pair<double> u = dice<double>(i).pair(dimension::direction);
       cap.count(scatter_in_medium(g, way, on_sphere(u), u));
     }
-    const auto share = cap.integrate([&](Vec3d d) { return henyey_greenstein_density(g, dot(way, d)); }, g > 0.8 ? 250 : 60);
+    const auto share =
+        cap.integrate([&](Vec3d d) { return henyey_greenstein_density(g, dot(way, d)); }, g > 0.8 ? 250 : 60);
     CHECK(sum(share) == doctest::Approx(1).epsilon(1e-3));
     CHECK(std::abs(cap.deviate(share, drawn)) < 4.5);
   }

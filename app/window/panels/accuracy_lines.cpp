@@ -5,14 +5,14 @@
 namespace tyndall {
 namespace {
 
-std::string printed(const char* format, double value) {
+std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
 std::string flip_text(const PairErrors& pair) {
-  return pair.flip ? printed(" · FLIP %.2g", *pair.flip) + " at " + format_count(pair.flip_spp) + " spp" : "";
+  return pair.flip ? formatted(" · FLIP %.2g", *pair.flip) + " at " + format_count(pair.flip_spp) + " spp" : "";
 }
 
 AccuracyLine reference_line(const LiveAccuracy& accuracy) {
@@ -33,7 +33,7 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy) {
   if (!accuracy.split()) return lines;
   const PairErrors& pair = accuracy.pair();
   lines.push_back(
-      {"B against A" + (pair.rel_mse ? printed(": relMSE %.2g", *pair.rel_mse) : "") + flip_text(pair), false});
+      {"B against A" + (pair.rel_mse ? formatted(": relMSE %.2g", *pair.rel_mse) : "") + flip_text(pair), false});
   return lines;
 }
 
