@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -189,7 +190,7 @@ void MainWindow::click(const Layout& layout, const Mouse& mouse) {
 
 void MainWindow::apply_panels(double now) {
   const Wishes& wishes = panels_.wishes;
-  session_.editor().edit(panels_.scene, tools_.gestures.current());
+  session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   if (wishes.open) session_.editor().open(*wishes.open);
   if (wishes.export_chart) session_.export_chart();

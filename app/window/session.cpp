@@ -49,10 +49,10 @@ bool Session::send(double now) {
 }
 
 void Session::submit(double now) {
-  const Scene& scene = editor_.scene();
+  const auto scene = std::make_shared<const Scene>(editor_.scene());  // the one copy: all from here on share it
   const RendererPair::Begun begun = renderers_.submit(scene);
   if (begun.current) accuracy_.set_scene(Half::current, scene);
-  if (begun.kept) accuracy_.set_scene(Half::kept, renderers_.kept_scene(scene));
+  if (begun.kept) accuracy_.set_scene(Half::kept, renderers_.kept_scene(*scene));
   if (log_ && begun.current) log_->submitted(renderers_.edit(Half::current), timer_.changed_at());
   timer_.on_send(now);
 }

@@ -26,13 +26,13 @@ void LiveAccuracy::set_reference(std::shared_ptr<const Reference> reference) {
 
 void LiveAccuracy::judge(Side& one) const {
   one.fit.reset();
-  if (reference_) one.fit = fit_of(*reference_, one.scene);
+  if (reference_) one.fit = fit_of(*reference_, *one.scene);
 }
 
-void LiveAccuracy::set_scene(Half half, const Scene& scene) {
+void LiveAccuracy::set_scene(Half half, std::shared_ptr<const Scene> scene) {
   Side& one = side(half);
   const auto before = one.fit;
-  one.scene = scene;
+  one.scene = std::move(scene);
   judge(one);
   one.newest = false;
   for (const Task task : {map_task, flip_map_task}) measured_[task].share.renew();

@@ -38,7 +38,8 @@ class LiveAccuracy {
   void set_reference(std::shared_ptr<const Reference> reference);  ///< null: none
   const std::shared_ptr<const Reference>& reference() const { return reference_; }
   /// The scene that a half renders from now on.
-  void set_scene(Half half, const Scene& scene);
+  void set_scene(Half half, std::shared_ptr<const Scene> scene);
+  void set_scene(Half half, Scene scene) { set_scene(half, std::make_shared<const Scene>(std::move(scene))); }
   /// How the reference goes with that scene; nothing without a reference.
   std::optional<ReferenceFit> fit(Half half) const { return side(half).fit; }
   void set_view(ErrorView view);
@@ -74,7 +75,7 @@ class LiveAccuracy {
   /// Those with FLIP take a second, the others milliseconds: they do not wait for each other.
   static bool is_slow(Task task) { return task == flip_map_task || task == flip_task; }
   struct Side {
-    Scene scene;
+    std::shared_ptr<const Scene> scene = std::make_shared<const Scene>();
     std::optional<ReferenceFit> fit;
     Convergence estimated, truth;
     std::shared_ptr<const Frame> frame;

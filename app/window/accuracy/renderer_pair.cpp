@@ -19,12 +19,12 @@ RendererPair::~RendererPair() {
   share_.share_with(nullptr);  // the second renderer goes first
 }
 
-RendererPair::Begun RendererPair::submit(const Scene& scene) {
+RendererPair::Begun RendererPair::submit(const std::shared_ptr<const Scene>& scene) {
   Begun begun;
   const std::uint64_t before = edit_;
   edit_ = renderer_.submit(scene);
   begun.current = edit_ != before;
-  begun.kept = second_ && submit_kept(scene);
+  begun.kept = second_ && submit_kept(*scene);
   return begun;
 }
 

@@ -26,7 +26,7 @@ class RendererPair {
     bool current = false, kept = false;
   };
   /// Hands a scene to both. A scene with the same picture as the one before restarts nothing.
-  Begun submit(const Scene& scene);
+  Begun submit(const std::shared_ptr<const Scene>& scene);
   /// Throws the samples of both away and starts over.
   void restart();
 

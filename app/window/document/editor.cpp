@@ -1,6 +1,7 @@
 #include "app/window/document/editor.h"
 
 #include "app/window/document/open_document.h"
+#include "core/render/mailbox.h"
 #include "core/scene/check.h"
 
 #include <exception>
@@ -11,10 +12,7 @@ namespace tyndall {
 namespace fs = std::filesystem;
 
 bool same_picture(const Scene& a, const Scene& b) {
-  Scene shown = a;
-  shown.display = b.display;
-  shown.name = b.name;
-  return shown == b;
+  return change_between(a, b).none() && a.render.spp == b.render.spp;
 }
 
 Editor::Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, EditorEvents events, JobQueue& jobs,

@@ -1,6 +1,7 @@
 #include "app/window/session.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/allocations.h"
 #include "tests/support/news.h"
 #include "tests/support/paths.h"
 
@@ -97,6 +98,22 @@ TEST_CASE("an edit goes to the renderer, the same value again does not") {
   CHECK_FALSE(edited(opened.session->editor().document()));
   REQUIRE(opened.finishes());
   CHECK(opened.session->renderers().edit(Half::current) == 3);
+}
+
+TEST_CASE("an edit copies the scene at most twice on its way to compile: to change it, and to share it") {
+  constexpr std::size_t many = 997;
+  Opened opened("copies");
+  Scene large = opened.session->editor().scene();
+  large.objects.resize(many, large.objects[0]);
+  opened.session->editor().edit(std::move(large), 0);
+  REQUIRE(opened.finishes());
+  const test::AllocationCount copies(many * sizeof(Object));
+  Scene next = opened.session->editor().scene();
+  next.camera.vfov -= 1;
+  opened.session->editor().edit(std::move(next), 0);
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->renderers().edit(Half::current) == 3);
+  CHECK(copies.count() == 2);
 }
 
 TEST_CASE("exposure, tone map and name start nothing over, but can be undone") {
