@@ -39,6 +39,7 @@ LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
 RESERVED = [
     (r"(GLFW|glad|GL|EGL|X11)/|(backends/)?imgui", r"app/window/"),
     (r"CLI/", r"app/cli/"),
+    (r"fmt/", r"app/"),
     (r"hwy/", r"core/base/lanes_simd_arithmetic\.h$"),
     (r"nlohmann/", r"app/|core/scene/json[a-z_]*\.cpp$"),
     (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_", r"core/image/image_io[a-z_]*\.cpp$"),

@@ -7,9 +7,10 @@
 #include "core/image/tonemap.h"
 #include "core/render/render.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tyndall {
 namespace {
@@ -80,14 +81,9 @@ Shift shift_of_depth(Scene scene, const Film& exact, int depth) {
 
 /// 16 letters wide.
 std::string cell(const Shift& s) {
-  char text[40];
-  if (s.rms == 0 && s.error == 0)
-    std::snprintf(text, sizeof text, "%7s%9s", "0", "");
-  else if (s.rms > s.error)
-    std::snprintf(text, sizeof text, "%7.2g ± %-6.1g", 100 * s.rms, 100 * s.error);
-  else
-    std::snprintf(text, sizeof text, "%7s %-8.1g", "<", 100 * (s.rms + 2 * s.error));
-  return text;
+  if (s.rms == 0 && s.error == 0) return fmt::format("{:>7}{:>9}", "0", "");
+  if (s.rms > s.error) return fmt::format("{:7.2g} ± {:<6.1g}", 100 * s.rms, 100 * s.error);
+  return fmt::format("{:>7} {:<8.1g}", "<", 100 * (s.rms + 2 * s.error));
 }
 
 const char* heading =

@@ -6,10 +6,10 @@
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 
 namespace tyndall {
 namespace {
@@ -66,29 +66,23 @@ std::string json_text(const Comparison& c) {
 }
 
 std::string blocks_text(const BlockScores& b) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "blocks   mean z^2 %.3g in %d blocks of 8x8 (up to %.3g is noise), worst |z| %.3g: %s\n", b.mean_square,
-                b.blocks, b.most, b.worst, b.noise() ? "only noise" : "more than noise");
-  return text;
+  return fmt::format("blocks   mean z^2 {:.3g} in {} blocks of 8x8 (up to {:.3g} is noise), worst |z| {:.3g}: {}\n",
+                     b.mean_square, b.blocks, b.most, b.worst, b.noise() ? "only noise" : "more than noise");
 }
 
 std::string row(const char* name, double value, const char* note) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%-8s %-13.6g %s", name, value, note);
-  std::string line = text;
+  const std::string line = fmt::format("{:<8} {:<13.6g} {}", name, value, note);
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
 std::string table(const Comparison& c) {
-  char means[400];
   const Vec3d a = c.error.mean_image, b = c.error.mean_reference;
-  std::snprintf(means, sizeof means,
-                "mean     image         reference\n"
-                "  red    %-13.6g %.6g\n"
-                "  green  %-13.6g %.6g\n"
-                "  blue   %-13.6g %.6g\n",
-                a.x, b.x, a.y, b.y, a.z, b.z);
+  const std::string means = fmt::format(
+      "mean     image         reference\n"
+      "  red    {:<13.6g} {:.6g}\n"
+      "  green  {:<13.6g} {:.6g}\n"
+      "  blue   {:<13.6g} {:.6g}\n",
+      a.x, b.x, a.y, b.y, a.z, b.z);
   return row("MSE", c.error.mse, "") + row("RMSE", c.error.rmse, "") +
          row("relMSE", c.error.rel_mse, "depends on the unit of radiance") + row("PSNR", c.error.psnr, "dB, sRGB") +
          row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (c.blocks ? blocks_text(*c.blocks) : "") + means;
@@ -99,9 +93,7 @@ bool passes(const CompareCommand& command, const Comparison& c) {
   bool good = true;
   const auto check = [&good](const char* name, double value, const std::optional<double>& limit) {
     if (!limit || value <= *limit) return;
-    char text[120];
-    std::snprintf(text, sizeof text, "check failed: %s is %.6g, expected at most %.6g", name, value, *limit);
-    complain(text);
+    complain(fmt::format("check failed: {} is {:.6g}, expected at most {:.6g}", name, value, *limit));
     good = false;
   };
   check("RMSE", c.error.rmse, command.max_rmse);

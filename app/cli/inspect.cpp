@@ -9,9 +9,9 @@
 #include "core/compile/compile.h"
 #include "core/film/film.h"
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <optional>
 
 namespace tyndall {
@@ -97,21 +97,15 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 std::string bytes_text(std::size_t bytes) {
-  char text[40];
-  if (bytes < 100'000)
-    std::snprintf(text, sizeof text, "%.1f kB", static_cast<double>(bytes) / 1e3);
-  else
-    std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) / 1e6);
-  return text;
+  const auto number = static_cast<double>(bytes);
+  return bytes < 100'000 ? fmt::format("{:.1f} kB", number / 1e3) : fmt::format("{:.1f} MB", number / 1e6);
 }
 
 std::string gain_text(const KernelGain& gain) {
   if (gain.pairs == 0) return gain.isa + ": renders this scene by the full kernel itself, so there is nothing to gain";
-  char text[160];
-  std::snprintf(text, sizeof text, "%s: %.2f times as fast as the full kernel (%.2f to %.2f in %d pairs), %s",
-                gain.isa.c_str(), gain.gain, gain.least, gain.most, gain.pairs,
-                gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
-  return text;
+  return fmt::format("{}: {:.2f} times as fast as the full kernel ({:.2f} to {:.2f} in {} pairs), {}", gain.isa,
+                     gain.gain, gain.least, gain.most, gain.pairs,
+                     gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
 }
 
 std::string table(const Report& report) {

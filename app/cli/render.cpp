@@ -14,8 +14,9 @@
 #include "core/render/caustics.h"
 #include "core/render/rare.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
-#include <cstdio>
 #include <new>
 
 namespace tyndall {
@@ -58,9 +59,7 @@ std::string losses(const FilmTotals& sum) {
   std::string text;
   if (sum.rejected > 0) text += ", " + std::to_string(sum.rejected) + " samples rejected";
   if (sum.truncated == 0) return text;
-  char part[80];
-  std::snprintf(part, sizeof part, ", %.2g %% of the throughput cut at the longest path", 100 * sum.cut_throughput);
-  return text + part;
+  return text + fmt::format(", {:.2g} % of the throughput cut at the longest path", 100 * sum.cut_throughput);
 }
 
 std::string outcome(const Job& job) {
@@ -86,10 +85,8 @@ void render(Job& job, const SignalWatch& signals) {
     job.result = render(job.compiled, job.options, progress, std::move(job.film));
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
-    char text[120];
-    std::snprintf(text, sizeof text, "not enough memory: a film of %dx%d pixels takes %.3g GB", r.width(), r.height(),
-                  1e-9 * sizeof(FilmPixel) * r.width() * r.height());
-    throw IoError(text);
+    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB", r.width(), r.height(),
+                              1e-9 * sizeof(FilmPixel) * r.width() * r.height()));
   }
   job.picture = finished_picture(job.result);
   job.rare_bright_paths =

@@ -2,11 +2,11 @@
 
 #include "app/text/progress.h"
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tyndall {
 namespace {
@@ -22,23 +22,16 @@ int count(const VerifyRun& run, Verdict verdict) {
       std::count_if(run.rows.begin(), run.rows.end(), [=](const VerifyRow& row) { return row.verdict == verdict; }));
 }
 
-template <class... T>
-std::string format(const char* pattern, T... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 std::string line_of(const VerifyRow& row, std::size_t name_width) {
   const std::string start = "  " + row.what.name + std::string(name_width + 2 - row.what.name.size(), ' ');
   if (row.verdict == Verdict::skipped)
-    return start + format("%-12.7g needs light sampling                          skipped\n", row.what.expected);
+    return start + fmt::format("{:<12.7g} needs light sampling                          skipped\n", row.what.expected);
   const Measured& m = row.measured;
-  std::string text =
-      start + format("%-12.7g %-12.7g %-9.2g %7.2f %9llu   %s", row.what.expected, m.value.mean, m.value.error, row.z,
-                     static_cast<unsigned long long>(m.totals.truncated), name_of(row.verdict));
+  std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.what.expected,
+                                         m.value.mean, m.value.error, row.z,
+                                         static_cast<unsigned long long>(m.totals.truncated), name_of(row.verdict));
   if (m.totals.rejected > 0)
-    text += format(", %llu samples rejected", static_cast<unsigned long long>(m.totals.rejected));
+    text += fmt::format(", {} samples rejected", static_cast<unsigned long long>(m.totals.rejected));
   return text + "\n";
 }
 
@@ -50,11 +43,11 @@ std::string sum_up(const VerifyRun& run) {
   std::string text = std::to_string(run.rows.size()) + " cases";
   for (const Verdict verdict : {Verdict::ok, Verdict::fail, Verdict::vague, Verdict::skipped})
     if (const int n = count(run, verdict)) text += ", " + std::to_string(n) + " " + name_of(verdict);
-  text += format("; %.3g samples, %llu rejected; %s\n", static_cast<double>(samples),
-                 static_cast<unsigned long long>(rejected), duration(run.seconds).c_str());
+  text += fmt::format("; {:.3g} samples, {} rejected; {}\n", static_cast<double>(samples),
+                      static_cast<unsigned long long>(rejected), duration(run.seconds).c_str());
   if (z.count == 0) return text;
-  return text + format("z-scores of %d cases: mean square %.2f, expected 1 (%.2f to %.2f): %s\n", z.count,
-                       z.mean_square, z.band.low, z.band.high, z.ok() ? "ok" : "FAIL");
+  return text + fmt::format("z-scores of {} cases: mean square {:.2f}, expected 1 ({:.2f} to {:.2f}): {}\n", z.count,
+                            z.mean_square, z.band.low, z.band.high, z.ok() ? "ok" : "FAIL");
 }
 
 nlohmann::ordered_json json_of(const VerifyRow& row) {

@@ -1,19 +1,12 @@
 #include "app/curves/chart.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <optional>
 
 namespace tyndall {
 namespace {
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 /// A name as one field of CSV.
 std::string csv_field(const std::string& name) {
@@ -31,14 +24,14 @@ std::string chart_csv(const Chart& chart) {
   std::string out = "method,spp,seconds,relmse\n";
   for (const ErrorCurve& curve : chart.curves)
     for (const ErrorPoint& p : curve.points)
-      out += csv_field(curve.method) + format(",%u,%.6g,%.6g\n", p.spp, p.seconds, p.rel_mse);
+      out += csv_field(curve.method) + fmt::format(",{},{:.6g},{:.6g}\n", p.spp, p.seconds, p.rel_mse);
   return out;
 }
 
 std::string chart_table(const Chart& chart) {
   const auto time = [](const ErrorCurve& curve, double error) {
     const auto seconds = seconds_to(curve, error);
-    return seconds ? format("%.3g s", *seconds) : std::string("-");
+    return seconds ? fmt::format("{:.3g} s", *seconds) : std::string("-");
   };
   std::size_t longest = 6;
   for (const ErrorCurve& curve : chart.curves) longest = std::max(longest, curve.method.size());
@@ -51,8 +44,8 @@ std::string chart_table(const Chart& chart) {
     const auto bias = bias_of(curve, chart.reference_noise);
     const auto speed = bias ? std::nullopt : speed_against(*first, curve);
     out += padded(curve.method, longest + 2) + padded(time(curve, 0.01), 11) + padded(time(curve, 0.001), 11) +
-           padded(speed ? format("%.3gx", *speed) : "-", 10) +
-           (bias ? format("%.2g", *bias) : std::string("none seen")) + "\n";
+           padded(speed ? fmt::format("{:.3g}x", *speed) : "-", 10) +
+           (bias ? fmt::format("{:.2g}", *bias) : std::string("none seen")) + "\n";
   }
   return out;
 }

@@ -1,9 +1,10 @@
 #include "app/curves/svg.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 namespace tyndall {
@@ -39,18 +40,12 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
-
 std::string text_at(double x, double y, const std::string& attributes, const std::string& words) {
-  return format("<text x=\"%.1f\" y=\"%.1f\" ", x, y) + attributes + ">" + escaped(words) + "</text>\n";
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" ", x, y) + attributes + ">" + escaped(words) + "</text>\n";
 }
 std::string line(double x0, double y0, double x1, double y1, const std::string& kind) {
-  return format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"%s\"/>\n", x0, y0, x1, y1, kind.c_str());
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x0, y0, x1, y1,
+                     kind.c_str());
 }
 
 /// The range of the axes, in whole decades that hold all points, and where times and errors are on the page.
@@ -76,7 +71,8 @@ struct Plot {
 };
 
 std::string seconds_text(int exponent) {
-  return exponent < 0 ? format("%g ms", std::pow(10.0, exponent + 3)) : format("%g s", std::pow(10.0, exponent));
+  return exponent < 0 ? fmt::format("{:g} ms", std::pow(10.0, exponent + 3))
+                      : fmt::format("{:g} s", std::pow(10.0, exponent));
 }
 
 std::string grid(const Plot& plot) {
@@ -91,14 +87,14 @@ std::string grid(const Plot& plot) {
   for (int e = plot.y0; e <= plot.y1; ++e) {
     const double y = plot.y(std::pow(10.0, e));
     out += line(left, y, width - right, y, "grid");
-    out += text_at(left - 8, y + 4, "text-anchor=\"end\"", format("%g", std::pow(10.0, e)));
+    out += text_at(left - 8, y + 4, "text-anchor=\"end\"", fmt::format("{:g}", std::pow(10.0, e)));
   }
   out +=
       text_at((left + width - right) / 2, height - 16, "text-anchor=\"middle\" class=\"dim\"", "seconds of rendering");
-  return out +
-         format(
-             "<text transform=\"translate(20 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"dim\">relMSE</text>\n",
-             (top + height - bottom) / 2);
+  return out + fmt::format(
+                   "<text transform=\"translate(20 {:.1f}) rotate(-90)\" text-anchor=\"middle\" "
+                   "class=\"dim\">relMSE</text>\n",
+                   (top + height - bottom) / 2);
 }
 
 /// A line of slope -1: along it the error halves when the time doubles, which is what more samples alone give.
@@ -121,13 +117,13 @@ std::string curve_lines(const Plot& plot, const ErrorCurve& curve, const std::op
   std::string points, dots;
   for (const ErrorPoint& p : curve.points) {
     if (!(p.rel_mse > 0)) continue;
-    points += format("%.1f,%.1f ", plot.x(p.seconds), plot.y(p.rel_mse));
-    dots += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.6\" class=\"f%zu\"/>\n", plot.x(p.seconds), plot.y(p.rel_mse),
-                   i % colours);
+    points += fmt::format("{:.1f},{:.1f} ", plot.x(p.seconds), plot.y(p.rel_mse));
+    dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" class=\"f{}\"/>\n", plot.x(p.seconds),
+                        plot.y(p.rel_mse), i % colours);
   }
-  std::string out = format("<polyline class=\"curve s%zu%s\" points=\"", i % colours, i < colours ? "" : " again") +
+  std::string out = fmt::format("<polyline class=\"curve s{}{}\" points=\"", i % colours, i < colours ? "" : " again") +
                     points + "\"/>\n" + dots;
-  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), format("bias s%zu", i % colours));
+  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), fmt::format("bias s{}", i % colours));
   return out;
 }
 
@@ -154,11 +150,11 @@ std::string names(const Plot& plot, const Chart& chart) {
     const ErrorCurve& curve = chart.curves[i];
     const ErrorPoint& end = curve.points.back();
     const std::size_t colour = i % colours;
-    out += format("<polyline class=\"lead s%zu\" points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\"/>\n", colour,
-                  plot.x(end.seconds) + 5, plot.y(end.rel_mse), width - right + 4, y, width - right + 12, y);
+    out += fmt::format("<polyline class=\"lead s{}\" points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\"/>\n", colour,
+                       plot.x(end.seconds) + 5, plot.y(end.rel_mse), width - right + 4, y, width - right + 12, y);
     const auto bias = bias_of(curve, chart.reference_noise);
-    out += text_at(width - right + 16, y + 4, format("class=\"f%zu\"", colour),
-                   curve.method + (bias ? format(" (%s %.2g)", floor_name(chart), *bias) : ""));
+    out += text_at(width - right + 16, y + 4, fmt::format("class=\"f{}\"", colour),
+                   curve.method + (bias ? fmt::format(" ({} {:.2g})", floor_name(chart), *bias) : ""));
   }
   return out;
 }
@@ -167,12 +163,12 @@ std::string names(const Plot& plot, const Chart& chart) {
 
 std::string chart_svg(const Chart& chart) {
   const Plot plot(chart.curves);
-  std::string out = format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" width=\"%g\" height=\"%g\" "
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" width=\"{:g}\" height=\"{:g}\" "
       "role=\"img\">\n",
       width, height, width, height);
   out += std::string("<title>") + escaped(chart.title) + "</title>\n" + style + "\n";
-  out += format("<rect class=\"paper\" width=\"%g\" height=\"%g\"/>\n", width, height);
+  out += fmt::format("<rect class=\"paper\" width=\"{:g}\" height=\"{:g}\"/>\n", width, height);
   out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
   out += grid(plot) + slope_guide(plot, chart.curves);
   for (std::size_t i = 0; i < chart.curves.size(); ++i)

@@ -1,5 +1,6 @@
 #include "app/files/stats.h"
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -12,11 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string hash_text(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 /// Infinite and undefined numbers as null: JSON has no others.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }

@@ -3,18 +3,14 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 
-#include <cstdio>
+#include <fmt/core.h>
 
 namespace tyndall {
 namespace {
 
 Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
-std::string text_of(Vec3d v) {
-  char text[100];
-  std::snprintf(text, sizeof text, "%.9g %.9g %.9g", v.x, v.y, v.z);
-  return text;
-}
+std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
 /// The innermost object on a path of indices, and its place in the file.
 struct Named {
@@ -84,9 +80,8 @@ std::string heading(const Scene& scene, const RenderScene& compiled, const PathV
   const std::string what = v.met == Met::medium
                                ? "the medium " + medium_text(scene, v.medium)
                                : object_text(scene, compiled.elements.object[static_cast<std::size_t>(v.element)]);
-  char distance[40];
-  std::snprintf(distance, sizeof distance, "after %.9g ", static_cast<double>(v.distance));
-  return distance + ("meets " + what) + ", " + fate + (v.inside ? " on its inner side" : "");
+  const char* side = v.inside ? " on its inner side" : "";
+  return fmt::format("after {:.9g} meets {}, {}{}", static_cast<double>(v.distance), what, fate, side);
 }
 
 }  // namespace

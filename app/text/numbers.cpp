@@ -1,18 +1,13 @@
 #include "app/text/numbers.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 namespace tyndall {
 namespace {
-
-std::string printed(const char* format, int digits, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, digits, value);
-  return text;
-}
 
 /// Rounds to a power of ten without leaving digits behind: 0.18, not 0.18000000000000002.
 double round_to(double value, int exponent) {
@@ -72,11 +67,11 @@ double dragged(const Slider& slider, double before, double steps) {
 std::string format_value(const Slider& slider, double value) {
   const double size = std::abs(value);
   if (size >= 1e4 || (size != 0 && size < 1e-3)) return format_short(value);
-  if (!slider.logarithmic && size < 100) return printed("%.*f", std::clamp(-step_exponent(slider), 0, 6), value);
-  return printed("%.*f", size < 10 ? 3 : size < 100 ? 2 : size < 1000 ? 1 : 0, value);
+  if (!slider.logarithmic && size < 100) return fmt::format("{:.{}f}", value, std::clamp(-step_exponent(slider), 0, 6));
+  return fmt::format("{:.{}f}", value, size < 10 ? 3 : size < 100 ? 2 : size < 1000 ? 1 : 0);
 }
 
-std::string format_short(double value) { return printed("%.*g", 4, value + 0.0); }
+std::string format_short(double value) { return fmt::format("{:.4g}", value + 0.0); }
 
 std::string format_count(unsigned long long n) {
   std::string text = std::to_string(n);

@@ -1,5 +1,7 @@
 #include "app/text/progress.h"
 
+#include <fmt/core.h>
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -11,13 +13,6 @@
 
 namespace tyndall {
 namespace {
-
-template <class... T>
-std::string format(const char* pattern, T... values) {
-  char text[128];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
@@ -49,19 +44,19 @@ double progress_fraction(const RenderProgress& now, const ProgressGoal& goal) {
 }
 
 std::string duration(double seconds) {
-  if (seconds < 59.95) return format("%.1f s", seconds);
+  if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
   if (seconds >= 1e9) return "years";
   const long whole = std::lround(seconds);
-  if (whole < 3600) return format("%ld:%02ld", whole / 60, whole % 60);
-  return format("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 std::string progress_text(const RenderProgress& now, const ProgressGoal& goal) {
   std::string text = std::to_string(now.spp);
   if (goal.spp > 0) text += "/" + std::to_string(goal.spp);
   text += " spp";
-  if (now.mrays_per_s > 0) text += format(", %.3g Mrays/s", now.mrays_per_s);
-  if (std::isfinite(now.relative_error)) text += format(", error %.2g", now.relative_error);
+  if (now.mrays_per_s > 0) text += fmt::format(", {:.3g} Mrays/s", now.mrays_per_s);
+  if (std::isfinite(now.relative_error)) text += fmt::format(", error {:.2g}", now.relative_error);
   text += ", " + duration(now.seconds);
   const double part = progress_fraction(now, goal);
   if (part > 0) text += ", " + duration(now.seconds * (1 - part) / part) + " left";

@@ -2,9 +2,10 @@
 
 #include "core/base/error.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tyndall {
 
@@ -36,19 +37,14 @@ std::string PictureView::text_of(Half half) const {
   std::string text = method + "   " + format_count(frame->spp) + " spp";
   const ErrorCurve& curve = session_.accuracy().curves(half).current();
   if (curve.edit != frame->edit || curve.points.empty()) return text;
-  char error[64];
-  std::snprintf(error, sizeof error, "   %s error %.2g %%", session_.accuracy().is_true() ? "true" : "est.",
-                100 * std::sqrt(curve.points.back().rel_mse));
-  return text + error;
+  const char* kind = session_.accuracy().is_true() ? "true" : "est.";
+  return text + fmt::format("   {} error {:.2g} %", kind, 100 * std::sqrt(curve.points.back().rel_mse));
 }
 
 void PictureView::draw_halves(Ui& ui, const Rect& image) const {
   if (!shows_halves()) return;
-  if (ui.log && left_.frame && right_.frame) {
-    char seconds[64];
-    std::snprintf(seconds, sizeof seconds, "A %.2f B %.2f", left_.frame->seconds, right_.frame->seconds);
-    ui.log->changed("halves", seconds);
-  }
+  if (ui.log && left_.frame && right_.frame)
+    ui.log->changed("halves", fmt::format("A {:.2f} B {:.2f}", left_.frame->seconds, right_.frame->seconds));
   draw_split(ui, image, divider_, {text_of(Half::kept), text_of(Half::current)});
 }
 

@@ -3,25 +3,19 @@
 #include "app/window/overlays.h"
 #include "app/window/system/imgui_compat.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tyndall {
 namespace {
 
 constexpr double notable_cut = 1e-3;  // share of the throughput that the depth limit may take without a word
 
-template <class... Arguments>
-std::string printed(const char* format, Arguments... arguments) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
-}
-
 std::string percent(double share) {
   if (!std::isfinite(share)) return "?";
-  return printed(share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
+  return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
 std::string state_of(const Frame* frame, bool paused) {
@@ -42,17 +36,17 @@ std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, 
                                      StatusState state) {
   std::vector<StatusCell> cells{{state.split ? "B" : "", state_of(frame, state.paused), 0}};
   if (frame) {
-    const std::string spp = frame->spp > 0 ? format_count(frame->spp) : printed("1/%d", frame->step * frame->step);
+    const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
     const bool measured = state.is_true && run.edit == frame->edit && !run.points.empty();
     if (state.is_true)
       cells.push_back({"true error", measured ? percent(std::sqrt(run.points.back().rel_mse)) : "?", 1});
     cells.push_back({state.is_true ? "estimated" : "error", percent(frame->relative_error), state.is_true ? 3 : 1});
     cells.push_back({"to 1 %", time_left(*frame, run), 2});
-    cells.push_back({"", printed(frame->mrays_per_s < 10 ? "%.1f Mrays/s" : "%.0f Mrays/s", frame->mrays_per_s), 3});
+    cells.push_back({"", fmt::format("{:.{}f} Mrays/s", frame->mrays_per_s, frame->mrays_per_s < 10 ? 1 : 0), 3});
     cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),
                      std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});
-    cells.push_back({"film", printed("%.0f MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
+    cells.push_back({"film", fmt::format("{:.0f} MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
     cells.push_back({"rejected", format_count(frame->rejected), frame->rejected > 0 ? 1 : 5, frame->rejected > 0});
     if (frame->rare_bright_paths) cells.push_back({"not converged", "rare bright paths", 1, true});
     if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});

@@ -1,7 +1,8 @@
 #include "app/window/document/numbered_files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <utility>
@@ -13,9 +14,7 @@ namespace fs = std::filesystem;
 fs::path numbered_base(const fs::path& folder, const std::string& stem, int least,
                        const std::vector<const char*>& endings) {
   for (int number = least;; ++number) {
-    char text[16];
-    std::snprintf(text, sizeof text, "-%03d", number);
-    fs::path base = folder / (stem + text);
+    fs::path base = folder / fmt::format("{}-{:03}", stem, number);
     std::error_code ignored;
     const auto taken = [&](const char* ending) {
       return fs::symlink_status(base.string() + ending, ignored).type() != fs::file_type::not_found;

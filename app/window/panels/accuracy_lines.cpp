@@ -1,18 +1,12 @@
 #include "app/window/panels/panels.h"
 
-#include <cstdio>
+#include <fmt/core.h>
 
 namespace tyndall {
 namespace {
 
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string flip_text(const PairErrors& pair) {
-  return pair.flip ? formatted(" · FLIP %.2g", *pair.flip) + " at " + format_count(pair.flip_spp) + " spp" : "";
+  return pair.flip ? fmt::format(" · FLIP {:.2g}", *pair.flip) + " at " + format_count(pair.flip_spp) + " spp" : "";
 }
 
 AccuracyLine reference_line(const LiveAccuracy& accuracy) {
@@ -33,7 +27,7 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy) {
   if (!accuracy.split()) return lines;
   const PairErrors& pair = accuracy.pair();
   lines.push_back(
-      {"B against A" + (pair.rel_mse ? formatted(": relMSE %.2g", *pair.rel_mse) : "") + flip_text(pair), false});
+      {"B against A" + (pair.rel_mse ? fmt::format(": relMSE {:.2g}", *pair.rel_mse) : "") + flip_text(pair), false});
   return lines;
 }
 

@@ -2,9 +2,10 @@
 #include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 /// The live chart: estimated relMSE over seconds of rendering, both logarithmic, drawn with the draw list only.
@@ -49,12 +50,8 @@ struct Plot {
 };
 
 std::string decade_text(int exponent, const char* unit) {
-  char text[32];
-  if (exponent >= -2 && exponent <= 3)
-    std::snprintf(text, sizeof text, "%g%s", std::pow(10.0, exponent), unit);
-  else
-    std::snprintf(text, sizeof text, "1e%d%s", exponent, unit);
-  return text;
+  if (exponent >= -2 && exponent <= 3) return fmt::format("{:g}{}", std::pow(10.0, exponent), unit);
+  return fmt::format("1e{}{}", exponent, unit);
 }
 
 void draw_grid(const Plot& plot) {
@@ -136,12 +133,6 @@ void draw_lines(const Plot& plot) {
     plot.draw->AddCircleFilled(plot.at(current.points.back()), 4 * plot.ui.scale, shade(palette::blue));
 }
 
-std::string printed(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 /// Marks the point of the curve nearest to the mouse, and shows its numbers in a tooltip.
 void read_out(Ui& ui, const Plot& plot) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -152,15 +143,18 @@ void read_out(Ui& ui, const Plot& plot) {
   const ErrorPoint& p = found->at;
   plot.draw->AddCircleFilled(plot.at(p), 4.5f * ui.scale, shade(palette::ink));
   plot.draw->AddCircle(plot.at(p), 4.5f * ui.scale, shade(palette::text), 0, 1.5f * ui.scale);
-  const std::string numbers = printed("%.2g s, ", p.seconds) + format_count(p.spp) + " spp\nrelMSE " +
-                              printed("%.2g", p.rel_mse) + ", error " + printed("%.2g %%", 100 * std::sqrt(p.rel_mse));
+  const std::string numbers = fmt::format("{:.2g} s, ", p.seconds) + format_count(p.spp) + " spp\nrelMSE " +
+                              fmt::format("{:.2g}", p.rel_mse) + ", error " +
+                              fmt::format("{:.2g} %", 100 * std::sqrt(p.rel_mse));
   compat::push_font(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(line.name.c_str());
   ImGui::TextColored(palette::dim, "%s", numbers.c_str());
   ImGui::EndTooltip();
   ImGui::PopFont();
-  if (ui.log) ui.log->changed("reading", line.name + ": " + printed("%.4g s ", p.seconds) + printed("%.4g", p.rel_mse));
+  if (ui.log)
+    ui.log->changed("reading",
+                    line.name + ": " + fmt::format("{:.4g} s ", p.seconds) + fmt::format("{:.4g}", p.rel_mse));
 }
 
 void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {

@@ -4,9 +4,10 @@
 #include "app/window/tools/camera_control.h"
 #include "core/base/math.h"
 
+#include <fmt/core.h>
+
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -25,11 +26,7 @@ std::string percent(double share) {
   return text + " %";
 }
 
-std::string format_three(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string format_three(double value) { return fmt::format("{:.3g}", value); }
 
 double luminance(Vec3d c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 

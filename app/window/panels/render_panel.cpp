@@ -4,9 +4,10 @@
 #include "app/window/panels/panels.h"
 #include "core/base/crew.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 
 namespace tyndall {
@@ -17,9 +18,7 @@ std::string share_cut_off(const Frame* frame) {
   const double paths = static_cast<double>(frame->spp) * frame->width * frame->height;
   const double share = static_cast<double>(frame->truncated) / paths;
   if (share == 0) return "no path was cut off";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.2g %% of the paths cut off", 100 * share);
-  return text;
+  return fmt::format("{:.2g} % of the paths cut off", 100 * share);
 }
 
 const char* view_meaning(const PanelState& state) {

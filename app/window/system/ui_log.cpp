@@ -2,23 +2,17 @@
 
 #include "core/base/error.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 
 namespace tyndall {
-namespace {
-
-template <class... Arguments>
-std::string printed(const char* format, Arguments... arguments) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 double quantile(std::vector<double>& values, double q) {
   if (values.empty()) return 0;
@@ -53,8 +47,8 @@ void UiLog::widget(const std::string& name, const Rect& rect, const std::string&
   std::string word = name;
   std::replace(word.begin(), word.end(), ' ', '_');
   line("widget " + word +
-       printed(" %.0f %.0f %.0f %.0f ", static_cast<double>(rect.x0), static_cast<double>(rect.y0),
-               static_cast<double>(rect.x1), static_cast<double>(rect.y1)) +
+       fmt::format(" {:.0f} {:.0f} {:.0f} {:.0f} ", static_cast<double>(rect.x0), static_cast<double>(rect.y0),
+                   static_cast<double>(rect.x1), static_cast<double>(rect.y1)) +
        value);
 }
 
@@ -92,12 +86,12 @@ void UiLog::shown(const Frame& frame, double now) {
   shown_ = edit;
   if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
   line("frame " + std::to_string(edit) +
-       printed(" %u %d %.1f %.1f", frame.spp, frame.step, ms, frame.first_picture_ms));
+       fmt::format(" {} {} {:.1f} {:.1f}", frame.spp, frame.step, ms, frame.first_picture_ms));
 }
 
 void UiLog::drawn(double cpu_seconds, bool picture) {
   (picture ? cpu_picture_ : cpu_plain_).push_back(1e3 * cpu_seconds);
-  line(printed("drawn %.2f %d", 1e3 * cpu_seconds, picture ? 1 : 0));
+  line(fmt::format("drawn {:.2f} {}", 1e3 * cpu_seconds, picture ? 1 : 0));
 }
 
 void UiLog::mouse(const Mouse& mouse) {
@@ -124,8 +118,8 @@ void UiLog::changed(const std::string& kind, const std::string& value) {
 
 void UiLog::summary(const char* what, std::vector<double> values) {
   const double middle = quantile(values, 0.5), p95 = quantile(values, 0.95), p99 = quantile(values, 0.99);
-  line(std::string(what) +
-       printed(" n %zu p50 %.1f p95 %.1f p99 %.1f max %.1f ms", values.size(), middle, p95, p99, quantile(values, 1)));
+  line(std::string(what) + fmt::format(" n {} p50 {:.1f} p95 {:.1f} p99 {:.1f} max {:.1f} ms", values.size(), middle,
+                                       p95, p99, quantile(values, 1)));
 }
 
 }  // namespace tyndall
