@@ -14,31 +14,32 @@ using Words = const std::vector<std::string>&;
 
 Command read_compare(Words words) {
   CompareCommand command;
-  CommandLine line("compare IMAGE REFERENCE [options]",
-                   "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
-                   "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
-                   "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
-                   "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
-                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
-                   "Two EXR files that Tyndall made hold their noise too: then z-scores of blocks of 8x8 pixels say\n"
-                   "whether the difference is more than that.",
-                   "Exit code 1: an error is above its --max-..., or not a number.");
+  const auto app =
+      new_command("compare IMAGE REFERENCE [options]",
+                  "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
+                  "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+                  "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
+                  "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
+                  "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
+                  "Two EXR files that Tyndall made hold their noise too: then z-scores of blocks of 8x8 pixels say\n"
+                  "whether the difference is more than that.",
+                  "Exit code 1: an error is above its --max-..., or not a number.");
   std::string image, reference;
-  line.argument("IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
-  line.argument("REFERENCE", "what it should be; of the same size", reference);
-  line.value("--heatmap", "FILE.png", "write FLIP of each pixel, in colours whose scale is beneath",
-             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
-  line.flag("--json", "print JSON", command.json);
-  line.group("Checks");
-  const auto limit = [&line](const char* name, const char* help, std::optional<double>& value) {
-    line.value(name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
+  add_argument(*app, "IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
+  add_argument(*app, "REFERENCE", "what it should be; of the same size", reference);
+  add_value(*app, "--heatmap", "FILE.png", "write FLIP of each pixel, in colours whose scale is beneath",
+            [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
+  app->add_flag("--json", command.json, "print JSON");
+  app->option_defaults()->group("Checks");
+  const auto limit = [&app](const char* name, const char* help, std::optional<double>& value) {
+    add_value(*app, name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
   };
   limit("--max-rmse", "fail if RMSE is above X", command.max_rmse);
   limit("--max-relmse", "fail if relMSE is above X", command.max_rel_mse);
   limit("--max-flip", "fail if FLIP is above X", command.max_flip);
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!image.empty(), "IMAGE");
-  line.require(!reference.empty(), "REFERENCE");
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !image.empty(), "IMAGE");
+  require(*app, !reference.empty(), "REFERENCE");
   command.image = image;
   command.reference = reference;
   return command;
@@ -46,20 +47,21 @@ Command read_compare(Words words) {
 
 Command read_merge(Words words) {
   MergeCommand command;
-  CommandLine line("merge PART... -o FILE [options]",
-                   "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for\n"
-                   "bit, the film of one render of all the samples.",
-                   "Example:\n"
-                   "  tyndall render fog.json --samples 0:64 -o a.exr\n"
-                   "  tyndall render fog.json --samples 64:128 -o b.exr\n"
-                   "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
+  const auto app =
+      new_command("merge PART... -o FILE [options]",
+                  "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for\n"
+                  "bit, the film of one render of all the samples.",
+                  "Example:\n"
+                  "  tyndall render fog.json --samples 0:64 -o a.exr\n"
+                  "  tyndall render fog.json --samples 64:128 -o b.exr\n"
+                  "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
   std::vector<std::string> parts;
-  line.arguments("PART", "EXR files that hold films of the same scene, in any order", parts);
-  line.values("-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
-              [&](Text t) { command.outputs.push_back(t); });
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!parts.empty(), "PART");
-  line.require(!command.outputs.empty(), "an output (-o FILE)");
+  add_arguments(*app, "PART", "EXR files that hold films of the same scene, in any order", parts);
+  add_values(*app, "-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
+             [&](Text t) { command.outputs.push_back(t); });
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !parts.empty(), "PART");
+  require(*app, !command.outputs.empty(), "an output (-o FILE)");
   command.parts.assign(parts.begin(), parts.end());
   return command;
 }
@@ -67,18 +69,18 @@ Command read_merge(Words words) {
 Command read_inspect(Words words) {
   InspectCommand command;
   command.scene.what.clear();
-  CommandLine line("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.", "");
-  add_scene(line, command.scene);
-  line.flag("--json", "print JSON", command.json);
-  line.flag("--measure", "measure what the kernel gains over the full one (2 s)", command.measure);
-  line.flag("--accuracy",
-            "print what each approximation costs: the books' Fresnel rule,\n"
-            "limits of depth, float lanes, 8 bits; without SCENE: in all\n"
-            "built-in scenes",
-            command.accuracy);
-  add_isa(line, command.isa);
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(command.accuracy || !command.scene.what.empty(), "SCENE");
+  const auto app =
+      new_command("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.");
+  add_scene(*app, command.scene);
+  app->add_flag("--json", command.json, "print JSON");
+  app->add_flag("--measure", command.measure, "measure what the kernel gains over the full one (2 s)");
+  app->add_flag("--accuracy", command.accuracy,
+                "print what each approximation costs: the books' Fresnel rule,\n"
+                "limits of depth, float lanes, 8 bits; without SCENE: in all\n"
+                "built-in scenes");
+  add_isa(*app, command.isa);
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, command.accuracy || !command.scene.what.empty(), "SCENE");
   if (!command.isa.empty() && !command.measure) throw UsageError("--isa is of use with --measure only");
   if (command.accuracy && (command.json || command.measure))
     throw UsageError(std::string("--accuracy and ") + (command.json ? "--json" : "--measure") + " exclude each other");
@@ -86,24 +88,26 @@ Command read_inspect(Words words) {
 }
 
 Command read_scenes(Words words) {
-  CommandLine line("scenes", "Lists the built-in scenes. Every command takes their names in place of a file.", "");
-  if (auto help = line.read(words)) return PrintCommand{*help};
+  const auto app =
+      new_command("scenes", "Lists the built-in scenes. Every command takes their names in place of a file.");
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
   return ScenesCommand{};
 }
 
 Command read_convert(Words words) {
   ConvertCommand command;
   command.scene.what.clear();
-  CommandLine line("convert SCENE -o FILE.json [options]",
-                   "Writes a scene in normal form: every value that is not its default, keys in the format's order,\n"
-                   "without comments. Also gets the scene out of an image that Tyndall made.",
-                   "Example:\n  tyndall convert snapshot.png -o snapshot.json");
-  add_scene(line, command.scene);
-  line.value("-o,--output", "FILE.json", "where to; - for standard output; required",
-             [&](Text t) { command.output = t == "-" ? std::filesystem::path(t) : read_file_name(t, ".json"); });
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!command.scene.what.empty(), "SCENE");
-  line.require(!command.output.empty(), "an output (-o FILE.json)");
+  const auto app =
+      new_command("convert SCENE -o FILE.json [options]",
+                  "Writes a scene in normal form: every value that is not its default, keys in the format's order,\n"
+                  "without comments. Also gets the scene out of an image that Tyndall made.",
+                  "Example:\n  tyndall convert snapshot.png -o snapshot.json");
+  add_scene(*app, command.scene);
+  add_value(*app, "-o,--output", "FILE.json", "where to; - for standard output; required",
+            [&](Text t) { command.output = t == "-" ? std::filesystem::path(t) : read_file_name(t, ".json"); });
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !command.scene.what.empty(), "SCENE");
+  require(*app, !command.output.empty(), "an output (-o FILE.json)");
   return command;
 }
 

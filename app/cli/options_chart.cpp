@@ -16,10 +16,10 @@ MethodRequest read_method(const std::string& text) {
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> words;
   for (std::string word; stream >> word;) words.push_back(word);
-  CommandLine line("--method NAME=FLAGS", "One curve of a chart.", "");
-  add_method_options(line, method.scene);
-  add_isa(line, method.isa);
-  if (line.read(words)) throw UsageError("found a question for help, expected flags of a method");
+  const auto app = new_command("--method NAME=FLAGS", "One curve of a chart.");
+  add_method_options(*app, method.scene);
+  add_isa(*app, method.isa);
+  if (parse(*app, words)) throw UsageError("found a question for help, expected flags of a method");
   return method;
 }
 
@@ -28,35 +28,35 @@ MethodRequest read_method(const std::string& text) {
 Command read_chart(const std::vector<std::string>& words) {
   ChartCommand command;
   command.scene.what.clear();
-  CommandLine line(
-      "chart SCENE -o FILE.svg [options]",
-      "Charts speed against accuracy: relMSE over seconds of rendering, a curve for each method, against\n"
-      "a reference. Without --method: the books' method and each improvement switched on in turn. Writes\n"
-      "the chart, a CSV file beside it (method,spp,seconds,relmse), and prints a table. SCENE 'all' makes\n"
-      "a gallery of charts in the folder -o.",
-      "Examples:\n"
-      "  tyndall chart cornell-smoke -o smoke.svg\n"
-      "  tyndall chart fog.json --method 'mis=' --method 'no MIS=--integrator nee' -o fog.svg");
+  const auto app =
+      new_command("chart SCENE -o FILE.svg [options]",
+                  "Charts speed against accuracy: relMSE over seconds of rendering, a curve for each method, against\n"
+                  "a reference. Without --method: the books' method and each improvement switched on in turn. Writes\n"
+                  "the chart, a CSV file beside it (method,spp,seconds,relmse), and prints a table. SCENE 'all' makes\n"
+                  "a gallery of charts in the folder -o.",
+                  "Examples:\n"
+                  "  tyndall chart cornell-smoke -o smoke.svg\n"
+                  "  tyndall chart fog.json --method 'mis=' --method 'no MIS=--integrator nee' -o fog.svg");
   bool quiet = false;
-  add_scene(line, command.scene);
-  line.value("-o,--output", "FILE.svg", "the chart; required", [&](const std::string& t) { command.output = t; });
-  line.values("--method", "NAME=FLAGS",
-              "a curve: the scene's settings, and what its flags change\n"
-              "(those of Method in 'tyndall render', and --isa); repeatable",
-              [&](const std::string& t) { command.methods.push_back(read_method(t)); });
-  line.value("--reference", "FILE", "what is right: an image of the charted size [rendered]",
-             [&](const std::string& t) { command.reference = t; });
-  line.value("--budget", "SECONDS", "time for all, the reference included [50]",
-             [&](const std::string& t) { command.budget = read_number(t, above(0), "a number of seconds > 0"); });
-  line.value("--size", "WxH", "image size in pixels [the scene's, made smaller to 65,536 pixels]",
-             [&](const std::string& t) { command.scene.size = read_size(t); });
-  line.value("-t,--threads", "N", "worker threads [all cores]",
-             [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, most_threads)); });
-  add_progress(line, command.progress);
-  line.flag("-q,--quiet", "no progress", quiet);
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!command.scene.what.empty(), "SCENE");
-  line.require(!command.output.empty(), "an output (-o FILE.svg)");
+  add_scene(*app, command.scene);
+  add_value(*app, "-o,--output", "FILE.svg", "the chart; required", [&](const std::string& t) { command.output = t; });
+  add_values(*app, "--method", "NAME=FLAGS",
+             "a curve: the scene's settings, and what its flags change\n"
+             "(those of Method in 'tyndall render', and --isa); repeatable",
+             [&](const std::string& t) { command.methods.push_back(read_method(t)); });
+  add_value(*app, "--reference", "FILE", "what is right: an image of the charted size [rendered]",
+            [&](const std::string& t) { command.reference = t; });
+  add_value(*app, "--budget", "SECONDS", "time for all, the reference included [50]",
+            [&](const std::string& t) { command.budget = read_number(t, above(0), "a number of seconds > 0"); });
+  add_value(*app, "--size", "WxH", "image size in pixels [the scene's, made smaller to 65,536 pixels]",
+            [&](const std::string& t) { command.scene.size = read_size(t); });
+  add_value(*app, "-t,--threads", "N", "worker threads [all cores]",
+            [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, most_threads)); });
+  add_progress(*app, command.progress);
+  app->add_flag("-q,--quiet", quiet, "no progress");
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !command.scene.what.empty(), "SCENE");
+  require(*app, !command.output.empty(), "an output (-o FILE.svg)");
   if (command.scene.what != "all") read_file_name(command.output.string(), ".svg");
   if (quiet) command.progress = ProgressStyle::none;
   return command;

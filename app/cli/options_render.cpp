@@ -8,43 +8,43 @@ namespace {
 
 using Text = const std::string&;
 
-void add_image_options(CommandLine& line, SceneRequest& scene) {
-  line.group("Image");
-  line.value("--size", "WxH", "image size in pixels [from the scene]", [&](Text t) { scene.size = read_size(t); });
-  add_settings(line, scene.display);
+void add_image_options(CLI::App& app, SceneRequest& scene) {
+  app.option_defaults()->group("Image");
+  add_value(app, "--size", "WxH", "image size in pixels [from the scene]", [&](Text t) { scene.size = read_size(t); });
+  add_settings(app, scene.display);
 }
 
-void add_limits(CommandLine& line, RenderCommand& command) {
-  line.group("Limits (the first one reached ends the render)");
-  line.value("--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
-             [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, most_samples)); });
-  line.value("--samples", "A:B",
-             "exactly the samples A <= i < B of each pixel, for shards that\n"
-             "'tyndall merge' adds; not with --spp, --time or --target-error",
-             [&](Text t) { command.samples = read_samples(t); });
-  line.value("--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
-             [&](Text t) { command.time_limit = read_number(t, above(0), "a number of seconds > 0"); });
-  line.value("--target-error", "E", "estimated relative error; its square estimates relMSE",
-             [&](Text t) { command.target_error = read_number(t, above(0), "a number > 0"); });
+void add_limits(CLI::App& app, RenderCommand& command) {
+  app.option_defaults()->group("Limits (the first one reached ends the render)");
+  add_value(app, "--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
+            [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, most_samples)); });
+  add_value(app, "--samples", "A:B",
+            "exactly the samples A <= i < B of each pixel, for shards that\n"
+            "'tyndall merge' adds; not with --spp, --time or --target-error",
+            [&](Text t) { command.samples = read_samples(t); });
+  add_value(app, "--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
+            [&](Text t) { command.time_limit = read_number(t, above(0), "a number of seconds > 0"); });
+  add_value(app, "--target-error", "E", "estimated relative error; its square estimates relMSE",
+            [&](Text t) { command.target_error = read_number(t, above(0), "a number > 0"); });
 }
 
-void add_output(CommandLine& line, RenderCommand& command) {
-  line.group("Output");
-  line.values("-o,--output", "FILE",
-              ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
-              "itself; .pfm, .hdr: float, linear; repeatable; required",
-              [&](Text t) { command.outputs.push_back(t); });
-  line.value("--region", "X0,Y0,X1,Y1",
-             "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
-             "PNG, PFM and HDR get the region's size, EXR a data window",
-             [&](Text t) { command.region = read_region(t); });
-  line.value("--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
-  line.value("--replay", "X,Y,SAMPLE",
-             "write no image; print the path of this sample of this pixel,\n"
-             "vertex by vertex, as --isa scalar follows it",
-             [&](Text t) { command.replay = read_sample_key(t); });
-  line.flag("--resume", "go on from the film in the .exr output, if there is one", command.resume);
-  add_progress(line, command.progress);
+void add_output(CLI::App& app, RenderCommand& command) {
+  app.option_defaults()->group("Output");
+  add_values(app, "-o,--output", "FILE",
+             ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
+             "itself; .pfm, .hdr: float, linear; repeatable; required",
+             [&](Text t) { command.outputs.push_back(t); });
+  add_value(app, "--region", "X0,Y0,X1,Y1",
+            "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
+            "PNG, PFM and HDR get the region's size, EXR a data window",
+            [&](Text t) { command.region = read_region(t); });
+  add_value(app, "--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
+  add_value(app, "--replay", "X,Y,SAMPLE",
+            "write no image; print the path of this sample of this pixel,\n"
+            "vertex by vertex, as --isa scalar follows it",
+            [&](Text t) { command.replay = read_sample_key(t); });
+  app.add_flag("--resume", command.resume, "go on from the film in the .exr output, if there is one");
+  add_progress(app, command.progress);
 }
 
 void refuse_conflicts(const RenderCommand& c) {
@@ -61,82 +61,84 @@ void refuse_conflicts(const RenderCommand& c) {
 
 }  // namespace
 
-void add_method_options(CommandLine& line, SceneRequest& scene) {
-  line.group("Method");
-  add_settings(line, scene.render, {"spp"});
+void add_method_options(CLI::App& app, SceneRequest& scene) {
+  app.option_defaults()->group("Method");
+  add_settings(app, scene.render, {"spp"});
 }
 
-void add_machine_options(CommandLine& line, int& threads, std::string& isa) {
-  line.group("Machine");
-  line.value("-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
-             [&](Text t) { threads = static_cast<int>(read_whole(t, 1, most_threads)); });
-  add_isa(line, isa);
+void add_machine_options(CLI::App& app, int& threads, std::string& isa) {
+  app.option_defaults()->group("Machine");
+  add_value(app, "-t,--threads", "N", "worker threads; the image is the same for any number [all cores]",
+            [&](Text t) { threads = static_cast<int>(read_whole(t, 1, most_threads)); });
+  add_isa(app, isa);
 }
 
-void add_isa(CommandLine& line, std::string& isa) {
-  line.value("--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
+void add_isa(CLI::App& app, std::string& isa) {
+  add_value(app, "--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
     read_name(t, {"scalar", "sse4", "avx2", "avx512"});
     isa = t;
   });
 }
 
-void add_progress(CommandLine& line, ProgressStyle& style) {
-  line.value("--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
+void add_progress(CLI::App& app, ProgressStyle& style) {
+  add_value(app, "--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
     style = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
   });
 }
 
-void add_scene(CommandLine& line, SceneRequest& scene, const std::string& note) {
-  line.argument("SCENE",
-                "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
-                "by Tyndall, or - for standard input" +
-                    note,
-                scene.what);
-  line.values("--set", "POINTER=VALUE",
-              "override one value of the scene's JSON before it is checked, e.g.\n"
-              "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"
-              "repeatable, in order",
-              [&scene](Text t) { scene.overrides.push_back(read_override(t)); });
+void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
+  add_argument(app, "SCENE",
+               "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
+               "by Tyndall, or - for standard input" +
+                   note,
+               scene.what);
+  add_values(app, "--set", "POINTER=VALUE",
+             "override one value of the scene's JSON before it is checked, e.g.\n"
+             "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"
+             "repeatable, in order",
+             [&scene](Text t) { scene.overrides.push_back(read_override(t)); });
 }
 
 Command read_view(const std::vector<std::string>& words) {
   ViewCommand command;
   command.words = words;
-  CommandLine line("view [SCENE] [options]",
-                   "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.", "");
-  add_scene(line, command.scene, " [showroom]");
-  add_image_options(line, command.scene);
-  add_method_options(line, command.scene);
-  add_machine_options(line, command.threads, command.isa);
-  line.value("--reference", "FILE", "an image of the same scene and size, to show the true error against",
-             [&](Text t) { command.reference = t; });
-  line.value("--ui-log", "FILE",
-             "for tests: write what is on the screen and how long things took;\n- for standard output",
-             [&](Text t) { command.ui_log = t; });
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!command.scene.what.empty(), "SCENE");
+  const auto app =
+      new_command("view [SCENE] [options]",
+                  "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.");
+  add_scene(*app, command.scene, " [showroom]");
+  add_image_options(*app, command.scene);
+  add_method_options(*app, command.scene);
+  add_machine_options(*app, command.threads, command.isa);
+  add_value(*app, "--reference", "FILE", "an image of the same scene and size, to show the true error against",
+            [&](Text t) { command.reference = t; });
+  add_value(*app, "--ui-log", "FILE",
+            "for tests: write what is on the screen and how long things took;\n- for standard output",
+            [&](Text t) { command.ui_log = t; });
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !command.scene.what.empty(), "SCENE");
   return command;
 }
 
 Command read_render(const std::vector<std::string>& words) {
   RenderCommand command;
   command.scene.what.clear();
-  CommandLine line("render SCENE -o FILE [options]", "Renders a scene without a window and writes the image.",
-                   "Examples:\n"
-                   "  tyndall render cornell-box -o box.png\n"
-                   "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"
-                   "  tyndall render box.png --set /camera/vfov=30 -o closer.png");
+  const auto app =
+      new_command("render SCENE -o FILE [options]", "Renders a scene without a window and writes the image.",
+                  "Examples:\n"
+                  "  tyndall render cornell-box -o box.png\n"
+                  "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"
+                  "  tyndall render box.png --set /camera/vfov=30 -o closer.png");
   bool quiet = false;
-  add_scene(line, command.scene);
-  add_output(line, command);
-  line.flag("-q,--quiet", "no progress", quiet);
-  add_limits(line, command);
-  add_image_options(line, command.scene);
-  add_method_options(line, command.scene);
-  add_machine_options(line, command.threads, command.isa);
-  if (auto help = line.read(words)) return PrintCommand{*help};
-  line.require(!command.scene.what.empty(), "SCENE");
-  line.require(command.replay || !command.outputs.empty(), "an output (-o FILE)");
+  add_scene(*app, command.scene);
+  add_output(*app, command);
+  app->add_flag("-q,--quiet", quiet, "no progress");
+  add_limits(*app, command);
+  add_image_options(*app, command.scene);
+  add_method_options(*app, command.scene);
+  add_machine_options(*app, command.threads, command.isa);
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !command.scene.what.empty(), "SCENE");
+  require(*app, command.replay || !command.outputs.empty(), "an output (-o FILE)");
   refuse_conflicts(command);
   if (quiet) command.progress = ProgressStyle::none;
   return command;
@@ -144,25 +146,26 @@ Command read_render(const std::vector<std::string>& words) {
 
 Command read_verify(const std::vector<std::string>& words) {
   VerifyCommand command;
-  CommandLine line("verify [NAME...] [options]",
-                   "Measures pictures whose mean radiance is known, with the kernels that draw, and prints a table:\n"
-                   "expected and from where, measured, standard error, deviation in standard errors (z), verdict.\n\n"
-                   "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
-                   "errors that are too good are errors too. Exit code 1 if anything fails.",
-                   "Examples:\n"
-                   "  tyndall verify\n"
-                   "  tyndall verify plate fog-ball/ --isa scalar\n"
-                   "  tyndall verify plate --fresnel schlick      # the books' rule fails");
+  const auto app =
+      new_command("verify [NAME...] [options]",
+                  "Measures pictures whose mean radiance is known, with the kernels that draw, and prints a table:\n"
+                  "expected and from where, measured, standard error, deviation in standard errors (z), verdict.\n\n"
+                  "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
+                  "errors that are too good are errors too. Exit code 1 if anything fails.",
+                  "Examples:\n"
+                  "  tyndall verify\n"
+                  "  tyndall verify plate fog-ball/ --isa scalar\n"
+                  "  tyndall verify plate --fresnel schlick      # the books' rule fails");
   bool quiet = false;
-  line.arguments("NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
-  line.flag("--thorough", "standard errors of at most 1e-4 of the value instead of 1e-3", command.thorough);
-  line.flag("--json", "print JSON", command.json);
-  add_progress(line, command.progress);
-  line.flag("-q,--quiet", "no progress", quiet);
-  line.group("Method");
-  add_settings(line, command.method.render, {"spp", "adaptive"});
-  add_machine_options(line, command.threads, command.isa);
-  if (auto help = line.read(words)) return PrintCommand{*help};
+  add_arguments(*app, "NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
+  app->add_flag("--thorough", command.thorough, "standard errors of at most 1e-4 of the value instead of 1e-3");
+  app->add_flag("--json", command.json, "print JSON");
+  add_progress(*app, command.progress);
+  app->add_flag("-q,--quiet", quiet, "no progress");
+  app->option_defaults()->group("Method");
+  add_settings(*app, command.method.render, {"spp", "adaptive"});
+  add_machine_options(*app, command.threads, command.isa);
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
   if (quiet) command.progress = ProgressStyle::none;
   return command;
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/cli/command_line.h"
+#include "app/cli/parse.h"
 #include "app/files/scene_request.h"
 #include "core/base/text.h"
 #include "core/scene/place.h"
@@ -80,28 +80,29 @@ std::string default_text(const std::optional<T>& value) {
 
 /// One option. A switch that is off by default needs no value.
 template <class Owner, class T>
-void add_setting(CommandLine& line, Changes<Owner>& changes, const Field<Owner, T>& field) {
+void add_setting(CLI::App& app, Changes<Owner>& changes, const Field<Owner, T>& field) {
   const T usual = Owner().*field.value;
   const std::string help =
       wrapped(field.help + choices_text(usual) + " [from the scene, else " + default_text(usual) + "]", help_width);
   if constexpr (std::is_same_v<T, bool>)
-    if (!usual)
-      return line.flag(option_name(field.name), help, [&changes, field] {
-        changes.values.*field.value = true;
-        changes.given.insert(field.name);
-      });
-  line.value(option_name(field.name), placeholder(meaning_of(field), usual), help,
-             [&changes, field](const std::string& text) {
-               read_option(text, meaning_of(field), changes.values.*field.value);
-               changes.given.insert(field.name);
-             });
+    if (!usual) {
+      const auto switch_on = [&changes, field](std::int64_t) { set(changes, field.value, true); };
+      app.add_flag_function(option_name(field.name), switch_on, help);
+      return;
+    }
+  add_value(app, option_name(field.name), placeholder(meaning_of(field), usual), help,
+            [&changes, field](const std::string& text) {
+              T value{};
+              read_option(text, meaning_of(field), value);
+              set(changes, field.value, value);
+            });
 }
 
 /// Options for all fields of a struct but some.
 template <class Owner>
-void add_settings(CommandLine& line, Changes<Owner>& changes, std::initializer_list<std::string_view> without = {}) {
+void add_settings(CLI::App& app, Changes<Owner>& changes, std::initializer_list<std::string_view> without = {}) {
   const auto one = [&](const auto& field) {
-    if (std::find(without.begin(), without.end(), field.name) == without.end()) add_setting(line, changes, field);
+    if (std::find(without.begin(), without.end(), field.name) == without.end()) add_setting(app, changes, field);
   };
   std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
 }

@@ -1,0 +1,103 @@
+#include "app/cli/parse.h"
+
+#include "core/base/text.h"
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_("\nUsage: tyndall " + std::move(usage) + "\n") {
+    column_width(30);
+    label("Positionals", "Arguments");
+  }
+  std::string make_usage(const CLI::App*, std::string) const override { return usage_; }
+
+ private:
+  std::string usage_;
+};
+
+std::string see_help(const CLI::App& app) { return " (see " + app.get_name() + " --help)"; }
+
+/// A reader that puts the option's name before what it complains about.
+Reader named(const std::string& names, Reader read) {
+  return [name = names.substr(names.find("--")), read = std::move(read)](const std::string& text) {
+    try {
+      read(text);
+    } catch (const UsageError& error) {
+      throw UsageError(name + ": " + error.what());
+    }
+  };
+}
+
+/// Throws for the first word that is neither option nor argument.
+void refuse_extras(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& word : app.remaining()) {
+    if (word == "--") continue;  // ends the options
+    if (word.size() < 2 || word[0] != '-') throw UsageError("unexpected argument " + in_quotes(word) + see_help(app));
+    const std::string name = word.substr(0, word.find('='));
+    throw UsageError("unknown option " + in_quotes(name) + suggestion(name, names) + see_help(app));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::string& about, const std::string& examples) {
+  auto app = std::make_unique<CLI::App>(about, "tyndall " + usage.substr(0, usage.find(' ')));
+  app->formatter(std::make_shared<HelpFormatter>(usage));
+  app->set_help_flag("-h,--help", "show this text");
+  app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app->allow_extras();  // parse() refuses them with a suggestion
+  app->footer(examples);
+  return app;
+}
+
+void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read) {
+  app.add_option_function<std::string>(names, named(names, std::move(read)), help)->option_text(unit);
+}
+
+void add_values(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help,
+                Reader read) {
+  const auto each = [read = named(names, std::move(read))](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) read(text);
+  };
+  CLI::Option* option = app.add_option_function<std::vector<std::string>>(names, each, help);
+  option->option_text(unit)->allow_extra_args(false)->take_all();
+}
+
+void add_argument(CLI::App& app, const std::string& name, const std::string& help, std::string& text) {
+  app.add_option(name, text, help)->option_text(" ")->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
+void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts) {
+  app.add_option(name, texts, help)->option_text(" ")->take_all();
+}
+
+std::optional<std::string> parse(CLI::App& app, std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // what CLI11 expects
+  try {
+    app.parse(words);
+  } catch (const CLI::CallForHelp&) {
+    return app.help();
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    throw UsageError(text.substr(0, text.find(':')) + ": a value is missing" + see_help(app));
+  } catch (const CLI::ParseError& error) {
+    std::string text = error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    throw UsageError(text + see_help(app));
+  }
+  refuse_extras(app);
+  return std::nullopt;
+}
+
+void require(const CLI::App& app, bool given, const std::string& what) {
+  if (!given) throw UsageError(what + " is missing" + see_help(app));
+}
+
+}  // namespace tyndall

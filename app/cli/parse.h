@@ -1,0 +1,40 @@
+#pragma once
+#include "app/text/values.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What Tyndall's commands add to CLI11: values that are read by functions which say what they expected, so that every
+/// refusal reads alike ("--size: found "8", expected WIDTHxHEIGHT ..."), and a usage line of our own.
+namespace tyndall {
+
+/// Takes the text of a value; throws UsageError `found "X", expected Y`.
+using Reader = std::function<void(const std::string&)>;
+
+/// Columns that the help of an option has beside its name.
+inline constexpr std::size_t help_width = 66;
+
+/// A command. usage: its name, then what follows it, as the help shows it; about, examples: text before and after the
+/// options. Of an option that is given several times the last counts, unless it says otherwise.
+std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::string& about,
+                                      const std::string& examples = "");
+
+/// An option with a value. names: "-t,--threads"; unit: what the help calls the value.
+void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read);
+/// The same; may be given several times, each time with one value.
+void add_values(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read);
+/// Words without a dash.
+void add_argument(CLI::App& app, const std::string& name, const std::string& help, std::string& text);
+void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts);
+
+/// Reads the words after the command. Returns the help text if that is asked for. Throws UsageError, a line.
+std::optional<std::string> parse(CLI::App& app, std::vector<std::string> words);
+/// Throws "WHAT is missing" unless it was given.
+void require(const CLI::App& app, bool given, const std::string& what);
+
+}  // namespace tyndall
