@@ -89,6 +89,8 @@ inline bool Group::operator==(const Group& other) const { return objects == othe
 /// What a ray that escapes sees.
 struct Gradient {
   static constexpr const char* type = "gradient";
+  static constexpr const char* about =
+      "(1 - a) * bottom + a * top, where a = (y + 1) / 2 of the unit direction: the books' sky.";
   Vec3d bottom{1, 1, 1}, top{0.5, 0.7, 1.0};
   bool operator==(const Gradient&) const = default;
 };
@@ -98,6 +100,7 @@ inline constexpr auto fields(const Gradient*) {
 }
 struct Hemispheres {
   static constexpr const char* type = "hemispheres";
+  static constexpr const char* about = "One radiance above the horizon (y > 0), another below.";
   Vec3d up{1, 1, 1}, down{0, 0, 0};
   bool operator==(const Hemispheres&) const = default;
 };
