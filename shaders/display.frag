@@ -1,11 +1,11 @@
 #version 330 core
-// Linear light to what the screen shows: the same curves as core/film/tonemap.h.
+// Linear light to what the screen shows: the same curves as core/image/tonemap.cpp.
 in vec2 uv;
 out vec4 colour;
 
 uniform sampler2D image;  // linear Rec.709, top row first
 uniform float scale;      // 2^exposure
-uniform int curve;        // 0: clipped, 1: the film-like fit
+uniform int curve;        // number of a ToneMap: 0 srgb, clipped; 1 aces, a film's shoulder
 
 // K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015. It is 1 from 7.25 on; the cut keeps infinity out of a division.
 vec3 aces(vec3 light) {

@@ -15,7 +15,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int picture_pixels = 96 * 72;  // about: pictures keep their shape
+constexpr int picture_pixels = 96 * 72;  // roughly: each scene keeps its ratio of width to height
 constexpr std::uint32_t picture_spp = 256;
 
 Film film_of(const Scene& scene, bool reference = false) {
@@ -25,7 +25,7 @@ Film film_of(const Scene& scene, bool reference = false) {
   return render(compile(scene), options).film;
 }
 
-/// Mean and standard error of squared relative differences, one a pixel, as a root.
+/// From one squared relative difference a pixel: the root of their mean, and the standard error of that root.
 Shift root_of_mean(const std::vector<double>& squares) {
   const auto n = static_cast<double>(squares.size());
   double sum = 0, spread = 0;
@@ -47,7 +47,8 @@ double relative(Vec3f mean, Product product) {
   return sum;
 }
 
-/// The halves have independent noise: the mean of the product of their differences is that of the shift's square.
+/// The shift between two films. Even and odd samples have independent noise, so the mean product of their two
+/// differences is the mean square of the shift alone.
 Shift shift(const Film& exact, const Film& other) {
   std::vector<double> squares;
   for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
@@ -79,7 +80,7 @@ Shift shift_of_depth(Scene scene, const Film& exact, int depth) {
   return shift(exact, film_of(scene));
 }
 
-/// 16 letters wide.
+/// A cell of the table, 16 letters wide: "0.18 ± 0.02", "< 0.01" where nothing is seen above the noise, or "0".
 std::string cell(const Shift& s) {
   if (s.rms == 0 && s.error == 0) return fmt::format("{:>7}{:>9}", "0", "");
   if (s.rms > s.error) return fmt::format("{:7.2g} ± {:<6.1g}", 100 * s.rms, 100 * s.error);

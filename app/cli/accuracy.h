@@ -18,7 +18,7 @@ struct Accuracy {
 };
 
 /// Renders the scene small, each way with the same random numbers: where both ways take the same path, noise cancels.
-/// What is left of it falls out of the product of the two halves' differences.
+/// The noise that is left differs between the two halves, so it averages to 0 in the product of their differences.
 Accuracy measure_accuracy(Scene scene);
 
 /// Prints a table, a line a scene: of the requested scene, or of all built-in ones if it names none. Returns the exit

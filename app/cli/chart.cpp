@@ -17,8 +17,9 @@
 namespace tyndall {
 namespace {
 
-constexpr double share_of_reference = 0.4;  // of the time
-constexpr double most_pixels = 256 * 256;   // unless a size is asked for: error a pixel does not depend on it
+constexpr double share_of_reference = 0.4;  // of the whole time; the curves get the rest
+constexpr double most_pixels =
+    256 * 256;  // unless --size asks for more: the error of a pixel does not depend on how many there are
 
 /// The scenes of `chart all`: the light, the fog, the sky, the texture, the glass.
 constexpr const char* gallery[] = {"cornell-box", "cornell-smoke", "cover", "simple-light", "hollow-glass", "showroom"};

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int output_failed = 3;
 
-/// Layers are the same in all parts; they are not read back, so that a merged EXR has none.
+/// Reads a part. Its layers (albedo, normal, depth) are not read: a merged EXR has none.
 bool write(const Film& film, const Scene& scene, const MergeCommand& command) {
   const auto embedded = [&](const std::filesystem::path& file) {
     return Embedded{embedded_scene(scene, ".", film, file), ""};

@@ -81,9 +81,8 @@ void add_isa(CLI::App& app, std::string& isa) {
 }
 
 void add_progress(CLI::App& app, ProgressStyle& style) {
-  add_value(app, "--progress", "NAME", "auto, plain or none, on standard error [auto]", [&](Text t) {
-    style = static_cast<ProgressStyle>(read_name(t, {"auto", "plain", "none"}));
-  });
+  const std::string help = wrapped("on standard error" + choices_text(style) + " [auto]", help_width);
+  add_value(app, "--progress", "NAME", help, [&](Text t) { read_option(t, {}, style); });
 }
 
 void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {

@@ -2,6 +2,7 @@
 #include "app/cli/parse.h"
 #include "app/cli/requests.h"
 
+/// The options of the commands that render, and the groups of options that several commands share.
 namespace tyndall {
 
 /// Words after "view", "render", "verify" and "chart" as commands.

@@ -4,13 +4,13 @@
 #include "core/render/render.h"
 #include "core/scene/load.h"
 
-/// From what the user asked for to what render() is told.
+/// Turns what the user asked for into what render() is told.
 namespace tyndall {
 
 /// The kernels of an instruction set ("": the best). Throws UsageError if this build or CPU has none of that name.
 Kernels find_kernels(const std::string& isa);
 
-/// Limits, region and threads of a render. spp is always set: where only time or error limit, to most_samples.
+/// Limits, region and threads of a render. spp is always set; where only time or error end the render, to most_samples.
 /// Throws UsageError for a region beyond the image and for adaptive sampling of a range or of a film that is resumed.
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded);
 

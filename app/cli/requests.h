@@ -10,13 +10,12 @@
 #include <variant>
 #include <vector>
 
-/// What the user asked for, one struct a command. The command line is turned into one of them in options.h and nowhere
-/// else.
+/// What the user asked for: one struct for each command. Only read_command() (options.h) makes them.
 namespace tyndall {
 
 struct ViewCommand {
   SceneRequest scene;
-  std::vector<std::string> words;   ///< as they were given, to say what does the same without a window
+  std::vector<std::string> words;   ///< as the user typed them; repeated in the message that there is no display
   int threads = 0;                  ///< 0: all cores
   std::string isa;                  ///< "": the best
   std::filesystem::path reference;  ///< image that errors are measured against; empty: none
@@ -48,7 +47,7 @@ struct CompareCommand {
 
 struct VerifyCommand {
   std::vector<std::string> names;  ///< beginnings of the cases' names; none: all cases
-  SceneRequest method;             ///< what is the same for all scenes; its `what` and overrides are the cases'
+  SceneRequest method;             ///< settings for all cases; each case adds its own scene and overrides
   bool thorough = false;           ///< standard errors of 1e-4 instead of 1e-3
   bool json = false;
   int threads = 0;  ///< 0: all cores

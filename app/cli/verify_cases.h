@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-/// Known answers that `tyndall verify` checks the renderer against.
+/// The known answers that `tyndall verify` checks the renderer against.
 namespace tyndall {
 
-/// The mean over the pixels and channels of a scene's picture is known.
+/// One known answer: the mean of a picture over its pixels and channels.
 struct VerifyCase {
   std::string name;                 ///< "plate/reflected-60deg"
   std::filesystem::path scene;      ///< file
   std::vector<Override> overrides;  ///< of the scene, in order
   double expected = 0;
   std::string source;                 ///< author, title, year, or how it is derived
-  bool needs_light_sampling = false;  ///< chance alone does not find its lights
+  bool needs_light_sampling = false;  ///< its lights are too small for a path to meet by chance
 };
 
 /// Reads a table of cases: { "groups": [{ "name", "scene", "source", "set": { POINTER: VALUE, … }, "light_sampling",

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double most_z = 4;
 
-constexpr const char* verdict_names[] = {"ok", "FAIL", "vague", "skipped"};
-
-const char* name_of(Verdict verdict) { return verdict_names[static_cast<int>(verdict)]; }
-
 int count(const VerifyRun& run, Verdict verdict) {
   return static_cast<int>(
       std::count_if(run.rows.begin(), run.rows.end(), [=](const VerifyRow& row) { return row.verdict == verdict; }));
@@ -28,10 +24,8 @@ std::string line_of(const VerifyRow& row, std::size_t name_width) {
     return start + fmt::format("{:<12.7g} needs light sampling                          skipped\n", row.what.expected);
   const Measured& m = row.measured;
   std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.what.expected,
-                                         m.value.mean, m.value.error, row.z,
-                                         static_cast<unsigned long long>(m.totals.truncated), name_of(row.verdict));
-  if (m.totals.rejected > 0)
-    text += fmt::format(", {} samples rejected", static_cast<unsigned long long>(m.totals.rejected));
+                                         m.value.mean, m.value.error, row.z, m.totals.truncated, name_of(row.verdict));
+  if (m.totals.rejected > 0) text += fmt::format(", {} samples rejected", m.totals.rejected);
   return text + "\n";
 }
 
@@ -41,10 +35,12 @@ std::string sum_up(const VerifyRun& run) {
   for (const VerifyRow& row : run.rows)
     samples += row.measured.totals.samples, rejected += row.measured.totals.rejected;
   std::string text = std::to_string(run.rows.size()) + " cases";
-  for (const Verdict verdict : {Verdict::ok, Verdict::fail, Verdict::vague, Verdict::skipped})
-    if (const int n = count(run, verdict)) text += ", " + std::to_string(n) + " " + name_of(verdict);
-  text += fmt::format("; {:.3g} samples, {} rejected; {}\n", static_cast<double>(samples),
-                      static_cast<unsigned long long>(rejected), duration(run.seconds).c_str());
+  for (int i = 0; i < count_of<Verdict>(); ++i) {
+    const auto verdict = static_cast<Verdict>(i);
+    if (const int n = count(run, verdict)) text += fmt::format(", {} {}", n, name_of(verdict));
+  }
+  text +=
+      fmt::format("; {:.3g} samples, {} rejected; {}\n", static_cast<double>(samples), rejected, duration(run.seconds));
   if (z.count == 0) return text;
   return text + fmt::format("z-scores of {} cases: mean square {:.2f}, expected 1 ({:.2f} to {:.2f}): {}\n", z.count,
                             z.mean_square, z.band.low, z.band.high, z.ok() ? "ok" : "FAIL");

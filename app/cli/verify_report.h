@@ -1,19 +1,29 @@
 #pragma once
 #include "app/cli/verify_cases.h"
+#include "core/base/choice.h"
 #include "core/render/measure.h"
 
 #include <string>
 #include <vector>
 
-/// What `tyndall verify` found out, and how it says it.
+/// What `tyndall verify` measured, its judgement, and both as a table or JSON.
 namespace tyndall {
 
-enum class Verdict {
-  ok,
-  fail,     ///< more than 4 standard errors off, or samples were rejected
-  vague,    ///< the standard error stayed above what was asked for
-  skipped,  ///< cannot be measured without light sampling
-};
+enum class Verdict { ok, fail, vague, skipped };
+
+constexpr Word word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::ok:
+      return {"ok"};
+    case Verdict::fail:
+      return {"FAIL", "more than 4 standard errors off, or samples were rejected"};
+    case Verdict::vague:
+      return {"vague", "the standard error stayed above what was asked for"};
+    case Verdict::skipped:
+      return {"skipped", "cannot be measured without light sampling"};
+  }
+  return {};
+}
 
 struct VerifyRow {
   VerifyCase what;
@@ -35,7 +45,8 @@ struct VerifyRun {
   bool interrupted = false;
 };
 
-/// Mean square of the z-scores whose standard error is above the rounding, against what chance allows.
+/// The mean square of the z-scores, which chance keeps near 1, and the band that it may be in. Cases whose standard
+/// error is as small as the rounding of single precision are left out.
 struct ZStatistic {
   int count = 0;
   double mean_square = 0;

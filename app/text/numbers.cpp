@@ -98,18 +98,4 @@ bool parse_number(const std::string& text, const std::string& unit, double& valu
   return true;
 }
 
-std::string describe(const Valid& valid, bool whole) {
-  const bool low = std::isfinite(valid.low), high = std::isfinite(valid.high);
-  std::string text = whole ? "a whole number" : "a number";
-  if (low && high)
-    text += std::string(" in ") + (valid.low_open ? "(" : "[") + format_short(valid.low) + ", " +
-            format_short(valid.high) + (valid.high_open ? ")" : "]");
-  else if (low)
-    text += (valid.low_open ? " > " : " >= ") + format_short(valid.low);
-  else if (high)
-    text += (valid.high_open ? " < " : " <= ") + format_short(valid.high);
-  if (valid.nonzero) text += " other than 0";
-  return text;
-}
-
 }  // namespace tyndall

@@ -3,10 +3,10 @@
 
 #include <string>
 
-/// How numbers are shown, typed and put on sliders. Pure.
+/// How numbers are shown, typed and put on sliders. All functions are pure.
 namespace tyndall {
 
-/// The slider's range with room for a value beyond it: up to the next power of ten, or what is valid.
+/// The slider's range, made large enough for a value beyond it: up to the next power of ten, or to what is valid.
 Slider widened(const Slider& slider, const Valid& valid, double value);
 
 /// Where a value is on a slider, in [0, 1]. Logarithmic sliders show the size and keep the sign.
@@ -17,16 +17,14 @@ double slider_value(const Slider& slider, double position, double before);
 /// The value after dragging a number sideways by `steps`: 400 of them cross the slider.
 double dragged(const Slider& slider, double before, double steps);
 
-/// "0.180", "34.0": digits as the slider's range asks; unlimited: the shortest with four digits.
+/// "0.180", "34.0": with as many digits as steps of the slider have; very large or small values as format_short().
 std::string format_value(const Slider& slider, double value);
 /// Four significant digits at most: "278", "-0.75", "1.2e+06".
 std::string format_short(double value);
 /// "1,024".
 std::string format_count(unsigned long long n);
 
-/// The number in a text that a user typed; a decimal comma, spaces and the unit are allowed. Nothing: not a number.
+/// Reads what a user typed; a decimal comma, spaces and the unit are allowed. Returns whether it is a number.
 bool parse_number(const std::string& text, const std::string& unit, double& value);
-/// "a number in [0, 1]", "a whole number > 0".
-std::string describe(const Valid& valid, bool whole = false);
 
 }  // namespace tyndall

@@ -1,19 +1,32 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/render/render.h"
 
 #include <cstdint>
 #include <limits>
 #include <string>
 
-/// How a render is going, on standard error.
+/// Tells on standard error how a render is going.
 namespace tyndall {
 
 enum class ProgressStyle { automatic, plain, none };
 
-/// Where a render is to end: what fraction and remaining time are measured against.
+constexpr Word word(ProgressStyle style) {
+  switch (style) {
+    case ProgressStyle::automatic:
+      return {"auto", "a bar on a terminal, else plain"};
+    case ProgressStyle::plain:
+      return {"plain", "a line now and then"};
+    case ProgressStyle::none:
+      return {"none"};
+  }
+  return {};
+}
+
+/// Where a render is to end. The bar's length and the time left are measured against it.
 struct ProgressGoal {
-  std::uint32_t spp_before = 0;                                 ///< that were there when the render began
-  std::uint32_t spp = 0;                                        ///< 0: none
+  std::uint32_t spp_before = 0;  ///< samples a pixel that were there when the render began
+  std::uint32_t spp = 0;         ///< samples a pixel at the end; 0: open
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   double target_error = 0;                                      ///< 0: none
 };
@@ -38,7 +51,7 @@ class ProgressReport {
   ProgressReport& operator=(const ProgressReport&) = delete;
 
   void show(const RenderProgress& now);
-  /// The same for what is no single render. part: of the way, in [0, 1].
+  /// The same for work of other kinds (charts, verify). part: how much of it is done, in [0, 1].
   void show(double seconds, double part, const std::string& text);
   /// Takes the bar away, and says how it ended if anything was shown before.
   void finish(const std::string& summary);

@@ -1,10 +1,11 @@
 #pragma once
 #include <string>
 
+/// Standard input, output and error of the process.
 namespace tyndall {
 
-/// Makes descriptors 0 to 2 exist, so that no file of ours takes the place of a standard stream that was closed;
-/// writing to a stream that was closed still fails.
+/// Call first. Where the caller closed one of the descriptors 0 to 2, the next file that the program opens would get
+/// its number, and messages would end up in that file. This opens /dev/null in its place; writing to it still fails.
 void keep_standard_streams();
 
 /// Writes data to standard output. Throws IoError unless all of it got there.

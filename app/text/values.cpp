@@ -110,11 +110,14 @@ std::size_t read_name(const std::string& text, const std::vector<std::string>& n
 std::string wrapped(const std::string& text, std::size_t columns) {
   std::string out;
   std::size_t used = 0;
-  for (const std::string_view part : split(text, ' ')) {
-    const bool fits = out.empty() || used + 1 + part.size() <= columns;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t inside = text[at] == '[' ? text.find(']', at) : at;
+    const std::size_t end = std::min(text.find(' ', std::min(inside, text.size())), text.size());
+    const bool fits = out.empty() || used + 1 + (end - at) <= columns;
     if (!out.empty()) out += fits ? ' ' : '\n';
-    used = fits && !out.empty() ? used + 1 + part.size() : part.size();
-    out += part;
+    used = (fits && !out.empty() ? used + 1 : 0) + (end - at);
+    out += text.substr(at, end - at);
+    at = end + 1;
   }
   return out;
 }

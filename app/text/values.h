@@ -52,10 +52,11 @@ SampleKey read_sample_key(const std::string& text);
 Override read_override(const std::string& text);
 /// A file name with that ending (".png", any case).
 std::filesystem::path read_file_name(const std::string& text, const std::string& ending);
-/// The place of text in names; a near miss gets a suggestion.
+/// The index of text in names. The message of a near miss suggests what was meant.
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names);
 
-/// The text in lines of at most that many bytes, broken at spaces; longer words stand alone.
+/// The text in lines of at most that many bytes, broken at spaces. Longer words, and what stands in [brackets], are not
+/// broken.
 std::string wrapped(const std::string& text, std::size_t columns);
 
 /// ` (did you mean "X"?)` for a misspelt name, or nothing.

@@ -10,6 +10,21 @@
 namespace tyndall {
 namespace {
 
+/// Counts the kinds. The switch has no default: a new kind without a case does not compile, with one it is counted.
+constexpr int count_primitive_kinds() {
+  for (int count = 0;; ++count) {
+    switch (static_cast<PrimitiveKind>(count)) {
+      case PrimitiveKind::sphere:
+      case PrimitiveKind::moving_sphere:
+      case PrimitiveKind::quad:
+      case PrimitiveKind::box:
+        continue;
+    }
+    return count;
+  }
+}
+static_assert(count_primitive_kinds() == primitive_kinds, "leaves have slots for every kind of primitive");
+
 /// Turns the binary tree into nodes of up to eight children by opening the child of largest surface first.
 class Widener {
  public:

@@ -24,16 +24,26 @@ float aces(float x) {
   return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);
 }
 
+/// value: > 0. The result may exceed 1, which is clipped later.
+float curved(float value, ToneMap curve) {
+  switch (curve) {
+    case ToneMap::srgb:
+      return value;
+    case ToneMap::aces:
+      return aces(value);
+  }
+  return value;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve) {
   const double gain = std::exp2(exposure);
   std::vector<std::uint8_t> bytes(rgb.size());
   for (std::size_t i = 0; i < rgb.size(); ++i) {
-    float value = static_cast<float>(static_cast<double>(rgb[i]) * gain);
+    const float value = static_cast<float>(static_cast<double>(rgb[i]) * gain);
     if (!(value > 0)) continue;  // negative or not a number: 0
-    if (curve == ToneMap::aces) value = aces(value);
-    bytes[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_encode(std::min(value, 1.0f))));
+    bytes[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_encode(std::min(curved(value, curve), 1.0f))));
   }
   return bytes;
 }

@@ -8,7 +8,7 @@
 /// Turns linear light into the 8-bit values of a screen.
 namespace tyndall {
 
-/// How light beyond what a screen can show is treated.
+/// How light beyond what a screen can show is treated. shaders/display.frag draws the same curves, by the same numbers.
 enum class ToneMap { srgb, aces };
 
 constexpr Word word(ToneMap map) {

@@ -6,10 +6,11 @@
 
 namespace tyndall {
 
-/// The first broken rule of a scene, or nothing. Rules that no single value shows: degenerate quads, boxes with
-/// min >= max, media with moving or inward boundaries, image textures on media, camera without a direction or parallel
-/// to vup, shutter backwards, lights without light are allowed, indices in range, every number finite and in its
-/// fields() range. So a scene that was edited in memory can be checked like one that was read.
+/// The first rule that a scene breaks, or nothing. Every number must be finite and in the range of its field, also
+/// after rounding to single precision; indices must name something; and there are rules between values: a quad spans an
+/// area, a box has min < max, a medium's boundary rests and faces outward, an image texture lies on no medium, the
+/// camera has a direction that is not parallel to vup, the shutter does not close before it opens. It needs no file: a
+/// scene that was edited in memory is checked like one that was read.
 std::optional<Broken> check(const Scene& scene);
 
 }  // namespace tyndall

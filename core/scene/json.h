@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-/// The scene file: JSON with comments. The format is described in assets/scene.schema.json and in the README.
+/// The scene file: JSON with comments. app/README.md shows the format, assets/scene.schema.json describes it.
 namespace tyndall {
 
 /// One override of a value in the file's JSON, applied before validation: pointer "/materials/gold/fuzz", value JSON

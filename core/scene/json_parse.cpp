@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-/// More than 256 MiB of a real scene hold; about 2 GB as a tree.
+/// A real scene of 256 MiB holds fewer values; as a tree, so many take about 2 GB of memory.
 constexpr std::size_t max_values = std::size_t(1) << 25;
 
 /// Receives the parser's events, builds the tree and refuses what the format refuses, before it is built.

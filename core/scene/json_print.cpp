@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t width = 150;
 
-/// Lists of things that stand below each other, however short they are.
+/// Whether a member is a list of textures, materials or objects: these get a line each, however short they are.
 bool stays_open(const JsonMember& member) {
   const auto* array = std::get_if<JsonArray>(&member.value.value);
   const auto* object = std::get_if<JsonObject>(&member.value.value);

@@ -4,7 +4,8 @@
 #include <string_view>
 #include <unordered_map>
 
-/// The parts of reading a scene that need what was read before them. All throw Broken.
+/// Reading of objects and colours, which refer by name to the materials and textures that were read before them. All
+/// throw Broken.
 namespace tyndall {
 
 /// Index of each texture or material by its name. The names must outlive it.

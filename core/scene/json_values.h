@@ -9,7 +9,8 @@
 #include <tuple>
 #include <utility>
 
-/// Typed values out of a JSON tree, driven by fields(). All throw Broken. Ranges are check()'s business.
+/// Reads typed values out of a JSON tree, guided by fields(). All throw Broken where a type is wrong; check() looks at
+/// ranges later.
 namespace tyndall {
 
 /// The members of an object; `expected` is said where it is none.

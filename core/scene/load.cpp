@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* expected_scene =
     "a scene file, an image that Tyndall wrote, or the name of a built-in scene (\"tyndall scenes\" lists them)";
 
-/// Everything in a file or pipe; one byte more than a scene may have is enough to refuse it.
+/// All bytes of a file or pipe, but not much more than max_scene_bytes: then it is refused anyway.
 std::string read_all(std::FILE* file, const std::string& name) {
   std::string text;
   std::size_t got = 1;

@@ -8,7 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// Where a value stands in a scene, and what is said when it is wrong there. Reading and checking share these words.
+/// Messages about a scene's values: where a value stands, what it means, what was expected. Reading, checking and the
+/// command line use the same words.
 namespace tyndall {
 
 /// A rule between values that is broken, at a JSON pointer.
@@ -16,7 +17,8 @@ struct Broken {
   std::string where, found, expected;
 };
 
-/// A place in a scene, as a step from the place that holds it: costs nothing until somebody asks for its pointer.
+/// A place in a scene: one step (a key or an index) from the place that holds it. Nothing is copied; the JSON pointer
+/// is put together only when a message needs it.
 struct Place {
   const Place* parent = nullptr;  ///< must outlive this place; null: the whole scene
   std::string_view key;

@@ -45,7 +45,7 @@ constexpr Word word(Integrator integrator) {
     case Integrator::path:
       return {"path", "no light sampling"};
     case Integrator::nee:
-      return {"nee", "light sampling alone where it is possible"};
+      return {"nee", "light sampling, without weights"};
     case Integrator::mis:
       return {"mis", "light sampling, weighted"};
   }
@@ -95,14 +95,15 @@ struct RenderSettings {
 inline constexpr auto fields(const RenderSettings*) {
   return std::tuple{
       Field{"max_depth", &RenderSettings::max_depth, at_least(0), Slider{1, 1000, true}, "",
-            "longest path, in scattering events"},
+            "longest path, in scattering events; 0: lights and background only"},
       Field{"spp", &RenderSettings::spp, between(1, most_samples), Slider{1, 65536, true}, "", "samples per pixel"},
       Field{"integrator", &RenderSettings::integrator, "how light is found"},
       Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
       Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
       Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
       Field{"adaptive", &RenderSettings::adaptive,
-            "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded"}};
+            "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "
+            "not for shards, resumed or merged films"}};
 }
 
 /// How linear light becomes a picture; never part of rendering.
@@ -114,9 +115,10 @@ struct Display {
 
 inline constexpr auto fields(const Display*) {
   // 2^100 and 2^-100 leave room for any picture within the range of single precision.
-  return std::tuple{Field{"exposure", &Display::exposure, between(-100, 100), Slider{-6, 6}, "EV",
-                          "stops: the picture's light is multiplied by 2 to this power"},
-                    Field{"tone_map", &Display::tone_map, "what happens to light that is too bright for a screen"}};
+  return std::tuple{
+      Field{"exposure", &Display::exposure, between(-100, 100), Slider{-6, 6}, "EV",
+            "stops, of PNG and window only: light is multiplied by 2 to this power"},
+      Field{"tone_map", &Display::tone_map, "of PNG and window only: what happens to light that is too bright"}};
 }
 
 }  // namespace tyndall

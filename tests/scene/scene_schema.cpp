@@ -17,10 +17,10 @@ JsonValue reference(const std::string& name) { return text("#/$defs/" + name); }
 JsonValue list(std::initializer_list<JsonValue> items) { return {JsonArray(items)}; }
 JsonValue object(JsonObject members) { return {std::move(members)}; }
 
-/// "Vertical field of view, full angle, in degrees."
+/// "Vertical field of view, full angle (degrees)."
 JsonValue sentence(std::string words, const std::string& unit = "") {
   words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  return text(words + (unit == "°" ? ", in degrees." : "."));
+  return text(words + (unit == "°" ? " (degrees)." : "."));
 }
 
 void add_bounds(JsonObject& out, const Valid& valid) {

@@ -1,6 +1,7 @@
 #include "app/window/panels/widgets.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/image/tonemap.h"
+#include "core/scene/place.h"
 
 #include <algorithm>
 #include <cctype>
@@ -53,7 +54,8 @@ bool finish_edit(Ui& ui, const Row& row, double& value) {
   if (!touched) return false;
   const bool number = parse_number(text, row.unit, typed) && (!row.whole || typed == std::round(typed));
   if (!number || !row.valid.contains(typed)) {
-    ui.problem = row.name + ": found " + text + ", expected " + describe(row.valid, row.whole);
+    ui.problem = row.name + ": found " + text + ", expected " +
+                 expected_text({row.valid}, row.whole ? Form::whole : Form::number);
     return false;
   }
   const bool changed = typed != value;

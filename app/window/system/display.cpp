@@ -98,7 +98,7 @@ void FrameDisplay::tone_map(const Look& look) {
   glDisable(GL_SCISSOR_TEST);
   glUseProgram(program_);
   glUniform1f(scale_at_, static_cast<float>(std::exp2(look.exposure)));
-  glUniform1i(curve_at_, look.tone_map == ToneMap::aces ? 1 : 0);
+  glUniform1i(curve_at_, static_cast<int>(look.tone_map));
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, light_);
   glBindVertexArray(vertices_);

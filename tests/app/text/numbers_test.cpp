@@ -82,11 +82,3 @@ TEST_CASE("typed numbers: units, blanks and decimal commas are fine, the rest is
     CHECK_FALSE(parse_number(text, "°", v));
   CHECK(v == -1e-3);
 }
-
-TEST_CASE("ranges in words") {
-  CHECK(describe(between(0, 1)) == "a number in [0, 1]");
-  CHECK(describe(inside(0, 180)) == "a number in (0, 180)");
-  CHECK(describe(above(0)) == "a number > 0");
-  CHECK(describe(at_least(0)) == "a number >= 0");
-  CHECK(describe(not_zero()) == "a number other than 0");
-}
