@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+/// How different two pictures look to an eye.
 namespace tyndall {
 
 /// The difference that an eye sees when two pictures are shown in turn: one number for each pixel, top row first, in
