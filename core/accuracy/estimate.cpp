@@ -70,35 +70,56 @@ void sum_around(const std::array<const Row*, window>& rows, Row& columns, Row& s
   }
 }
 
-/// Adds n / (g² + 0.01) of a channel of each pixel of a row, of which `sums` tells what is around. floor: 0.01 in
-/// squared units of the film.
-void add_errors(const Row& row, const Row& sums, std::size_t channel, float floor, std::vector<float>& errors) {
+/// Squared relative errors of the pixels of a row.
+struct RowErrors {
+  std::vector<float> freed;  ///< n / (g² + 0.01)
+  std::vector<float> own;    ///< n / (m² + 0.01), with the pixel's own mean
+};
+
+/// Adds those of a channel. sums: what is around each pixel; floor: 0.01 in squared units of the film. In two
+/// functions, as compilers do not vectorise both in one loop.
+void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, float floor, RowErrors& errors) {
   const float *own_m = row.of[Row::means + channel].data() + reach,
               *own_n = row.of[Row::noises + channel].data() + reach,
               *own_least = row.of[Row::least + channel].data() + reach,
               *sum_m = sums.of[Row::means + channel].data() + reach,
               *sum_n = sums.of[Row::noises + channel].data() + reach,
               *sum_ab = sums.of[Row::products + channel].data() + reach, *counts = sums.of[Row::counts].data() + reach;
-  float* __restrict to = errors.data();
-  for (std::size_t x = 0; x < errors.size(); ++x) {
+  float* __restrict freed = errors.freed.data();
+  const std::size_t width = errors.freed.size();
+  for (std::size_t x = 0; x < width; ++x) {
     const float m = own_m[x], n = own_n[x], per = 1 / std::max(counts[x], 1.0f);
     const float mu = sum_m[x] * per, noise = std::max(n, sum_n[x] * per);
     const float s = std::max(sum_ab[x] * per - mu * mu, 0.0f);
     const float alike = noise / std::max(s + noise, tiny), doubt = 4 * n / std::max(m * m, tiny);
     const float drawn = std::min(std::min(alike, doubt), counts[x]);  // 1 - w; none where there is no one around
     const float g = std::max(m + drawn * (mu - m), own_least[x]);
-    to[x] += std::min(n / (g * g + floor), largest);
+    freed[x] += std::min(n / (g * g + floor), largest);
   }
 }
 
+void add_own_errors(const Row& row, std::size_t channel, float floor, RowErrors& errors) {
+  const float *m = row.of[Row::means + channel].data() + reach, *n = row.of[Row::noises + channel].data() + reach;
+  float* __restrict own = errors.own.data();
+  const std::size_t width = errors.own.size();
+  for (std::size_t x = 0; x < width; ++x) own[x] += std::min(n[x] / (m[x] * m[x] + floor), largest);
+}
+
 /// The squared relative errors of the middle row.
-void find_errors(const std::array<const Row*, window>& rows, float floor, Row& columns, Row& sums,
-                 std::vector<float>& errors) {
+void find_errors(const std::array<const Row*, window>& rows, float floor, Row& columns, Row& sums, RowErrors& errors) {
   sum_around(rows, columns, sums);
-  std::fill(errors.begin(), errors.end(), 0.0f);
-  for (std::size_t channel = 0; channel < 3; ++channel) add_errors(*rows[reach], sums, channel, floor, errors);
+  std::fill(errors.freed.begin(), errors.freed.end(), 0.0f);
+  std::fill(errors.own.begin(), errors.own.end(), 0.0f);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    add_freed_errors(*rows[reach], sums, channel, floor, errors);
+    add_own_errors(*rows[reach], channel, floor, errors);
+  }
   const float* counts = rows[reach]->of[Row::counts].data() + reach;
-  for (std::size_t x = 0; x < errors.size(); ++x) errors[x] = counts[x] > 0 ? errors[x] / 3 : infinity;
+  for (std::size_t x = 0; x < errors.own.size(); ++x) {
+    const bool whole = counts[x] > 0;
+    errors.freed[x] = whole ? errors.freed[x] / 3 : infinity;
+    errors.own[x] = whole ? errors.own[x] / 3 : infinity;
+  }
 }
 
 /// Calls use(y, errors of the row y of the region) for the rows of a band.
@@ -110,7 +131,8 @@ void for_rows_of_band(const Film& film, int band, const Use& use) {
   const Row empty(width);
   Row columns(width), sums(width);
   std::vector<Row> ring(window, empty);
-  std::vector<float> errors(static_cast<std::size_t>(width));
+  const std::vector<float> zeros(static_cast<std::size_t>(width));
+  RowErrors errors{zeros, zeros};
   const auto is_there = [height](int y) { return y >= 0 && y < height; };
   const auto in_ring = [&](int y) -> Row& { return ring[static_cast<std::size_t>((y + window) % window)]; };
   for (int y = first - reach; y < last + reach; ++y) {
@@ -134,10 +156,17 @@ void for_bands(const Film& film, Crew* crew, const std::function<void(int)>& job
   for (int band = 0; band < bands_of(film); ++band) job(band);
 }
 
-/// Sums of squared relative errors, and of their squares.
+/// Sums of squared relative errors, of their squares, and of those with the pixels' own means.
 struct Spread {
-  double sum = 0, squares = 0;
+  double sum = 0, squares = 0, own = 0;
 };
+
+/// See ErrorEstimate.
+bool few_matter(const Spread& all, double pixels) {
+  constexpr double few = 0.35, fewer = 0.22, hidden = 0.36;
+  const double spread = std::sqrt(all.squares) - 3 / std::sqrt(pixels) * all.sum;  // small pictures vary by themselves
+  return spread > few * all.sum || (spread > fewer * all.sum && all.own < hidden * all.sum);
+}
 
 }  // namespace
 
@@ -146,16 +175,16 @@ ErrorEstimate estimate_error(const Film& film, Crew* crew) {
   std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
   for_bands(film, crew, [&](int band) {
     Spread& to = bands[static_cast<std::size_t>(band)];
-    for_rows_of_band(film, band, [&](int, const std::vector<float>& errors) {
-      for (const double error : errors) to.sum += error, to.squares += error * error;
+    for_rows_of_band(film, band, [&](int, const RowErrors& errors) {
+      for (const double error : errors.freed) to.sum += error, to.squares += error * error;
+      for (const double error : errors.own) to.own += error;
     });
   });
   Spread all;
-  for (const Spread& band : bands) all.sum += band.sum, all.squares += band.squares;
+  for (const Spread& band : bands) all.sum += band.sum, all.squares += band.squares, all.own += band.own;
   if (all.sum == infinity) return {};
   const auto pixels = static_cast<double>(film.pixels.size());
-  const double few = 0.35 + 3 / std::sqrt(pixels);  // small pictures vary by themselves
-  return {std::sqrt(all.sum / pixels), std::sqrt(all.squares) > few * all.sum};
+  return {std::sqrt(all.sum / pixels), few_matter(all, pixels)};
 }
 
 double estimated_relative_error(const Film& film, Crew* crew) { return estimate_error(film, crew).relative_error; }
@@ -164,8 +193,8 @@ std::vector<double> squared_relative_errors(const Film& film, Crew* crew) {
   std::vector<double> all(film.pixels.size());
   const auto width = static_cast<std::size_t>(film.region.width());
   for_bands(film, crew, [&](int band) {
-    for_rows_of_band(film, band, [&](int y, const std::vector<float>& errors) {
-      std::copy(errors.begin(), errors.end(), all.data() + static_cast<std::size_t>(y) * width);
+    for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
+      std::copy(errors.freed.begin(), errors.freed.end(), all.data() + static_cast<std::size_t>(y) * width);
     });
   });
   return all;

@@ -29,8 +29,9 @@ struct ErrorEstimate {
   double relative_error = std::numeric_limits<double>::infinity();
   /// Whether a few pixels make up so much of the error that it means little: rare bright paths have been met in these,
   /// and not yet in others; or lamps smaller than a pixel. True where the standard deviation of the mean of the pixels'
-  /// squared errors is more than 0.35 of it, in large pictures: where it rests on about 8 pixels. False while a half of
-  /// any pixel is empty.
+  /// squared errors is more than 0.35 of it, in large pictures: where it rests on about 8 pixels. From 0.25 on (about
+  /// 16 pixels) if the error also depends on how levels are found: if with the pixels' own means for g its square were
+  /// below 0.36 of what it is. False while a half of any pixel is empty.
   bool rests_on_few_pixels = false;
 };
 

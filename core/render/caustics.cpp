@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyndall {
 namespace {
 
 constexpr double least_catch = 0.01;  // share of a light that something smooth has to catch to matter
+constexpr double most_fuzz = 0.05;    // of metal that counts as smooth
 
 constexpr std::size_t most_pairs = 1000000;
 
@@ -33,38 +35,94 @@ double share_of_directions(double radius, double distance) {
   return 0.5 * sine2 / (1 + std::sqrt(1 - sine2));  // (1 - cos) / 2 without cancellation
 }
 
-bool is_smooth(const Material& material) {
-  const auto* metal = std::get_if<Metal<>>(&material.kind);
-  return std::holds_alternative<Dielectric<>>(material.kind) || (metal && metal->fuzz == 0);
+const Material& material_of(const Scene& scene, const PlacedShape& shape) {
+  return scene.materials[static_cast<std::size_t>(shape.material)];
 }
 
-/// Whether something shows light that comes from anywhere.
-bool receives(const Scene& scene, const Flattened& flat) {
-  return !flat.volumes.empty() || std::any_of(flat.shapes.begin(), flat.shapes.end(), [&](const PlacedShape& shape) {
-    return std::holds_alternative<Lambertian<>>(scene.materials[static_cast<std::size_t>(shape.material)].kind);
-  });
+/// What throws light by itself or on from elsewhere.
+struct Thing {
+  std::size_t shape;  // index into Flattened::shapes
+  Ball ball;
+  double fuzz = 0;
+  bool glass = false;
+};
+
+struct Things {
+  std::vector<Thing> lamps, smooth;
+};
+
+Things list_things(const Scene& scene, const Flattened& flat) {
+  Things things;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const Material& material = material_of(scene, flat.shapes[i]);
+    const auto* metal = std::get_if<Metal<>>(&material.kind);
+    const bool glass = std::holds_alternative<Dielectric<>>(material.kind);
+    const bool lamp = std::holds_alternative<Light<>>(material.kind);
+    if (!lamp && !glass && !(metal && metal->fuzz < most_fuzz)) continue;
+    const Thing thing{i, ball_around(extent_of(flat.shapes[i], scene.camera)), metal ? metal->fuzz : 0, glass};
+    (lamp ? things.lamps : things.smooth).push_back(thing);
+  }
+  return things;
+}
+
+/// Where light shows that comes from anywhere: boxes along the axes around matt surfaces and media.
+struct Receiver {
+  Vec3d low, high;
+};
+
+Vec3d least_of(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3d most_of(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+
+Receiver receiver_around(const Extent& extent) {
+  Receiver box{extent.points.front(), extent.points.front()};
+  for (const Vec3d& p : extent.points) box = {least_of(box.low, p), most_of(box.high, p)};
+  const Vec3d grown{extent.radius, extent.radius, extent.radius};
+  return {box.low - grown, box.high + grown};
+}
+
+std::vector<Receiver> list_receivers(const Scene& scene, const Flattened& flat) {
+  std::vector<Receiver> receivers;
+  for (const PlacedVolume& volume : flat.volumes) receivers.push_back(receiver_around(extent_of(volume, scene.camera)));
+  for (const PlacedShape& shape : flat.shapes)
+    if (std::holds_alternative<Lambertian<>>(material_of(scene, shape).kind))
+      receivers.push_back(receiver_around(extent_of(shape, scene.camera)));
+  return receivers;
+}
+
+double distance_to_nearest(const std::vector<Receiver>& receivers, Vec3d point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Receiver& box : receivers)
+    least = std::min(least, length(most_of(most_of(box.low - point, point - box.high), {0, 0, 0})));
+  return least;
+}
+
+/// Whether a lamp shines out of a ball of glass. If the camera is in it too, it is a room and no bulb.
+bool is_bulb(const Thing& lamp, const Thing& thing, Vec3d camera) {
+  const Ball& ball = thing.ball;
+  return thing.glass && length(lamp.ball.center - ball.center) < ball.radius && lamp.ball.radius < ball.radius &&
+         length(camera - ball.center) > ball.radius;
 }
 
 }  // namespace
 
-double chance_of_caustics(const Scene& scene) {
+double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   const Flattened flat = flatten(scene);
-  if (!receives(scene, flat)) return 1;
-  std::vector<Ball> lights, smooth;
-  for (const PlacedShape& shape : flat.shapes) {
-    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
-    const bool light = std::holds_alternative<Light<>>(material.kind);
-    if (light || is_smooth(material)) (light ? lights : smooth).push_back(ball_around(extent_of(shape, scene.camera)));
-  }
-  // Of very many, some tell enough.
-  const std::size_t step = 1 + lights.size() * smooth.size() / most_pairs;
+  const std::vector<Receiver> receivers = list_receivers(scene, flat);
+  if (receivers.empty()) return 1;
+  const Things things = list_things(scene, flat);
+  const std::size_t step =
+      1 + things.lamps.size() * things.smooth.size() / most_pairs;  // of very many, some tell enough
   double least = 1;
-  for (const Ball& light : lights)
-    for (std::size_t i = 0; i < smooth.size(); i += step) {
-      const Ball& thing = smooth[i];
-      const double distance = length(light.center - thing.center);
-      if (share_of_directions(thing.radius, distance) < least_catch) continue;
-      least = std::min(least, share_of_directions(light.radius, distance));
+  for (const Thing& lamp : things.lamps)
+    for (std::size_t i = 0; i < things.smooth.size(); i += step) {
+      const Thing& thing = things.smooth[i];
+      if (is_found && is_found(lamp.shape, thing.shape)) continue;
+      double distance = length(lamp.ball.center - thing.ball.center);
+      if (is_bulb(lamp, thing, scene.camera.look_from))
+        distance = std::max(thing.ball.radius, distance_to_nearest(receivers, lamp.ball.center));
+      else if (share_of_directions(thing.ball.radius, distance) < least_catch)
+        continue;
+      least = std::min(least, share_of_directions(lamp.ball.radius + thing.fuzz * distance, distance));
     }
   return least;
 }

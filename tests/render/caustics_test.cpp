@@ -13,6 +13,7 @@ namespace {
 /// A floor, a glass ball of radius 1, and a lamp `distance` above its centre.
 Scene ball_under_lamp(double radius, double distance) {
   Scene scene;
+  scene.camera.look_from = {0, 2, 8};
   scene.materials = {{"floor", Vec3d{0.7, 0.7, 0.7}, Lambertian<>{}},
                      {"glass", Vec3d{1, 1, 1}, Dielectric<>{1.5}},
                      {"lamp", Vec3d{9, 9, 9}, Light<>{}}};
@@ -28,6 +29,38 @@ TEST_CASE("caustics: the chance is the lamp's share of all directions, seen from
   CHECK(chance_of_caustics(ball_under_lamp(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
   CHECK(chance_of_caustics(ball_under_lamp(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
   CHECK(chance_of_caustics(ball_under_lamp(4, 3)) == 1);  // around the ball
+}
+
+TEST_CASE("caustics: a lamp within glass is seen from the floor below, or from the glass if that is farther") {
+  // The lamp hangs 0.3 above the middle of the ball, the floor 1 below it.
+  CHECK(chance_of_caustics(ball_under_lamp(0.05, 0.3)) ==
+        doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 1.3, 2)))));
+  CHECK(chance_of_caustics(ball_under_lamp(0.05, 0)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.05 * 0.05))));
+  Scene scene = ball_under_lamp(0.05, 0.3);
+  scene.camera.look_from = {0.5, 0, 0};  // within the glass, which is a room then
+  CHECK(chance_of_caustics(scene) > 0.005);
+  scene = ball_under_lamp(0.05, 0.3);
+  scene.materials[0].kind = Metal<>{0.5};  // nothing shows the light but fog, which begins 4 from the lamp
+  CHECK(chance_of_caustics(scene) == 1);
+  scene.objects.push_back({"", Volume{Box<>{{4, -1, -1}, {6, 1, 1}}, {}, Medium<>{0.1, 0}, Vec3d{1, 1, 1}}, {}});
+  CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 4, 2)))));
+}
+
+TEST_CASE("caustics: the lobe of metal with a little fuzz makes the lamp larger") {
+  Scene scene = ball_under_lamp(0.03, 3);
+  scene.materials[1].kind = Metal<>{0.01};
+  CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.02 * 0.02))));
+}
+
+TEST_CASE("caustics: pairs that are found otherwise are left out") {
+  Scene scene = ball_under_lamp(0.03, 3);
+  const double first = chance_of_caustics(scene);
+  scene.objects.push_back({"", Solid3d{Sphere<>{{0, 0, 5}, 0.1, {}}, 2}, {}});  // a second lamp: shape 3
+  const double both = chance_of_caustics(scene);
+  CHECK(both < first + 1e-12);
+  const auto second_is_found = [](std::size_t lamp, std::size_t shape) { return lamp == 3 && shape == 1; };
+  CHECK(chance_of_caustics(scene, second_is_found) == first);
+  CHECK(chance_of_caustics(scene, [](std::size_t, std::size_t) { return true; }) == 1);
 }
 
 TEST_CASE("caustics: none without something smooth that catches light, or something matt that shows it") {
