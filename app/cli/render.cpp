@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
+#include "core/render/plan.h"
 #include "core/render/rare.h"
 
 #include <fmt/core.h>
@@ -39,6 +40,15 @@ struct Job {
   bool rare_bright_paths = false;
 };
 
+/// Says so if there is nothing left to do: the film is written as it is.
+void check_if_complete(const Job& job) {
+  if (job.film.pixels.empty() || !job.options.spp) return;
+  const std::uint32_t taken = labelled_spp(job.film);
+  if (taken > *job.options.spp)
+    complain("--resume: the film has " + std::to_string(taken) + " samples a pixel already, more than the " +
+             std::to_string(*job.options.spp) + " asked for; it is written as it is");
+}
+
 /// Finds everything that can be wrong before the first sample.
 void prepare(Job& job) {
   const RenderCommand& command = job.command;
@@ -52,6 +62,7 @@ void prepare(Job& job) {
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
   job.film = film_to_resume(command, job.loaded, job.options);
   job.samples_before = totals(job.film).samples;
+  check_if_complete(job);
 }
 
 /// What the picture lacks, if it lacks anything.
@@ -122,8 +133,8 @@ bool write(const Job& job) {
   return problems.empty();
 }
 
+/// Also without progress: a warning is none.
 void warn(const Job& job) {
-  if (job.command.progress == ProgressStyle::none) return;
   if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   const FilmTotals& sum = job.picture.totals;
   if (sum.rejected == 0) return;

@@ -45,7 +45,7 @@ constexpr Word word(Integrator integrator) {
     case Integrator::path:
       return {"path", "no light sampling"};
     case Integrator::nee:
-      return {"nee", "light sampling, without weights"};
+      return {"nee", "light sampling, without weights: in fog of g > 0.9998 too bright for a film now and then"};
     case Integrator::mis:
       return {"mis", "light sampling, weighted"};
   }

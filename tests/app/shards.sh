@@ -43,7 +43,9 @@ same 'a render that goes on' "$(json going.json image_hash)" "$whole"
 same 'samples' "$(json going.json samples)" $((13 * 32 * 24))
 python3 -c 'import sys; sys.exit(not 0 < int(sys.argv[1]) < int(sys.argv[2]))' "$(json going.json rays)" \
   "$(json hashed.json rays)" || fail 'going on traces no fewer rays'
+[ ! -s err ] || fail "a render that goes on says: $(cat err)"
 expect 0 "$tyndall" render "${scene[@]}" --spp 2 --resume -q -o going.exr --stats going.json
+complains '--resume' '13 samples a pixel' 'more than the 2 asked for'
 same 'enough samples already' "$(json going.json image_hash)" "$whole"
 expect 2 "$tyndall" render "${scene[@]}" --seed 9 --spp 20 --resume -q -o going.exr
 complains 'going.exr'

@@ -170,3 +170,27 @@ TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on
     CHECK(hash(7, 13) == first);
   }
 }
+
+TEST_CASE("light sampling without weights: no sample is out of a film's range, and the mean is right") {
+  // Fog with a sharp forward peak under 16 lamps and a bright sphere around it all: samples of thousands of times the
+  // brightest lamp's radiance are rare, and a fifth of the mean.
+  Scene scene = white_room();
+  scene.width = scene.height = 24;
+  scene.background = Vec3d{0, 0, 0};
+  scene.camera = {.look_from = {0, 0, 6}, .look_at = {0, 0, 0}, .vfov = 40};
+  scene.render.max_depth = 3;
+  for (int i = 0; i < 16; ++i) add(scene, sphere({i % 4 - 1.5, i / 4 - 1.5, 0}, 0.2), lamp(4));
+  add(scene, sphere({0, 0, 0}, 30), lamp(0.1));
+  add_medium(scene, sphere({0, 0, 0}, 4), {0.3, 0.95}, 0.9);
+  const auto mean_of = [&](Integrator integrator, std::uint32_t spp) {
+    scene.render.integrator = integrator;
+    RenderOptions options;
+    options.spp = spp;
+    const Film film = render(compile(scene), options).film;
+    CHECK(totals(film).rejected == 0);
+    return film_mean(film);
+  };
+  const FilmMean weighted = mean_of(Integrator::mis, 256), plain = mean_of(Integrator::nee, 4096);
+  CHECK(plain.error < 0.1 * weighted.mean);
+  CHECK(std::abs(plain.mean - weighted.mean) < 4 * plain.error);
+}
