@@ -1,0 +1,117 @@
+#include "core/accuracy/estimate.h"
+#include "core/render/caustics.h"
+#include "core/render/rare.h"
+#include "tests/support/pictures.h"
+#include "tests/support/random_room.h"
+#include "tests/support/references.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+/// The estimated error over the true one, and what is flagged where they differ.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr double pixels = 9216;  // of each picture: 128 x 72
+constexpr std::uint32_t reference_spp = 2048;
+constexpr std::array<std::uint32_t, 6> counts{4, 8, 16, 30, 64, 256};
+
+struct Case {
+  std::string name;
+  std::uint32_t spp;
+  double ratio;  // estimated over true relative error
+  bool flagged;
+  bool outside() const { return ratio < 0.8 || ratio > 1.25; }
+};
+
+/// A picture of about so many pixels.
+Scene resized(Scene scene) {
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  scene.height = static_cast<int>(std::lround(std::sqrt(pixels / aspect)));
+  scene.width = static_cast<int>(std::lround(scene.height * aspect));
+  scene.render.adaptive = false;
+  return scene;
+}
+
+void add_cases(const std::string& name, const Scene& scene, std::vector<Case>& cases) {
+  const Reference reference = reference_of(scene, reference_spp);
+  const RenderScene compiled = compile(scene);
+  const double chance = chance_of_caustics(scene);
+  Film film;
+  for (const std::uint32_t spp : counts) {
+    RenderOptions options;
+    options.spp = spp;
+    film = render(compiled, options, {}, std::move(film)).film;
+    const double truth = std::sqrt(std::max(true_relative_mse(film, reference), 1e-30));
+    const double estimated = estimated_relative_error(film);
+    cases.push_back({name, spp, estimated / truth, has_rare_bright_paths(film, spp, chance)});
+    const Case& one = cases.back();
+    if (one.outside() || one.flagged)
+      std::printf("%-26s %3u spp  true %.3g  estimated %.3g  ratio %.2f%s%s\n", name.c_str(), spp, truth, estimated,
+                  one.ratio, one.outside() ? "  outside" : "", one.flagged ? "  flagged" : "");
+  }
+}
+
+/// Prints a row for each number of samples.
+void print_table(const std::vector<Case>& cases) {
+  for (const std::uint32_t spp : counts) {
+    std::vector<double> ratios;
+    int outside = 0, flagged = 0;
+    for (const Case& one : cases) {
+      if (one.spp != spp) continue;
+      ratios.push_back(one.ratio);
+      outside += one.outside() ? 1 : 0, flagged += one.flagged ? 1 : 0;
+    }
+    std::sort(ratios.begin(), ratios.end());
+    std::printf("%3u spp: median %.2f [%.2f ... %.2f], %d of %zu outside, %d flagged\n", spp, ratios[ratios.size() / 2],
+                ratios.front(), ratios.back(), outside, ratios.size(), flagged);
+  }
+}
+
+/// The share of the cases of at least so many samples that are outside.
+double share_outside(const std::vector<Case>& cases, std::uint32_t least_spp) {
+  double outside = 0, all = 0;
+  for (const Case& one : cases)
+    if (one.spp >= least_spp) ++all, outside += one.outside() ? 1 : 0;
+  return outside / all;
+}
+
+double median(const std::vector<Case>& cases, std::uint32_t spp) {
+  std::vector<double> ratios;
+  for (const Case& one : cases)
+    if (one.spp == spp) ratios.push_back(one.ratio);
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+  return ratios[ratios.size() / 2];
+}
+
+}  // namespace
+
+TEST_CASE("estimated error: within a quarter of the true one in 98 of 100 built-in scenes, and flagged elsewhere") {
+  std::vector<Case> cases;
+  for (const BuiltIn& built_in : built_in_scenes())
+    add_cases(built_in.name, resized(load_scene(built_in.name).scene), cases);
+  print_table(cases);
+  CHECK(cases.size() >= 44 * counts.size());
+  CHECK(share_outside(cases, 0) <= 0.02);
+  for (const std::uint32_t spp : counts) CHECK(median(cases, spp) == doctest::Approx(1).epsilon(0.05));
+  for (const Case& one : cases) {
+    CAPTURE(one.name);
+    CAPTURE(one.spp);
+    CAPTURE(one.ratio);
+    if (one.outside()) CHECK(one.flagged);
+  }
+}
+
+TEST_CASE("estimated error: within a quarter of the true one in 9 of 10 random rooms, from 8 samples on") {
+  std::vector<Case> cases;
+  for (unsigned seed = 1; seed <= 30; ++seed)
+    add_cases("room " + std::to_string(seed), RandomRoom(seed).scene(), cases);
+  print_table(cases);
+  CHECK(share_outside(cases, 8) <= 0.1);
+}
