@@ -49,8 +49,9 @@ void add_cases(const std::string& name, const Scene& scene, std::vector<Case>& c
     options.spp = spp;
     film = render(compiled, options, {}, std::move(film)).film;
     const double truth = std::sqrt(std::max(true_relative_mse(film, reference), 1e-30));
-    const double estimated = estimated_relative_error(film);
-    cases.push_back({name, spp, estimated / truth, has_rare_bright_paths(film, spp, chance)});
+    const ErrorEstimate estimate = estimate_error(film);
+    const double estimated = estimate.relative_error;
+    cases.push_back({name, spp, estimated / truth, has_rare_bright_paths(estimate, spp, chance)});
     const Case& one = cases.back();
     if (one.outside() || one.flagged)
       std::printf("%-26s %3u spp  true %.3g  estimated %.3g  ratio %.2f%s%s\n", name.c_str(), spp, truth, estimated,
