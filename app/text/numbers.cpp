@@ -75,7 +75,7 @@ std::string format_short(double value) { return fmt::format("{:.4g}", value + 0.
 
 std::string format_count(unsigned long long n) {
   std::string text = std::to_string(n);
-  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
+  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
   return text;
 }
 
