@@ -104,6 +104,10 @@ expect 0 "$tyndall" render metal-spheres --size 16x16 --target-error 0.05 -o lim
 python3 -c 'import sys; sys.exit(not float(sys.argv[1]) <= 0.05)' "$(json limit.json relative_error_estimate)" ||
   fail '--target-error'
 
+# What the error cannot say is said without progress too.
+expect 0 "$tyndall" render stress-light-and-fuzz --size 16x16 --spp 4 -q -o rare.pfm
+complains 'not converged: rare bright paths'
+
 # Each instruction set that there is works.
 for isa in scalar sse4 avx2 avx512; do
   if "$tyndall" render cornell-box "${small[@]}" --isa "$isa" -q -o isa.pfm --stats isa.json 2>/dev/null; then
