@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/base/vec.h"
 
 /// Random numbers as a pure function of (seed, pixel, sample, dimension): whichever thread, tile, pass or machine asks
@@ -88,6 +89,19 @@ TYNDALL_INLINE U sobol_second(U x) {
   return x ^ shift_left<1>(x & U(0x55555555u));
 }
 
+/// Where a path's random numbers come from. To add a sampler: a value and its word here, and its cases in Dice.
+enum class SamplerKind { random, sobol };
+
+constexpr Word word(SamplerKind sampler) {
+  switch (sampler) {
+    case SamplerKind::random:
+      return {"random", "independent numbers"};
+    case SamplerKind::sobol:
+      return {"sobol", "a scrambled Sobol' sequence, less noise"};
+  }
+  return {};
+}
+
 /// The numbers of one sample.
 /// `random`: independent, counter-based. `sobol`: each dimension or pair of dimensions is its own (0,2)-sequence over
 /// the samples of a pixel, shuffled and digitally shifted (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4),
@@ -98,23 +112,31 @@ struct Dice {
   U low,
       high;  ///< random: 64 bits that name (seed, x, y, sample); sobol: pixel and half, and the point's reversed index
   U event;   ///< golden_ratio · the first dimension of the current event
-  bool sobol;
+  SamplerKind sampler;
 
   /// Key of one sample; x, y: pixel in full-image coordinates. `random`: two chains of hashes in different orders, so
   /// that two samples have the same key only with probability 2^-64. The seed is hashed before it meets a coordinate:
   /// otherwise neighbouring seeds would give the same picture with its rows exchanged.
-  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, bool sobol = false) {
+  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, SamplerKind sampler = SamplerKind::random) {
     const U a = hash(hash(U(hash(seed ^ 0x68bc21ebu)) ^ y) ^ x);
-    if (sobol) return {hash(a ^ (sample & U(1u))), reverse_bits(shift_right<1>(sample)), U(0u), true};
+    switch (sampler) {
+      case SamplerKind::sobol:
+        return {hash(a ^ (sample & U(1u))), reverse_bits(shift_right<1>(sample)), U(0u), sampler};
+      case SamplerKind::random:
+        break;
+    }
     const U b = hash(hash(U(hash(seed + 0x02e5be93u)) ^ sample) ^ y);
-    return {hash(a ^ sample), hash(b ^ x), U(0u), false};
+    return {hash(a ^ sample), hash(b ^ x), U(0u), sampler};
   }
   /// 32 bits for dimension `offset` of the current event.
   TYNDALL_INLINE U word(std::uint32_t offset) const {
     U x = low + event + U(offset * golden_ratio);
-    if (sobol) {
-      x = hash(x);
-      return shuffle_index(high, x) ^ (x * U(0x9e3779b1u));
+    switch (sampler) {
+      case SamplerKind::sobol:
+        x = hash(x);
+        return shuffle_index(high, x) ^ (x * U(0x9e3779b1u));
+      case SamplerKind::random:
+        break;
     }
     x = x ^ shift_right<16>(x);
     x = x * U(0x21f0aaadu);
@@ -125,7 +147,7 @@ struct Dice {
   TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
   /// Dimensions offset and offset + 1: a point of the unit square, evenly spread together with those of other samples.
   TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const {
-    if (!sobol) return {one(offset), one(offset + 1)};
+    if (sampler != SamplerKind::sobol) return {one(offset), one(offset + 1)};
     const U seed = hash(low + event + U(offset * golden_ratio));
     const U index = shuffle_index(high, seed);
     return {unit_interval<F>(index ^ (seed * U(0x9e3779b1u))),

@@ -144,6 +144,17 @@ KernelSet least_kernel(const RenderScene& s) {
   return s.needs.media || s.needs.textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
 }
 
+bool asks_for_light(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::path:
+      return false;
+    case Integrator::nee:
+    case Integrator::mis:
+      return true;
+  }
+  return false;
+}
+
 double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
 double brightest(const Scene& scene) {
@@ -179,10 +190,10 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.max_depth = scene.render.max_depth;
   out.seed = scene.render.seed;
   out.schlick = scene.render.fresnel == FresnelKind::schlick;
-  out.sobol = scene.render.sampler == SamplerKind::sobol;
-  out.light_sampling = scene.render.integrator != Integrator::path && out.lights.count() > 0;
-  out.multiple_importance = scene.render.integrator == Integrator::mis;
-  if (out.multiple_importance) out.near = find_near_lamps(out);
+  out.sampler = scene.render.sampler;
+  out.integrator = scene.render.integrator;
+  out.light_sampling = asks_for_light(out.integrator) && out.lights.count() > 0;
+  if (out.integrator == Integrator::mis) out.near = find_near_lamps(out);
   out.kernel = least_kernel(out);
   out.film_unit = film_unit(brightest(scene));
   return out;

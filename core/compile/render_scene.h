@@ -1,8 +1,10 @@
 #pragma once
 #include "core/base/kinds.h"
+#include "core/base/random.h"
 #include "core/base/vec.h"
 #include "core/compile/bvh.h"
 #include "core/materials/materials.h"
+#include "core/scene/integrator.h"
 #include "core/shapes/quad.h"
 #include "core/textures/textures.h"
 
@@ -153,9 +155,9 @@ struct RenderScene {
   int max_depth = 1000;
   std::uint32_t seed = 0;
   bool schlick = false;
-  bool sobol = false;
-  bool light_sampling = false;       ///< integrators nee and mis
-  bool multiple_importance = false;  ///< mis
+  SamplerKind sampler = SamplerKind::sobol;
+  Integrator integrator = Integrator::mis;
+  bool light_sampling = false;  ///< the integrator asks for light, and there is some
   double film_unit = 1;
   Needs needs;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs

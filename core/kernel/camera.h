@@ -116,7 +116,7 @@ TYNDALL_INLINE void refill(CameraQueue<F>& queue, UnitSamples& samples, const Sc
     index[k] = samples.sample();
     queue.slot[k] = 2 * samples.place(samples.pixel) + static_cast<std::int32_t>(index[k] & 1u);
   }
-  const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sobol);
+  const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sampler);
   const Ray<F> ray = sample_ray(s, load<F>(x), load<F>(y), dice);
   store(queue.ox, ray.origin.x), store(queue.oy, ray.origin.y), store(queue.oz, ray.origin.z);
   store(queue.dx, ray.direction.x), store(queue.dy, ray.direction.y), store(queue.dz, ray.direction.z);

@@ -74,7 +74,7 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   if (!any(arrives)) return zero3<F>();
   const F ratio = scattered / select(useful, chosen, F(1.0f));
   F weight = ratio;
-  if (s.multiple_importance) {
+  if (s.integrator == Integrator::mis) {
     const F odds = s.has_lamps_in_fog() ? by_angle_odds(s, asked.flight, choice.light, choice.probability) : F(0.0f);
     weight = weight / mul_add(ratio, ratio, F(1.0f) + odds);
     if (asked.by_angle) weight = weight * sqrt(odds);
@@ -89,7 +89,7 @@ template <class F>
 TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
   const auto could = mask_and(lit, less(F(0.0f), p.density));
   if (!s.light_sampling || !any(could)) return F(1.0f);
-  if (!s.multiple_importance) return select(could, F(0.0f), F(1.0f));
+  if (s.integrator != Integrator::mis) return select(could, F(0.0f), F(1.0f));
   const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
   const F chosen = light_density(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);

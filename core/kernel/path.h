@@ -140,7 +140,7 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_uni
   list_samples(unit, samples);
   CameraQueue<F> queue;
   Paths<F> p{};
-  p.dice.sobol = s.sobol;
+  p.dice.sampler = s.sampler;
   const UnitFilm film{1 / film_unit, pixels, counts};
   for (;;) {
     take_samples(p, queue, samples, s, unit);

@@ -66,7 +66,7 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
   list_samples(unit, samples);
   CameraQueue<float> queue;
   Paths<float> p{};
-  p.dice.sobol = s.sobol;
+  p.dice.sampler = s.sampler;
   take_samples(p, queue, samples, s, unit);
   PathReplay path{p.ray.origin, p.ray.time, {}, {}};
   while (p.alive) {

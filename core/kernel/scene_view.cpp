@@ -80,8 +80,8 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.gradients = s.gradients ? s.gradients->data() : nullptr;
   v.max_depth = s.max_depth;
   v.seed = s.seed;
-  v.schlick = s.schlick, v.sobol = s.sobol;
-  v.light_sampling = s.light_sampling, v.multiple_importance = s.multiple_importance;
+  v.schlick = s.schlick, v.sampler = s.sampler;
+  v.light_sampling = s.light_sampling, v.integrator = s.integrator;
   v.needs = s.needs;
   v.kernel = s.kernel;
 }

@@ -59,7 +59,9 @@ struct SceneView {
   const float* gradients;
   int max_depth;
   std::uint32_t seed;
-  bool schlick, sobol, light_sampling, multiple_importance;
+  bool schlick, light_sampling;
+  SamplerKind sampler;
+  Integrator integrator;
   Needs needs;
   KernelSet kernel;
 

@@ -161,7 +161,7 @@ constexpr std::int32_t kind_of() {
 template <class M>
 TYNDALL_INLINE bool asks_for_lights(const SceneView& s) {
   return M::light_sampling == LightSampling::always ||
-         (M::light_sampling == LightSampling::weighted && s.multiple_importance);
+         (M::light_sampling == LightSampling::weighted && s.integrator == Integrator::mis);
 }
 
 /// Scattering by whatever material each lane is at; lights absorb.

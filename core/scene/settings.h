@@ -1,8 +1,10 @@
 #pragma once
 #include "core/base/choice.h"
 #include "core/base/fields.h"
+#include "core/base/random.h"
 #include "core/base/vec.h"
 #include "core/image/tonemap.h"
+#include "core/scene/integrator.h"
 
 #include <cstdint>
 #include <optional>
@@ -35,34 +37,6 @@ inline constexpr auto fields(const Camera*) {
             "opening of the cone of rays that meets in a point in focus; 0: all is sharp"},
       Field{"focus_distance", &Camera::focus_distance, above(0), Slider{0.1, 100, true}, "",
             "distance of the plane in focus, along the axis, scene units"}};
-}
-
-/// How paths find light.
-enum class Integrator { path, nee, mis };
-
-constexpr Word word(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::path:
-      return {"path", "no light sampling"};
-    case Integrator::nee:
-      return {"nee", "light sampling, without weights: in fog of g > 0.9998 too bright for a film now and then"};
-    case Integrator::mis:
-      return {"mis", "light sampling, weighted"};
-  }
-  return {};
-}
-
-/// Where a path's random numbers come from.
-enum class SamplerKind { random, sobol };
-
-constexpr Word word(SamplerKind sampler) {
-  switch (sampler) {
-    case SamplerKind::random:
-      return {"random", "independent numbers"};
-    case SamplerKind::sobol:
-      return {"sobol", "a scrambled Sobol' sequence, less noise"};
-  }
-  return {};
 }
 
 /// How much light a smooth boundary reflects.

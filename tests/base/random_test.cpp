@@ -20,7 +20,9 @@ using FloatDice = Dice<float>;
 struct Key {
   std::uint32_t seed, x, y, sample;
 };
-FloatDice dice_of(Key k, bool sobol = false) { return FloatDice::of(k.seed, k.x, k.y, k.sample, sobol); }
+FloatDice dice_of(Key k, bool sobol = false) {
+  return FloatDice::of(k.seed, k.x, k.y, k.sample, sobol ? SamplerKind::sobol : SamplerKind::random);
+}
 
 constexpr std::uint32_t edge = 256;
 constexpr int dimensions = 8;

@@ -11,7 +11,7 @@ using namespace tyndall;
 namespace {
 
 Dice<float> point(std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-  return Dice<float>::of(3, x, y, sample, true);
+  return Dice<float>::of(3, x, y, sample, SamplerKind::sobol);
 }
 
 }  // namespace
