@@ -14,7 +14,7 @@ class RandomRoom {
   explicit RandomRoom(unsigned seed) : engine_(seed) {}
 
   Scene scene() {
-    scene_.width = 128, scene_.height = 72;
+    scene_.width = 192, scene_.height = 108;
     scene_.camera.look_from = {between(-3, 3), between(1, 4), between(5, 8)};
     scene_.camera.look_at = {between(-0.5, 0.5), between(0.5, 1.2), 0};
     scene_.camera.vfov = between(30, 55);
@@ -65,7 +65,7 @@ class RandomRoom {
   }
   /// Of about the same power, however small.
   void add_lamp() {
-    const double size = std::exp(between(std::log(0.1), std::log(1.0))), radiance = between(1, 6) / (size * size);
+    const double size = std::exp(between(std::log(0.2), std::log(1.0))), radiance = between(1, 6) / (size * size);
     const Vec3d at{between(-3, 3), between(2.5, 5), between(-3, 3)};
     const Material lamp{"", Vec3d{radiance, between(0.6, 1) * radiance, between(0.4, 1) * radiance}, Light<>{}};
     if (chance(0.5)) return add(Sphere<>{at, size, {}}, lamp);
