@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace tyndall {
@@ -64,6 +65,7 @@ std::string json_text(const Report& report) {
   json["media"] = c.media;
   json["phase_functions"] = c.phase_functions;
   json["lights"] = c.lights;
+  json["chains"] = report.compiled.chains.ball.size();
   json["background"] = c.background;
   json["motion"] = c.motion;
   json["defocus"] = c.defocus;
@@ -96,6 +98,30 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
+/// What exact chains are looked for.
+std::string chains_text(const Report& report) {
+  const Chains& chains = report.compiled.chains;
+  const RenderSettings& render = report.loaded.scene.render;
+  if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
+  if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
+  if (render.fresnel != FresnelKind::exact) return "none: they need exact Fresnel";
+  if (chains.ball.empty()) return "none: no lamp that is small as seen from a ball of glass or a mirror ball";
+  int mirrors = 0, shells = 0;
+  for (const float index : chains.index) mirrors += index == 0 ? 1 : 0;
+  for (const float radius : chains.inner_radius) shells += radius > 0 ? 1 : 0;
+  const int balls = static_cast<int>(chains.index.size()), solid = balls - mirrors - shells;
+  std::vector<std::int32_t> lamps = chains.light;
+  std::sort(lamps.begin(), lamps.end());
+  lamps.erase(std::unique(lamps.begin(), lamps.end()), lamps.end());
+  std::string text;
+  const auto add = [&](int count, const std::string& noun) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + count_of(count, noun);
+  };
+  add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell");
+  return text + ", each alone, to " + count_of(static_cast<int>(lamps.size()), "lamp") +
+         "; by chance: ways over two balls, quads, boxes and fuzzy metal";
+}
+
 std::string bytes_text(std::size_t bytes) {
   const auto number = static_cast<double>(bytes);
   return bytes < 100'000 ? fmt::format("{:.1f} kB", number / 1e3) : fmt::format("{:.1f} MB", number / 1e6);
@@ -125,6 +151,7 @@ std::string table(const Report& report) {
   const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
   row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
   row("lights", c.lights == 0 ? "none" : count_of(c.lights, "emitting primitive"));
+  row("chains", chains_text(report));
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");

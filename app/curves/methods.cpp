@@ -7,13 +7,19 @@
 namespace tyndall {
 
 std::vector<ChartMethod> default_methods(const Scene& scene) {
-  const Needs needs = compile(scene).needs;
+  Scene exact = scene;  // as its chains are found
+  exact.render.integrator = Integrator::mis;
+  exact.render.fresnel = FresnelKind::exact;
+  exact.render.caustics = Caustics::chains;
+  const RenderScene compiled = compile(exact);
+  const Needs needs = compiled.needs;
   std::vector<ChartMethod> methods;
   RenderSettings settings = scene.render;
   settings.spp.reset();
   settings.adaptive = false;
   settings.integrator = Integrator::path;
   settings.sampler = SamplerKind::random;
+  settings.caustics = Caustics::scatter;
   settings.fresnel = has_material<Dielectric<>>(needs) ? FresnelKind::schlick : FresnelKind::exact;
   methods.push_back({"the books' method", settings, "scalar"});
   const auto switch_on = [&](const char* name, auto change) {
@@ -27,6 +33,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
     switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
   }
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
+  if (!compiled.chains.ball.empty()) switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});

@@ -24,8 +24,13 @@ inline constexpr std::uint32_t light_point = 6;  // and 7
 inline constexpr std::uint32_t roulette = 8;
 inline constexpr std::uint32_t near_pair = 9;
 inline constexpr std::uint32_t near_distance = 10;
-inline constexpr std::uint32_t near_point = 12;  // and 13
+inline constexpr std::uint32_t chain_pair = 11;
+inline constexpr std::uint32_t near_point = 12;   // and 13
+inline constexpr std::uint32_t chain_point = 14;  // and 15
 inline constexpr std::uint32_t per_event = 16;
+// within an event, too, in a stream of their own
+inline constexpr std::uint32_t chain_word = 0x40000000u;
+inline constexpr std::uint32_t chain_root = 0x40000001u;
 }  // namespace dimension
 
 inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions

@@ -1,5 +1,6 @@
 #include "core/compile/compile.h"
 
+#include "core/compile/chains.h"
 #include "core/compile/columns.h"
 #include "core/compile/hull.h"
 #include "core/compile/lights.h"
@@ -140,7 +141,8 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
 }
 
 KernelSet least_kernel(const RenderScene& s) {
-  if (!s.near.medium.empty()) return KernelSet::everything;
+  if (!s.chains.ball.empty()) return KernelSet::everything;
+  if (!s.near.medium.empty()) return KernelSet::no_chains;
   return s.needs.media || s.needs.textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
 }
 
@@ -194,6 +196,8 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.integrator = scene.render.integrator;
   out.light_sampling = asks_for_light(out.integrator) && out.lights.count() > 0;
   if (out.integrator == Integrator::mis) out.near = find_near_lamps(out);
+  if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains)
+    out.chains = find_chains(flat, scene, out);
   out.kernel = least_kernel(out);
   out.film_unit = film_unit(brightest(scene));
   return out;
@@ -207,6 +211,8 @@ const char* name_of(KernelSet set) {
   switch (set) {
     case KernelSet::everything:
       return "everything";
+    case KernelSet::no_chains:
+      return "no chains";
     case KernelSet::no_lamps_in_fog:
       return "no lamps in fog";
     case KernelSet::no_fog_nor_textures:

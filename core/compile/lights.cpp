@@ -73,7 +73,14 @@ struct Collector {
   }
 };
 
-/// M. Vose, A Linear Algorithm for Generating Random Numbers with a Given Distribution, 1991.
+double brightness_of(const Material& m) {
+  if (!std::holds_alternative<Light<>>(m.kind)) return 0;
+  const auto* colour = std::get_if<Vec3d>(&m.colour);
+  return colour ? std::max({colour->x, colour->y, colour->z}) : 1.0;
+}
+
+}  // namespace
+
 void build_alias_table(Lights& out) {
   const std::size_t n = out.power.size();
   double sum = 0;
@@ -98,14 +105,6 @@ void build_alias_table(Lights& out) {
     small.push_back(l);
   }
 }
-
-double brightness_of(const Material& m) {
-  if (!std::holds_alternative<Light<>>(m.kind)) return 0;
-  const auto* colour = std::get_if<Vec3d>(&m.colour);
-  return colour ? std::max({colour->x, colour->y, colour->z}) : 1.0;
-}
-
-}  // namespace
 
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
                       Vec3d origin, Elements& elements) {

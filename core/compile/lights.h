@@ -10,4 +10,8 @@ namespace tyndall {
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
                       Vec3d origin, Elements& elements);
 
+/// Fills probability, keep and alias from power. M. Vose, A Linear Algorithm for Generating Random Numbers with a Given
+/// Distribution, 1991.
+void build_alias_table(Lights& lights);
+
 }  // namespace tyndall

@@ -132,9 +132,24 @@ struct NearLamps {
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
+/// Balls of glass and mirrors, and the lamps whose light integrator mis looks for through and off each.
+struct Chains {
+  // Columns by ball: one sphere, or two around one centre.
+  std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
+  std::vector<float> radius, index;              ///< of the outer sphere; index within it over that outside, 0: metal
+  std::vector<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
+  std::vector<std::int32_t> outer, inner;        ///< elements of the spheres
+  std::vector<std::int32_t> crowded;             ///< 1: surfaces or media other than its own are or reach into it
+  // Pairs of a ball and a light.
+  std::vector<std::int32_t> ball, light;
+  Lights choice;                      ///< the pairs as what choose_light chooses from
+  std::vector<std::int32_t> pair_of;  ///< by ball · number of lights + light: the pair, or -1
+  std::vector<std::int32_t> ball_of;  ///< by element: 2 · ball + (1: inner sphere), or -1
+};
+
 /// The variants of the kernels, by what they leave out. A scene that lacks it gives the same picture, to the last bit.
-enum class KernelSet { everything, no_lamps_in_fog, no_fog_nor_textures };
-inline constexpr int kernel_sets = 3;
+enum class KernelSet { everything, no_chains, no_lamps_in_fog, no_fog_nor_textures };
+inline constexpr int kernel_sets = 4;
 const char* name_of(KernelSet set);
 
 struct RenderScene {
@@ -151,6 +166,7 @@ struct RenderScene {
   std::vector<TextureColumns> textures;
   std::vector<MediumColumns> media;
   NearLamps near;
+  Chains chains;
   std::shared_ptr<const std::vector<float>> gradients;  ///< of noise textures, 3·256
   int max_depth = 1000;
   std::uint32_t seed = 0;

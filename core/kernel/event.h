@@ -1,4 +1,5 @@
 #pragma once
+#include "core/kernel/chain_path.h"
 #include "core/kernel/equiangular.h"
 #include "core/kernel/flight.h"
 #include "core/kernel/lights.h"
@@ -17,6 +18,7 @@ struct Paths {
   IntOf<F> depth;  ///< scattering events so far
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
   FogFlight<F> flight;      ///< that led to where the ray starts; only in scenes with lamps in fog
+  ChainTrail<F> trail;      ///< since it scattered last; only in scenes with chains
   IntOf<F> slot;            ///< 2 · pixel within the tile + half
   std::uint32_t alive = 0;  ///< a bit a lane
 };
@@ -108,7 +110,11 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, Paths<F>& p, const Hit<F>& hit,
   const Vec3<F> colour = surface_colour(s, e.at, e.surface);
   const auto lit = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Light<double>>())));
   if (any(lit)) {
-    const F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
+    F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
+    if (s.has_chains()) {
+      const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, e.at.element);
+      weight = weight * found_by_chance_weight(s, p.trail, p.ray, light, e.at.point, lit);
+    }
     p.radiance = select(lit, p.radiance + weight * (p.throughput * colour), p.radiance);
   }
   e.surface = mask_and_not(e.surface, lit);
@@ -138,6 +144,8 @@ TYNDALL_INLINE void meet_media(const auto& s, const MediumEvent<F>& found, Event
 template <class F>
 TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u) {
   const Vec3<F> before = p.ray.direction;
+  const Ray<F> came = p.ray;
+  MaskOf<F> transmitted = less(F(1.0f), F(0.0f));
   MaskOf<F> goes_on = e.medium;
   p.ray.origin = e.point;
   p.ray.from = e.from;
@@ -145,6 +153,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
     const Scattered<F> out = scatter_any(s, e.at.material, e.kind, e.surface, e.incident);
     p.ray.direction = select(e.surface, out.direction, p.ray.direction);
     p.density = select(e.surface, out.density, p.density);
+    transmitted = out.transmitted;
     // Through the surface: on its other side, inside for outside.
     const auto through = mask_and(e.surface, out.transmitted);
     const IntOf<F> side = e.from & IntOf<F>(1);
@@ -157,6 +166,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
     p.ray.direction = select(e.medium, direction, p.ray.direction);
     p.density = select(e.medium, phase_density(s, e.g, before, direction), p.density);
   }
+  if (s.has_chains()) follow_chain(s, p.trail, came, e, mask_not(transmitted), p.density);
   return goes_on;
 }
 

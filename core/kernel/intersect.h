@@ -20,16 +20,22 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
 }
 
 /// Lanes whose way to `distance` is blocked by anything but element `aim`. If `aim` is a face of a box, the other faces
-/// do block.
+/// do block. common_aim: the element that all lanes aim at, or -1.
 template <class F>
-TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
+TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim,
+                                         std::int32_t common_aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
-  const std::int32_t common_aim = s.lights.count == 1 ? s.lights.element[0] : -1;
   if (s.nodes)
     test_tree(s, ray, Asked<F, true, true>{F(0.0f), aim, common_aim}, best);
   else
     test_all(s, ray, Asked<F, true, false>{F(0.0f), aim, common_aim}, best);
   return less_equal(IntOf<F>(0), best.element);
+}
+
+/// The same on the way to a light.
+template <class F>
+TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
+  return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
 }
 
 template <class F>

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/kernel/camera.h"
+#include "core/kernel/chain_light.h"
 #include "core/kernel/near_lights.h"
 
 /// The path loop: a group of lanes, each following its own path; a lane whose path has ended takes the next camera ray.
@@ -7,7 +8,7 @@ namespace tyndall {
 
 /// Gives free lanes a camera ray each, as long as there are samples.
 template <class F>
-TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s,
+TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples& samples, const auto& s,
                                  const Unit& unit) {
   constexpr std::uint32_t full = lanes_of<F> == 32 ? 0xffffffffu : (1u << (lanes_of<F> % 32)) - 1u;
   while (p.alive != full) {
@@ -36,6 +37,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     p.radiance = select(m, zero3<F>(), p.radiance);
     p.depth = select(m, IntOf<F>(0), p.depth);
     p.density = select(m, F(one_direction), p.density);
+    if (s.has_chains()) p.trail.met = select(m, IntOf<F>(-1), p.trail.met);
     p.alive |= fresh;
   }
 }
@@ -97,6 +99,11 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
     const LightAsked<F> asked{choose_light(s.lights, e.point, p.dice.one(dimension::light_choice)),
                               p.dice.pair(dimension::light_point), p.flight, false};
     p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
+  }
+  if (s.has_chains()) {
+    const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
+    const auto asking = mask_and(scattering, mask_or(e.medium, evenly));
+    if (any(asking)) p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
   }
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));

@@ -1,5 +1,7 @@
 #include "core/kernel/scene_view.h"
 
+#include <algorithm>
+
 namespace tyndall {
 namespace {
 
@@ -47,6 +49,21 @@ LightView view_of(const Lights& l) {
   return v;
 }
 
+ChainView view_of(const Chains& c) {
+  ChainView v{};
+  v.pairs = static_cast<int>(c.ball.size()), v.balls = static_cast<int>(c.radius.size());
+  v.shells = std::any_of(c.inner_radius.begin(), c.inner_radius.end(), [](float r) { return r > 0; });
+  v.crowds = std::find(c.crowded.begin(), c.crowded.end(), 1) != c.crowded.end();
+  for (int i = 0; i < 3; ++i) v.center[i] = c.center[i].data(), v.move[i] = c.move[i].data();
+  v.radius = c.radius.data(), v.index = c.index.data();
+  v.inner_radius = c.inner_radius.data(), v.inner_index = c.inner_index.data();
+  v.outer = c.outer.data(), v.inner = c.inner.data(), v.crowded = c.crowded.data(), v.ball = c.ball.data(),
+  v.light = c.light.data();
+  v.pair_of = c.pair_of.data(), v.ball_of = c.ball_of.data();
+  v.choice = view_of(c.choice);
+  return v;
+}
+
 }  // namespace
 
 SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
@@ -77,6 +94,7 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.near_count = static_cast<int>(s.near.medium.size());
   v.near_medium = s.near.medium.data(), v.near_light = s.near.light.data();
   v.near_probability = s.near.probability.data();
+  v.chains = view_of(s.chains);
   v.gradients = s.gradients ? s.gradients->data() : nullptr;
   v.max_depth = s.max_depth;
   v.seed = s.seed;

@@ -32,6 +32,14 @@ struct LightView {
   const float *length_u, *length_v, *area, *power, *reach2, *probability, *keep;
 };
 
+struct ChainView {
+  int pairs = 0, balls = 0;
+  bool shells, crowds;  ///< whether some ball is a shell, or crowded
+  const float *center[3], *move[3], *radius, *index, *inner_radius, *inner_index;
+  const std::int32_t *outer, *inner, *crowded, *ball, *light, *pair_of, *ball_of;
+  LightView choice;
+};
+
 struct SceneView {
   int width, height;
   CameraColumns camera;
@@ -56,6 +64,7 @@ struct SceneView {
   int near_count;  ///< pairs of a medium and a lamp in or near it
   const std::int32_t *near_medium, *near_light;
   const float* near_probability;  ///< medium · number of lights + light
+  ChainView chains;
   const float* gradients;
   int max_depth;
   std::uint32_t seed;
@@ -69,6 +78,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_textures() const { return needs.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return needs.image_textures; }
   TYNDALL_INLINE bool has_lamps_in_fog() const { return near_count > 0; }
+  TYNDALL_INLINE bool has_chains() const { return chains.pairs > 0; }
 };
 
 /// The same for a kernel that leaves models out: the answers about these are constants when it is compiled.
@@ -78,7 +88,9 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE bool has_media() const { return fog_and_textures && needs.media; }
   TYNDALL_INLINE bool has_textures() const { return fog_and_textures && needs.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return fog_and_textures && needs.image_textures; }
-  TYNDALL_INLINE bool has_lamps_in_fog() const { return set == KernelSet::everything && near_count > 0; }
+  static constexpr bool lamps_in_fog = set == KernelSet::everything || set == KernelSet::no_chains;
+  TYNDALL_INLINE bool has_lamps_in_fog() const { return lamps_in_fog && near_count > 0; }
+  TYNDALL_INLINE bool has_chains() const { return set == KernelSet::everything && chains.pairs > 0; }
 };
 
 /// Points into `scene`, which must stay as it is while the view is used.

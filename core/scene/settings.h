@@ -52,6 +52,19 @@ constexpr Word word(FresnelKind fresnel) {
   return {};
 }
 
+/// How integrator mis finds lamps through glass balls and off mirrors.
+enum class Caustics { chains, scatter };
+
+constexpr Word word(Caustics caustics) {
+  switch (caustics) {
+    case Caustics::chains:
+      return {"chains", "exact paths through and off single balls, where they pay, and chance"};
+    case Caustics::scatter:
+      return {"scatter", "chance alone"};
+  }
+  return {};
+}
+
 /// Most samples a pixel that a film can add without losing exactness.
 inline constexpr std::uint32_t most_samples = 1u << 24;
 
@@ -61,6 +74,7 @@ struct RenderSettings {
   Integrator integrator = Integrator::mis;
   SamplerKind sampler = SamplerKind::sobol;
   FresnelKind fresnel = FresnelKind::exact;
+  Caustics caustics = Caustics::chains;
   std::uint32_t seed = 0;
   bool adaptive = false;
   bool operator==(const RenderSettings&) const = default;
@@ -74,6 +88,7 @@ inline constexpr auto fields(const RenderSettings*) {
       Field{"integrator", &RenderSettings::integrator, "how light is found"},
       Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
       Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
+      Field{"caustics", &RenderSettings::caustics, "how integrator mis finds light through glass balls and off mirrors"},
       Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
       Field{"adaptive", &RenderSettings::adaptive,
             "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "

@@ -59,7 +59,8 @@ TEST_CASE("kernel sets: a scene gets the least that holds its models") {
   CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_lamps_in_fog);
   CHECK(compile(load_scene("earth").scene).kernel == KernelSet::no_lamps_in_fog);
   Scene scene = load_scene("stress-light-in-fog").scene;
-  CHECK(compile(scene).kernel == KernelSet::everything);
+  CHECK(compile(scene).kernel == KernelSet::no_chains);
   scene.render.integrator = Integrator::nee;
   CHECK(compile(scene).kernel == KernelSet::no_lamps_in_fog);
+  CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::everything);
 }

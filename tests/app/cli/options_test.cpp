@@ -190,12 +190,12 @@ TEST_CASE("help names every command and option, with units and defaults") {
   CHECK(printed({"-h"}) == overview);
   CHECK(has(printed({"--version"}), "tyndall "));
   const std::string render = printed({"render", "--help"});
-  for (const char* option : {"--output FILE",       "--size WxH",           "--spp N",       "--samples A:B",
-                             "--time SECONDS",      "--target-error E",     "--max-depth N", "--integrator NAME",
-                             "--sampler NAME",      "--fresnel NAME",       "--exposure EV", "--tone-map NAME",
-                             "--set POINTER=VALUE", "--region X0,Y0,X1,Y1", "--seed N",      "--threads N",
-                             "--isa NAME",          "--stats FILE.json",    "--resume",      "--quiet",
-                             "--progress NAME"})
+  for (const char* option :
+       {"--output FILE",    "--size WxH",     "--spp N",           "--samples A:B",       "--time SECONDS",
+        "--target-error E", "--max-depth N",  "--integrator NAME", "--sampler NAME",      "--fresnel NAME",
+        "--caustics NAME",  "--exposure EV",  "--tone-map NAME",   "--set POINTER=VALUE", "--region X0,Y0,X1,Y1",
+        "--seed N",         "--threads N",    "--isa NAME",        "--stats FILE.json",   "--resume",
+        "--quiet",          "--progress NAME"})
     CHECK_MESSAGE(has(render, option), option);
   CHECK(has(render, "else 64"));
   CHECK(has(render, "else 1000"));

@@ -1,0 +1,179 @@
+#include "core/compile/chains.h"
+
+#include "core/compile/crowds.h"
+#include "core/compile/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double smallness = 0.25;  // of a lamp's reach against its distance from the ball, or the radius around it
+constexpr std::size_t most_pairs = 256;
+constexpr double like_outside = 1e-3;  // of an index, from 1
+
+/// A sphere that light passes or that mirrors it.
+struct Candidate {
+  RoundBody body;
+  double index;       // within over outside; 0: metal
+  std::size_t shape;  // index into Flattened::shapes
+  int inside = -1;    // the candidate around the same centre that holds it most closely
+  int holds = -1;     // the largest around the same centre that it holds
+};
+
+std::vector<Candidate> list_candidates(const Flattened& flat, const Scene& scene) {
+  std::vector<Candidate> list;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const auto* sphere = std::get_if<Sphere<>>(&flat.shapes[i].shape);
+    if (!sphere) continue;
+    const Material& material = scene.materials[static_cast<std::size_t>(flat.shapes[i].material)];
+    const auto* metal = std::get_if<Metal<>>(&material.kind);
+    const auto* glass = std::get_if<Dielectric<>>(&material.kind);
+    if (!glass && !(metal && metal->fuzz == 0)) continue;
+    const double index = metal ? 0 : sphere->radius > 0 ? glass->refractive_index : 1 / glass->refractive_index;
+    list.push_back({round_body(*sphere, flat.shapes[i].placement), index, i});
+  }
+  return list;
+}
+
+bool concentric(const RoundBody& a, const RoundBody& b) {
+  const double slack = 1e-7 * std::max(a.radius, b.radius);
+  return length(a.center - b.center) <= slack && length(a.way - b.way) <= slack;
+}
+
+void nest(std::vector<Candidate>& list) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].index == 0) continue;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (list[k].index == 0 || !concentric(list[i].body, list[k].body)) continue;
+      const double radius = list[k].body.radius, own = list[i].body.radius;
+      int& around = list[i].inside;
+      if (radius > own && (around < 0 || radius < list[static_cast<std::size_t>(around)].body.radius))
+        around = static_cast<int>(k);
+      int& within = list[i].holds;
+      if (radius < own && (within < 0 || radius > list[static_cast<std::size_t>(within)].body.radius))
+        within = static_cast<int>(k);
+    }
+  }
+}
+
+struct BallAndLight {
+  int ball;  // index into the candidates
+  int light;
+  double worth;
+};
+
+/// What a lamp sends to a ball, as a measure for choosing; 0: chance finds the lamp well enough.
+double worth_of(const RoundBody& body, const Lights& lights, std::size_t k, Vec3d origin) {
+  const Vec3d lamp = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const double reach = std::sqrt(static_cast<double>(lights.reach2[k])) + 0.5 * length(body.way);
+  const double distance = std::max(length(lamp - (body.center + 0.5 * body.way)), body.radius);
+  if (reach > smallness * distance) return 0;
+  const double share = body.radius / distance;
+  return static_cast<double>(lights.power[k]) * share * share;
+}
+
+/// A shell that holds something else than what is around it: its turn can be least and greatest at places within, so
+/// that roots would be lost. Such shells are left to chance.
+bool is_filled_shell(const std::vector<Candidate>& list, const Candidate& outer) {
+  if (outer.holds < 0) return false;
+  return std::abs(outer.index * list[static_cast<std::size_t>(outer.holds)].index - 1) > like_outside;
+}
+
+std::vector<BallAndLight> list_pairs(const std::vector<Candidate>& list, const RenderScene& compiled) {
+  std::vector<BallAndLight> pairs;
+  for (std::size_t b = 0; b < list.size(); ++b) {
+    if (list[b].inside >= 0 || is_filled_shell(list, list[b])) continue;
+    for (std::size_t k = 0; k < compiled.lights.kind.size(); ++k) {
+      const double worth = worth_of(list[b].body, compiled.lights, k, compiled.origin);
+      if (worth > 0) pairs.push_back({static_cast<int>(b), static_cast<int>(k), worth});
+    }
+  }
+  if (pairs.size() > most_pairs) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const BallAndLight& a, const BallAndLight& b) { return a.worth > b.worth; });
+    pairs.resize(most_pairs);
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const BallAndLight& a, const BallAndLight& b) { return a.ball < b.ball; });
+  }
+  return pairs;
+}
+
+void push(std::vector<float> (&columns)[3], Vec3d v) {
+  columns[0].push_back(static_cast<float>(v.x));
+  columns[1].push_back(static_cast<float>(v.y));
+  columns[2].push_back(static_cast<float>(v.z));
+}
+
+class Filler {
+ public:
+  Filler(const Flattened& flat, const RenderScene& compiled) : flat_(flat), compiled_(compiled) {
+    std::int32_t element = 0;
+    for (const PlacedShape& shape : flat.shapes) {
+      first_element_.push_back(element);
+      element += std::holds_alternative<Box<>>(shape.shape) ? 6 : 1;
+    }
+    out.ball_of.assign(static_cast<std::size_t>(compiled.elements.count()), -1);
+  }
+
+  void add_ball(const std::vector<Candidate>& list, const Candidate& outer) {
+    const Candidate* inner = outer.holds < 0 ? nullptr : &list[static_cast<std::size_t>(outer.holds)];
+    const int ball = static_cast<int>(out.radius.size());
+    push(out.center, outer.body.center - compiled_.origin);
+    push(out.move, outer.body.way);
+    out.radius.push_back(static_cast<float>(outer.body.radius));
+    out.index.push_back(static_cast<float>(outer.index));
+    out.inner_radius.push_back(inner ? static_cast<float>(inner->body.radius) : 0);
+    out.inner_index.push_back(inner ? static_cast<float>(outer.index * inner->index) : 1);
+    out.outer.push_back(name(outer, ball, 0));
+    out.inner.push_back(inner ? name(*inner, ball, 1) : out.outer.back());
+    out.crowded.push_back(is_crowded(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape}) ? 1 : 0);
+    out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
+  }
+
+  void add_pair(const BallAndLight& pair) {
+    const std::size_t ball = out.radius.size() - 1;
+    out.pair_of[ball * compiled_.lights.kind.size() + static_cast<std::size_t>(pair.light)] =
+        static_cast<std::int32_t>(out.ball.size());
+    out.ball.push_back(static_cast<std::int32_t>(ball));
+    out.light.push_back(pair.light);
+    out.choice.kind.push_back(Lights::sphere);
+    out.choice.power.push_back(static_cast<float>(pair.worth));
+    out.choice.reach2.push_back(out.radius[ball] * out.radius[ball]);
+    for (int i = 0; i < 3; ++i) out.choice.center[i].push_back(out.center[i][ball] + 0.5f * out.move[i][ball]);
+  }
+
+  Chains out;
+
+ private:
+  std::int32_t name(const Candidate& sphere, int ball, int inner) {
+    const std::int32_t element = first_element_[sphere.shape];
+    out.ball_of[static_cast<std::size_t>(element)] = 2 * ball + inner;
+    return element;
+  }
+
+  const Flattened& flat_;
+  const RenderScene& compiled_;
+  std::vector<std::int32_t> first_element_;  // of each shape
+};
+
+}  // namespace
+
+Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene& compiled) {
+  if (!has_material<Lambertian<>>(compiled.needs) && !compiled.needs.media) return {};
+  std::vector<Candidate> list = list_candidates(flat, scene);
+  nest(list);
+  const std::vector<BallAndLight> pairs = list_pairs(list, compiled);
+  if (pairs.empty()) return {};
+  Filler filler(flat, compiled);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i == 0 || pairs[i].ball != pairs[i - 1].ball)
+      filler.add_ball(list, list[static_cast<std::size_t>(pairs[i].ball)]);
+    filler.add_pair(pairs[i]);
+  }
+  build_alias_table(filler.out.choice);
+  return std::move(filler.out);
+}
+
+}  // namespace tyndall

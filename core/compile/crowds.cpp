@@ -1,0 +1,108 @@
+#include "core/compile/crowds.h"
+
+#include "core/compile/columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double touching = 1e-6;  // of the radius
+constexpr int moments = 64;        // at which a moving sphere is compared with flats
+
+/// Least and greatest distance of two centres while they move.
+struct Distances {
+  double least, greatest;
+};
+Distances distances(const RoundBody& a, const RoundBody& b) {
+  const Vec3d start = b.center - a.center, way = b.way - a.way;
+  const double squared = dot(way, way);
+  const double nearest = squared > 0 ? std::clamp(-dot(start, way) / squared, 0.0, 1.0) : 0;
+  return {length(start + nearest * way), std::max(length(start), length(start + way))};
+}
+
+double distance_to_segment(Vec3d point, Vec3d start, Vec3d way) {
+  const double t = std::clamp(dot(point - start, way) / dot(way, way), 0.0, 1.0);
+  return length(point - start - t * way);
+}
+
+double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
+  const Vec3d n = cross(u, v), from = point - corner;
+  const double squared = dot(n, n);
+  const double a = dot(cross(from, v), n) / squared, b = dot(cross(u, from), n) / squared;
+  if (a >= 0 && a <= 1 && b >= 0 && b <= 1) return std::abs(dot(from, n)) / std::sqrt(squared);
+  return std::min({distance_to_segment(point, corner, u), distance_to_segment(point, corner, v),
+                   distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
+}
+
+/// Whether one of a body's places comes closer than its radius, by a distance that is asked for at some moments.
+template <class Distance>
+bool comes_close(const RoundBody& body, const Distance& distance) {
+  const bool moves = length(body.way) > 0;
+  const int count = moves ? moments : 0;
+  const double room = moves ? 0.5 * length(body.way) / moments : 0;
+  for (int i = 0; i <= count; ++i) {
+    const Vec3d center = body.center + (moves ? static_cast<double>(i) / moments : 0) * body.way;
+    if (distance(center) < body.radius * (1 - touching) + room) return true;
+  }
+  return false;
+}
+
+double distance_to_box(Vec3d p, const Box<>& b) {
+  const Vec3d out{std::max({b.min.x - p.x, p.x - b.max.x, 0.0}), std::max({b.min.y - p.y, p.y - b.max.y, 0.0}),
+                  std::max({b.min.z - p.z, p.z - b.max.z, 0.0})};
+  return length(out);
+}
+
+/// A point in a placement's own frame.
+Vec3d take_back(const Placement& placement, Vec3d point) {
+  return turn({-placement.degrees, {}}, point - placement.offset);
+}
+
+bool reaches_into(const PlacedShape& shape, const RoundBody& body) {
+  if (const auto* sphere = std::get_if<Sphere<>>(&shape.shape)) {
+    const RoundBody other = round_body(*sphere, shape.placement);
+    const Distances d = distances(body, other);
+    const double own = body.radius * (1 - touching);
+    return d.least < own + other.radius && d.greatest > other.radius - own;
+  }
+  if (const auto* quad = std::get_if<Quad<>>(&shape.shape)) {
+    const Vec3d corner = place(shape.placement, quad->corner);
+    const Vec3d u = turn(shape.placement, quad->u), v = turn(shape.placement, quad->v);
+    return comes_close(body, [&](Vec3d center) { return distance_to_flat(center, corner, u, v); });
+  }
+  const auto& box = std::get<Box<>>(shape.shape);
+  for (std::int32_t i = 0; i < 6; ++i) {
+    const BoxFace face = box_face_edges(box, i);
+    const Vec3d corner = place(shape.placement, face.corner);
+    const Vec3d u = turn(shape.placement, face.u), v = turn(shape.placement, face.v);
+    if (comes_close(body, [&](Vec3d center) { return distance_to_flat(center, corner, u, v); })) return true;
+  }
+  return false;
+}
+
+bool reaches_into(const PlacedVolume& volume, const RoundBody& body) {
+  if (const auto* sphere = std::get_if<Sphere<>>(&volume.boundary)) {
+    const RoundBody other = round_body(*sphere, volume.placement);
+    return distances(body, other).least < body.radius * (1 - touching) + other.radius;
+  }
+  const auto& box = std::get<Box<>>(volume.boundary);
+  return comes_close(body, [&](Vec3d center) { return distance_to_box(take_back(volume.placement, center), box); });
+}
+
+}  // namespace
+
+RoundBody round_body(const Sphere<>& s, const Placement& placement) {
+  const Vec3d way = s.center_end ? turn(placement, *s.center_end - s.center) : Vec3d{};
+  return {place(placement, s.center), way, std::abs(s.radius)};
+}
+
+bool is_crowded(const Flattened& flat, const RoundBody& body, std::initializer_list<std::size_t> own) {
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
+    if (std::find(own.begin(), own.end(), i) == own.end() && reaches_into(flat.shapes[i], body)) return true;
+  return std::any_of(flat.volumes.begin(), flat.volumes.end(),
+                     [&](const PlacedVolume& volume) { return reaches_into(volume, body); });
+}
+
+}  // namespace tyndall

@@ -1,0 +1,14 @@
+// The kernel with every model, of AVX-512: see avx512.cpp.
+#include "core/base/lanes_twice.h"
+#include "core/kernel/entry.h"
+
+namespace tyndall {
+
+namespace {
+using F = Twice<HWY_NAMESPACE::Floats>;
+static_assert(lanes_of<F> == 32, "the SIMD library fell back to a narrower set: a flag is missing");
+}  // namespace
+
+RenderUnit avx512_full_kernel() { return render_unit_entry<F, KernelSet::everything>; }
+
+}  // namespace tyndall

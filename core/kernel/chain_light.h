@@ -1,0 +1,262 @@
+#pragma once
+#include "core/kernel/chain_path.h"
+#include "core/kernel/event.h"
+
+/// Light that reaches a point through or off one ball, asked for exactly: a lamp and a ball are chosen, a point of the
+/// lamp is drawn, and the events at the ball; then all chains of these events between the two points are found, and one
+/// of them is tested in place of all. Chains are one more strategy of the power heuristic beside scattering, which
+/// finds the same paths by chance.
+namespace tyndall {
+
+// The part of a chain that is within its ball: looked at where other things, fog or a lamp are in there or reach into
+// it.
+
+/// A plane through the ball's centre, in which the chain turns from `out` towards `side`.
+template <class F>
+struct InsideWay {
+  Vec3<F> out, side;  ///< unit
+  F p;                ///< Bouguer's invariant
+  F angle;            ///< from `out` to where the ball is met first
+};
+
+template <class F>
+TYNDALL_INLINE F turn_above(F p, F reach) {
+  const F sine = min(p / max(reach, F(1e-30f)), F(1.0f));
+  return acos(sine);
+}
+
+/// The way through the ball from that end which is in it, or else from the near end. sign: of that end.
+template <class F>
+TYNDALL_INLINE InsideWay<F> inside_way(const ChainBall<F>& b, const ChainPlane<F>& plane, const ChainEnds<F>& e,
+                                       F near_sign, F far_sign, F sense, F p) {
+  const auto from_far = mask_and_not(less(plane.far, b.radius), e.both_out);
+  const F reach = select(from_far, e.far_reach, e.near_reach), sign = select(from_far, far_sign, near_sign);
+  const F within = select(e.deep, b.inner_index * b.inner_radius, b.index * b.radius);
+  const F outside = turn_above(p, reach) - turn_above(p, b.radius);
+  const F inside = mul_add(sign, turn_above(p, reach), turn_above(p, within));
+  return {select(from_far, plane.far_out, plane.near_out),
+          select(from_far, -sense * plane.far_side, sense * plane.near_side), p, select(e.both_out, outside, inside)};
+}
+
+/// A point of one of the ball's spheres.
+template <class F>
+TYNDALL_INLINE Vec3<F> point_at(const ChainBall<F>& b, const InsideWay<F>& way, F angle, F radius) {
+  const F turns = angle * F(static_cast<float>(0.5 / pi));
+  const SinCos<F> a = sin_cos_turn(min(max(turns - floor(turns), F(0.0f)), F(0.99999994f)));
+  return along(along(b.center, radius * a.cos, way.out), radius * a.sin, way.side);
+}
+
+/// Share of light that goes the way within the ball: 0 where something is in the way. digits: of the word.
+template <class F>
+TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEnds<F>& e, InsideWay<F> way,
+                             UintOf<F> digits, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
+  using I = IntOf<F>;
+  WordWalk<F> walk = start_walk(b, e, digits);
+  walk.decide.digits = select(walk.main, UintOf<F>(0xffffffffu), walk.decide.digits);
+  walk.open = mask_and(lanes, mask_and_not(mask_or(walk.open, walk.main), b.mirror));
+  auto clear = lanes;
+  F share = F(1.0f);
+  const F glass = turn_above(way.p, b.index * b.radius);
+  const F across = glass - turn_above(way.p, b.index * b.inner_radius);
+  const F chord = F(2.0f) * turn_above(way.p, b.inner_index * b.inner_radius);
+  I at = select(e.deep, I(1), I(0));  // the sphere that the way is at: 1 is the inner one
+  auto moves = e.both_out;            // an end within the ball: its first event is where the way begins
+  for (int i = 0; i < most_decisions && any(walk.open); ++i) {
+    const auto to_outer = equal(walk.next, I(0)), from_outer = equal(at, I(0));
+    const auto same = mask_or(mask_and(to_outer, from_outer), mask_not(mask_or(to_outer, from_outer)));
+    const F turn = select(same, select(to_outer, F(2.0f) * glass, chord), across);
+    const F end = select(moves, way.angle + turn, way.angle);
+    const auto here = mask_and(mask_and(clear, walk.open), moves);
+    if (any(here)) {
+      const Vec3<F> from = point_at(b, way, way.angle, select(from_outer, b.radius, b.inner_radius));
+      const Vec3<F> to = point_at(b, way, end, select(to_outer, b.radius, b.inner_radius));
+      const F length_of = max(length(to - from), F(1e-30f));
+      const auto outward = mask_and_not(to_outer, from_outer);
+      const Ray<F> ray{from, (F(1.0f) / length_of) * (to - from), time,
+                       select(from_outer, b.outer, b.inner) * I(4) + select(outward, I(0), I(1))};
+      shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(here)));
+      clear = mask_and_not(clear, blocked_towards(s, ray, length_of, select(to_outer, b.outer, b.inner), -1, here));
+      if (s.has_media()) share = select(here, share * pass_media(s, ray, length_of, here), share);
+    }
+    way.angle = end;
+    at = select(to_outer, I(0), I(1));
+    moves = less(F(-1.0f), F(0.0f));
+    step_walk(walk);
+  }
+  return select(clear, share, F(0.0f));
+}
+
+/// What is asked for at a group of points: one lamp, one ball.
+template <class F>
+struct ChainAsked {
+  LightChoice<F> pair;
+  ChainBall<F> ball;
+  IntOf<F> light;
+  LightColumns<F> lamp;
+  LampPoint<F> at;
+  ChainPlane<F> plane;
+  ChainEnds<F> ends;
+};
+
+/// One chain of those that there are.
+template <class F>
+struct ChainFound {
+  MaskOf<F> found;
+  ChainTurn<F> chain;
+  EndSigns<F> sign;
+  F s, slope, sense;  ///< see TurnRoot
+  F count;            ///< how many there are
+};
+
+/// The chain as rays.
+template <class F>
+struct ChainRays {
+  Vec3<F> direction, arrive;  ///< unit: at the near end, at the lamp
+  F near_way, far_way;        ///< from each end to the ball
+};
+
+template <class F>
+TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, Vec3<F> point, F time, const Dice<F>& dice) {
+  const ChainView& c = s.chains;
+  ChainAsked<F> a;
+  a.pair = choose_light(c.choice, point, dice.one(dimension::chain_pair));
+  a.ball = load_ball<F>(c, lookup_int<F>(c.ball, c.pairs, a.pair.light), time);
+  a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
+  a.lamp = load_light<F>(s.lights, a.light);
+  a.at = sample_lamp(a.lamp, a.ball, time, dice.pair(dimension::chain_point));
+  a.plane = plane_of(a.ball, point, a.at.point);
+  a.ends = ends_of(a.ball, a.plane.near, a.plane.far);
+  return a;
+}
+
+/// Density of scattering from an event into a direction; 0 where chains are not asked for.
+template <class F>
+TYNDALL_INLINE F scattered_density(const auto& s, const Paths<F>& p, const Event<F>& e, Vec3<F> direction) {
+  const F diffuse = density(Lambertian<F>{}, e.incident, direction);
+  if (!s.has_media() || !any(e.medium)) return diffuse;
+  return select(e.medium, phase_density(s, e.g, p.ray.direction, direction), diffuse);
+}
+
+/// Way from an end to the ball's surface next to it: outside, or within what holds the end.
+template <class F>
+TYNDALL_INLINE F way_to_ball(const ChainBall<F>& b, const Turn<F>& turn, F end, F reach, F sign, F s) {
+  const auto out = less(b.radius, end);
+  const F index = select(out, F(1.0f), select(b.hollow, b.inner_index, b.index));
+  const F wall = index * select(out, b.radius, select(b.hollow, b.inner_radius, b.radius));
+  const F from_end = depth_of(turn, reach, s), to_wall = depth_of(turn, wall, s);
+  return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
+}
+
+/// The roots for either sign of the end that is within the ball.
+template <class F>
+TYNDALL_INLINE ChainFound<F> find_chain(const auto& s, const ChainAsked<F>& a, const ChainWord<F>& word, F pick,
+                                        MaskOf<F> lanes) {
+  ChainFound<F> out;
+  out.sign = {F(1.0f), F(1.0f)};
+  out.chain = turn_of(s.chains, a.ball, a.ends, word, out.sign);
+  const auto here = mask_and(lanes, out.chain.possible), one_in = mask_and_not(here, a.ends.both_out);
+  TurnRoots<F> roots = list_roots(out.chain.turn, a.plane.angle, here);
+  out.count = roots.count;
+  if (!any(one_in)) {
+    const TurnRoot<F> root = take_root(out.chain.turn, roots, a.plane.angle, floor(pick * out.count));
+    out.found = root.found, out.s = root.s, out.slope = root.slope, out.sense = root.sense;
+    return out;
+  }
+  const auto near_in = less(a.plane.near, a.ball.radius);
+  const EndSigns<F> flipped{select(near_in, F(-1.0f), F(1.0f)), select(near_in, F(1.0f), F(-1.0f))};
+  const ChainTurn<F> other = turn_of(s.chains, a.ball, a.ends, word, flipped);
+  const TurnRoots<F> others = list_roots(other.turn, a.plane.angle, one_in);
+  out.count = roots.count + others.count;
+  F index = floor(pick * out.count);
+  const auto second = less_equal(roots.count, index);
+  index = select(second, index - roots.count, index);
+  choose(second, others, roots);
+  for (int i = 0; i < 2; ++i) out.chain.turn.times[i] = select(second, other.turn.times[i], out.chain.turn.times[i]);
+  out.sign = {select(second, flipped.near, F(1.0f)), select(second, flipped.far, F(1.0f))};
+  const TurnRoot<F> root = take_root(out.chain.turn, roots, a.plane.angle, index);
+  out.found = root.found, out.s = root.s, out.slope = root.slope, out.sense = root.sense;
+  return out;
+}
+
+template <class F>
+TYNDALL_INLINE ChainRays<F> rays_of(const ChainAsked<F>& a, const ChainFound<F>& c) {
+  const Turn<F>& turn = c.chain.turn;
+  const F p = turn.most * (F(1.0f) - c.s * c.s);
+  const auto ray = [&](F reach, F side, Vec3<F> out, Vec3<F> across) __attribute__((always_inline)) {
+    const F inverse = F(1.0f) / reach, cosine = depth_of(turn, reach, c.s) * inverse;
+    return along((side * cosine) * out, c.sense * p * inverse, across);
+  };
+  return {ray(a.ends.near_reach, -c.sign.near, a.plane.near_out, a.plane.near_side),
+          ray(a.ends.far_reach, c.sign.far, a.plane.far_out, a.plane.far_side),
+          way_to_ball(a.ball, turn, a.ends.near, a.ends.near_reach, c.sign.near, c.s),
+          way_to_ball(a.ball, turn, a.ends.far, a.ends.far_reach, c.sign.far, c.s)};
+}
+
+/// What the chain brings, of the lamp's radiance, the way being free.
+template <class F>
+TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, const ChainAsked<F>& a,
+                           const ChainWord<F>& word, const ChainFound<F>& c, const ChainRays<F>& rays) {
+  const Turn<F>& turn = c.chain.turn;
+  const F cosine = lamp_cosine(a.lamp, a.at.normal, rays.arrive);
+  const F share = share_of(a.ball, a.ends, word, turn.most * (F(1.0f) - c.s * c.s));
+  const F scattered = scattered_density(s, p, e, rays.direction) * share;
+  const auto useful = mask_and(mask_and(c.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
+  if (!any(useful)) return F(0.0f);
+  const F spread = spread_of(c.chain, a.ends, a.plane.sine, c.s, c.slope, cosine);
+  const F asked = spread * a.at.density * a.pair.probability * word_probability(a.ball, a.ends, word);
+  const F ratio = scattered / max(asked, F(1e-37f));
+  const F weight = c.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));  // 0 at a caustic's edge, where asked is 0
+  return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
+}
+
+/// Light by chains from where lanes scatter evenly or in fog.
+template <class F>
+TYNDALL_INLINE Vec3<F> chain_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                                   std::uint32_t& shadow_rays) {
+  const ChainAsked<F> a = ask_chain<F>(s, e.point, p.ray.time, p.dice);
+  const auto asked = mask_and(lanes, mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine)));
+  if (!any(asked)) return zero3<F>();
+  const UintOf<F> digits = p.dice.word(dimension::chain_word);
+  const DrawnWord<F> drawn = draw_word(a.ball, a.ends, digits);
+  const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), IntOf<F>(s.max_depth) - p.depth);
+  const ChainFound<F> chain =
+      find_chain(s, a, drawn.word, p.dice.one(dimension::chain_root), mask_and(mask_and(asked, drawn.drawn), fits));
+  if (!any(chain.found)) return zero3<F>();
+  const ChainRays<F> found = rays_of(a, chain);
+  F weight = weight_of(s, p, e, a, drawn.word, chain, found);
+  const auto useful = less(F(0.0f), weight);
+  if (!any(useful)) return zero3<F>();
+  const IntOf<F> four = IntOf<F>(4), in = IntOf<F>(1);
+  const IntOf<F> wall = select(a.ends.deep, a.ball.inner, a.ball.outer);
+  const auto near_in = less(a.plane.near, a.ball.radius), far_in = less(a.plane.far, a.ball.radius);
+  const IntOf<F> near_wall = select(near_in, wall, a.ball.outer), far_wall = select(far_in, wall, a.ball.outer);
+  const IntOf<F> lamp = lookup_int<F>(s.lights.element, s.lights.count, a.light);
+  const Ray<F> near{e.point, found.direction, p.ray.time, e.from};
+  const Ray<F> far{along(a.at.point, -found.far_way, found.arrive), found.arrive, p.ray.time,
+                   far_wall * four + select(far_in, in, IntOf<F>(0))};
+  auto arrives = useful;
+  for (int leg = 0; leg < 2; ++leg) {
+    const Ray<F>& ray = leg == 0 ? near : far;
+    const F way = leg == 0 ? found.near_way : found.far_way;
+    shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(arrives)));
+    arrives = mask_and_not(arrives, blocked_towards(s, ray, way, leg == 0 ? near_wall : lamp, -1, arrives));
+    if (!any(arrives)) return zero3<F>();
+    if (s.has_media()) weight = weight * pass_media(s, ray, way, arrives);
+  }
+  const auto crowded = mask_and(arrives, a.ball.crowded);
+  if (s.chains.crowds && any(crowded)) {
+    const F p_there = chain.chain.turn.most * (F(1.0f) - chain.s * chain.s);
+    const InsideWay<F> way = inside_way(a.ball, a.plane, a.ends, chain.sign.near, chain.sign.far, chain.sense, p_there);
+    const F passes = pass_inside(s, a.ball, a.ends, way, digits, p.ray.time, crowded, shadow_rays);
+    weight = select(crowded, weight * passes, weight);
+  }
+  Vec3<F> colour = light_radiance(s, lamp, a.at.point, arrives);
+  const auto metal = mask_and(arrives, a.ball.mirror);
+  if (any(metal)) {
+    const SurfacePoint<F> at = surface_at(s, near, found.near_way, a.ball.outer);
+    colour = select(metal, colour * surface_colour(s, at, metal), colour);
+  }
+  return select(arrives, weight * (p.throughput * e.colour * colour), zero3<F>());
+}
+
+}  // namespace tyndall

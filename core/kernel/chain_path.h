@@ -1,0 +1,205 @@
+#pragma once
+#include "core/kernel/chain_word.h"
+#include "core/kernel/lights.h"
+#include "core/kernel/shade.h"
+
+/// One chain: from a point where light scatters, by a ball, to a point of a lamp. Below, its other side: a path that
+/// scattered into a ball by chance and found a lamp is weighed against the chain that would have found it. For that it
+/// carries where it scattered last, and what it has met since.
+namespace tyndall {
+
+/// A point of a lamp, drawn without regard to what is in between.
+template <class F>
+struct LampPoint {
+  Vec3<F> point, normal;
+  F density;  ///< per unit of area
+};
+
+/// Lowest cosine, from the axis towards a ball, of points of a sphere lamp which the ball sees; none (-1) if it holds
+/// the lamp's centre.
+template <class F>
+TYNDALL_INLINE F seen_from_ball(F distance, F lamp_radius, F ball_radius) {
+  return select(less(ball_radius, distance), max((lamp_radius - ball_radius) / max(distance, F(1e-30f)), F(-1.0f)),
+                F(-1.0f));
+}
+
+/// Of points of a sphere lamp at cosine z from that axis: grows from nothing where the ball begins to see them, as
+/// their light does; even in a lamp whose centre is in the ball.
+template <class F>
+TYNDALL_INLINE F sphere_point_density(F z, F distance, F lamp_radius, F ball_radius) {
+  const F even = F(static_cast<float>(0.25 / pi)) / (lamp_radius * lamp_radius);
+  const F first = seen_from_ball(distance, lamp_radius, ball_radius), span = F(1.0f) - first;
+  const F growing = F(4.0f) * max(z - first, F(0.0f)) / (span * span);
+  return even * select(less(ball_radius, distance), growing, F(1.0f));
+}
+
+template <class F>
+TYNDALL_INLINE LampPoint<F> sample_lamp(const LightColumns<F>& light, const ChainBall<F>& b, F time, Pair<F> u) {
+  const Vec3<F> flat =
+      along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v);
+  LampPoint<F> at{flat, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
+  const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
+  if (!any(round)) return at;
+  const Vec3<F> center = sphere_light_center(light, time), way = b.center - center;
+  const F distance = length(way), radius = light.length_u;
+  const auto outside = less(b.radius, distance);
+  const F first = seen_from_ball(distance, radius, b.radius);
+  const F z = mul_add(F(1.0f) - first, select(outside, sqrt(u.x), u.x), first);
+  const Vec3<F> axis = select(outside, (F(1.0f) / max(distance, F(1e-30f))) * way, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)});
+  const Vec3<F> normal = around(axis, z, u.y);
+  const F density = sphere_point_density(z, distance, radius, b.radius);
+  return {select(round, along(center, radius, normal), at.point), select(round, normal, at.normal),
+          select(round, density, at.density)};
+}
+
+/// The density with which sample_lamp gives a point of the lamp.
+template <class F>
+TYNDALL_INLINE LampPoint<F> lamp_point(const LightColumns<F>& light, const ChainBall<F>& b, F time, Vec3<F> point) {
+  LampPoint<F> at{point, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
+  const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
+  if (!any(round)) return at;
+  const Vec3<F> center = sphere_light_center(light, time), way = b.center - center;
+  const F distance = length(way), radius = light.length_u;
+  const Vec3<F> normal = normalize(point - center);
+  const F z = dot(normal, way) / max(distance, F(1e-30f));
+  const F density = sphere_point_density(z, distance, radius, b.radius);
+  return {point, select(round, normal, at.normal), select(round, density, at.density)};
+}
+
+/// Share of a lamp's surface that light which arrives in `direction` sees: the cosine; spheres shine outward.
+template <class F>
+TYNDALL_INLINE F lamp_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3<F> direction) {
+  const F cosine = -dot(direction, normal);
+  return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
+}
+
+/// The plane of a chain: of its ends and the ball's centre.
+template <class F>
+struct ChainPlane {
+  Vec3<F> near_out, far_out;    ///< unit, from the centre to each end
+  Vec3<F> near_side, far_side;  ///< unit, across it, the short way from the near end to the far one
+  F near, far;                  ///< distances from the centre
+  F angle, sine;                ///< between the ends, seen from the centre
+};
+
+template <class F>
+TYNDALL_INLINE ChainPlane<F> plane_of(const ChainBall<F>& b, Vec3<F> near, Vec3<F> far) {
+  const Vec3<F> x = near - b.center, y = far - b.center, normal = cross(x, y);
+  ChainPlane<F> plane;
+  plane.near = max(length(x), F(1e-30f)), plane.far = max(length(y), F(1e-30f));
+  const F twice_area = length(normal);
+  plane.near_out = (F(1.0f) / plane.near) * x, plane.far_out = (F(1.0f) / plane.far) * y;
+  const Vec3<F> unit = (F(1.0f) / max(twice_area, F(1e-37f))) * normal;
+  plane.near_side = cross(unit, plane.near_out), plane.far_side = cross(unit, plane.far_out);
+  plane.angle = atan2(twice_area, dot(x, y));
+  plane.sine = twice_area / (plane.near * plane.far);
+  return plane;
+}
+
+/// sqrt(reach² - p²), exact to rounding next to grazing: by the same s as the turn.
+template <class F>
+TYNDALL_INLINE F depth_of(const Turn<F>& turn, F reach, F s) {
+  const F drop = turn.most * s * s;
+  return sqrt(max(((reach - turn.most) + drop) * (reach + (turn.most - drop)), F(0.0f)));
+}
+
+/// Density of the direction at the near end, per steradian, that a density per area at the far end makes, over that
+/// density: dA cos / dω, for the chain of parameter s. From dω = sin θ dθ dψ with n a sin θ = p at the near end, and
+/// dA = b sin φ dψ · b cos θ' dφ across the ray at the far end, where dφ = turn' dp.
+template <class F>
+TYNDALL_INLINE F spread_of(const ChainTurn<F>& chain, const ChainEnds<F>& e, F sine, F s, F slope, F cosine) {
+  const Turn<F>& turn = chain.turn;
+  const F p = max(turn.most * (F(1.0f) - s * s), F(1e-30f));
+  const F rate = F(2.0f) * turn.most * s * p * e.far_index * e.far_index;
+  const F depths = depth_of(turn, e.near_reach, s) * depth_of(turn, e.far_reach, s);
+  return (e.near_reach * e.far_reach * sine) * depths * abs(slope) / (rate * max(cosine, F(1e-30f)));
+}
+
+/// Only in scenes with chains.
+template <class F>
+struct ChainTrail {
+  Vec3<F> start;  ///< where the path scattered last, evenly or in fog
+  F density;      ///< with which it took its direction there
+  /// -1: no chain, for what it met. Else bits: 0-3 events at the outer sphere, 4-8 at the inner one, 9-12 reflections
+  /// there, 13 whether it started away from the centre, from 14 on the ball + 1 (0: nothing met yet).
+  IntOf<F> met;
+};
+
+/// What lanes at surfaces have met when they go on from `element`. `reflected`: on the side that they came from.
+template <class F>
+TYNDALL_INLINE IntOf<F> meet_ball(const SceneView& s, const ChainTrail<F>& trail, const Ray<F>& ray, IntOf<F> element,
+                                  MaskOf<F> reflected) {
+  using I = IntOf<F>;
+  const I code = lookup_int<F>(s.chains.ball_of, s.element_count, element);
+  const auto none = mask_or(less(code, I(0)), less(trail.met, I(0)));
+  const I safe = select(none, I(0), code);
+  const I ball = as_int(shift_right<1>(as_uint(safe)));
+  const auto inner = equal(safe & I(1), I(1)), first = equal(trail.met, I(0));
+  const Vec3<F> center = load_ball<F>(s.chains, ball, ray.time).center;
+  const auto away = mask_and(first, less(F(0.0f), dot(ray.direction, trail.start - center)));
+  const I name = as_int(shift_left<14>(as_uint(ball + I(1))));
+  const I old = select(first, name + select(away, I(1 << 13), I(0)), select(none, I(0), trail.met));
+  const auto other = mask_not(equal(old & I(~((1 << 14) - 1)), name));
+  const auto full = mask_or(mask_or(equal(old & I(15), I(15)), equal(old & I(31 << 4), I(31 << 4))),
+                            equal(old & I(15 << 9), I(15 << 9)));
+  const I event = select(inner, select(reflected, I(16 + 512), I(16)), I(1));
+  return select(mask_or(none, mask_or(other, full)), I(-1), old + event);
+}
+
+/// Follows what lanes did at an event to which `ray` came. density: of the direction in which they go on.
+template <class F>
+TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const Ray<F>& ray, const auto& e,
+                                 MaskOf<F> reflected, F density) {
+  const auto spreads = mask_or(e.medium, mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>()))));
+  const auto goes_on = mask_and(mask_and_not(e.surface, spreads), less_equal(IntOf<F>(0), trail.met));
+  if (any(goes_on)) trail.met = select(goes_on, meet_ball(s, trail, ray, e.at.element, reflected), trail.met);
+  trail.met = select(spreads, IntOf<F>(0), trail.met);
+  trail.start = select(spreads, e.point, trail.start);
+  trail.density = select(spreads, density, trail.density);
+}
+
+template <class F>
+TYNDALL_INLINE ChainWord<F> word_of(IntOf<F> met) {
+  using I = IntOf<F>;
+  return {from_int<F>(met & I(15)), from_int<F>(as_int(shift_right<4>(as_uint(met))) & I(31)),
+          from_int<F>(as_int(shift_right<9>(as_uint(met))) & I(15))};
+}
+
+/// Weight of a lamp that lanes found at `point` after the events of their trail: r² / (1 + r²) with r the density of
+/// scattering, times the share of light that takes this chain, over the chain's.
+template <class F>
+TYNDALL_INLINE F found_by_chance_weight(const auto& s, const ChainTrail<F>& trail, const Ray<F>& ray, IntOf<F> light,
+                                        Vec3<F> point, MaskOf<F> lit) {
+  using I = IntOf<F>;
+  auto could = mask_and(mask_and(lit, less_equal(I(0), light)), less(I((1 << 14) - 1), trail.met));
+  if (!any(could)) return F(1.0f);
+  const ChainView& c = s.chains;
+  const I ball = select(could, as_int(shift_right<14>(as_uint(trail.met))) - I(1), I(0));
+  const I lamp = select(could, light, I(0));
+  const I pair = gather_int<F>(c.pair_of, ball * I(s.lights.count) + lamp);
+  could = mask_and(could, less_equal(I(0), pair));
+  if (!any(could)) return F(1.0f);
+  const ChainBall<F> b = load_ball<F>(c, ball, ray.time);
+  const LightColumns<F> columns = load_light<F>(s.lights, lamp);
+  const LampPoint<F> at = lamp_point(columns, b, ray.time, point);
+  const ChainPlane<F> plane = plane_of(b, trail.start, point);
+  const ChainEnds<F> ends = ends_of(b, plane.near, plane.far);
+  const ChainWord<F> word = word_of<F>(trail.met);
+  const auto away = mask_not(equal(trail.met & I(1 << 13), I(0)));
+  const EndSigns<F> sign{select(mask_and_not(away, less(b.radius, plane.near)), F(-1.0f), F(1.0f)),
+                         select(less(dot(ray.direction, plane.far_out), F(0.0f)), F(-1.0f), F(1.0f))};
+  const ChainTurn<F> chain = turn_of(c, b, ends, word, sign);
+  const F p = ends.far_reach * length(cross(plane.far_out, ray.direction));
+  const F s2 = F(1.0f) - p / chain.turn.most, parameter = sqrt(max(s2, F(1e-12f)));
+  could = mask_and(mask_and(could, chain.possible),
+                   mask_and(less_equal(F(least_parameter), parameter), less_equal(parameter, chain.turn.last)));
+  const F cosine = lamp_cosine(columns, at.normal, ray.direction);
+  const F spread = spread_of(chain, ends, plane.sine, parameter, turn_at(chain.turn, parameter).slope, cosine);
+  const F probability = choice_probability(c.choice, trail.start, select(could, pair, I(0)));
+  const F asked = spread * at.density * probability * word_probability(b, ends, word);
+  const F inverse = asked / max(trail.density * share_of(b, ends, word, p), F(1e-37f));
+  const auto asks = mask_and(mask_and(could, less(F(0.0f), cosine)), less(F(0.0f), asked));
+  return select(asks, F(1.0f) / mul_add(inverse, inverse, F(1.0f)), F(1.0f));
+}
+
+}  // namespace tyndall
