@@ -65,10 +65,46 @@ TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
   return lost;
 }
 
+/// Events that ask for chains. Few lanes of a group are at one at a time, so they wait here until all lanes can be
+/// filled; what a chain brings is added to the film by itself. A single lane does not wait.
+template <class F>
+struct ChainQueue {
+  static constexpr bool waits = lanes_of<F> > 1;
+  static constexpr int room = waits ? 2 * lanes_of<F> : 1, numbers = 11, words = 7;
+  alignas(64) float number[numbers][room];
+  alignas(64) std::int32_t word[words][room];
+  int count = 0;
+};
+
+template <class F>
+TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes) {
+  using I = IntOf<F>;
+  using Queue = ChainQueue<F>;
+  const Vec3<F> heading = select(e.medium, p.ray.direction, e.incident.facing), carried = p.throughput * e.colour;
+  const F numbers[Queue::numbers] = {e.point.x, e.point.y, e.point.z, heading.x,  heading.y, heading.z,
+                                     carried.x, carried.y, carried.z, p.ray.time, e.g};
+  const I words[Queue::words] = {e.from,
+                                 p.depth,
+                                 p.slot,
+                                 as_int(p.dice.low),
+                                 as_int(p.dice.high),
+                                 as_int(p.dice.event),
+                                 select(e.medium, I(1), I(0))};
+  alignas(64) float number[Queue::numbers][lanes_of<F>];
+  alignas(64) std::int32_t word[Queue::words][lanes_of<F>];
+  for (int k = 0; k < Queue::numbers; ++k) store(number[k], numbers[k]);
+  for (int k = 0; k < Queue::words; ++k) store(word[k], words[k]);
+  for (std::uint32_t left = bits(lanes); left; left &= left - 1, ++queue.count) {
+    const int lane = __builtin_ctz(left);
+    for (int k = 0; k < Queue::numbers; ++k) queue.number[k][queue.count] = number[k][lane];
+    for (int k = 0; k < Queue::words; ++k) queue.word[k][queue.count] = word[k][lane];
+  }
+}
+
 /// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
 /// that max_depth ended.
 template <class F>
-TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut,
+TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut, ChainQueue<F>& chains,
                               std::uint32_t& shadow_rays) {
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found = no_event(p.ray);
@@ -103,7 +139,10 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   if (s.has_chains()) {
     const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
     const auto asking = mask_and(scattering, mask_or(e.medium, evenly));
-    if (any(asking)) p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
+    if constexpr (ChainQueue<F>::waits)
+      enqueue(chains, p, e, asking);
+    else if (any(asking))
+      p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
   }
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
@@ -140,27 +179,63 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
   }
 }
 
+/// Looks for the chains of the last events that wait, as many as there are lanes.
+template <class F>
+TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, const UnitFilm& film) {
+  using I = IntOf<F>;
+  constexpr int lanes = lanes_of<F>;
+  const int count = queue.count < lanes ? queue.count : lanes, first = queue.count - count;
+  const auto number = [&](int k) { return load<F>(queue.number[k] + first); };
+  const auto word = [&](int k) { return load_int<F>(queue.word[k] + first); };
+  const auto asking = mask_from_bits<F>(count >= 32 ? 0xffffffffu : (1u << (count % 32)) - 1u);
+  Paths<F> p{};
+  Event<F> e{};
+  e.point = {number(0), number(1), number(2)};
+  p.ray.direction = e.incident.facing = {number(3), number(4), number(5)};
+  p.throughput = {number(6), number(7), number(8)};
+  p.ray.time = number(9), e.g = number(10);
+  e.from = word(0), p.depth = word(1), p.slot = word(2);
+  p.dice = {as_uint(word(3)), as_uint(word(4)), as_uint(word(5)), s.sampler};
+  e.medium = equal(word(6), I(1)), e.surface = mask_not(e.medium);
+  e.colour = {F(1.0f), F(1.0f), F(1.0f)};
+  std::uint32_t shadow_rays = 0;
+  const Vec3<F> light = chain_light(s, p, e, asking, shadow_rays);
+  film.counts.rays += shadow_rays, film.counts.shadow_rays += shadow_rays;
+  alignas(64) float r[lanes], g[lanes], b[lanes];
+  store(r, light.x), store(g, light.y), store(b, light.z);
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t slot = queue.word[2][first + i];
+    if (r[i] == 0 && g[i] == 0 && b[i] == 0) continue;
+    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, {r[i], g[i], b[i]}, film.per_unit);
+  }
+  queue.count = first;
+}
+
 template <class F>
 TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_unit, FilmPixel* pixels,
                                 UnitCounts& counts) {
   UnitSamples samples;
   list_samples(unit, samples);
   CameraQueue<F> queue;
+  ChainQueue<F> chains{};
   Paths<F> p{};
   p.dice.sampler = s.sampler;
   const UnitFilm film{1 / film_unit, pixels, counts};
   for (;;) {
     take_samples(p, queue, samples, s, unit);
-    if (!p.alive) return;
+    if (!p.alive) break;
     counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
     MaskOf<F> cut;
     std::uint32_t shadow_rays = 0;
-    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, shadow_rays)) & p.alive;
+    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shadow_rays)) & p.alive;
     counts.rays += shadow_rays;
     counts.shadow_rays += shadow_rays;
     finish(p, p.alive & ~survivors, bits(cut), film);
     p.alive = survivors;
+    if (s.has_chains() && chains.count >= lanes_of<F>) find_waiting_chains(s, chains, film);
   }
+  if (s.has_chains())
+    while (chains.count > 0) find_waiting_chains(s, chains, film);
 }
 
 }  // namespace tyndall

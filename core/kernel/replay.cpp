@@ -73,7 +73,8 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
     Meeting meeting = meet(s, p);
     bool cut = false;
     std::uint32_t shadows = 0;
-    const bool survives = step(s, p, true, cut, shadows);
+    ChainQueue<float> chains{};
+    const bool survives = step(s, p, true, cut, chains, shadows);
     PathVertex& v = meeting.vertex;
     v.radiance = p.radiance;
     v.fate = fate_of(meeting, p, survives, cut);
