@@ -97,10 +97,10 @@ void UiLog::drawn(double cpu_seconds, bool picture) {
 void UiLog::mouse(const Mouse& mouse) {
   const bool somewhere = mouse.x > -1e6f && mouse.y > -1e6f;
   const double x = static_cast<double>(mouse.x), y = static_cast<double>(mouse.y);
-  changed("mouse", somewhere ? printed("%.0f %.0f", x, y) : "none");
-  changed("buttons", printed("%d %d %d", mouse.down[0], mouse.down[1], mouse.down[2]));
+  changed("mouse", somewhere ? fmt::format("{:.0f} {:.0f}", x, y) : "none");
+  changed("buttons", fmt::format("{:d} {:d} {:d}", mouse.down[0], mouse.down[1], mouse.down[2]));
   changed("keyboard", mouse.typing ? "control" : "shortcuts");
-  if (mouse.wheel != 0) line(printed("wheel %.0f", static_cast<double>(mouse.wheel)));
+  if (mouse.wheel != 0) line(fmt::format("wheel {:.0f}", mouse.wheel));
 }
 
 void UiLog::rest() {
