@@ -100,8 +100,8 @@ void render(Job& job, const SignalWatch& signals) {
                               1e-9 * sizeof(FilmPixel) * r.width() * r.height()));
   }
   job.picture = finished_picture(job.result);
-  job.rare_bright_paths =
-      has_rare_bright_paths(job.picture.estimate, job.picture.totals.least_taken, chance_of_caustics(job.loaded.scene));
+  job.rare_bright_paths = has_rare_bright_paths(job.picture.estimate, job.picture.totals.least_taken,
+                                                chance_of_caustics(job.loaded.scene, job.compiled));
   report.finish(outcome(job));
 }
 

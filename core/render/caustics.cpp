@@ -127,4 +127,20 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   return least;
 }
 
+double chance_of_caustics(const Scene& scene, const RenderScene& compiled) {
+  const Chains& chains = compiled.chains;
+  if (chains.ball.empty()) return chance_of_caustics(scene);
+  std::vector<std::size_t> elements;  // the first of each shape
+  std::size_t count = 0;
+  for (const PlacedShape& shape : flatten(scene).shapes) {
+    elements.push_back(count);
+    count += std::holds_alternative<Box<>>(shape.shape) ? 6 : 1;
+  }
+  const auto lights = static_cast<std::int32_t>(compiled.lights.kind.size());
+  return chance_of_caustics(scene, [&](std::size_t lamp, std::size_t shape) {
+    const std::int32_t light = compiled.elements.light[elements[lamp]], ball = chains.ball_of[elements[shape]];
+    return light >= 0 && ball >= 0 && chains.pair_of[static_cast<std::size_t>(ball / 2 * lights + light)] >= 0;
+  });
+}
+
 }  // namespace tyndall

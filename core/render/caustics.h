@@ -1,4 +1,5 @@
 #pragma once
+#include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
 #include <cstddef>
@@ -22,5 +23,8 @@ using IsFound = std::function<bool(std::size_t lamp, std::size_t shape)>;
 /// what is wrong.
 /// is_found: pairs to be left out; empty: none.
 double chance_of_caustics(const Scene& scene, const IsFound& is_found = {});
+
+/// The same without the pairs of a ball and a lamp that chains find. compiled: the scene's own.
+double chance_of_caustics(const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

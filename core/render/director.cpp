@@ -24,9 +24,9 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step) {
 
 }  // namespace
 
-void RarePathWatch::look(const Scene& scene, const Progression& picture) {
+void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
   if (picture.taken() < least_rare_spp || !picture.estimate_is_new()) return;
-  if (!chance_) chance_ = chance_of_caustics(scene);
+  if (!chance_) chance_ = chance_of_caustics(*shown.scene, *shown.compiled);
   found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), *chance_);
 }
 
@@ -94,7 +94,7 @@ void Director::start_over(double budget) {
 
 void Director::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
-  rare_paths_.look(*shown_.scene, picture_);
+  rare_paths_.look(shown_, picture_);
   publish();
 }
 

@@ -26,7 +26,7 @@ class RarePathWatch {
  public:
   void change_scene() { *this = {}; }
   /// A pass ended. Looks where the error was estimated after it.
-  void look(const Scene& scene, const Progression& picture);
+  void look(const ShownScene& shown, const Progression& picture);
   bool found() const { return found_; }
   void start_over() { found_ = false; }
 

@@ -1,5 +1,6 @@
 #include "core/render/caustics.h"
 
+#include "core/compile/compile.h"
 #include "core/scene/load.h"
 
 #include <doctest/doctest.h>
@@ -75,4 +76,14 @@ TEST_CASE("caustics: none without something smooth that catches light, or someth
   CHECK(chance_of_caustics(scene) == 1);
   CHECK(chance_of_caustics(ball_under_lamp(0.03, 30)) == 1);  // the ball is too far to catch a hundredth of the light
   CHECK(chance_of_caustics(load_scene("cornell-box").scene) == 1);
+}
+
+TEST_CASE("caustics: what chains find is not left to chance, but is where they are switched off") {
+  Scene scene = ball_under_lamp(0.03, 3);
+  CHECK(chance_of_caustics(scene, compile(scene)) == 1);
+  scene.render.caustics = Caustics::scatter;
+  CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
+  scene.render.caustics = Caustics::chains;
+  scene.materials[1].kind = Metal<>{0.01};  // no mirror
+  CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
 }

@@ -16,13 +16,15 @@ bool is_rare(Scene scene, std::uint32_t spp) {
   scene.width = 80, scene.height = 60;
   RenderOptions options;
   options.spp = spp;
-  const Film film = render(compile(scene), options).film;
-  return has_rare_bright_paths(estimate_error(film), spp, chance_of_caustics(scene));
+  const RenderScene compiled = compile(scene);
+  const Film film = render(compiled, options).film;
+  return has_rare_bright_paths(estimate_error(film), spp, chance_of_caustics(scene, compiled));
 }
 
-/// A glass ball under a lamp of the same power, however small.
+/// A glass ball under a lamp of the same power, however small, whose light only chance finds.
 Scene caustic(double radius) {
   Scene scene;
+  scene.render.caustics = Caustics::scatter;
   scene.camera = {.look_from = {0, 3, 6}, .look_at = {0, 0.6, 0}, .vfov = 40};
   scene.background = Vec3d{0.02, 0.02, 0.02};
   const double radiance = 1.8 / (radius * radius);
