@@ -141,9 +141,10 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
 }
 
 KernelSet least_kernel(const RenderScene& s) {
-  if (!s.chains.ball.empty()) return KernelSet::everything;
+  const bool fog_or_textures = s.needs.media || s.needs.textures;
+  if (!s.chains.ball.empty()) return fog_or_textures ? KernelSet::everything : KernelSet::chains_alone;
   if (!s.near.medium.empty()) return KernelSet::no_chains;
-  return s.needs.media || s.needs.textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
+  return fog_or_textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
 }
 
 bool asks_for_light(Integrator integrator) {
@@ -211,6 +212,8 @@ const char* name_of(KernelSet set) {
   switch (set) {
     case KernelSet::everything:
       return "everything";
+    case KernelSet::chains_alone:
+      return "chains, no fog, no textures";
     case KernelSet::no_chains:
       return "no chains";
     case KernelSet::no_lamps_in_fog:

@@ -148,8 +148,8 @@ struct Chains {
 };
 
 /// The variants of the kernels, by what they leave out. A scene that lacks it gives the same picture, to the last bit.
-enum class KernelSet { everything, no_chains, no_lamps_in_fog, no_fog_nor_textures };
-inline constexpr int kernel_sets = 4;
+enum class KernelSet { everything, chains_alone, no_chains, no_lamps_in_fog, no_fog_nor_textures };
+inline constexpr int kernel_sets = 5;
 const char* name_of(KernelSet set);
 
 struct RenderScene {

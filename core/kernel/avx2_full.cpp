@@ -1,4 +1,4 @@
-// The kernel with every model, of AVX2: see avx2.cpp.
+// The kernels with chains, of AVX2: see avx2.cpp.
 #include "core/base/lanes_twice.h"
 #include "core/kernel/entry.h"
 
@@ -10,5 +10,6 @@ static_assert(lanes_of<F> == 16, "the SIMD library fell back to a narrower set: 
 }  // namespace
 
 RenderUnit avx2_full_kernel() { return render_unit_entry<F, KernelSet::everything>; }
+RenderUnit avx2_chains_kernel() { return render_unit_entry<F, KernelSet::chains_alone>; }
 
 }  // namespace tyndall

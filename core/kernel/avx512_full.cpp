@@ -1,4 +1,4 @@
-// The kernel with every model, of AVX-512: see avx512.cpp.
+// The kernels with chains, of AVX-512: see avx512.cpp.
 #include "core/base/lanes_twice.h"
 #include "core/kernel/entry.h"
 
@@ -10,5 +10,6 @@ static_assert(lanes_of<F> == 32, "the SIMD library fell back to a narrower set: 
 }  // namespace
 
 RenderUnit avx512_full_kernel() { return render_unit_entry<F, KernelSet::everything>; }
+RenderUnit avx512_chains_kernel() { return render_unit_entry<F, KernelSet::chains_alone>; }
 
 }  // namespace tyndall

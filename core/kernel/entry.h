@@ -80,23 +80,23 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// One kernel for each set: for the instruction sets that most processors render with. `full`, with every model, comes
-/// from a file of its own, so that two processors compile side by side.
+/// One kernel for each set: for the instruction sets that most processors render with. `full`, with every model, and
+/// `chains`, without fog and textures, come from a file of their own, so that two processors compile side by side.
 template <class F>
-static Kernels kernels_of(const char* isa, RenderUnit full) {
+static Kernels kernels_of(const char* isa, RenderUnit full, RenderUnit chains) {
   return {isa,
           lanes_of<F>,
-          {full, render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
+          {full, chains, render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
            render_unit_entry<F, KernelSet::no_fog_nor_textures>},
           trace_entry<F>,
           first_hits_entry<F>};
 }
-/// The kernel that holds every model, in the place of each set: the same pictures, a little slower, in a quarter of
+/// The kernel that holds every model, in the place of each set: the same pictures, a little slower, in a fifth of
 /// the time to compile. For references and for old processors.
 template <class F>
 static Kernels full_kernel_of(const char* isa) {
   const RenderUnit render = render_unit_entry<F, KernelSet::everything>;
-  return {isa, lanes_of<F>, {render, render, render, render}, trace_entry<F>, first_hits_entry<F>};
+  return {isa, lanes_of<F>, {render, render, render, render, render}, trace_entry<F>, first_hits_entry<F>};
 }
 
 }  // namespace tyndall

@@ -84,13 +84,14 @@ struct SceneView {
 /// The same for a kernel that leaves models out: the answers about these are constants when it is compiled.
 template <KernelSet set>
 struct SceneViewFor : SceneView {
-  static constexpr bool fog_and_textures = set != KernelSet::no_fog_nor_textures;
+  static constexpr bool fog_and_textures = set != KernelSet::no_fog_nor_textures && set != KernelSet::chains_alone;
   TYNDALL_INLINE bool has_media() const { return fog_and_textures && needs.media; }
   TYNDALL_INLINE bool has_textures() const { return fog_and_textures && needs.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return fog_and_textures && needs.image_textures; }
+  static constexpr bool asks_chains = set == KernelSet::everything || set == KernelSet::chains_alone;
   static constexpr bool lamps_in_fog = set == KernelSet::everything || set == KernelSet::no_chains;
   TYNDALL_INLINE bool has_lamps_in_fog() const { return lamps_in_fog && near_count > 0; }
-  TYNDALL_INLINE bool has_chains() const { return set == KernelSet::everything && chains.pairs > 0; }
+  TYNDALL_INLINE bool has_chains() const { return asks_chains && chains.pairs > 0; }
 };
 
 /// Points into `scene`, which must stay as it is while the view is used.

@@ -62,5 +62,6 @@ TEST_CASE("kernel sets: a scene gets the least that holds its models") {
   CHECK(compile(scene).kernel == KernelSet::no_chains);
   scene.render.integrator = Integrator::nee;
   CHECK(compile(scene).kernel == KernelSet::no_lamps_in_fog);
-  CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::everything);
+  CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::chains_alone);
+  CHECK(compile(load_scene("stress-caustic-shell").scene).kernel == KernelSet::everything);
 }
