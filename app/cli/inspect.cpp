@@ -80,7 +80,7 @@ std::string json_text(const Report& report) {
 }
 
 /// "1 box", "2 boxes".
-std::string count_of(int count, const std::string& noun) {
+std::string counted(int count, const std::string& noun) {
   const char* plural = count == 1 ? "" : noun.back() == 'x' ? "es" : "s";
   return std::to_string(count) + " " + noun + plural;
 }
@@ -88,7 +88,7 @@ std::string count_of(int count, const std::string& noun) {
 std::string listed(const std::map<std::string, int>& counts, bool nouns) {
   std::string text;
   for (const auto& [type, count] : counts)
-    text += (text.empty() ? "" : ", ") + (nouns ? count_of(count, type) : std::to_string(count) + " " + type);
+    text += (text.empty() ? "" : ", ") + (nouns ? counted(count, type) : std::to_string(count) + " " + type);
   return text.empty() ? "none" : text;
 }
 
@@ -115,10 +115,10 @@ std::string chains_text(const Report& report) {
   lamps.erase(std::unique(lamps.begin(), lamps.end()), lamps.end());
   std::string text;
   const auto add = [&](int count, const std::string& noun) {
-    if (count > 0) text += (text.empty() ? "" : ", ") + count_of(count, noun);
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
   };
   add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell");
-  return text + ", each alone, to " + count_of(static_cast<int>(lamps.size()), "lamp") +
+  return text + ", each alone, to " + counted(static_cast<int>(lamps.size()), "lamp") +
          "; by chance: ways over two balls, quads, boxes and fuzzy metal";
 }
 
@@ -150,7 +150,7 @@ std::string table(const Report& report) {
   row("textures", listed(c.textures, false));
   const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
   row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
-  row("lights", c.lights == 0 ? "none" : count_of(c.lights, "emitting primitive"));
+  row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
   row("chains", chains_text(report));
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");

@@ -1,5 +1,6 @@
 #include "core/compile/chains.h"
 
+#include "core/compile/columns.h"
 #include "core/compile/crowds.h"
 #include "core/compile/lights.h"
 
@@ -98,12 +99,6 @@ std::vector<BallAndLight> list_pairs(const std::vector<Candidate>& list, const R
                      [](const BallAndLight& a, const BallAndLight& b) { return a.ball < b.ball; });
   }
   return pairs;
-}
-
-void push(std::vector<float> (&columns)[3], Vec3d v) {
-  columns[0].push_back(static_cast<float>(v.x));
-  columns[1].push_back(static_cast<float>(v.y));
-  columns[2].push_back(static_cast<float>(v.z));
 }
 
 class Filler {

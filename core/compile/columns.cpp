@@ -56,6 +56,12 @@ void fill(TextureColumns& out, const Image& image, Vec3d) {
 
 }  // namespace
 
+void push(std::vector<float> (&columns)[3], Vec3d v) {
+  columns[0].push_back(static_cast<float>(v.x));
+  columns[1].push_back(static_cast<float>(v.y));
+  columns[2].push_back(static_cast<float>(v.z));
+}
+
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin) {
   const Vec3d w = normalize(camera.look_from - camera.look_at);
   const Vec3d u = normalize(cross(camera.vup, w)), v = cross(w, u);

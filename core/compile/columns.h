@@ -7,6 +7,9 @@ namespace tyndall {
 
 inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
+/// Appends a vector to its three columns.
+void push(std::vector<float> (&columns)[3], Vec3d v);
+
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);

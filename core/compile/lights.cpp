@@ -9,12 +9,6 @@
 namespace tyndall {
 namespace {
 
-void push(std::vector<float> (&columns)[3], Vec3d v) {
-  columns[0].push_back(static_cast<float>(v.x));
-  columns[1].push_back(static_cast<float>(v.y));
-  columns[2].push_back(static_cast<float>(v.z));
-}
-
 struct Emitter {
   double brightness;  // largest component of the radiance
   std::int32_t element;

@@ -8,7 +8,7 @@ namespace tyndall {
 namespace {
 
 constexpr float nearness = 1.5f;      // of the light from the medium's centre, in half widths
-constexpr float smallness = 0.1f;     // radius of the light over the half width or the distance to the camera
+constexpr float small_lamp = 0.1f;    // radius of the light over the half width or the distance to the camera
 constexpr float most_free_paths = 4;  // in a half width of the medium
 
 struct Place {
@@ -30,7 +30,7 @@ bool pays(const MediumColumns& m, Vec3f light, float reach, Vec3f camera) {
   const Place place = place_of(m, light);
   const bool scatters = m.texture >= 0 || !(m.albedo == Vec3f{0, 0, 0});
   return scatters && m.density * place.half_width <= most_free_paths && place.outside <= nearness &&
-         reach <= smallness * std::min(place.half_width, length(light - camera));
+         reach <= small_lamp * std::min(place.half_width, length(light - camera));
 }
 
 }  // namespace
