@@ -1,9 +1,13 @@
 #pragma once
 #include "app/cli/requests.h"
 
-/// The commands. Each returns the program's exit code (0: done, 1: a check failed, 130 and 143: interrupted) and throws
-/// for everything else: UsageError, SceneError, MergeError (the user's fault), or what input and output throw.
+/// The commands. Each returns the program's exit code (0: done, 1: a check failed, output_failed, 130 and 143:
+/// interrupted) and throws for everything else: UsageError, SceneError, MergeError (the user's fault), or what input
+/// and output throw.
 namespace tyndall {
+
+/// The exit code of a command that computed a picture and could not write all of it.
+inline constexpr int output_failed = 3;
 
 int run(const ViewCommand& command);
 int run(const RenderCommand& command);

@@ -6,8 +6,6 @@
 namespace tyndall {
 namespace {
 
-constexpr int output_failed = 3;
-
 /// Reads a part. Its layers (albedo, normal, depth) are not read: a merged EXR has none.
 bool write(const Film& film, const Scene& scene, const MergeCommand& command) {
   const auto embedded = [&](const std::filesystem::path& file) {

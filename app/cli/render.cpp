@@ -163,7 +163,6 @@ int print_replay(const RenderCommand& command) {
 }  // namespace
 
 int run(const RenderCommand& command) {
-  constexpr int output_failed = 3;
   if (command.replay) return print_replay(command);
   Job job{command};
   prepare(job);

@@ -12,7 +12,7 @@ namespace tyndall {
 PictureView::PictureView(Session& session) : session_(session) { right_.display = std::make_unique<FrameDisplay>(); }
 
 std::shared_ptr<const Frame> PictureView::unseen() const {
-  const auto latest = session_.renderers().latest(Half::current), kept = session_.renderers().latest(Half::kept);
+  auto latest = session_.renderers().latest(Half::current), kept = session_.renderers().latest(Half::kept);
   const bool new_kept = kept && kept != left_.frame;
   if (latest && latest != right_.frame && (latest->finished || !new_kept)) return latest;
   return new_kept ? kept : nullptr;
@@ -32,7 +32,7 @@ bool PictureView::shows_halves() const { return session_.renderers().split() && 
 /// "mis · sobol   1,024 spp   est. error 1.2 %".
 std::string PictureView::text_of(Half half) const {
   const Frame* frame = (half == Half::kept ? left_ : right_).frame.get();
-  const std::string method = session_.method(half);
+  std::string method = session_.method(half);
   if (!frame || frame->spp == 0) return method;
   std::string text = method + "   " + format_count(frame->spp) + " spp";
   const ErrorCurve& curve = session_.accuracy().curves(half).current();

@@ -25,7 +25,7 @@ struct Row {
   static constexpr std::size_t means = 0, noises = 3, products = 6, counts = 9, summed = 10, least = 10, planes = 13;
   std::array<std::vector<float>, planes> of;
   explicit Row(int width) {
-    for (auto& plane : of) plane.resize(static_cast<std::size_t>(width + 2 * reach));
+    for (auto& plane : of) plane.resize(static_cast<std::size_t>(width) + std::size_t(2) * reach);
   }
 };
 

@@ -136,10 +136,11 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled) {
     elements.push_back(count);
     count += std::holds_alternative<Box<>>(shape.shape) ? 6 : 1;
   }
-  const auto lights = static_cast<std::int32_t>(compiled.lights.kind.size());
+  const std::size_t lights = compiled.lights.kind.size();
   return chance_of_caustics(scene, [&](std::size_t lamp, std::size_t shape) {
     const std::int32_t light = compiled.elements.light[elements[lamp]], ball = chains.ball_of[elements[shape]];
-    return light >= 0 && ball >= 0 && chains.pair_of[static_cast<std::size_t>(ball / 2 * lights + light)] >= 0;
+    if (light < 0 || ball < 0) return false;
+    return chains.pair_of[static_cast<std::size_t>(ball / 2) * lights + static_cast<std::size_t>(light)] >= 0;
   });
 }
 

@@ -26,7 +26,7 @@ struct Renderer::State {
         thread([this](const std::stop_token& stop) { director.run(stop); }) {}
 };
 
-Renderer::Renderer(Options options, std::function<void()> on_frame)
+Renderer::Renderer(const Options& options, std::function<void()> on_frame)
     : state_(std::make_unique<State>(options, std::move(on_frame))) {}
 
 Renderer::~Renderer() {

@@ -21,7 +21,7 @@ class Renderer {
     std::string isa;  ///< "": the best
   };
   /// on_frame: called from a thread of the renderer after each frame; must be quick (e.g. wake an event loop).
-  explicit Renderer(Options options, std::function<void()> on_frame = {});
+  explicit Renderer(const Options& options, std::function<void()> on_frame = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -54,7 +54,7 @@ bool read_solid(const JsonObject& json, const Place& at, std::string_view type, 
   const JsonValue* material = find(json, "material");
   if (!material) fail(at, "no \"material\"", "the name of a material");
   solid.material = read_reference(*material, {at, "material"}, references.materials, "material");
-  object.kind = std::move(solid);
+  object.kind = solid;
   return true;
 }
 

@@ -16,7 +16,7 @@ using JsonArray = std::vector<struct JsonValue>;
 using JsonObject = std::vector<JsonMember>;
 
 struct JsonValue {
-  std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonObject> value = nullptr;
+  std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonObject> value;
 };
 
 struct JsonMember {

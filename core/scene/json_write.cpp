@@ -111,8 +111,9 @@ void put_transform(JsonObject& out, const Transform& transform) {
   if (transform.empty()) return;
   JsonArray steps;
   for (const auto& move : transform)
-    std::visit([&](const auto& m) { put_fields(std::get<JsonObject>(steps.emplace_back(JsonObject()).value), m); },
-               move);
+    std::visit(
+        [&](const auto& m) { put_fields(std::get<JsonObject>(steps.emplace_back(JsonValue{JsonObject()}).value), m); },
+        move);
   put(out, "transform", {std::move(steps)});
 }
 

@@ -104,7 +104,7 @@ fs::path assets_folder() {
   if (const char* chosen = std::getenv("TYNDALL_ASSETS"); chosen && *chosen) return chosen;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "tyndall";
+  fs::path installed = program.parent_path().parent_path() / "share" / "tyndall";
   if (!error && fs::is_directory(installed / "scenes", error)) return installed;
 #ifdef TYNDALL_ASSETS_DIR
   if (fs::is_directory(fs::path(TYNDALL_ASSETS_DIR) / "scenes", error)) return TYNDALL_ASSETS_DIR;

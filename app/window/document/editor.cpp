@@ -107,12 +107,13 @@ void Editor::watch() {
   watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, events_.wake(); });
 }
 
-void Editor::save(fs::path file) {  // a copy: it may be that of the origin which is replaced here
+void Editor::save(const fs::path& file) {
   try {
+    const std::string saved = "saved " + file.string();  // first: the file may be that of the origin which is replaced
     history_.set_origin(save_document(document(), file));
     watch();
-    messages_.say("saved " + file.string());
-    if (log_) log_->line("saved " + file.string());
+    messages_.say(saved);
+    if (log_) log_->line(saved);
   } catch (const std::exception& error) {
     messages_.say(error.what(), true);
   }

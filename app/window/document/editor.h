@@ -48,7 +48,7 @@ class Editor {
   /// Opens a file or a built-in scene, in the background. what: as the command line takes it.
   void open(const std::string& what);
   /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced.
-  void save(std::filesystem::path file);
+  void save(const std::filesystem::path& file);
 
   /// Runs `read` in the background. What it returns is called by collect(); what it throws is said.
   void read_in_background(const std::function<JobQueue::Result()>& read);

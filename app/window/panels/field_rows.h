@@ -98,7 +98,7 @@ void field_rows(Ui& ui, Owner& owner, const Wanted& wanted, const Said& said) {
 /// The same, with the grey lines of meaning(owner, name) where the struct has them.
 template <class Owner, class Wanted>
 void field_rows(Ui& ui, Owner& owner, const Wanted& wanted) {
-  field_rows(ui, owner, wanted, [&owner]([[maybe_unused]] std::string_view name) -> std::string {
+  field_rows(ui, owner, wanted, [&]([[maybe_unused]] std::string_view name) -> std::string {
     if constexpr (requires { meaning(owner, name); })
       return meaning(owner, name);
     else
