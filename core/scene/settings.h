@@ -88,7 +88,8 @@ inline constexpr auto fields(const RenderSettings*) {
       Field{"integrator", &RenderSettings::integrator, "how light is found"},
       Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
       Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
-      Field{"caustics", &RenderSettings::caustics, "how integrator mis finds light through glass balls and off mirrors"},
+      Field{"caustics", &RenderSettings::caustics,
+            "how integrator mis finds light through glass balls and off mirrors"},
       Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
       Field{"adaptive", &RenderSettings::adaptive,
             "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "
