@@ -19,7 +19,8 @@ constexpr int width = 61, height = 43;  // neither a multiple of any tile
 const std::vector<RenderScene>& scenes() {
   static const std::vector<RenderScene> all = [] {
     std::vector<RenderScene> list;
-    for (const char* name : {"showroom", "cornell-smoke", "bouncing-spheres", "next-week"})
+    for (const char* name :
+         {"showroom", "cornell-smoke", "bouncing-spheres", "next-week", "stress-caustic-glass", "stress-caustic-shell"})
       list.push_back(compile(small_scene(name, width, height, 1)));
     return list;
   }();
@@ -115,7 +116,7 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
   Crew crew(2);
   const Kernels real = available_kernels().back();
   Kernels stopping = real;
-  stopping.render_units[0] = stopping.render_units[1] = stopping.render_units[2] = stopping_unit;
+  std::fill(std::begin(stopping.render_units), std::end(stopping.render_units), stopping_unit);
   int abandoned = 0;
   for (const RenderScene& scene : scenes()) {
     const SceneViewOf view(scene);
