@@ -221,21 +221,25 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_uni
   Paths<F> p{};
   p.dice.sampler = s.sampler;
   const UnitFilm film{1 / film_unit, pixels, counts};
-  for (;;) {
+  // Chains are asked for at one place, or their code would stand twice in each kernel.
+  for (bool sampling = true; sampling || chains.count > 0;) {
     take_samples(p, queue, samples, s, unit);
-    if (!p.alive) break;
-    counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
-    MaskOf<F> cut;
-    std::uint32_t shadow_rays = 0;
-    const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shadow_rays)) & p.alive;
-    counts.rays += shadow_rays;
-    counts.shadow_rays += shadow_rays;
-    finish(p, p.alive & ~survivors, bits(cut), film);
-    p.alive = survivors;
-    if (s.has_chains() && chains.count >= lanes_of<F>) find_waiting_chains(s, chains, film);
+    sampling = p.alive != 0;
+    if (sampling) {
+      counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
+      MaskOf<F> cut;
+      std::uint32_t shadow_rays = 0;
+      const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shadow_rays)) & p.alive;
+      counts.rays += shadow_rays;
+      counts.shadow_rays += shadow_rays;
+      finish(p, p.alive & ~survivors, bits(cut), film);
+      p.alive = survivors;
+    }
+    if constexpr (ChainQueue<F>::waits) {
+      const bool full = chains.count >= lanes_of<F>, rest = !sampling && chains.count > 0;
+      if (s.has_chains() && (full || rest)) find_waiting_chains(s, chains, film);
+    }
   }
-  if (s.has_chains())
-    while (chains.count > 0) find_waiting_chains(s, chains, film);
 }
 
 }  // namespace tyndall
