@@ -5,9 +5,9 @@
 #include "core/image/image_io.h"
 #include "core/render/render.h"
 #include "core/scene/json.h"
+#include "tests/support/fingerprint.h"
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 namespace tyndall::bench {
@@ -15,22 +15,13 @@ namespace {
 
 constexpr std::uint32_t reference_seed = 2718281828;
 
-/// 64-bit FNV-1a, in hexadecimal: tells versions of a scene apart.
-std::string fingerprint(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
-
 }  // namespace
 
 Reference reference_image(const NamedScene& named, int spp, const std::filesystem::path& folder) {
   Scene scene = named.scene;
   scene.render.seed = reference_seed;
   scene.render.spp = spp;
-  const std::string version = fingerprint(write_scene(scene));
+  const std::string version = test::fingerprint(write_scene(scene));
   const auto file = folder / ("reference-" + named.name + "-" + std::to_string(spp) + "-" + version + ".pfm");
   auto noise = file;
   noise.replace_extension(".txt");

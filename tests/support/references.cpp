@@ -4,23 +4,13 @@
 #include "core/image/image_io.h"
 #include "core/render/render.h"
 #include "core/scene/json.h"
+#include "tests/support/fingerprint.h"
 #include "tests/support/paths.h"
-
-#include <cstdio>
 
 namespace tyndall::test {
 namespace {
 
 constexpr std::uint32_t reference_seed = 2718281828;
-
-/// 64-bit FNV-1a, in hexadecimal.
-std::string fingerprint(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include "app/curves/chart_files.h"
 #include "app/curves/svg.h"
 #include "core/image/image_io.h"
+#include "tests/support/curves.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
@@ -12,19 +13,10 @@
 #include <sstream>
 
 using namespace tyndall;
+using namespace tyndall::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Error as noise / spp + bias, at 1 ms a sample.
-ErrorCurve curve(const std::string& name, double noise, double bias) {
-  ErrorCurve curve{name, {}};
-  for (std::uint32_t spp = 1; spp <= 4096; spp *= 2)
-    curve.points.push_back({1e-3 * spp, noise / spp + bias, spp, noise / spp});
-  return curve;
-}
-
-constexpr double reference_noise = 1e-6;
 
 std::size_t count(const std::string& text, const std::string& what) {
   std::size_t n = 0;

@@ -1,24 +1,13 @@
 #include "app/curves/curve.h"
 
+#include "tests/support/curves.h"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 using namespace tyndall;
-
-namespace {
-
-/// Error as noise / spp + bias, at 1 ms a sample.
-ErrorCurve curve(const std::string& name, double noise, double bias) {
-  ErrorCurve curve{name, {}};
-  for (std::uint32_t spp = 1; spp <= 4096; spp *= 2)
-    curve.points.push_back({1e-3 * spp, noise / spp + bias, spp, noise / spp});
-  return curve;
-}
-
-constexpr double reference_noise = 1e-6;
-
-}  // namespace
+using namespace tyndall::test;
 
 TEST_CASE("a curve is read between its points on logarithmic scales, and not beyond them") {
   ErrorCurve falling{"falling", {}};
