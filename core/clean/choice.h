@@ -1,0 +1,237 @@
+#pragma once
+#include "core/clean/regression.h"
+
+/// What the two halves tell about filters that turn A into PA and B into PB without looking at the other half: how
+/// wrong a filtered picture is, and how far to go from one picture towards another. With I the truth, P = (PA + PB) / 2
+/// and Q likewise,
+///
+///     E[(P-I)²]      = E[(PA-A)(PB-B)] + E[(PA-PB)²] / 4
+///     E[(P-I)(P-Q)]  = E[(PA-A)(PB-QB) + (PB-B)(PA-QA)] / 2 + E[(PA-PB)((PA-PB) - (QA-QB))] / 4
+///
+/// as A and B are independent and right on average. No model of the noise is needed, and no sampler assumed.
+namespace tyndall {
+
+inline constexpr int chunk = 256;       ///< pixels of a row that are treated together
+inline constexpr int window_reach = 6;  ///< a choice is made from 13 x 13 pixels …
+inline constexpr int hole_reach = 1;  ///< … without the middle 3 x 3: with its own residuals, they would not tell the
+                                      ///< error of what was chosen any more
+
+/// A piece of a row of both halves.
+struct ChunkOfHalves {
+  alignas(64) float of[outputs][chunk];
+};
+
+TYNDALL_INLINE int mirrored(int i, int count) {
+  const int j = i < 0 ? -i - 1 : i >= count ? 2 * count - 1 - i : i;
+  return most(0, least(j, count - 1));
+}
+
+/// Binomial filter of 5 x 5 taps, of `count` pixels from x0 on in row y; mirrored at the borders.
+template <class F>
+TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, ChunkOfHalves& to) {
+  constexpr int reach = 2;
+  alignas(64) float column[chunk + 64];  // from x0 - 16 on
+  for (int output = 0; output < outputs; ++output) {
+    const float* row[2 * reach + 1];
+    for (int k = -reach; k <= reach; ++k) row[k + reach] = v.half[output] + mirrored(y + k, v.height) * v.stride + x0;
+    for (int x = -row_margin; x < count + reach; x += lanes_of<F>) {
+      const F outer = load<F>(row[0] + x) + load<F>(row[4] + x), inner = load<F>(row[1] + x) + load<F>(row[3] + x);
+      const F sum = mul_add(F(0.25f), inner, mul_add(F(0.375f), load<F>(row[2] + x), F(0.0625f) * outer));
+      store(column + row_margin + x, sum);
+    }
+    float* at = column + row_margin;
+    for (int k = 1; k <= reach && x0 == 0; ++k) at[-k] = at[least(k - 1, v.width - 1)];
+    for (int k = 0; k < reach && x0 + count == v.width; ++k) at[count + k] = at[mirrored(v.width + k, v.width) - x0];
+    for (int x = 0; x < count; x += lanes_of<F>) {
+      const F outer = load<F>(at + x - 2) + load<F>(at + x + 2), inner = load<F>(at + x - 1) + load<F>(at + x + 1);
+      store(to.of[output] + x, mul_add(F(0.25f), inner, mul_add(F(0.375f), load<F>(at + x), F(0.0625f) * outer)));
+    }
+  }
+}
+
+template <class F>
+TYNDALL_INLINE void take_rival(const FilterView& v, Rival rival, int y, int x0, int count, ChunkOfHalves& to) {
+  if (rival == Rival::blurred) return blur_chunk<F>(v, y, x0, count, to);
+  for (int output = 0; output < outputs; ++output)
+    for (int x = 0; x < count; x += lanes_of<F>)
+      store(to.of[output] + x, load<F>(v.half[output] + y * v.stride + x0 + x));
+}
+
+/// The columns of pixels from x on.
+template <class F>
+TYNDALL_INLINE F places(int x) {
+  alignas(64) float place[lanes_of<F>];
+  for (int i = 0; i < lanes_of<F>; ++i) place[i] = static_cast<float>(x + i);
+  return load<F>(place);
+}
+
+/// Pixels of the picture that a window of this reach has in one direction, around `at`.
+template <class F>
+TYNDALL_INLINE F covered(F at, int reach, int size) {
+  const F last = splat<F>(static_cast<float>(size - 1)), half = splat<F>(static_cast<float>(reach));
+  return max(min(at + half, last) - max(at - half, F(0.0f)) + F(1.0f), F(1.0f));
+}
+
+/// How many of the square of pixels around x … in row y are in the picture.
+template <class F>
+TYNDALL_INLINE F pixels_around(const FilterView& v, int y, int x, int reach) {
+  return covered(places<F>(x), reach, v.width) * covered(splat<F>(static_cast<float>(y)), reach, v.height);
+}
+
+/// The sum of a plane's 3 x 3 pixels around.
+template <class F>
+TYNDALL_INLINE F sum_around(const FilterView& v, const float* plane, int y, int x) {
+  F sum = F(0.0f);
+  for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k) {
+    const float* at = plane + k * v.stride + x;
+    sum = sum + (load<F>(at - 1) + load<F>(at) + load<F>(at + 1));
+  }
+  return sum;
+}
+
+TYNDALL_INLINE void clear_behind(float* row, int width) {
+  for (int x = width; x < width + row_margin; ++x) row[x] = 0;
+}
+
+template <class F>
+TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
+  ChunkOfHalves q;
+  for (int x0 = 0; x0 < v.width; x0 += chunk) {
+    const int count = least(chunk, v.width - x0);
+    take_rival<F>(v, rival, y, x0, count, q);
+    for (int x = 0; x < count; x += lanes_of<F>) {
+      const std::ptrdiff_t at = y * v.stride + x0 + x;
+      F gain = F(0.0f), distance = F(0.0f);
+      for (int c = 0; c < 3; ++c) {
+        const F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
+        const F to_a = pa - load<F>(q.of[c] + x), to_b = pb - load<F>(q.of[3 + c] + x);
+        const F residual_a = pa - load<F>(v.half[c] + at), residual_b = pb - load<F>(v.half[3 + c] + at);
+        gain = gain +
+               mul_add(F(0.5f), mul_add(residual_a, to_b, residual_b * to_a), F(0.25f) * ((pa - pb) * (to_a - to_b)));
+        distance = mul_add(F(0.25f) * (to_a + to_b), to_a + to_b, distance);
+      }
+      const F level = sum_around<F>(v, v.level, y, x0 + x) / pixels_around<F>(v, y, x0 + x, 1);
+      const F per = F(1.0f) / mul_add(level, level, splat<F>(v.floor));
+      store(v.gain + at, gain * per);
+      store(v.distance + at, distance * per);
+    }
+  }
+  clear_behind(v.gain + y * v.stride, v.width);
+  clear_behind(v.distance + y * v.stride, v.width);
+}
+
+/// Sums over the columns of a window: of its outer rows, and of the rows that the hole has a part of.
+struct WindowColumns {
+  static constexpr int gain = 0, squares = 1, distance = 2, sums = 3;
+  alignas(64) float outer[sums][chunk + 64], inner[sums][chunk + 64];  // from x0 - row_margin on
+};
+
+template <class F>
+TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, WindowColumns& columns) {
+  for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
+    F outer[3] = {F(0.0f), F(0.0f), F(0.0f)}, inner[3] = {F(0.0f), F(0.0f), F(0.0f)};
+    for (int k = most(y - window_reach, 0); k <= least(y + window_reach, v.height - 1); ++k) {
+      F* to = k < y - hole_reach || k > y + hole_reach ? outer : inner;
+      const F gain = load<F>(v.gain + k * v.stride + x0 + x);
+      to[0] = to[0] + gain;
+      to[1] = mul_add(gain, gain, to[1]);
+      to[2] = to[2] + load<F>(v.distance + k * v.stride + x0 + x);
+    }
+    for (int s = 0; s < 3; ++s) {
+      store(columns.outer[s] + row_margin + x, outer[s]);
+      store(columns.inner[s] + row_margin + x, inner[s]);
+    }
+  }
+}
+
+/// The sum over the window around x, nothing of which is subtracted: a bright pixel would leave its rounding behind.
+template <class F>
+TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
+  const float *outer = columns.outer[sum] + row_margin + x, *inner = columns.inner[sum] + row_margin + x;
+  F total = F(0.0f);
+  for (int k = -window_reach; k <= window_reach; ++k) {
+    total = total + load<F>(outer + k);
+    if (k < -hole_reach || k > hole_reach) total = total + load<F>(inner + k);
+  }
+  return total;
+}
+
+/// The share of the rival that makes the error least, in [0, 1].
+/// doubt: standard errors by which the gain must be known; 0 for the raw picture: it alone is right for any scene.
+template <class F>
+TYNDALL_INLINE F share_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0, int x) {
+  const F pixels =
+      max(pixels_around<F>(v, y, x0 + x, window_reach) - pixels_around<F>(v, y, x0 + x, hole_reach), F(1.0f));
+  const F gain = window_sum<F>(columns, WindowColumns::gain, x) / pixels;
+  const F squares = window_sum<F>(columns, WindowColumns::squares, x) / pixels;
+  const F distance = window_sum<F>(columns, WindowColumns::distance, x) / pixels;
+  const F error = sqrt(max(neg_mul_add(gain, gain, squares), F(0.0f)) / pixels);
+  const F share = neg_mul_add(splat<F>(doubt), error, gain) / max(distance, F(1e-12f));
+  return min(max(share, F(0.0f)), F(1.0f));
+}
+
+template <class F>
+TYNDALL_INLINE void mix_of(const FilterView& v, Rival rival, int y) {
+  const float doubt = rival == Rival::raw ? 0.0f : 0.5f;
+  ChunkOfHalves q;
+  WindowColumns columns;
+  for (int x0 = 0; x0 < v.width; x0 += chunk) {
+    const int count = least(chunk, v.width - x0);
+    take_rival<F>(v, rival, y, x0, count, q);
+    sum_columns<F>(v, y, x0, count, columns);
+    for (int x = 0; x < count; x += lanes_of<F>) {
+      const std::ptrdiff_t at = y * v.stride + x0 + x;
+      const F share = share_of_rival<F>(v, columns, doubt, y, x0, x);
+      F level = F(0.0f);
+      for (int output = 0; output < outputs; ++output) {
+        const F p = load<F>(v.filtered[output] + at);
+        const F mixed = mul_add(share, load<F>(q.of[output] + x) - p, p);
+        store(v.filtered[output] + at, mixed);
+        level = level + mixed;
+      }
+      store(v.level + at, F(1.0f / outputs) * level);
+    }
+  }
+  clear_behind(v.level + y * v.stride, v.width);
+}
+
+/// Adds the lanes below `count` to a row's sum, in order.
+template <class F>
+TYNDALL_INLINE void add_lanes(F values, int count, double& sum) {
+  alignas(64) float lane[lanes_of<F>];
+  store(lane, values);
+  for (int i = 0; i < least(lanes_of<F>, count); ++i) sum += static_cast<double>(lane[i]);
+}
+
+/// Errors are relative to the lesser of the picture and the raw mean around: a bright speck would hide itself.
+/// What is not finite, because numbers were too large for single precision, becomes raw.
+template <class F>
+TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
+  double bias_sum = 0, noise_sum = 0;
+  for (int x = 0; x < v.width; x += lanes_of<F>) {
+    const std::ptrdiff_t at = y * v.stride + x;
+    const F around = pixels_around<F>(v, y, x, 1);
+    F bias = F(0.0f), noise = F(0.0f), picture[3];
+    for (int c = 0; c < 3; ++c) {
+      const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
+      F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
+      const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
+      pa = select(finite, pa, a), pb = select(finite, pb, b);
+      picture[c] = F(0.5f) * (pa + pb);
+      const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x);
+      const F level = max(min(picture[c], F(0.5f) * raw / around), F(0.0f));
+      const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
+      bias = mul_add((pa - a) * (pb - b), per, bias);
+      noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);
+    }
+    for (int c = 0; c < 3; ++c) store(v.filtered[c] + at, picture[c]);
+    store(v.error + at, bias + noise);
+    add_lanes(bias, v.width - x, bias_sum);
+    add_lanes(noise, v.width - x, noise_sum);
+  }
+  clear_behind(v.error + y * v.stride, v.width);
+  v.row_bias[y] = bias_sum;
+  v.row_noise[y] = noise_sum;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,84 @@
+#pragma once
+#include "core/base/crew.h"
+#include "core/base/target.h"
+#include "core/clean/filter_view.h"
+#include "core/film/film.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+/// The clean view: a filtered picture that knows its error. Films and their hashes are never filtered.
+///
+/// Each half of the film is filtered from itself alone (regression.h), then what the halves say of each other decides,
+/// pixel by pixel, how much of the filtered, a blurred or the raw picture helps, and how wrong the result still is
+/// (choice.h). So the more samples there are the more of the raw picture shows, and the error has no floor.
+namespace tyndall {
+
+/// What is seen first through the middle of a pixel, free of noise.
+struct FirstSeen {
+  Vec3f albedo, normal;
+  float depth = 0;  ///< > 0, in any unit; 0: nothing is seen
+};
+
+/// Planes of numbers, all of one size, with margins (see FilterView).
+class Planes {
+ public:
+  /// Zeros. Keeps its memory where the size is the same, with whatever it holds within the rows.
+  void resize(int width, int height, int count);
+  std::ptrdiff_t stride() const { return stride_; }
+  int count() const { return count_; }
+  /// The first number of the first row.
+  float* plane(int i) { return data_.data() + row_margin + i * height_ * stride_; }
+  const float* plane(int i) const { return data_.data() + row_margin + i * height_ * stride_; }
+
+ private:
+  int width_ = 0, height_ = 0, count_ = 0;
+  std::ptrdiff_t stride_ = 0;
+  std::vector<float> data_;
+};
+
+/// A picture to be filtered: both halves, as means over samples, and the light that came straight from lamps and sky.
+struct CleanInput {
+  int width = 0, height = 0;
+  float scale = 1;  ///< a power of two: radiance is that times the numbers in the planes
+  Planes halves;    ///< 6: red, green, blue of A and B
+  Planes emission;  ///< likewise, or none
+  Planes seen;      ///< 7: albedo, normal, 1 / (1 + depth over its harmonic mean)
+};
+
+/// Fills `halves` and `emission` with a film's region. Where one half of a pixel is empty it gets what the other has.
+void read_film(const Film& film, Crew& crew, CleanInput& input);
+/// Fills `seen` from one entry for each pixel, row by row.
+void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, CleanInput& input);
+
+/// The filtered picture.
+struct CleanPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  ///< 3 floats a pixel, linear, top row first
+  /// Estimated relative error: its square estimates the picture's relMSE.
+  double relative_error = 0;
+  /// The same of each pixel, from the 13 x 13 pixels around it.
+  std::vector<float> pixel_error;
+};
+
+/// Filters pictures one after the other, and keeps its memory (about 130 bytes a pixel) from one to the next.
+class Cleaner {
+ public:
+  explicit Cleaner(Target target);
+  ~Cleaner();
+  Cleaner(Cleaner&&) noexcept;
+  Cleaner& operator=(Cleaner&&) noexcept;
+
+  /// Filters a picture whose pixels all have samples in both halves. Returns false, and leaves `out` as it was, if
+  /// `give_up` is set before the end: then within about 2 ms. The same bits for any number of threads. Throws
+  /// std::bad_alloc.
+  bool run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out);
+
+ private:
+  struct Memory;
+  FilterSteps steps_;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace tyndall

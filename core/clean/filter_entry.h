@@ -1,0 +1,38 @@
+#pragma once
+#include "core/clean/choice.h"
+
+/// The filter's entry points for one number type; each instruction set's file names its own and nothing else. Internal
+/// to each file: of an ordinary template the linker could keep the copy with wide instructions for all files.
+namespace tyndall {
+
+template <class F>
+static void sum_cells_entry(const FilterView& view, int row) {
+  sum_cells_of<F>(view, row);
+}
+template <class F>
+static void fit_blocks_entry(const FilterView& view, int row) {
+  fit_blocks_of<F>(view, row);
+}
+template <class F>
+static void predict_entry(const FilterView& view, int row) {
+  predict_of<F>(view, row);
+}
+template <class F>
+static void compare_entry(const FilterView& view, Rival rival, int y) {
+  compare_of<F>(view, rival, y);
+}
+template <class F>
+static void mix_entry(const FilterView& view, Rival rival, int y) {
+  mix_of<F>(view, rival, y);
+}
+template <class F>
+static void judge_entry(const FilterView& view, int y) {
+  judge_of<F>(view, y);
+}
+
+template <class F>
+static FilterSteps filter_of() {
+  return {sum_cells_entry<F>, fit_blocks_entry<F>, predict_entry<F>, compare_entry<F>, mix_entry<F>, judge_entry<F>};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,81 @@
+#pragma once
+#include "core/base/lanes.h"
+
+#include <cstddef>
+#include <cstdint>
+
+/// The filter's numbers as plain pointers. The code of the instruction sets uses nothing else: of a container's member
+/// function the linker could keep the copy with wide instructions for all files, which would crash older CPUs.
+namespace tyndall {
+
+/// Planes have room to the left and right of each row, so that whole groups of lanes can be read everywhere.
+inline constexpr int row_margin = 16;
+
+/// The picture is cut into cells of cell_edge x cell_edge pixels. A block is 2 x 2 cells: blocks overlap by half.
+inline constexpr int cell_edge = 8, cell_pixels = cell_edge * cell_edge;
+
+// What the regression is made on. Columns of a cell: 1, x, y, what is first seen (albedo, normal, depth), which both
+// halves share; then the emission of each half and the halves themselves.
+inline constexpr int seen_features = 7, plain_terms = 3 + seen_features, emission_terms = 3,
+                     terms = plain_terms + emission_terms, outputs = 6;
+inline constexpr int emission_column = plain_terms, half_column = emission_column + 2 * emission_terms,
+                     cell_columns = half_column + outputs;
+
+/// The product of the columns i >= j, one of plain_sums or, in cells with emission, of all_sums that a cell has.
+struct ColumnPair {
+  std::uint8_t i, j;
+};
+inline constexpr int plain_products = plain_terms * (plain_terms + 1) / 2;
+inline constexpr int plain_sums = plain_products + outputs * plain_terms;
+/// For each half: its emission times the plain terms, times itself, and times the half's channels.
+inline constexpr int emission_products = emission_terms * (emission_terms + 1) / 2;
+inline constexpr int emission_sums = emission_terms * plain_terms + emission_products + outputs / 2 * emission_terms;
+inline constexpr int emission_cross = plain_sums + 2 * emission_sums;  ///< one half's emission times the other's
+inline constexpr int all_sums = emission_cross + emission_terms;
+
+/// A picture that is being filtered. Planes: width x height numbers, `stride` floats from row to row.
+struct FilterView {
+  int width = 0, height = 0;
+  std::ptrdiff_t stride = 0;
+  float floor = 0;                            ///< what is added to squared levels, in squared units of the planes
+  const float* half[outputs];                 ///< A and B: red, green, blue
+  const float* emission[2 * emission_terms];  ///< likewise; null: not recorded
+  const float* seen[seen_features];
+  float* filtered[outputs];  ///< A and B
+  float* level;              ///< mean of the six
+  float *gain, *distance;    ///< what going to another picture would bring, and its squared distance
+  const ColumnPair* pairs;   ///< all_sums of them
+  // Of each cell, one row of cells after the other, sum by sum; a border of empty cells around.
+  float* sums;
+  std::uint8_t* shines;            ///< whether the cell has emission
+  std::ptrdiff_t cell_stride = 0;  ///< from a sum of a row of cells to the next
+  float* coefficients;             ///< of each block, row by row: output by output, term by term
+  float* error;                    ///< estimated squared relative error of each pixel
+  double* row_bias;                ///< of each row the sum of the squared relative bias, may be negative
+  double* row_noise;               ///< and of the variance
+
+  TYNDALL_INLINE bool has_emission() const { return emission[0] != nullptr; }
+};
+
+/// The pictures that the regression's result may be left for, in this order.
+enum class Rival { blurred, raw };
+
+/// The filter's steps. Each takes one row of its kind and reads only what earlier steps wrote, so that the rows of a
+/// step can be shared between threads in any way without changing a bit.
+struct FilterSteps {
+  void (*sum_cells)(const FilterView& view, int cell_row);      ///< rows of cells
+  void (*fit_blocks)(const FilterView& view, int block_row);    ///< one more than rows of cells
+  void (*predict)(const FilterView& view, int cell_row);        ///< writes filtered, level
+  void (*compare)(const FilterView& view, Rival rival, int y);  ///< writes gain, distance
+  void (*mix)(const FilterView& view, Rival rival, int y);      ///< changes filtered, level
+  void (*judge)(const FilterView& view, int y);                 ///< writes error, row_bias, row_noise; then
+                                                                ///< filtered[0 .. 2] are the picture
+};
+
+// Each is in a file of its own, which is compiled with that instruction set's flags.
+FilterSteps scalar_filter();
+FilterSteps sse4_filter();
+FilterSteps avx2_filter();
+FilterSteps avx512_filter();
+
+}  // namespace tyndall

@@ -1,0 +1,71 @@
+#include "core/clean/clean.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+
+void Planes::resize(int width, int height, int count) {
+  if (width == width_ && height == height_ && count == count_) return;
+  width_ = width, height_ = height, count_ = count;
+  stride_ = (std::ptrdiff_t{width} + row_margin - 1) / row_margin * row_margin + std::ptrdiff_t{3} * row_margin;
+  data_.assign(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * row_margin, 0.0f);
+}
+
+namespace {
+
+/// Numbers are divided by this so that their squares, summed over windows, fit into single precision. 1 but for lamps
+/// brighter than 2^25.
+float scale_of(const Film& film) { return static_cast<float>(std::max(film.unit * 0x1p-25, 1.0)); }
+
+/// What a half's sums are multiplied with to become means in the planes; of an empty half 0.
+double per_sample(const Film& film, const FilmPixel& pixel, int half, double scale) {
+  const std::uint32_t count = counted(film, pixel, half);
+  return count > 0 ? film.unit / scale / count : 0;
+}
+
+void read_row(const Film& film, int y, CleanInput& input) {
+  const double scale = static_cast<double>(input.scale);
+  const auto width = static_cast<std::size_t>(input.width);
+  const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(y) * width;
+  const std::ptrdiff_t row = y * input.halves.stride();
+  float* to[outputs];
+  for (int k = 0; k < outputs; ++k) to[k] = input.halves.plane(k) + row;
+  for (std::size_t x = 0; x < width; ++x) {
+    const FilmPixel& pixel = pixels[x];
+    double per[2] = {per_sample(film, pixel, 0, scale), per_sample(film, pixel, 1, scale)};
+    for (int half = 0; half < 2; ++half) {
+      const int from = per[half] > 0 ? half : 1 - half;
+      for (int c = 0; c < 3; ++c) to[3 * half + c][x] = static_cast<float>(pixel.sum[from][c].value() * per[from]);
+    }
+  }
+}
+
+}  // namespace
+
+void read_film(const Film& film, Crew& crew, CleanInput& input) {
+  input.width = film.region.width(), input.height = film.region.height();
+  input.scale = scale_of(film);
+  input.halves.resize(input.width, input.height, outputs);
+  crew.for_each(input.height, [&](int y) { read_row(film, y, input); });
+}
+
+void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, CleanInput& input) {
+  input.seen.resize(width, height, seen_features);
+  double near = 0;
+  std::size_t met = 0;
+  for (const FirstSeen& p : pixels)
+    if (p.depth > 0) near += 1 / static_cast<double>(p.depth), ++met;
+  const auto per_depth = static_cast<float>(met > 0 ? near / static_cast<double>(met) : 1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const FirstSeen& p =
+          pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      const bool seen = p.depth > 0;
+      const float values[seen_features] = {
+          p.albedo.x, p.albedo.y, p.albedo.z, p.normal.x, p.normal.y, p.normal.z, 1 / (1 + p.depth * per_depth)};
+      for (int k = 0; k < seen_features; ++k) input.seen.plane(k)[y * input.seen.stride() + x] = seen ? values[k] : 0;
+    }
+}
+
+}  // namespace tyndall

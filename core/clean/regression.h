@@ -1,0 +1,244 @@
+#pragma once
+#include "core/clean/cells.h"
+
+/// Block regression: each half of the picture, in blocks of 16 x 16 pixels that overlap by half, as a linear function
+/// of the place and of what is seen there, with the ridge of the features' own noise. Every product of two columns is
+/// summed once for a cell of 8 x 8 pixels; a block adds up its four cells. Blocks are solved in lanes.
+///
+/// Bitterli et al., Nonlinearly Weighted First-order Regression for Denoising Monte Carlo Renderings, Computer Graphics
+/// Forum 35 (2016), has the regression on noisy features; He, Sun, Tang, Guided Image Filtering, TPAMI 35 (2013),
+/// blocks with shared sums.
+namespace tyndall {
+
+/// Where the product of the terms i >= j of a half's system is among the sums, and that of a channel and a term.
+TYNDALL_INLINE int product_sum(int half, int i, int j) {
+  if (i < plain_terms) return i * (i + 1) / 2 + j;
+  const int first = plain_sums + half * emission_sums, k = i - plain_terms;
+  if (j < plain_terms) return first + k * plain_terms + j;
+  return first + emission_terms * plain_terms + k * (k + 1) / 2 + j - plain_terms;
+}
+TYNDALL_INLINE int channel_sum(int output, int i) {
+  if (i < plain_terms) return plain_products + output * plain_terms + i;
+  const int half = output / 3, channel = output % 3;
+  return plain_sums + half * emission_sums + emission_terms * plain_terms + emission_products +
+         channel * emission_terms + i - plain_terms;
+}
+
+/// The four cells of a group of blocks that follow each other in x.
+template <class F>
+struct BlockCells {
+  const float* part[4];  ///< the first cell's first sum: up left, up right, down left, down right
+  std::ptrdiff_t stride;
+
+  TYNDALL_INLINE F sum(int s) const {
+    return (load<F>(part[0] + s * stride) + load<F>(part[1] + s * stride)) +
+           (load<F>(part[2] + s * stride) + load<F>(part[3] + s * stride));
+  }
+  /// Of a product with x or y: right less left cells, and lower less upper ones, a quarter of a block from the middle.
+  TYNDALL_INLINE F across(int s) const {
+    return F(0.25f) * ((load<F>(part[1] + s * stride) - load<F>(part[0] + s * stride)) +
+                       (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
+  }
+  TYNDALL_INLINE F down(int s) const {
+    return F(0.25f) * ((load<F>(part[2] + s * stride) - load<F>(part[0] + s * stride)) +
+                       (load<F>(part[3] + s * stride) - load<F>(part[1] + s * stride)));
+  }
+  /// across and down at once: the product of x and y of the cells' middles.
+  TYNDALL_INLINE F across_down(int s) const {
+    return F(0.0625f) * ((load<F>(part[0] + s * stride) - load<F>(part[1] + s * stride)) +
+                         (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
+  }
+};
+
+/// The sums of products of a block, whose x and y are counted from its own middle.
+template <class F>
+TYNDALL_INLINE F block_product(const BlockCells<F>& cells, int half, int i, int j) {
+  const F own = cells.sum(product_sum(half, i, j));
+  if (i == 1 && j == 0) return own + cells.across(0);
+  if (i == 2 && j == 0) return own + cells.down(0);
+  if (i == 1) return own + F(2.0f) * cells.across(product_sum(half, 1, 0)) + F(0.0625f) * cells.sum(0);
+  if (i == 2 && j == 2) return own + F(2.0f) * cells.down(product_sum(half, 2, 0)) + F(0.0625f) * cells.sum(0);
+  if (i == 2)
+    return own + cells.down(product_sum(half, 1, 0)) + cells.across(product_sum(half, 2, 0)) + cells.across_down(0);
+  if (j == 1) return own + cells.across(product_sum(half, i, 0));
+  if (j == 2) return own + cells.down(product_sum(half, i, 0));
+  return own;
+}
+template <class F>
+TYNDALL_INLINE F block_channel(const BlockCells<F>& cells, int output, int i) {
+  const F own = cells.sum(channel_sum(output, i));
+  if (i == 1) return own + cells.across(channel_sum(output, 0));
+  if (i == 2) return own + cells.down(channel_sum(output, 0));
+  return own;
+}
+
+TYNDALL_INLINE constexpr int triangle(int i, int j) { return i * (i + 1) / 2 + j; }
+
+/// The normal equations of the terms but the first, for a group of blocks, as the factor L of G = L Lᵀ (Cholesky) whose
+/// diagonal holds its inverse.
+template <class F>
+struct Normal {
+  int size;       ///< of terms but the first
+  F pixels;       ///< at least 1
+  F mean[terms];  ///< of each term
+  F factor[terms * (terms + 1) / 2];
+};
+
+/// How far apart values of a feature have to be to tell things apart: what is less counts as noise.
+TYNDALL_INLINE float feature_floor(int term) {
+  return term < 3 ? 0.05f : term < 6 ? 0.02f : term < 9 ? 0.03f : term < 10 ? 0.01f : 0.02f;
+}
+
+template <class F>
+TYNDALL_INLINE void set_up(const BlockCells<F>& cells, int half, int size, Normal<F>& n) {
+  n.size = size;
+  n.pixels = max(cells.sum(0), F(1.0f));
+  const F per_pixel = F(1.0f) / n.pixels;
+  for (int i = 0; i < size; ++i) n.mean[i] = block_product(cells, half, i + 1, 0) * per_pixel;
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j <= i; ++j)
+      n.factor[triangle(i, j)] = neg_mul_add(n.pixels * n.mean[i], n.mean[j], block_product(cells, half, i + 1, j + 1));
+  for (int i = 0; i < size; ++i) {
+    const float floor = feature_floor(i + 1);
+    F& g = n.factor[triangle(i, i)];
+    g = mul_add(g, F(1.001f), mul_add(n.pixels, F(0.1f * floor * floor), F(1e-9f)));
+    if (i + 1 < plain_terms) continue;
+    const int k = i + 1 - plain_terms;  // the variance of the emission of a half
+    const F both = cells.sum(product_sum(0, i + 1, i + 1)) + cells.sum(product_sum(1, i + 1, i + 1));
+    g = g + max(neg_mul_add(F(1.0f), cells.sum(emission_cross + k), F(0.5f) * both), F(0.0f));
+  }
+}
+
+template <class F>
+TYNDALL_INLINE void factorise(Normal<F>& n) {
+  for (int i = 0; i < n.size; ++i)
+    for (int j = 0; j <= i; ++j) {
+      F s = n.factor[triangle(i, j)];
+      for (int q = 0; q < j; ++q) s = neg_mul_add(n.factor[triangle(i, q)], n.factor[triangle(j, q)], s);
+      n.factor[triangle(i, j)] = i == j ? F(1.0f) / sqrt(max(s, F(1e-12f))) : s * n.factor[triangle(j, j)];
+    }
+}
+
+/// The coefficients of one channel, `stride` apart.
+template <class F>
+TYNDALL_INLINE void solve_channel(const BlockCells<F>& cells, const Normal<F>& n, int output, float* to,
+                                  std::ptrdiff_t stride) {
+  const F mean = block_channel(cells, output, 0) * (F(1.0f) / n.pixels);
+  F r[terms];
+  for (int i = 0; i < n.size; ++i) r[i] = neg_mul_add(n.pixels * mean, n.mean[i], block_channel(cells, output, i + 1));
+  for (int i = 0; i < n.size; ++i) {
+    for (int q = 0; q < i; ++q) r[i] = neg_mul_add(n.factor[triangle(i, q)], r[q], r[i]);
+    r[i] = r[i] * n.factor[triangle(i, i)];
+  }
+  F first = mean;
+  for (int i = n.size - 1; i >= 0; --i) {
+    for (int q = i + 1; q < n.size; ++q) r[i] = neg_mul_add(n.factor[triangle(q, i)], r[q], r[i]);
+    r[i] = r[i] * n.factor[triangle(i, i)];
+    first = neg_mul_add(r[i], n.mean[i], first);
+    store(to + (i + 1) * stride, r[i]);
+  }
+  store(to, first);
+  for (int i = n.size + 1; i < terms; ++i) store(to + i * stride, F(0.0f));
+}
+
+template <class F>
+TYNDALL_INLINE void fit_blocks_of(const FilterView& v, int block_row) {
+  const int blocks = (v.width + cell_edge - 1) / cell_edge + 1;
+  const float* above = v.sums + block_row * all_sums * v.cell_stride;
+  const float* below = above + all_sums * v.cell_stride;
+  const std::uint8_t* shines = v.shines + block_row * v.cell_stride;
+  float* row = v.coefficients + block_row * outputs * terms * v.cell_stride;
+  Normal<F> normal;
+  for (int b = 0; b < blocks; b += lanes_of<F>) {
+    const BlockCells<F> cells{{above + b, above + b + 1, below + b, below + b + 1}, v.cell_stride};
+    bool lit = false;
+    for (int i = 0; i <= lanes_of<F>; ++i) lit |= shines[b + i] || shines[b + i + v.cell_stride];
+    const int systems = lit ? 2 : 1;  // without emission both halves have the same
+    for (int system = 0; system < systems; ++system) {
+      set_up(cells, system, (lit ? terms : plain_terms) - 1, normal);
+      factorise(normal);
+      const int first = system * 3, last = lit ? first + 3 : outputs;
+      for (int output = first; output < last; ++output)
+        solve_channel(cells, normal, output, row + output * terms * v.cell_stride + b, v.cell_stride);
+    }
+  }
+}
+
+/// The coefficients of the four blocks that a cell belongs to, for places counted from the cell's own middle.
+struct CellBlocks {
+  float of[4][outputs][terms];
+};
+
+TYNDALL_INLINE void take_blocks(const FilterView& v, int cell_x, int cell_row, CellBlocks& blocks) {
+  const std::ptrdiff_t row = outputs * terms * v.cell_stride;
+  for (int k = 0; k < 4; ++k) {
+    const float* from = v.coefficients + (cell_row + k / 2) * row + cell_x + k % 2;
+    const float x = k % 2 ? -0.25f : 0.25f, y = k < 2 ? 0.25f : -0.25f;
+    for (int output = 0; output < outputs; ++output) {
+      float* to = blocks.of[k][output];
+      for (int i = 0; i < terms; ++i) to[i] = from[(output * terms + i) * v.cell_stride];
+      to[0] += x * to[1] + y * to[2];
+    }
+  }
+}
+
+/// What a pixel takes of the four blocks: a tent.
+TYNDALL_INLINE void fill_tents(float (*tent)[cell_pixels]) {
+  for (int y = 0; y < cell_edge; ++y)
+    for (int x = 0; x < cell_edge; ++x) {
+      const float right = static_cast<float>(x + 1) / (cell_edge + 1),
+                  low = static_cast<float>(y + 1) / (cell_edge + 1);
+      const int pixel = y * cell_edge + x;
+      tent[0][pixel] = (1 - right) * (1 - low), tent[1][pixel] = right * (1 - low);
+      tent[2][pixel] = (1 - right) * low, tent[3][pixel] = right * low;
+    }
+}
+
+/// The prediction of an output for a group of pixels from `pixel` on.
+template <class F>
+TYNDALL_INLINE F predict_pixels(const CellColumns& cell, const CellBlocks& blocks, const float (*tent)[cell_pixels],
+                                int output, int pixel) {
+  F total = F(0.0f);
+  for (int k = 0; k < 4; ++k) {
+    const float* c = blocks.of[k][output];
+    F sum = splat<F>(c[0]);
+    for (int i = 1; i < plain_terms; ++i) sum = mul_add(splat<F>(c[i]), load<F>(cell.of[i] + pixel), sum);
+    if (cell.shines)
+      for (int i = 0; i < emission_terms; ++i)
+        sum = mul_add(splat<F>(c[plain_terms + i]),
+                      load<F>(cell.of[emission_column + output / 3 * emission_terms + i] + pixel), sum);
+    total = mul_add(load<F>(tent[k] + pixel), sum, total);
+  }
+  return total;
+}
+
+template <class F>
+TYNDALL_INLINE void predict_of(const FilterView& v, int cell_row) {
+  const int cells = (v.width + cell_edge - 1) / cell_edge;
+  const int inside_y = least(cell_edge, v.height - cell_row * cell_edge);
+  alignas(64) float tent[4][cell_pixels], out[outputs + 1][cell_pixels];
+  fill_tents(tent);
+  CellColumns cell;
+  CellBlocks blocks;
+  for (int cx = 0; cx < cells; ++cx) {
+    fill_columns(v, cx, cell_row, false, cell);
+    take_blocks(v, cx, cell_row, blocks);
+    for (int pixel = 0; pixel < cell_pixels; pixel += lanes_of<F>) {
+      F level = F(0.0f);
+      for (int output = 0; output < outputs; ++output) {
+        const F value = predict_pixels<F>(cell, blocks, tent, output, pixel);
+        store(out[output] + pixel, value);
+        level = level + value;
+      }
+      store(out[outputs] + pixel, F(1.0f / outputs) * level);
+    }
+    const int inside_x = least(cell_edge, v.width - cx * cell_edge);
+    for (int output = 0; output <= outputs; ++output) {
+      float* to = (output < outputs ? v.filtered[output] : v.level) + cell_row * cell_edge * v.stride + cx * cell_edge;
+      for (int y = 0; y < inside_y; ++y)
+        for (int x = 0; x < inside_x; ++x) to[y * v.stride + x] = out[output][y * cell_edge + x];
+    }
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,14 @@
+// 4 lanes. Compiled with the flags of this instruction set: nothing but the filter may be in here.
+#include "core/base/lanes_simd.h"
+#include "core/clean/filter_entry.h"
+
+namespace tyndall {
+
+namespace {
+using F = HWY_NAMESPACE::Floats;
+static_assert(lanes_of<F> == 4, "the SIMD library fell back to a narrower set: a flag is missing");
+}  // namespace
+
+FilterSteps sse4_filter() { return filter_of<F>(); }
+
+}  // namespace tyndall

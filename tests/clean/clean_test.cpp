@@ -1,0 +1,211 @@
+#include "core/clean/clean.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace tyndall;
+
+namespace {
+
+/// A picture whose truth is known: two materials with a straight edge between them, light that falls off smoothly.
+struct Known {
+  CleanInput input;
+  std::vector<float> truth;  ///< 3 floats a pixel
+};
+
+Known known_picture(int width, int height, float noise, unsigned seed = 1) {
+  std::mt19937 engine(seed);
+  std::gamma_distribution<float> gamma(0.5f, 2.0f);  // skew, of mean 1 and variance 2, as path tracing's noise is
+  Known k;
+  k.input.width = width, k.input.height = height;
+  k.input.halves.resize(width, height, outputs);
+  std::vector<FirstSeen> seen;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool left = 3 * x < width + y;
+      const FirstSeen s{left ? Vec3f{0.8f, 0.2f, 0.1f} : Vec3f{0.3f, 0.4f, 0.9f}, {0, left ? 1.0f : 0.0f, 0}, 3};
+      seen.push_back(s);
+      const float light = 0.5f + 0.4f * std::sin(0.05f * static_cast<float>(x + 2 * y));
+      const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
+      for (int c = 0; c < 3; ++c) k.truth.push_back(light * albedo[c]);
+      for (int half = 0; half < 2; ++half) {
+        const float factor = 1 + noise * (gamma(engine) - 1);
+        for (int c = 0; c < 3; ++c)
+          k.input.halves.plane(3 * half + c)[y * k.input.halves.stride() + x] = light * albedo[c] * factor;
+      }
+    }
+  read_first_seen(seen, width, height, k.input);
+  return k;
+}
+
+std::vector<float> raw_picture(const CleanInput& input) {
+  std::vector<float> rgb;
+  for (int y = 0; y < input.height; ++y)
+    for (int x = 0; x < input.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        rgb.push_back(0.5f * (input.halves.plane(c)[y * input.halves.stride() + x] +
+                              input.halves.plane(3 + c)[y * input.halves.stride() + x]));
+  return rgb;
+}
+
+double relative_mse(const std::vector<float>& rgb, const std::vector<float>& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    const double level = static_cast<double>(truth[i]), off = static_cast<double>(rgb[i]) - level;
+    sum += off * off / (level * level + 0.01);
+  }
+  return sum / static_cast<double>(rgb.size());
+}
+
+CleanPicture clean(const CleanInput& input, int threads = 2, Target target = available_targets().back()) {
+  Crew crew(threads);
+  CleanPicture picture;
+  REQUIRE(Cleaner(target).run(input, crew, false, picture));
+  return picture;
+}
+
+bool all_finite(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+}  // namespace
+
+TEST_CASE("clean: takes most of the noise away, and knows what is left") {
+  for (const float noise : {0.15f, 0.3f, 0.6f}) {
+    CAPTURE(noise);
+    const Known k = known_picture(192, 128, noise);
+    const CleanPicture picture = clean(k.input);
+    const double before = relative_mse(raw_picture(k.input), k.truth), after = relative_mse(picture.rgb, k.truth);
+    CHECK(after < before / 8);
+    const double estimated = picture.relative_error * picture.relative_error;
+    CHECK(estimated > 0.6 * after);
+    CHECK(estimated < 1.5 * after);
+  }
+}
+
+TEST_CASE("clean: without noise the picture stays as it is, also where nothing that is seen explains it") {
+  Known k = known_picture(96, 64, 0);
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const auto i = static_cast<std::size_t>(3 * (96 * y + x) + c);
+        k.truth[i] = uniform(engine);
+        for (int half = 0; half < 2; ++half)
+          k.input.halves.plane(3 * half + c)[y * k.input.halves.stride() + x] = k.truth[i];
+      }
+  const CleanPicture picture = clean(k.input);
+  CHECK(relative_mse(picture.rgb, k.truth) < 1e-6);
+  CHECK(picture.relative_error < 1e-2);
+}
+
+TEST_CASE("clean: the same bits for any number of threads, and once more after another picture") {
+  const Known k = known_picture(203, 77, 0.7f), other = known_picture(64, 64, 0.3f);
+  const CleanPicture one = clean(k.input, 1);
+  CHECK(clean(k.input, 3).rgb == one.rgb);
+  Crew crew(2);
+  Cleaner cleaner(available_targets().back());
+  CleanPicture picture;
+  for (const CleanInput* input : {&k.input, &other.input, &k.input, &k.input})
+    REQUIRE(cleaner.run(*input, crew, false, picture));
+  CHECK(picture.rgb == one.rgb);
+  CHECK(picture.pixel_error == one.pixel_error);
+  CHECK(picture.relative_error == one.relative_error);
+}
+
+TEST_CASE("clean: instruction sets differ by rounding only") {
+  const Known k = known_picture(130, 50, 0.7f);
+  const CleanPicture scalar = clean(k.input, 2, Target::scalar);
+  for (const Target target : available_targets()) {
+    CAPTURE(name_of(target));
+    CHECK(relative_mse(clean(k.input, 2, target).rgb, scalar.rgb) < 1e-8);
+  }
+}
+
+TEST_CASE("clean: pictures of any size, of nothing and of far too bright pixels") {
+  constexpr int sizes[][2] = {{1, 1},  {2, 1}, {1, 2},   {1, 100}, {100, 1},
+                              {17, 9}, {8, 8}, {255, 3}, {256, 3}, {257, 3}};
+  for (const Target target : available_targets())
+    for (const auto& size : sizes) {
+      CAPTURE(name_of(target));
+      CAPTURE(size[0]);
+      CAPTURE(size[1]);
+      Known k = known_picture(size[0], size[1], 0.5f);
+      CleanPicture picture = clean(k.input, 2, target);
+      CHECK(picture.rgb.size() == k.truth.size());
+      CHECK(all_finite(picture.rgb));
+      CHECK(all_finite(picture.pixel_error));
+      CHECK(std::isfinite(picture.relative_error));
+      k.input.halves.plane(1)[0] = std::numeric_limits<float>::max();
+      picture = clean(k.input, 2, target);
+      CHECK(all_finite(picture.rgb));
+      CleanInput black;
+      black.width = size[0], black.height = size[1];
+      black.halves.resize(size[0], size[1], outputs);
+      read_first_seen(std::vector<FirstSeen>(k.truth.size() / 3), size[0], size[1], black);
+      picture = clean(black, 2, target);
+      CHECK(std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float v) { return v == 0; }));
+      CHECK(picture.relative_error == 0);
+    }
+}
+
+TEST_CASE("clean: a lone bright pixel stays where it is") {
+  Known k = known_picture(128, 128, 0.3f);
+  const CleanPicture before = clean(k.input);
+  for (int c = 0; c < 3; ++c) k.input.halves.plane(c)[64 * k.input.halves.stride() + 64] = 1000;
+  const CleanPicture after = clean(k.input);
+  double far = 0;
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) {
+      if (std::abs(x - 64) < 32 && std::abs(y - 64) < 32) continue;
+      const auto i = static_cast<std::size_t>(3 * (128 * y + x));
+      far = std::max(far, static_cast<double>(std::abs(after.rgb[i] - before.rgb[i])));
+    }
+  CHECK(far == 0);
+  std::vector<float> raw = raw_picture(k.input);
+  CHECK(relative_mse(after.rgb, k.truth) < 1.02 * relative_mse(raw, k.truth));
+  CHECK(after.relative_error > 1);
+}
+
+TEST_CASE("clean: given up, it leaves what it was to fill alone") {
+  const Known k = known_picture(64, 64, 0.3f);
+  Crew crew(2);
+  CleanPicture picture;
+  picture.rgb = {1, 2, 3};
+  CHECK_FALSE(Cleaner(Target::scalar).run(k.input, crew, true, picture));
+  CHECK(picture.rgb == std::vector<float>{1, 2, 3});
+}
+
+TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from the other") {
+  Film film = make_film(3, 1, {0, 0, 3, 1}, 0, 0x1p40);
+  for (int x = 0; x < 3; ++x)
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      add_sample(film.at(x, 0), i & 1u, {1e12f * static_cast<float>(i & 1u), 2e11f, 3}, 0x1p-40);
+      ++film.at(x, 0).taken;
+    }
+  film.at(1, 0) = {};
+  film.at(1, 0).taken = 1;
+  add_sample(film.at(1, 0), 0, {4e11f, 5e11f, 6e11f}, 0x1p-40);
+  film.at(2, 0) = {};
+  Crew crew(1);
+  CleanInput input;
+  read_film(film, crew, input);
+  CHECK(input.width == 3);
+  CHECK(input.height == 1);
+  CHECK(input.scale == 0x1p15f);
+  const auto value = [&](int plane, int x) { return input.scale * input.halves.plane(plane)[x]; };
+  CHECK(value(0, 0) == 0);
+  CHECK(value(3, 0) == 1e12f);
+  CHECK(value(1, 0) == 2e11f);
+  CHECK(value(4, 0) == 2e11f);
+  CHECK(value(0, 1) == 4e11f);
+  CHECK(value(3, 1) == 4e11f);
+  CHECK(value(5, 1) == 6e11f);
+  CHECK(value(0, 2) == 0);
+  CHECK(value(5, 2) == 0);
+}
