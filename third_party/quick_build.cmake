@@ -1,5 +1,5 @@
-# Most of the time of a first build goes into the headers that nearly every file includes. This reads them once a room
-# instead of once a file.
+# Most of the time of a first build goes into the headers that nearly every file includes. Here they are read once a
+# room, or once a target, instead of once a file.
 include(${CMAKE_CURRENT_LIST_DIR}/ccache.cmake)
 option(TYNDALL_QUICK_BUILD "compile the files of a room together; OFF: each alone, for quick rebuilds after edits" ON)
 
@@ -16,4 +16,13 @@ function(tyndall_join_rooms target)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# Translates these headers once for all files of a target; "<string>", or a path from the root. Only where no cache of
+# compiled files is at work: it would find nothing again after one of them changed. Every file still includes all that
+# it uses: builds with a cache, and those with TYNDALL_QUICK_BUILD=OFF, show where it does not.
+function(tyndall_precompile target)
+  if(TYNDALL_QUICK_BUILD AND NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
 endfunction()

@@ -4,6 +4,7 @@
 #include "core/image/image_io.h"
 #include "core/scene/check.h"
 #include "core/scene/json_tree.h"
+#include "core/scene/source_assets.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -106,9 +107,7 @@ fs::path assets_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   fs::path installed = program.parent_path().parent_path() / "share" / "tyndall";
   if (!error && fs::is_directory(installed / "scenes", error)) return installed;
-#ifdef TYNDALL_ASSETS_DIR
-  if (fs::is_directory(fs::path(TYNDALL_ASSETS_DIR) / "scenes", error)) return TYNDALL_ASSETS_DIR;
-#endif
+  if (fs::is_directory(fs::path(source_assets()) / "scenes", error)) return source_assets();
   return {};
 }
 
