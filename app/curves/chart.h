@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+/// Charts in numbers and words: their points as CSV, and what a comparison of the methods says.
 namespace tyndall {
 
 /// Curves and what is said of them, for files and for the table that the command `chart` prints.

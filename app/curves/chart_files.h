@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+/// The two files of a chart: its drawing, and a table of the same numbers beside it.
 namespace tyndall {
 
 /// The table that is written beside a chart: the same name, ending in .csv.

@@ -19,8 +19,8 @@ class Convergence {
  public:
   /// Adds a point to the current curve. A new edit, or a time before the last point's, begins a new curve; the old one
   /// is kept if it is long enough to tell something. A point less than 4 % later than the last but one replaces the
-  /// last one. Points whose error is not finite and positive are left out, and those with the very error of the last
-  /// one: it was not estimated again.
+  /// last one. Points are left out if their error is not finite and positive, or equal to that of the last
+  /// one, because then it was not estimated anew.
   void add(std::uint64_t edit, const std::string& method, ErrorPoint point);
   /// Forgets all curves: another scene was opened.
   void clear();

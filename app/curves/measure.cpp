@@ -1,7 +1,6 @@
 #include "app/curves/measure.h"
 
 #include "core/accuracy/error.h"
-#include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 
@@ -22,20 +21,19 @@ class GrowingPicture {
   bool grow(std::uint32_t spp) {
     options_.spp = spp;
     const auto progress = [this](const RenderProgress& now) { return run_.go_on(seconds_ + now.seconds); };
-    RenderResult result = render(scene_, options_, progress, std::move(film_));
-    film_ = std::move(result.film);
-    seconds_ += result.seconds;
-    return !result.interrupted;
+    result_ = render(scene_, options_, progress, std::move(result_.film));
+    seconds_ += result_.seconds;
+    return !result_.interrupted;
   }
   double seconds() const { return seconds_; }
-  const Film& film() const { return film_; }
+  FinishedPicture finished() const { return finished_picture(result_); }
 
  private:
   RenderScene scene_;
   const ChartRun& run_;
   RenderOptions options_{};
-  Film film_{};
-  double seconds_ = 0;
+  RenderResult result_{};  ///< of the last step
+  double seconds_ = 0;     ///< of all steps
 };
 
 double squared(double x) { return x * x; }
@@ -51,12 +49,11 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
   GrowingPicture picture(scene, "", run);
   std::uint32_t spp = 2;
   while (picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds() < seconds * 1.4) spp *= 2;
-  const Film& film = picture.film();
-  const FilmTotals sum = totals(film);
-  if (sum.least_taken < 2) return {};
-  return {{scene.width, scene.height, resolve(film)},
-          squared(estimated_relative_error(film)),
-          "mis, random numbers of another seed, " + std::to_string(sum.least_taken) + " spp"};
+  FinishedPicture reference = picture.finished();
+  const std::uint32_t taken = reference.totals.least_taken;
+  if (taken < 2) return {};
+  return {std::move(reference.image), squared(reference.estimate.relative_error),
+          "mis, random numbers of another seed, " + std::to_string(taken) + " spp"};
 }
 
 ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
@@ -65,8 +62,9 @@ ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartRefe
   GrowingPicture picture(scene, method.isa, run);
   ErrorCurve curve{method.name, {}};
   for (std::uint32_t spp = 1; spp < (1u << 22) && picture.grow(spp); spp *= 2) {
-    const double measured = image_error(resolve(picture.film()), reference.image.rgb).rel_mse;
-    const double noise = squared(estimated_relative_error(picture.film()));
+    const FinishedPicture now = picture.finished();
+    const double measured = relative_mse(now.image.rgb, reference.image.rgb);
+    const double noise = squared(now.estimate.relative_error);
     curve.points.push_back({picture.seconds(), measured - reference.noise, spp, noise});
     if (measured < least_measurable(reference.noise) || 2 * picture.seconds() > seconds * 1.4) break;
   }

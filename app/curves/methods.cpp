@@ -7,7 +7,7 @@
 namespace tyndall {
 
 std::vector<ChartMethod> default_methods(const Scene& scene) {
-  Scene exact = scene;  // as its chains are found
+  Scene exact = scene;  // compiled with everything on, to see which methods make a difference
   exact.render.integrator = Integrator::mis;
   exact.render.fresnel = FresnelKind::exact;
   exact.render.caustics = Caustics::chains;

@@ -1,5 +1,7 @@
 #include "app/curves/svg.h"
 
+#include "app/curves/decades.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -50,7 +52,7 @@ std::string line(double x0, double y0, double x1, double y1, const std::string& 
 
 /// The range of the axes, in whole decades that hold all points, and where times and errors are on the page.
 struct Plot {
-  int x0 = 0, x1 = 1, y0 = -3, y1 = 0;
+  Decades seconds{0, 1}, errors{-3, 0};
 
   explicit Plot(const std::vector<ErrorCurve>& curves) {
     double first = 1e300, last = 0, least = 1e-2, most = 1e-1;
@@ -60,14 +62,11 @@ struct Plot {
         if (p.rel_mse > 0) least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
       }
     if (last <= 0) return;
-    x0 = static_cast<int>(std::floor(std::log10(first))), x1 = static_cast<int>(std::ceil(std::log10(last)));
-    y0 = static_cast<int>(std::floor(std::log10(least))), y1 = static_cast<int>(std::ceil(std::log10(most)));
-    x1 = std::max(x1, x0 + 1);
+    seconds = decades_around(first, last, 1);
+    errors = decades_around(least, most, 1);
   }
-  double x(double seconds) const { return left + (std::log10(seconds) - x0) / (x1 - x0) * (width - left - right); }
-  double y(double error) const {
-    return height - bottom - (std::log10(error) - y0) / (y1 - y0) * (height - top - bottom);
-  }
+  double x(double time) const { return left + seconds.part_of(time) * (width - left - right); }
+  double y(double error) const { return height - bottom - errors.part_of(error) * (height - top - bottom); }
 };
 
 std::string seconds_text(int exponent) {
@@ -77,14 +76,14 @@ std::string seconds_text(int exponent) {
 
 std::string grid(const Plot& plot) {
   std::string out;
-  for (int e = plot.x0; e <= plot.x1; ++e) {
-    for (int m = 2; m < 10 && e < plot.x1; ++m)
+  for (int e = plot.seconds.first; e <= plot.seconds.last; ++e) {
+    for (int m = 2; m < 10 && e < plot.seconds.last; ++m)
       out += line(plot.x(m * std::pow(10.0, e)), top, plot.x(m * std::pow(10.0, e)), height - bottom, "minor");
     const double x = plot.x(std::pow(10.0, e));
     out += line(x, top, x, height - bottom, "grid");
     out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"", seconds_text(e));
   }
-  for (int e = plot.y0; e <= plot.y1; ++e) {
+  for (int e = plot.errors.first; e <= plot.errors.last; ++e) {
     const double y = plot.y(std::pow(10.0, e));
     out += line(left, y, width - right, y, "grid");
     out += text_at(left - 8, y + 4, "text-anchor=\"end\"", fmt::format("{:g}", std::pow(10.0, e)));
@@ -105,9 +104,8 @@ std::string slope_guide(const Plot& plot, const std::vector<ErrorCurve>& curves)
       if (p.rel_mse > 0) best = std::min(best, p.rel_mse * p.seconds);
   if (best > 1e299) return "";
   best *= 0.6;
-  const double high = std::pow(10.0, plot.y1), low = std::pow(10.0, plot.y0);
-  const double from = std::max(best / high, std::pow(10.0, plot.x0)),
-               to = std::min(best / low, std::pow(10.0, plot.x1));
+  const double from = std::max(best / plot.errors.most(), plot.seconds.least()),
+               to = std::min(best / plot.errors.least(), plot.seconds.most());
   if (from >= to) return "";
   const double x = plot.x(from), y = plot.y(best / from);
   return line(x, y, plot.x(to), plot.y(best / to), "guide") + text_at(x + 6, y + 14, "class=\"dim\"", "slope -1");

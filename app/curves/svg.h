@@ -3,6 +3,7 @@
 
 #include <string>
 
+/// Charts as SVG files.
 namespace tyndall {
 
 /// A drawing of seconds against relMSE on logarithmic axes. Each curve is named at its end, a guide shows the slope -1

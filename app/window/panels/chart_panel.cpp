@@ -43,7 +43,7 @@ struct Plot {
   Plot(const Ui& the_ui, const std::vector<NamedCurve>& named, const Rect& frame)
       : draw(ImGui::GetWindowDrawList()), ui(the_ui) {
     for (const NamedCurve& one : named) lines.push_back(line_of(one)), curves.push_back(one.curve);
-    axes = {decades_of(curves), frame};
+    axes = axes_for(curves, frame);
   }
   ImVec2 at(const ErrorPoint& p) const { return {axes.x(p.seconds), axes.y(p.rel_mse)}; }
   void text(ImVec2 at, ImU32 colour, const std::string& words) const { draw->AddText(at, colour, words.c_str()); }
@@ -56,18 +56,18 @@ std::string decade_text(int exponent, const char* unit) {
 
 void draw_grid(const Plot& plot) {
   const Rect& f = plot.axes.frame;
-  const Decades& decades = plot.axes.decades;
+  const Decades &times = plot.axes.times, &errors = plot.axes.errors;
   const float line = ImGui::GetFontSize();
-  const int every = decades.y1 - decades.y0 > 5 ? 2 : 1;
-  for (int e = decades.y0; e <= decades.y1; ++e) {
+  const int every = errors.last - errors.first > 5 ? 2 : 1;
+  for (int e = errors.first; e <= errors.last; ++e) {
     const float y = plot.axes.y(std::pow(10.0, e));
     plot.draw->AddLine({f.x0, y}, {f.x1, y}, shade(palette::line));
-    if ((e - decades.y0) % every != 0) continue;
+    if ((e - errors.first) % every != 0) continue;
     const std::string text = decade_text(e, "");
     plot.text({f.x0 - ImGui::CalcTextSize(text.c_str()).x - 6 * plot.ui.scale, y - line / 2}, shade(palette::dim),
               text);
   }
-  for (int e = decades.x0; e <= decades.x1; ++e) {
+  for (int e = times.first; e <= times.last; ++e) {
     const float x = plot.axes.x(std::pow(10.0, e));
     plot.draw->AddLine({x, f.y0}, {x, f.y1}, shade(palette::line));
     const std::string text = decade_text(e, " s");
@@ -85,7 +85,7 @@ void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   plot.text({f.x0 + 5 * plot.ui.scale, y - ImGui::GetFontSize() - 1}, shade(palette::blue, 0.9f), "1 % error");
   if (curve.points.empty()) return;
   const ErrorPoint last = curve.points.back();
-  const double end = std::pow(10.0, plot.axes.decades.x1 + 1);
+  const double end = 10 * plot.axes.times.most();
   const ImVec2 a = plot.at(last), b = plot.at({end, last.rel_mse * last.seconds / end});
   const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 4 * plot.ui.scale;
   for (float s = 0; s < length; s += 2 * dash) {
@@ -161,7 +161,7 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   const float s = ui.scale;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("chart", size);
-  const LiveAccuracy& accuracy = *state.accuracy;
+  const LiveAccuracy& accuracy = *state.facts.accuracy;
   log_item(ui, "chart", accuracy.curves(Half::current).current().method);
   compat::push_font(ui.fonts.small);
   ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, shade(palette::ink), 6 * s);
@@ -176,13 +176,13 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
 }  // namespace
 
 void chart_panel(Ui& ui, PanelState& state, float height) {
-  const char* about = state.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
+  const char* about = state.facts.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
   if (!section(ui, "Speed and accuracy", about)) return;
   const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   if (width < 80 * ui.scale) return;
   draw_chart(ui, state, {width, height});
   std::string all;
-  for (const AccuracyLine& line : accuracy_lines(*state.accuracy)) {
+  for (const AccuracyLine& line : accuracy_lines(*state.facts.accuracy)) {
     line_of_note(ui, line.text, line.warning ? palette::amber : palette::dim);
     all += (all.empty() ? "" : " | ") + line.text;
   }

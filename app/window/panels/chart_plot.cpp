@@ -5,39 +5,29 @@
 
 namespace tyndall {
 
-Decades decades_of(std::span<const ErrorCurve* const> curves) {
-  Decades d;
+ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame) {
+  ChartAxes axes;
+  axes.frame = frame;
   double first = 1e300, last = 0, least = target_rel_mse, most = target_rel_mse;
   for (const ErrorCurve* curve : curves)
     for (const ErrorPoint& p : curve->points) {
       first = std::min(first, p.seconds), last = std::max(last, p.seconds);
       least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
     }
-  const auto below = [](double v) { return static_cast<int>(std::floor(std::log10(v))); };
-  const auto above_of = [](double v) { return static_cast<int>(std::ceil(std::log10(v))); };
-  if (last > 0) d.x0 = std::max(below(first), -3), d.x1 = std::max(above_of(last), d.x0 + 2);
-  d.y0 = std::min(below(least * 0.7), -5), d.y1 = std::max(above_of(most), d.y0 + 3);
-  return d;
+  if (last > 0) axes.times = decades_around(std::max(first, 1e-3), last, 2);
+  axes.errors = decades_around(std::min(least * 0.7, 1e-5), most, 3);
+  return axes;
 }
 
 float ChartAxes::x(double seconds) const {
-  const double t = (std::log10(seconds) - decades.x0) / (decades.x1 - decades.x0);
-  return frame.x0 + static_cast<float>(t) * frame.width();
+  return frame.x0 + static_cast<float>(times.part_of(seconds)) * frame.width();
 }
-
 float ChartAxes::y(double rel_mse) const {
-  const double t = (std::log10(rel_mse) - decades.y0) / (decades.y1 - decades.y0);
-  return frame.y1 - static_cast<float>(t) * frame.height();
+  return frame.y1 - static_cast<float>(errors.part_of(rel_mse)) * frame.height();
 }
-
-double ChartAxes::seconds(float x) const {
-  const double t = static_cast<double>((x - frame.x0) / frame.width());
-  return std::pow(10.0, decades.x0 + t * (decades.x1 - decades.x0));
-}
-
+double ChartAxes::seconds(float x) const { return times.value_at(static_cast<double>((x - frame.x0) / frame.width())); }
 double ChartAxes::rel_mse(float y) const {
-  const double t = static_cast<double>((frame.y1 - y) / frame.height());
-  return std::pow(10.0, decades.y0 + t * (decades.y1 - decades.y0));
+  return errors.value_at(static_cast<double>((frame.y1 - y) / frame.height()));
 }
 
 std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/curves/curve.h"
+#include "app/curves/decades.h"
 #include "app/window/system/layout.h"
 
 #include <optional>
@@ -10,17 +11,9 @@ namespace tyndall {
 
 inline constexpr double target_rel_mse = 1e-4;  ///< of 1 % relative error
 
-/// Whole decades of an axis pair: 10^x0 to 10^x1 seconds, 10^y0 to 10^y1 relMSE.
-struct Decades {
-  int x0 = -1, x1 = 1, y0 = -4, y1 = 0;
-};
-
-/// Decades that hold all curves and the target.
-Decades decades_of(std::span<const ErrorCurve* const> curves);
-
-/// Logarithmic axes in a rectangle.
+/// The axes of the chart in a rectangle of the window: seconds to the right, relMSE upwards.
 struct ChartAxes {
-  Decades decades;
+  Decades times{-1, 1}, errors{-4, 0};
   Rect frame;
 
   float x(double seconds) const;
@@ -28,6 +21,9 @@ struct ChartAxes {
   double seconds(float x) const;
   double rel_mse(float y) const;
 };
+
+/// Axes that hold all curves and the target.
+ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame);
 
 /// A place on one of the curves.
 struct CurveReading {

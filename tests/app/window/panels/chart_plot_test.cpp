@@ -16,7 +16,7 @@ ErrorCurve falling(double rel_mse_at_1_s, double from, double to) {
   return run;
 }
 
-constexpr ChartAxes axes{{-1, 2, -6, 0}, {100, 50, 400, 350}};
+constexpr ChartAxes axes{{-1, 2}, {-6, 0}, {100, 50, 400, 350}};
 
 }  // namespace
 
@@ -45,12 +45,14 @@ TEST_CASE("the nearest curve at a time is found, a curve's end also a little bes
   CHECK_FALSE(nearest_curve(runs, axes, axes.x(10) + 12, axes.y(1e-3), 10));
 }
 
-TEST_CASE("decades hold all curves and the target") {
+TEST_CASE("the axes hold all curves and the target") {
   const ErrorCurve run = falling(0.5, 0.02, 30), low = falling(1e-6, 1, 1);
   const ErrorCurve* runs[] = {&run, &low};
-  const Decades d = decades_of(runs);
-  CHECK(d.x0 == -2);
-  CHECK(d.x1 == 2);
-  CHECK(d.y0 <= -7);
-  CHECK(d.y1 == 2);
+  const ChartAxes found = axes_for(runs, axes.frame);
+  CHECK(found.times.first == -2);
+  CHECK(found.times.last == 2);
+  CHECK(found.errors.first <= -7);
+  CHECK(found.errors.last == 2);
+  CHECK(found.x(found.times.most()) == axes.frame.x1);
+  CHECK(axes_for({}, axes.frame).errors.least() < target_rel_mse);
 }
