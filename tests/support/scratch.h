@@ -6,12 +6,12 @@
 #include <iterator>
 #include <string>
 
-/// Files for the tests of image files.
+/// Files that tests write.
 namespace tyndall {
 
 /// An empty folder of this name, for one test case.
 inline std::filesystem::path scratch_folder(const std::string& name) {
-  const std::filesystem::path folder = scratch_folder() / "film" / name;
+  const std::filesystem::path folder = scratch_folder() / "files" / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

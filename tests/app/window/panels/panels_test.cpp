@@ -23,9 +23,9 @@ class Column {
                            {"bubble", Solid3d{Sphere<>{{2, 0, 0}, -0.9, {}}, 1}, {RotateY{30}}},
                            {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
     state.scene.camera.look_from = {0, 1, 6};
-    state.accuracy = &accuracy_;
-    state.scenes = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
-    state.title = "showroom";
+    state.facts.accuracy = &accuracy_;
+    state.facts.scenes = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
+    state.facts.title = "showroom";
     draw();
     draw();
   }
@@ -219,7 +219,7 @@ TEST_CASE("what the accuracy's controls ask for") {
   CHECK(column.asked);
   column.click("render.split.on");
   CHECK(column.split);
-  column.state.kept_method = "path";
+  column.state.facts.kept_method = "path";
   column.click("render.split.off");
   CHECK_FALSE(column.split);
 }
@@ -229,7 +229,7 @@ TEST_CASE("errors are seen only where there is something to measure against") {
   column.click("image.view.error");
   CHECK(column.state.view == 0);
   CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
-  column.state.can_show_errors = true;
+  column.state.facts.can_show_errors = true;
   column.click("image.view.FLIP");
   CHECK(column.state.view == view_named("FLIP"));
   column.click("image.view.error");

@@ -1,0 +1,40 @@
+#include "app/window/document/job_queue.h"
+
+#include "tests/support/news.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+using namespace tyndall;
+
+TEST_CASE("jobs run in order elsewhere, results here, and none is lost at the end") {
+  std::vector<int> order;
+  std::atomic<int> ran = 0;
+  test::News news;
+  {
+    JobQueue jobs([&] { news.tell(); });
+    CHECK(jobs.idle());
+    for (int k = 0; k < 3; ++k)
+      jobs.run([&, k]() -> JobQueue::Result {
+        ++ran;
+        return [&, k] { order.push_back(k); };
+      });
+    CHECK(news.wait_until([&] { return news.told() == 3; }));
+    CHECK(order.empty());
+    CHECK_FALSE(jobs.idle());
+    jobs.collect();
+    CHECK(jobs.idle());
+    CHECK(order == std::vector<int>{0, 1, 2});
+    for (int k = 0; k < 3; ++k)
+      jobs.run([&]() -> JobQueue::Result {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the queue goes before
+        ++ran;
+        return {};
+      });
+  }
+  CHECK(ran == 6);
+}

@@ -1,0 +1,37 @@
+#include "app/window/document/open_document.h"
+
+#include "tests/support/scratch.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+TEST_CASE("comments are found, slashes in strings are none") {
+  CHECK(has_comments("{ \"a\": 1 } // one"));
+  CHECK(has_comments("/* one */ {}"));
+  CHECK_FALSE(has_comments("{ \"file\": \"a/b//c\", \"x\": \"\\\"/\" }"));
+  CHECK_FALSE(has_comments("{}"));
+}
+
+TEST_CASE("a saved scene reads back equal, from another folder too") {
+  const fs::path folder = scratch_folder("saved_scene");
+  Document document = document_of(load_scene("earth"));
+  document.scene.name = "A \"name\"";
+  const auto origin = save_document(document, folder / "copy.json");
+  CHECK(origin->title == "copy.json");
+  CHECK_FALSE(origin->comments);
+  const LoadedScene again = load_scene((folder / "copy.json").string());
+  CHECK(again.scene.name == document.scene.name);
+  CHECK(again.scene == origin->saved);
+  CHECK_THROWS_AS(save_document(document, folder / "none" / "copy.json"), std::exception);
+}
+
+TEST_CASE("names for snapshots: that of the scene, without its number") {
+  CHECK(stem_of("showroom") == "showroom");
+  CHECK(stem_of("showroom-012.png") == "showroom");
+  CHECK(stem_of("my-scene.json") == "my-scene");
+  CHECK(stem_of("-") == "scene");
+}

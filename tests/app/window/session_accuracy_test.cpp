@@ -1,0 +1,88 @@
+#include "core/image/image_io.h"
+#include "tests/app/window/opened_session.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+using namespace tyndall;
+using test::OpenedSession;
+namespace fs = std::filesystem;
+
+TEST_CASE("the picture on the screen as reference: of other scenes after an edit, the old one again after undo") {
+  OpenedSession opened("reference");
+  REQUIRE(opened.finishes());
+  const LiveAccuracy& accuracy = opened.session->accuracy();
+  CHECK_FALSE(opened.session->can_show_errors());
+  opened.session->keep_as_reference();
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::same_samples);
+  CHECK(opened.session->can_show_errors());
+  opened.set_fuzz(0.5);
+  REQUIRE(opened.finishes());
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::other_scene);
+  opened.session->editor().undo();
+  Scene scene = opened.session->editor().scene();
+  scene.render.seed = 4;
+  opened.session->editor().edit(scene, 0);
+  REQUIRE(opened.finishes());
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::fits);
+  opened.session->shown(Half::current, opened.session->renderers().latest(Half::current));
+  REQUIRE(opened.comes_true([&] { return accuracy.pair().flip.has_value(); }));
+  opened.session->references().drop();
+  CHECK_FALSE(opened.session->can_show_errors());
+}
+
+TEST_CASE("references from files: read in the background, refused with a reason, dropped images too") {
+  OpenedSession opened("reference_file");
+  REQUIRE(opened.finishes());
+  write_pfm("good.pfm", {8, 8, std::vector<float>(192, 1.0f)});
+  write_pfm("small.pfm", {4, 8, std::vector<float>(96, 1.0f)});
+  opened.session->references().open("small.pfm");
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.session->messages().current().text == "small.pfm: found 4x8 pixels, expected 8x8 as the picture has");
+  CHECK_FALSE(opened.session->accuracy().reference());
+  opened.session->references().open_dropped(fs::absolute("good.pfm"));
+  REQUIRE(opened.comes_true([&] { return opened.session->accuracy().reference() != nullptr; }));
+  CHECK(opened.session->accuracy().is_true());
+  OpenedSession::write(0.125, "other.json");
+  opened.session->references().open_dropped(fs::absolute("other.json"));
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  CHECK_FALSE(opened.session->accuracy().is_true());
+}
+
+TEST_CASE("a split view keeps the settings on its left, and follows edits of the scene with both") {
+  OpenedSession opened("split");
+  REQUIRE(opened.finishes());
+  Session& session = *opened.session;
+  CHECK_FALSE(session.renderers().latest(Half::kept));
+  session.set_split(true);
+  session.set_split(false);
+  session.set_split(true);
+  Scene scene = session.editor().scene();
+  scene.render.fresnel = FresnelKind::schlick;
+  scene.render.sampler = SamplerKind::sobol;
+  session.editor().edit(scene, 0);
+  const auto both_finish = [&] {
+    return opened.finishes() && opened.comes_true([&] {
+      const auto kept = session.renderers().latest(Half::kept);
+      return kept && kept->finished;
+    });
+  };
+  REQUIRE(both_finish());
+  CHECK(session.method(Half::kept) == "path · random");
+  CHECK(session.method(Half::current) == "path · sobol · schlick");
+  session.shown(Half::kept, session.renderers().latest(Half::kept));
+  session.shown(Half::current, session.renderers().latest(Half::current));
+  REQUIRE(opened.comes_true([&] { return session.accuracy().pair().flip.has_value(); }));
+  const auto before = session.renderers().latest(Half::kept);
+  opened.set_fuzz(1);
+  REQUIRE(opened.finishes());
+  REQUIRE(opened.comes_true([&] {
+    return session.renderers().latest(Half::kept) != before && session.renderers().latest(Half::kept)->finished;
+  }));
+  CHECK(session.renderers().latest(Half::kept)->rgba != before->rgba);
+  OpenedSession::write(0.125, "other.json");
+  session.editor().open(fs::absolute("other.json").string());
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  CHECK_FALSE(session.renderers().split());
+}

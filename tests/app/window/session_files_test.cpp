@@ -1,0 +1,88 @@
+#include "tests/app/window/opened_session.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace tyndall;
+using test::OpenedSession;
+namespace fs = std::filesystem;
+
+TEST_CASE("opening another scene can be undone, with where it came from") {
+  OpenedSession opened("open");
+  opened.set_fuzz(0.5);
+  OpenedSession::write(0.125, "other.json");
+  opened.session->editor().open(fs::absolute("other.json").string());
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  CHECK(opened.session->editor().document().origin->title == "other.json");
+  opened.session->editor().undo();
+  CHECK(opened.fuzz() == 0.5);
+  CHECK(opened.session->editor().document().origin->title == "scene.json");
+  opened.session->editor().open("no such file");
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.fuzz() == 0.5);
+}
+
+TEST_CASE("the file is read again when it changes, and what was edited is one undo away") {
+  OpenedSession opened("reload");
+  opened.set_fuzz(0.5);
+  OpenedSession::write(0.75);
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.75; }));
+  CHECK_FALSE(edited(opened.session->editor().document()));
+  opened.session->editor().undo();
+  CHECK(opened.fuzz() == 0.5);
+  std::ofstream("scene.json") << "{";
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.fuzz() == 0.5);
+}
+
+TEST_CASE("saving is no edit, and is not read again as one") {
+  OpenedSession opened("save");
+  opened.set_fuzz(0.5);
+  REQUIRE(opened.finishes());
+  const std::uint64_t edits = opened.session->renderers().edit(Half::current);
+  opened.session->editor().save(opened.session->editor().document().origin->file);
+  CHECK_FALSE(edited(opened.session->editor().document()));
+  const auto saved = opened.session->editor().document().origin;
+  // The file was read again.
+  REQUIRE(opened.comes_true([&] { return opened.session->editor().document().origin != saved; }));
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->renderers().edit(Half::current) == edits);
+  CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[0].kind).fuzz == 0.5);
+  opened.session->editor().save("no/such/folder/a.json");
+  CHECK(opened.session->messages().current().error);
+}
+
+TEST_CASE("a snapshot holds the newest edit, also when it was not sent yet, and is finished when the window closes") {
+  OpenedSession opened("snapshot");
+  REQUIRE(opened.finishes());
+  opened.set_fuzz(0.875);
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return fs::exists("scene-001.png"); }));
+  CHECK(std::get<Metal<>>(load_scene("scene-001.png").scene.materials[0].kind).fuzz == 0.875);
+  opened.session->snapshot();
+  opened.session.reset();
+  CHECK(fs::exists("scene-002.png"));
+}
+
+TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
+  OpenedSession opened("export");
+  opened.session->export_chart();
+  CHECK(opened.session->messages().current().text == "there is no curve yet");
+  REQUIRE(opened.finishes());
+  opened.session->shown(Half::current, opened.session->renderers().latest(Half::current));
+  opened.session->export_chart();
+  opened.session->export_chart();
+  REQUIRE(opened.comes_true([&] { return fs::exists("scene-chart-002.svg"); }));
+  CHECK(fs::exists("scene-chart-001.csv"));
+  const fs::path folder = fs::current_path();
+  fs::remove_all(folder);
+  opened.session->export_chart();
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.session->messages().current().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
+  opened.session->messages().dismiss();
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  fs::create_directories(folder);
+}
