@@ -38,8 +38,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       picture_(session_),
       commands_(session_, platform_, panels_, pacing_, tools_.gestures) {
   ui_.log = log_.get();
-  panels_.scenes = built_in_scenes();
-  panels_.accuracy = &session_.accuracy();
+  panels_.facts.scenes = built_in_scenes();
+  panels_.facts.accuracy = &session_.accuracy();
   if (reference) session_.references().set(std::move(reference));
 }
 
@@ -75,7 +75,10 @@ bool MainWindow::picture_due(double now) const {
   return now >= pacing_.picture_due() || frame->finished;
 }
 
-bool MainWindow::hidden() const { return platform_.framebuffer_width() <= 0 || platform_.framebuffer_height() <= 0; }
+bool MainWindow::hidden() const {
+  const WindowSize size = platform_.size();
+  return size.framebuffer_width <= 0 || size.framebuffer_height <= 0;
+}
 
 double MainWindow::waiting_time(double now) {
   const double sends = std::max(0.0, session_.send_time() - now);
@@ -97,7 +100,8 @@ double MainWindow::waiting_time(double now) {
 }
 
 void MainWindow::update_scale() {
-  const float pixels = platform_.pixels(), scale = platform_.scale();
+  const WindowSize size = platform_.size();
+  const float pixels = size.pixels, scale = size.scale;
   if (pixels == ui_.pixels && scale == ui_.scale) return;
   set_style(scale);
   ui_.fonts = load_fonts(pixels, scale);
@@ -119,9 +123,10 @@ void MainWindow::draw(double now) {
   // The old picture keeps its shape until the new one is there.
   const Scene& scene = session_.editor().scene();
   const Frame* shown = picture_.shown().get();
-  const Layout layout = make_layout(static_cast<float>(platform_.width()), static_cast<float>(platform_.height()),
-                                    shown ? shown->width : scene.width, shown ? shown->height : scene.height, ui_.scale,
-                                    commands_.shows_panels());
+  const WindowSize size = platform_.size();
+  const Layout layout =
+      make_layout(static_cast<float>(size.width), static_cast<float>(size.height), shown ? shown->width : scene.width,
+                  shown ? shown->height : scene.height, ui_.scale, commands_.shows_panels());
   fill_panels();
   draw_interface(layout);
   use_mouse_and_keys(layout, now);
@@ -132,12 +137,11 @@ void MainWindow::draw(double now) {
 
 void MainWindow::fill_panels() {
   panels_.scene = session_.editor().scene();
-  panels_.frame = picture_.shown();
-  panels_.title = session_.editor().document().origin->title;
-  panels_.paused = session_.renderers().paused();
-  panels_.threads = session_.renderers().threads();
-  panels_.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
-  panels_.can_show_errors = session_.can_show_errors();
+  panels_.facts.frame = picture_.shown();
+  panels_.facts.title = session_.editor().document().origin->title;
+  panels_.facts.threads = session_.renderers().threads();
+  panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
+  panels_.facts.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
   if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
@@ -150,8 +154,8 @@ void MainWindow::draw_interface(const Layout& layout) {
   const RendererPair& renderers = session_.renderers();
   const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(ui_, layout.status,
-              status_cells(panels_.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
-                           {renderers.paused(), accuracy.is_true(), renderers.split()}));
+              status_cells(panels_.facts.frame.get(), accuracy.curves(Half::current).current(),
+                           session_.editor().document(), {renderers.paused(), accuracy.is_true(), renderers.split()}));
   draw_message(ui_, layout.area, session_.messages().current());
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;
@@ -224,7 +228,8 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   if (shown) pacing_.on_picture(shown->edit, after);
   if (!log_) return;
   if (shown) log_->shown(*shown, after);
-  log_->changed("size", std::to_string(platform_.width()) + " " + std::to_string(platform_.height()));
+  const WindowSize size = platform_.size();
+  log_->changed("size", std::to_string(size.width) + " " + std::to_string(size.height));
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }
 

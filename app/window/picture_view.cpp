@@ -80,10 +80,10 @@ void PictureView::show(Platform& platform, const Rect& image) {
     session_.messages().say(error.what(), true);
   }
   platform.clear();
-  const float dots =
-      static_cast<float>(platform.framebuffer_width()) / static_cast<float>(std::max(1, platform.width()));
+  const WindowSize window = platform.size();
+  const float dots = static_cast<float>(window.framebuffer_width) / static_cast<float>(std::max(1, window.width));
   const Rect whole{image.x0 * dots, image.y0 * dots, image.x1 * dots, image.y1 * dots};
-  const int height = platform.framebuffer_height();
+  const int height = window.framebuffer_height;
   const Display& display = session_.editor().scene().display;
   const auto look = [&](const Frame* frame) {
     const bool plain = session_.accuracy().map() || (frame && frame->view != View::beauty);

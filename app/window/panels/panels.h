@@ -16,25 +16,30 @@ namespace tyndall {
 struct Wishes {
   std::optional<std::string> open;  ///< a scene by what load_scene takes
   std::optional<int> threads;
-  bool export_chart = false;  ///< the chart's curves as files
-  bool reference = false;     ///< ask for one
+  bool export_chart = false;  ///< write the chart's curves into files
+  bool reference = false;     ///< ask which picture errors are measured against
   std::optional<bool> split;
 };
 
-struct PanelState {
-  Scene scene;          ///< edited in place
-  ObjectPath selected;  ///< edited in place
-  int view = 0;         ///< edited in place: see view_entry()
-  Wishes wishes;        ///< out
-  // What is shown.
-  std::shared_ptr<const Frame> frame;  ///< null before the first
+/// What panels tell about the window, besides the scene.
+struct PanelFacts {
+  std::shared_ptr<const Frame> frame;  ///< on the screen; null before the first
   const LiveAccuracy* accuracy = nullptr;
   std::string kept_method;       ///< of the left half of a split view; "": there is no split view
   bool can_show_errors = false;  ///< there is something to measure the picture against
   std::vector<BuiltIn> scenes;
   std::string title;  ///< of the open scene
-  bool paused = false;
   int threads = 1;
+};
+
+/// What goes into the panels and comes out of them in each drawing.
+struct PanelState {
+  PanelFacts facts;
+  // Panels change these in place.
+  Scene scene;
+  ObjectPath selected;
+  int view = 0;  ///< see view_entry()
+  Wishes wishes;
 };
 
 /// All sections in the column, the chart at its foot.
@@ -47,7 +52,7 @@ void image_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);
-/// What is measured, a line for each thing that there is.
+/// The measured errors in words: a line for each that is known.
 struct AccuracyLine {
   std::string text;
   bool warning = false;

@@ -22,7 +22,7 @@ std::string share_cut_off(const Frame* frame) {
 }
 
 const char* view_meaning(const PanelState& state) {
-  if (shows_errors(state.view) && !state.accuracy->map()) return "is being computed";
+  if (shows_errors(state.view) && !state.facts.accuracy->map()) return "is being computed";
   return view_entry(state.view).meaning;
 }
 
@@ -32,13 +32,13 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
   if (name == "integrator") return word(render.integrator).help;
   if (name == "adaptive")
     return render.adaptive ? "more where the error is; spp is their mean" : "as many samples everywhere";
-  if (name == "max_depth") return share_cut_off(state.frame.get());
+  if (name == "max_depth") return share_cut_off(state.facts.frame.get());
   if (name == "spp") return render.spp ? "samples a pixel at which it stops" : "0: goes on for ever";
   return "";
 }
 
 void threads_row(Ui& ui, PanelState& state) {
-  int threads = state.threads;
+  int threads = state.facts.threads;
   const double cores = std::max(2u, std::thread::hardware_concurrency());
   const Row row{"threads", "Threads", between(1, most_threads), {1, cores}, "", "never changes the picture", ""};
   if (value_row(ui, row, threads)) state.wishes.threads = threads;
@@ -46,8 +46,8 @@ void threads_row(Ui& ui, PanelState& state) {
 
 void split_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}};
-  int chosen = state.kept_method.empty() ? 0 : 1;
-  const std::string meaning = chosen == 0 ? "" : "A keeps " + state.kept_method + "; above: B";
+  int chosen = state.facts.kept_method.empty() ? 0 : 1;
+  const std::string meaning = chosen == 0 ? "" : "A keeps " + state.facts.kept_method + "; above: B";
   if (choice_row(ui,
                  {"split",
                   "Split",
@@ -85,7 +85,7 @@ void image_panel(Ui& ui, PanelState& state) {
   field_rows(ui, state.scene.display);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) {
-    const bool missing = shows_errors(k) && !state.can_show_errors;
+    const bool missing = shows_errors(k) && !state.facts.can_show_errors;
     choices[k] = {view_entry(k).name, missing ? "needs a reference: see Speed and accuracy" : nullptr};
   }
   choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, choices, state.view, 3);
@@ -93,7 +93,7 @@ void image_panel(Ui& ui, PanelState& state) {
 }
 
 void render_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Render", kernel_note(state.frame.get()))) return;
+  if (!section(ui, "Render", kernel_note(state.facts.frame.get()))) return;
   ui.scope = "render.";
   RenderSettings& render = state.scene.render;
   const auto said = [&state](std::string_view name) { return setting_meaning(state, name); };

@@ -79,9 +79,9 @@ void objects_panel(Ui& ui, PanelState& state) {
 void scenes_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Scenes", "or drop a file")) return;
   ui.scope = "scenes.";
-  if (begin_list(ui, "scenes", state.scenes.size()))
-    for (const BuiltIn& scene : state.scenes) {
-      const bool on = scene.name == state.title;
+  if (begin_list(ui, "scenes", state.facts.scenes.size()))
+    for (const BuiltIn& scene : state.facts.scenes) {
+      const bool on = scene.name == state.facts.title;
       if (list_line(ui, scene.name, scene.name, "", on)) state.wishes.open = scene.name;
       tooltip(ui, scene.title);
     }
@@ -91,7 +91,7 @@ void scenes_panel(Ui& ui, PanelState& state) {
 
 void draw_column(Ui& ui, PanelState& state, const Rect& column) {
   if (column.width() <= 0 || column.height() <= 0) return;
-  const auto lines = static_cast<float>(accuracy_lines(*state.accuracy).size());
+  const auto lines = static_cast<float>(accuracy_lines(*state.facts.accuracy).size());
   const float chart = 150 * ui.scale, foot = chart + 80 * ui.scale + lines * line_of_note_height(ui);
   const bool fixed_chart = column.height() > 2.2f * foot;
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |

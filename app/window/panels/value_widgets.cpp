@@ -127,20 +127,20 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
   const float grab = 14 * ui.scale, pad = 2 * ui.scale, first = a.x + pad + grab / 2, way = b.x - a.x - 2 * pad - grab;
   const Slider range =
-      ImGui::IsItemActive() && !ImGui::IsItemActivated() ? ui.drag_range : widened(row.slider, row.valid, value);
+      ImGui::IsItemActive() && !ImGui::IsItemActivated() ? ui.drag.range : widened(row.slider, row.valid, value);
   const auto place_of = [&](double v) { return first + way * static_cast<float>(slider_position(range, v)); };
   const float mouse = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemActivated()) {
-    ui.drag_range = range;
-    ui.drag_offset = std::abs(mouse - place_of(value)) <= grab / 2 ? mouse - place_of(value) : 0.0f;
-    ui.drag_start = static_cast<double>(mouse);
+    ui.drag.range = range;
+    ui.drag.offset = std::abs(mouse - place_of(value)) <= grab / 2 ? mouse - place_of(value) : 0.0f;
+    ui.drag.start = static_cast<double>(mouse);
   }
   bool changed = false;
   // A press on the grab moves nothing until the mouse does.
-  const bool moved = ui.drag_offset == 0 || static_cast<double>(mouse) != ui.drag_start;
+  const bool moved = ui.drag.offset == 0 || static_cast<double>(mouse) != ui.drag.start;
   if (ImGui::IsItemActive() && moved && way > 0)
     changed =
-        accept(row, slider_value(range, static_cast<double>((mouse - ui.drag_offset - first) / way), value), value);
+        accept(row, slider_value(range, static_cast<double>((mouse - ui.drag.offset - first) / way), value), value);
   draw_frame(ui);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float at = place_of(value), from = range.low < 0 && !range.logarithmic ? place_of(0) : a.x + pad;
@@ -165,15 +165,15 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   ImGui::InvisibleButton(id, {width, ImGui::GetFrameHeight()});
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (ImGui::IsItemActivated()) ui.drag_start = value, ui.drag_moved = false;
+  if (ImGui::IsItemActivated()) ui.drag.start = value, ui.drag.moved = false;
   bool changed = false;
-  if (ImGui::IsItemActive() && (ui.drag_moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
-    ui.drag_moved = true;
+  if (ImGui::IsItemActive() && (ui.drag.moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
+    ui.drag.moved = true;
     const double steps =
         static_cast<double>((io.MousePos.x - io.MouseClickedPos[0].x) / ui.scale) * (io.KeyShift ? 0.1 : 1.0);
-    changed = accept(row, dragged(row.slider, ui.drag_start, steps), value);
+    changed = accept(row, dragged(row.slider, ui.drag.start, steps), value);
   }
-  if (ImGui::IsItemDeactivated() && !ui.drag_moved) begin_edit(ui, item, text);
+  if (ImGui::IsItemDeactivated() && !ui.drag.moved) begin_edit(ui, item, text);
   draw_frame(ui);
   compat::push_font(ui.fonts.mono);
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text.c_str());

@@ -46,10 +46,10 @@ void tooltip(Ui& ui, const std::string& text) {
   constexpr double delay = 0.5;
   if (text.empty() || !ImGui::IsItemHovered()) return;
   const ImGuiID id = ImGui::GetID(text.c_str());
-  if (ui.hovered != id) ui.hovered_since = ImGui::GetTime();
-  ui.hovered = id;
-  const double waited = ImGui::GetTime() - ui.hovered_since;
-  if (ImGui::IsMouseDown(0)) ui.hovered_since = ImGui::GetTime();
+  if (ui.hovered.id != id) ui.hovered.since = ImGui::GetTime();
+  ui.hovered.id = id;
+  const double waited = ImGui::GetTime() - ui.hovered.since;
+  if (ImGui::IsMouseDown(0)) ui.hovered.since = ImGui::GetTime();
   if (waited < delay) {
     ui.wake_in = std::min(ui.wake_in, delay - waited);
     return;

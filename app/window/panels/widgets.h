@@ -19,8 +19,22 @@ struct TextEdit {
   std::string start;  ///< text when it began; unchanged text changes nothing
   char text[64] = {};
   bool started = false;  ///< the keyboard has reached it
-  int waited = 0;        ///< frames until then
+  int waited = 0;        ///< drawings before it was reached
   bool next = false;     ///< Tab: the next box in the column is typed into
+};
+
+/// The number that is being dragged.
+struct NumberDrag {
+  double start = 0;  ///< its value when the drag began; on a slider where the mouse was
+  Slider range;      ///< of the slider
+  float offset = 0;  ///< from the mouse to the middle of the slider's grab
+  bool moved = false;
+};
+
+/// The control under the mouse, whose tooltip comes after a moment.
+struct HoveredItem {
+  ImGuiID id = 0;  ///< 0: none
+  double since = 0;
 };
 
 /// What all controls share. One per window; lives as long as it.
@@ -32,12 +46,8 @@ struct Ui {
   std::string scope;     ///< prefix of names in the log: "gold." or ""
   double size = 10;      ///< of the scene: dragging a coordinate by 200 units of the design changes it by this much
   TextEdit edit;
-  double drag_start = 0;  ///< value when the drag of the active control began
-  Slider drag_range;      ///< range of the slider that is dragged
-  float drag_offset = 0;  ///< from the mouse to the middle of the grab
-  bool drag_moved = false;
-  ImGuiID hovered = 0;  ///< for the delay of tooltips
-  double hovered_since = 0;
+  NumberDrag drag;
+  HoveredItem hovered;
   double wake_in = 1e300;        ///< seconds until something appears by itself
   std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed

@@ -100,37 +100,19 @@ void Platform::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
 
 void Platform::hide() { glfwHideWindow(state_->window); }
 
-int Platform::width() const {
-  int width = 0, height = 0;
-  glfwGetWindowSize(state_->window, &width, &height);
-  return width;
-}
-int Platform::height() const {
-  int width = 0, height = 0;
-  glfwGetWindowSize(state_->window, &width, &height);
-  return height;
-}
-int Platform::framebuffer_width() const {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(state_->window, &width, &height);
-  return glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) ? 0 : width;
-}
-int Platform::framebuffer_height() const {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(state_->window, &width, &height);
-  return glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) ? 0 : height;
-}
-
-float Platform::pixels() const {
-  float x = 1, y = 1;
-  glfwGetWindowContentScale(state_->window, &x, &y);
-  return std::clamp(x, 0.5f, 8.0f);
-}
-
-float Platform::scale() const {
+WindowSize Platform::size() const {
+  WindowSize size;
+  GLFWwindow* window = state_->window;
+  glfwGetWindowSize(window, &size.width, &size.height);
+  if (!glfwGetWindowAttrib(window, GLFW_ICONIFIED))
+    glfwGetFramebufferSize(window, &size.framebuffer_width, &size.framebuffer_height);
+  float density = 1, unused = 1;
+  glfwGetWindowContentScale(window, &density, &unused);
+  size.scale = size.pixels = std::clamp(density, 0.5f, 8.0f);
   // Where the system counts the window in points, a framebuffer of more pixels makes up for the density already.
-  const float points = static_cast<float>(std::max(1, width())), dots = static_cast<float>(framebuffer_width());
-  return dots > 0 ? pixels() * points / dots : pixels();
+  if (size.framebuffer_width > 0)
+    size.scale = size.pixels * static_cast<float>(std::max(1, size.width)) / static_cast<float>(size.framebuffer_width);
+  return size;
 }
 
 const std::set<int>& Platform::held() const { return state_->held; }
@@ -159,7 +141,8 @@ void Platform::toggle_full_screen() {
   int x = 0, y = 0;
   glfwGetWindowPos(window, &x, &y);
   const auto real = [](int v) { return static_cast<float>(v); };
-  state_->windowed = {real(x), real(y), real(x + width()), real(y + height())};
+  const WindowSize now = size();
+  state_->windowed = {real(x), real(y), real(x + now.width), real(y + now.height)};
   glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
@@ -171,7 +154,8 @@ void Platform::begin_frame() {
 
 void Platform::clear() {
   glDisable(GL_SCISSOR_TEST);
-  glViewport(0, 0, framebuffer_width(), framebuffer_height());
+  const WindowSize now = size();
+  glViewport(0, 0, now.framebuffer_width, now.framebuffer_height);
   glClearColor(palette::ink.x, palette::ink.y, palette::ink.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
 }

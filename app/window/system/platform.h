@@ -5,9 +5,19 @@
 #include <set>
 #include <string>
 
+/// This room holds all that talks to the window system, to OpenGL and to Dear ImGui's backends, and what they need to
+/// know: the layout, the style, when to draw, what the log says.
 namespace tyndall {
 
 struct WindowState;
+
+/// How large a window is.
+struct WindowSize {
+  int width = 0, height = 0;                          ///< window units
+  int framebuffer_width = 0, framebuffer_height = 0;  ///< pixels; 0 while the window is minimised
+  float scale = 1;                                    ///< window units per unit of the design
+  float pixels = 1;                                   ///< font pixels per unit of the design
+};
 
 /// The window of the system, its OpenGL context and its events. GLFW and Dear ImGui's backends are used here only.
 class Platform {
@@ -26,10 +36,7 @@ class Platform {
   /// Takes the window off the screen: what is left to be done needs none.
   void hide();
 
-  /// Sizes now: window units and pixels of the framebuffer; 0 while minimised.
-  int width() const, height() const, framebuffer_width() const, framebuffer_height() const;
-  /// Window units, and font pixels, per unit of the design.
-  float scale() const, pixels() const;
+  WindowSize size() const;
   /// Keys that are held down, were pressed without Ctrl or Alt, and no control wants.
   const std::set<int>& held() const;
   bool shift_held() const;
@@ -41,7 +48,7 @@ class Platform {
   void begin_frame();
   void clear();
   void end_frame();
-  /// After the fonts were loaded again.
+  /// To be called after the fonts were loaded again: they are drawn from then on.
   void renew_fonts();
 
   /// Wakes wait(). May be called from any thread while a Platform lives.
