@@ -24,7 +24,7 @@ struct VerifyCase {
 /// with the table.
 std::vector<VerifyCase> read_verify_cases(const std::filesystem::path& file);
 
-/// The cases that one of the names is the beginning of; all for no names. Throws UsageError for a name that chooses
+/// The cases whose names begin with one of these; without names all cases. Throws UsageError for a name that chooses
 /// nothing.
 std::vector<VerifyCase> chosen_cases(const std::vector<VerifyCase>& cases, const std::vector<std::string>& names);
 

@@ -35,7 +35,8 @@ void add_method(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["truncated_paths"] = sum.truncated;
 }
 
-/// Choices and switches that no place above has been given: new ones follow each other here.
+/// The choices and switches that are not in the object yet, in the order of fields(): a new setting is told without a
+/// line here.
 void add_choices(Json& json, const RenderSettings& settings) {
   const auto add = [&]<class T>(const Field<RenderSettings, T>& field) {
     if (json.contains(field.name)) return;
@@ -45,7 +46,7 @@ void add_choices(Json& json, const RenderSettings& settings) {
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
 }
 
-/// What came after the first version of the figures, whose order stays.
+/// Figures that were added after the first version, at the end, so that the order of the older ones stays.
 void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["truncated_throughput"] = sum.cut_throughput;
   json["first_rejected"] = Json::array();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+/// Notices that another program has written a file.
 namespace tyndall {
 
 /// Tells when a file was written or replaced. Watches its folder, since editors write a new file and rename it.

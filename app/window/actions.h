@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+/// One list of all that keys do. Keys, menus and the help table are loops over it.
 namespace tyndall {
 
 /// What a key can ask for.

@@ -7,18 +7,20 @@
 #include "app/window/system/platform.h"
 #include "app/window/tools/gestures.h"
 
+/// What happens when the user presses a key, drops a file or answers a question.
 namespace tyndall {
 
 /// Carries out what keys, dropped files and dialogs ask for.
 class Commands {
  public:
-  /// All of them belong to the window and outlive this.
+  /// The arguments belong to the window and must outlive this.
   Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures)
       : session_(session), platform_(platform), panels_(panels), pacing_(pacing), gestures_(gestures) {}
 
-  /// What the user did since the last drawing.
+  /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
-  /// Shows a view; one of errors only where there is something to measure against. index: see views.h.
+  /// Shows a view (index: see views.h). A view of errors needs something to measure against; without it
+  /// the user is told so and the view stays.
   void select_view(int index);
   /// Asks which picture errors are measured against.
   void ask_reference() { tyndall::ask_reference(dialog_); }

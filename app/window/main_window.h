@@ -7,9 +7,11 @@
 #include <atomic>
 #include <memory>
 
+/// The window's main loop, which ties together all that the other files of this folder do.
 namespace tyndall {
 
-/// Wakes the window from the threads of the renderers, once for all frames that come while it is awake.
+/// Wakes the window when a renderer has made a frame; called by the renderers' threads. Once it has rung, further
+/// frames do not wake the window until it has looked.
 struct FrameAlarm {
   std::atomic<double> due = 0;  ///< clock second from which on a frame wakes the window
   std::atomic<bool> rang = false;

@@ -57,11 +57,11 @@ void ask_name(Dialog& dialog, const std::filesystem::path& suggestion);
 /// Draws the question; returns the file to write once that is decided. empty path: the document's own.
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
 
-/// What is to become of the reference; at most one of them.
+/// What the user chose when asked for a reference; at most one of these.
 struct ReferenceWish {
-  std::optional<std::filesystem::path> file;  ///< read it
+  std::optional<std::filesystem::path> file;  ///< read this one
   bool keep = false;                          ///< the picture on the screen
-  bool drop = false;                          ///< none any more
+  bool drop = false;                          ///< measure against nothing
 };
 
 void ask_reference(Dialog& dialog);

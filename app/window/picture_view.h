@@ -7,6 +7,7 @@
 
 #include <memory>
 
+/// What is drawn behind the interface: the picture, or the two pictures of a split view.
 namespace tyndall {
 
 /// The picture in the window: which frames are on the screen, how they are shown, and the divider of a split view.

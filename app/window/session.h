@@ -10,10 +10,11 @@
 #include <memory>
 #include <string>
 
+/// The window without its drawing and its input, so that tests can use it without a display.
 namespace tyndall {
 
-/// All that a window does but for drawing and input. Its parts do the work: the editor holds the document, the pair of
-/// renderers makes pictures of it, the accuracy measures them. The session passes on what concerns several of them.
+/// All that a window does apart from drawing and input. Its parts do the work: the editor holds the document, the pair
+/// of renderers makes pictures of it, the accuracy measures them. The session passes on what concerns several of them.
 /// For the main thread; never waits for rendering or for files.
 class Session {
  public:
@@ -32,7 +33,7 @@ class Session {
   const RendererPair& renderers() const { return renderers_; }
   const LiveAccuracy& accuracy() const { return accuracy_; }
 
-  /// Hands the newest scene to the renderers when its time has come, see SendTimer. Whether it did.
+  /// Hands the newest scene to the renderers when its time has come, see SendTimer. Returns whether it did.
   bool send(double now);
   /// When send() will not wait any longer for a picture; infinite: nothing is to be sent.
   double send_time() const { return timer_.latest(); }

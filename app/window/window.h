@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+/// The window as the command line sees it: what it can be told, and the call that runs it.
 namespace tyndall {
 
 struct WindowOptions {

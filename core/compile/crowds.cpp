@@ -36,7 +36,9 @@ double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
                    distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
 }
 
-/// Whether one of a body's places comes closer than its radius, by a distance that is asked for at some moments.
+/// Whether something comes closer to the body's centre than its radius. distance: from a place of that centre to the
+/// thing. For a body that moves it is asked at `moments` + 1 moments, and whatever could happen between two of them
+/// counts as happening.
 template <class Distance>
 bool comes_close(const RoundBody& body, const Distance& distance) {
   const bool moves = length(body.way) > 0;

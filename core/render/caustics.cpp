@@ -65,7 +65,7 @@ Things list_things(const Scene& scene, const Flattened& flat) {
   return things;
 }
 
-/// Where light shows that comes from anywhere: boxes along the axes around matt surfaces and media.
+/// The box around a matt surface or a medium. Light from any direction shows there.
 struct Receiver {
   Vec3d low, high;
 };
@@ -111,7 +111,7 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   if (receivers.empty()) return 1;
   const Things things = list_things(scene, flat);
   const std::size_t step =
-      1 + things.lamps.size() * things.smooth.size() / most_pairs;  // of very many, some tell enough
+      1 + things.lamps.size() * things.smooth.size() / most_pairs;  // of very many pairs it looks at every step-th only
   double least = 1;
   for (const Thing& lamp : things.lamps)
     for (std::size_t i = 0; i < things.smooth.size(); i += step) {

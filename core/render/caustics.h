@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <functional>
 
+/// How likely a path is to find by chance the light that glass and polished metal throw on other surfaces. Where that
+/// is unlikely, the estimated error says too little, and users are warned (rare.h).
 namespace tyndall {
 
 /// Whether the light of a lamp that comes by way of a shape is found otherwise than by chance. Both are indices into

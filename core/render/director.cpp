@@ -128,8 +128,9 @@ void Director::publish() {
   if (on_frame_) on_frame_();
 }
 
-/// A film is handed out when all its pixels have as many samples as they are to have: between two passes. A pass that
-/// was interrupted is waited for, unless the renderer is paused or at its limit and will not go on with it.
+/// Gives the film to those who wait for it. Between two passes every pixel has the samples that are planned for it;
+/// within a pass some pixels lack some. So a pass that was interrupted is finished first, unless the renderer is paused
+/// or has reached its limit: then nothing would finish it, and the film is given as it is.
 void Director::answer_films() {
   if (picture_.within_pass() && unfinished(limit_)) return;
   for (auto& request : mail_.take_film_requests()) request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});

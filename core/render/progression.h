@@ -35,9 +35,11 @@ std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::s
 /// When the error of a film is estimated, which takes about as long as drawing it: where the number of samples or the
 /// error that was asked for is reached, and now and then before.
 struct EstimateTimes {
-  double seconds = std::numeric_limits<double>::infinity();  ///< from the start to the first, and then between them
-  double growth = 0;             ///< what comes on top, in parts of the seconds rendered so far
-  std::uint32_t each_below = 0;  ///< samples a pixel below which every pass is followed by one
+  /// The first estimate is due after this time of rendering. After one at t seconds, the next is due at
+  /// t + seconds + growth · t.
+  double seconds = std::numeric_limits<double>::infinity();
+  double growth = 0;
+  std::uint32_t each_below = 0;  ///< with fewer samples a pixel than this, an estimate follows every pass
 };
 
 /// How a picture is made.

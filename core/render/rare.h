@@ -13,7 +13,7 @@ inline constexpr std::uint32_t least_rare_spp = 2;
 /// chance_of_caustics. False before least_rare_spp, when there is no estimate.
 bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance);
 
-/// What is said then.
+/// The warning that users then get.
 inline constexpr const char* rare_bright_paths = "not converged: rare bright paths";
 
 }  // namespace tyndall

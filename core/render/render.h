@@ -43,7 +43,7 @@ struct RenderResult {
   int threads = 0;
   Kernels kernels{};                        ///< that made the film
   bool interrupted = false;                 ///< the callback said stop
-  std::optional<ErrorEstimate> estimate{};  ///< of the film as it is, if a limit or the callback needed it
+  std::optional<ErrorEstimate> estimate{};  ///< of this film; absent if neither a limit nor the callback asked for it
 };
 
 /// Called on the calling thread between passes, and about every 50 ms within long ones. Returns false to stop.
@@ -55,8 +55,8 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
 
-/// What is told of a film once its last sample is taken. Each part takes a reading of the whole film, so it is found
-/// once and handed to all that show it or write it.
+/// Everything that is reported about a finished film. For each part the whole film has to be read, so the parts are
+/// found once, here, and given to all that print or write them.
 struct FinishedPicture {
   FilmTotals totals;
   std::uint32_t spp = 0;  ///< see labelled_spp

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+/// The rules that every scene must keep before it is rendered, whether it was read from a file or edited in the window.
 namespace tyndall {
 
 /// The first rule that a scene breaks, or nothing. Every number must be finite and in the range of its field, also

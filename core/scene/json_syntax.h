@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+/// What users are told about a text that is not JSON.
 namespace tyndall {
 
 /// Says what is wrong with a text that is not JSON as a person would, at "line L, column C".

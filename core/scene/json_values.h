@@ -13,7 +13,7 @@
 /// ranges later.
 namespace tyndall {
 
-/// The members of an object; `expected` is said where it is none.
+/// What a value holds. If it is of another type, the message says that `expected` was expected.
 const JsonObject& object_at(const JsonValue& json, const Place& at, const char* expected);
 const JsonArray& array_at(const JsonValue& json, const Place& at, const char* expected);
 const std::string& string_at(const JsonValue& json, const Place& at, const std::string& expected);
@@ -73,7 +73,7 @@ std::vector<std::string_view> keys_of(const Fields& list, std::initializer_list<
   return keys;
 }
 
-/// The "type" of an object; `types` are said where it is missing.
+/// The "type" of an object; where it is missing, the message lists `types`.
 std::string_view type_at(const JsonObject& object, const Place& at, const std::vector<std::string_view>& types);
 [[noreturn]] void fail_type(const Place& at, std::string_view found, const std::vector<std::string_view>& types);
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Scenes by what a user calls them.
+/// Finds the scene that a user names: a built-in one, a file, or an image with a scene in it.
 namespace tyndall {
 
 struct LoadedScene {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+/// Measures how far one picture is from another, as numbers and as a picture of the differences.
 namespace tyndall {
 
 /// Pictures of differences, beside the views of the renderer.
@@ -13,7 +14,7 @@ enum class ErrorView { none, error, flip };
 /// Two pictures of one size: a frame and what it is measured against.
 struct ComparisonOrder {
   std::shared_ptr<const Frame> frame;
-  std::shared_ptr<const Frame> kept;  ///< the left half of a split view; null: the reference counts
+  std::shared_ptr<const Frame> kept;  ///< the left half of a split view; null: the frame is compared with the reference
   std::shared_ptr<const Reference> reference;
   ErrorView map = ErrorView::none;
   bool flip = false;        ///< also FLIP
@@ -22,7 +23,7 @@ struct ComparisonOrder {
 
 struct ComparisonResult {
   double rel_mse = 0;          ///< <= 0: less than the reference's own noise
-  std::optional<double> flip;  ///< mean; as `tyndall compare` says it
+  std::optional<double> flip;  ///< mean over the pixels, as `tyndall compare` prints it
   std::vector<float> map;      ///< 4 floats a pixel; empty: none was asked for
   double cpu_seconds = 0;      ///< what this took
 };
@@ -34,14 +35,15 @@ bool can_compare(const ComparisonOrder& order);
 /// map has the colours of `tyndall compare --heatmap`.
 ComparisonResult compare(const ComparisonOrder& order);
 
-/// Keeps work to a share of the time that processors have.
+/// Limits work that comes again and again to a share of the processors' time: the more it took, the later it is due
+/// again. Times are seconds of one clock.
 class ProcessorShare {
  public:
   explicit ProcessorShare(double share) : share_(share) {}
   bool due(double now) const { return now >= next_; }
-  /// Work that began at `start` took so much of one of `processors`.
+  /// Work that began at the time `start` took `cpu_seconds` of one of `processors`.
   void spent(double start, double cpu_seconds, int processors) { next_ = start + cpu_seconds / (share_ * processors); }
-  /// Due at once: the user waits for it.
+  /// Makes the work due at once, because the user waits for it.
   void renew() { next_ = 0; }
 
  private:

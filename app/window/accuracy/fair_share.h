@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+/// Lets the two renderers of a split view have equal parts of the processors, so that their errors can be compared.
 namespace tyndall {
 
 /// How far one of two renderers is with the same edit.

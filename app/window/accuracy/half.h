@@ -1,5 +1,6 @@
 #pragma once
 
+/// Names for the two pictures of a split view.
 namespace tyndall {
 
 /// The halves of a split view: on the right `current`, the scene as it is edited; on the left `kept`, the same scene

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+/// References: pictures that are taken for the truth when errors are measured.
 namespace tyndall {
 
 /// A picture that the window's own is measured against.

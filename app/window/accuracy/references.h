@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <memory>
 
+/// How references come into the window: from files, and from the screen.
 namespace tyndall {
 
-/// Brings the reference that the user chooses, and says which one it is.
+/// Loads the reference that the user chooses, and tells the user which one is in use.
 class References {
  public:
   References(Editor& editor, LiveAccuracy& accuracy, MessageLine& messages)

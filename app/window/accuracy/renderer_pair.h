@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+/// The renderers behind the window: one, or two while the view is split.
 namespace tyndall {
 
 /// The window's renderer and, in a split view, a second one for the left half. The second one renders the same scene
@@ -27,12 +28,13 @@ class RendererPair {
   };
   /// Hands a scene to both. A scene with the same picture as the one before restarts nothing.
   Begun submit(const std::shared_ptr<const Scene>& scene);
-  /// Throws the samples of both away and starts over.
+  /// Throws away the samples of both renderers and starts over.
   void restart();
 
   /// Splits the view: the left half keeps the scene's settings, and the right one starts over.
   void begin_split(const Scene& scene);
-  /// Ends it. Returns the second renderer: it may be within a pass, and should end where nobody waits.
+  /// Ends the split view. Returns the second renderer. Destroying it can take as long as a unit of its work, so the
+  /// caller should do that where nobody waits.
   std::shared_ptr<Renderer> end_split();
   bool split() const { return second_ != nullptr; }
   /// The scene that the left half of a split view renders, and its settings.

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string_view>
 
+/// The views that the window can show in the picture's place, in the order of their buttons.
 namespace tyndall {
 
 /// Something that the window can show in the picture's place.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+/// A scene under edit, and the file that it came from.
 namespace tyndall {
 
 /// Where a scene came from. Never changes once it is shared by documents.

@@ -18,7 +18,7 @@ namespace tyndall {
 /// Whether both scenes render to the same picture: equal but for what is applied when it is shown.
 bool same_picture(const Scene& a, const Scene& b);
 
-/// What an editor tells.
+/// What an editor calls when something has happened.
 struct EditorEvents {
   std::function<void()> picture_changed;  ///< the scene renders to another picture now
   std::function<void()> other_scene;      ///< another scene was opened; told before picture_changed
@@ -26,7 +26,7 @@ struct EditorEvents {
 };
 
 /// The open document: takes edits, undoes, opens, saves, and reads the file again when another program has written it.
-/// For the main thread; never waits for files but when it saves.
+/// For the main thread; it waits for files only while it saves.
 class Editor {
  public:
   /// reload: reads the first scene again, as the command line asked for it; may be empty. jobs: for reading; it may be
@@ -50,9 +50,10 @@ class Editor {
   /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced.
   void save(const std::filesystem::path& file);
 
-  /// Runs `read` in the background. What it returns is called by collect(); what it throws is said.
+  /// Runs `read` in the background. Then collect() calls the function that it returned, or shows what it threw as a
+  /// message.
   void read_in_background(const std::function<JobQueue::Result()>& read);
-  /// Reads the file again, in the background, if another program has changed it. Whether it had.
+  /// Reads the file again, in the background, if another program has changed it. Returns whether one has.
   bool collect();
   /// Whether the file was changed and collect() has not been called since.
   bool file_changed() const { return file_changed_; }

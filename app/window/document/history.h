@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+/// Undo and redo.
 namespace tyndall {
 
 /// Undo and redo: a list of copies. Never empty.

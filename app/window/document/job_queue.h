@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+/// Work in the background.
 namespace tyndall {
 
 /// Work that must not stop the window: jobs run one after another on a thread of their own, and what they return is

@@ -4,6 +4,7 @@
 
 #include <string>
 
+/// The line in which the window tells the user what happened.
 namespace tyndall {
 
 /// What the user is told, one line.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+/// Files that the window writes without asking for a name: showroom-001.png, showroom-002.png, and so on.
 namespace tyndall {
 
 /// FOLDER/STEM-001, or with the first number from `least` on for which no file with one of the endings exists. Without
@@ -15,7 +16,7 @@ namespace tyndall {
 std::filesystem::path numbered_base(const std::filesystem::path& folder, const std::string& stem, int least,
                                     const std::vector<const char*>& endings);
 
-/// The number in what numbered_base gave.
+/// The number in a name from numbered_base().
 int number_of(const std::filesystem::path& base);
 
 /// Writes files of one kind into the current folder, in the background: numbered, never replacing one, and never giving

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+/// From scene files to documents, and back.
 namespace tyndall {
 
 /// A loaded scene as a document without edits.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+/// Snapshots: the picture on the screen as image files.
 namespace tyndall {
 
 struct Snapshot {
@@ -19,9 +20,9 @@ struct Snapshot {
 /// user. Throws ImageFileError.
 std::string write_snapshot(const Snapshot& snapshot, Film film);
 
-/// The film of the picture, as soon as it has a sample everywhere. film: gives the film as it is; current: false when
-/// the picture was edited since; patient: false when it should not be waited for. An empty film: one of these, or 20
-/// seconds have passed.
+/// Waits until every pixel of the film has a sample, and returns the film. film: returns it as it is at present. Gives
+/// up, with an empty film, after 20 seconds, as soon as current() is false because the picture was edited meanwhile, or
+/// as soon as patient() is false because the window is closing.
 Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,
                    const std::function<bool()>& patient);
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+/// The clocks of the window.
 namespace tyndall {
 
 /// Seconds of a clock that never goes back.

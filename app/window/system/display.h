@@ -4,6 +4,7 @@
 
 #include <vector>
 
+/// How a rendered picture gets on the screen.
 namespace tyndall {
 
 /// How the picture is shown.

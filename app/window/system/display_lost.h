@@ -1,5 +1,6 @@
 #pragma once
 
+/// What happens when the display goes away while the window is open.
 namespace tyndall {
 
 /// From now on the program says so in one line and ends with exit code 3 when the X server goes away, instead of the X

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <vector>
 
+/// What the user did between two drawings, apart from the mouse (mouse.h).
 namespace tyndall {
 
 /// Keys that are held while another one is pressed.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// How the window is divided into picture, panels and status line.
 namespace tyndall {
 
 /// A rectangle of the window, y down, in window units.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// The mouse between two drawings.
 namespace tyndall {
 
 /// The mouse as one drawing of the window finds it. Places are in window units, y down; the buttons are left, right,

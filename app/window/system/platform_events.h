@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+/// The callbacks of the window library, which collect what the user did until the next drawing.
 namespace tyndall {
 
 /// What a window and its callbacks share; the window's user pointer.

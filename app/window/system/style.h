@@ -1,6 +1,7 @@
 #pragma once
 #include <imgui.h>
 
+/// Colours, sizes and fonts of the window.
 namespace tyndall {
 
 /// The palette: scattered blue and transmitted amber, as in Tyndall's tank of milky water; the rest is neutral so that

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+/// A log of what the window shows, from which tests know what to do next.
 namespace tyndall {
 
 /// A diagnostic for tests and measurements (`view --ui-log FILE`): what is on the screen and how long things took, one

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+/// Flying through the scene with W, A, S, D, Q and E.
 namespace tyndall {
 
 /// A direction of flight: axis 0 right, 1 up, 2 forward; sign 1 or -1.

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
 
+/// Which edits undo takes back together.
 namespace tyndall {
 
-/// Numbers gestures: all edits from the press of a button or key to its release are one, and one step to undo.
+/// Gives every gesture a number. All edits between the press of a button or key and its release have the same number,
+/// and so they are one step to undo.
 class Gestures {
  public:
   /// To be called in each drawing, before edits are made. held: a button or key that edits is down.
@@ -11,9 +13,9 @@ class Gestures {
     if (!held || !was_held_) ++number_;
     was_held_ = held;
   }
-  /// Of edits that are made now.
+  /// The number of edits that are made now.
   std::uint64_t current() const { return number_; }
-  /// Of an edit that belongs to no other one.
+  /// A number for one edit that is a step of its own.
   std::uint64_t begin() { return ++number_; }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/tools/outline.h"
 
+/// Selecting fog with the mouse.
 namespace tyndall {
 
 /// The medium that a ray through a point of the image enters first, if it does so before `depth` along the camera's

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+/// The lines that mark the selected object in the picture.
 namespace tyndall {
 
 /// A point of the image: x to the right and y down, both in [0, 1] inside it.

@@ -5,6 +5,7 @@
 #include "core/render/renderer.h"
 #include "core/scene/scene.h"
 
+/// This room turns mouse and keys into edits of the scene: it moves the camera and selects objects.
 namespace tyndall {
 
 /// The mouse in the picture: a left drag orbits, a middle drag pans, a right drag or the wheel dollies, Ctrl + wheel

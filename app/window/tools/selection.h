@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+/// What is selected in the window, and what is said of an object there.
 namespace tyndall {
 
 /// Indices into Scene::objects and, for each further one, into the group's objects. Empty: nothing.
