@@ -61,10 +61,6 @@ template <class F>
 TYNDALL_INLINE IntOf<F> splat_int(std::int32_t value) {
   return IntOf<F>(value);
 }
-template <class F>
-TYNDALL_INLINE UintOf<F> splat_uint(std::uint32_t value) {
-  return UintOf<F>(value);
-}
 
 TYNDALL_INLINE bool any(bool m) { return m; }
 TYNDALL_INLINE bool all(bool m) { return m; }

@@ -11,6 +11,15 @@ TYNDALL_INLINE void store(float* to, Floats a) { hn::StoreU(a.v, TagF(), to); }
 TYNDALL_INLINE void store(std::int32_t* to, Ints a) { hn::StoreU(a.v, TagI(), to); }
 TYNDALL_INLINE void store(std::uint32_t* to, Uints a) { hn::StoreU(a.v, TagU(), to); }
 
+/// Stores the values of `lanes` next to each other and returns their number. The rest of a whole group may be
+/// overwritten with anything.
+TYNDALL_INLINE int append(float* to, Floats a, Mask lanes) {
+  return static_cast<int>(hn::CompressStore(a.v, lanes.v, TagF(), to));
+}
+TYNDALL_INLINE int append(std::int32_t* to, Ints a, Mask lanes) {
+  return static_cast<int>(hn::CompressStore(a.v, hn::RebindMask(TagI(), lanes.v), TagI(), to));
+}
+
 }  // namespace HWY_NAMESPACE
 
 template <>

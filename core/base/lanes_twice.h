@@ -173,6 +173,11 @@ TYNDALL_INLINE void store(S* to, Twice<T> x) {
   store(to, x.a);
   store(to + sizeof(T) / sizeof(S), x.b);
 }
+template <class S, class T, class M>
+TYNDALL_INLINE int append(S* to, Twice<T> x, Twice<M> lanes) {
+  const int first = append(to, x.a, lanes.a);
+  return first + append(to + first, x.b, lanes.b);
+}
 
 template <Doubled F>
 TYNDALL_INLINE F from_int(IntOf<F> v) {

@@ -24,13 +24,14 @@ inline constexpr std::uint32_t light_point = 6;  // and 7
 inline constexpr std::uint32_t roulette = 8;
 inline constexpr std::uint32_t near_pair = 9;
 inline constexpr std::uint32_t near_distance = 10;
-inline constexpr std::uint32_t chain_pair = 11;
 inline constexpr std::uint32_t near_point = 12;   // and 13
 inline constexpr std::uint32_t chain_point = 14;  // and 15
 inline constexpr std::uint32_t per_event = 16;
 // within an event, too, in a stream of their own
 inline constexpr std::uint32_t chain_word = 0x40000000u;
 inline constexpr std::uint32_t chain_root = 0x40000001u;
+inline constexpr std::uint32_t chain_asked = 0x40000002u;
+inline constexpr std::uint32_t chain_pair = 0x40000003u;
 }  // namespace dimension
 
 inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions
@@ -150,6 +151,13 @@ struct Dice {
     return x ^ shift_right<15>(x);
   }
   TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
+  /// The same without regard to other samples. Spreading numbers evenly makes those of two dimensions go together more
+  /// than chance would; so a choice that decides what many others mean, such as the events of a chain, is drawn so.
+  TYNDALL_INLINE U alone(std::uint32_t offset) const {
+    if (sampler != SamplerKind::sobol) return word(offset);
+    return hash(hash(low + event + U(offset * golden_ratio)) ^ high);
+  }
+  TYNDALL_INLINE F one_alone(std::uint32_t offset) const { return unit_interval<F>(alone(offset)); }
   /// Dimensions offset and offset + 1: a point of the unit square, evenly spread together with those of other samples.
   TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const {
     if (sampler != SamplerKind::sobol) return {one(offset), one(offset + 1)};

@@ -119,11 +119,11 @@ template <class F>
 TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, Vec3<F> point, F time, const Dice<F>& dice) {
   const ChainView& c = s.chains;
   ChainAsked<F> a;
-  a.pair = choose_light(c.choice, point, dice.one(dimension::chain_pair));
+  a.pair = choose_light(c.choice, point, dice.one_alone(dimension::chain_pair));
   a.ball = load_ball<F>(c, lookup_int<F>(c.ball, c.pairs, a.pair.light), time);
   a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
   a.lamp = load_light<F>(s.lights, a.light);
-  a.at = sample_lamp(a.lamp, a.ball, time, dice.pair(dimension::chain_point));
+  a.at = sample_lamp(a.lamp, a.ball, point, time, dice.pair(dimension::chain_point));
   a.plane = plane_of(a.ball, point, a.at.point);
   a.ends = ends_of(a.ball, a.plane.near, a.plane.far);
   return a;
@@ -203,7 +203,8 @@ TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, 
   const auto useful = mask_and(mask_and(c.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
   if (!any(useful)) return F(0.0f);
   const F spread = spread_of(c.chain, a.ends, a.plane.sine, c.s, c.slope, cosine);
-  const F asked = spread * a.at.density * a.pair.probability * word_probability(a.ball, a.ends, word);
+  const F probability = chain_probability(s, e.point) * a.pair.probability * word_probability(a.ball, a.ends, word);
+  const F asked = spread * a.at.density * probability;
   const F ratio = scattered / max(asked, F(1e-37f));
   const F weight = c.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));  // 0 at a caustic's edge, where asked is 0
   return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
@@ -216,11 +217,11 @@ TYNDALL_INLINE Vec3<F> chain_light(const auto& s, const Paths<F>& p, const Event
   const ChainAsked<F> a = ask_chain<F>(s, e.point, p.ray.time, p.dice);
   const auto asked = mask_and(lanes, mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine)));
   if (!any(asked)) return zero3<F>();
-  const UintOf<F> digits = p.dice.word(dimension::chain_word);
+  const UintOf<F> digits = p.dice.alone(dimension::chain_word);
   const DrawnWord<F> drawn = draw_word(a.ball, a.ends, digits);
   const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), IntOf<F>(s.max_depth) - p.depth);
-  const ChainFound<F> chain =
-      find_chain(s, a, drawn.word, p.dice.one(dimension::chain_root), mask_and(mask_and(asked, drawn.drawn), fits));
+  const ChainFound<F> chain = find_chain(s, a, drawn.word, p.dice.one_alone(dimension::chain_root),
+                                         mask_and(mask_and(asked, drawn.drawn), fits));
   if (!any(chain.found)) return zero3<F>();
   const ChainRays<F> found = rays_of(a, chain);
   F weight = weight_of(s, p, e, a, drawn.word, chain, found);

@@ -23,47 +23,76 @@ TYNDALL_INLINE F seen_from_ball(F distance, F lamp_radius, F ball_radius) {
                 F(-1.0f));
 }
 
-/// Of points of a sphere lamp at cosine z from that axis: grows from nothing where the ball begins to see them, as
-/// their light does; even in a lamp whose centre is in the ball.
+/// Where on a sphere lamp points are drawn, as shares of the cosine z of a point's normal from `axis`.
+/// Outside of the ball the axis leads to its centre: the density grows from nothing where the ball begins to see the
+/// points, as their light does. A lamp whose centre is in the ball shines out of it almost straight: the axis leads to
+/// the point that asks, most points face it, and others are there for light that the ball throws back.
 template <class F>
-TYNDALL_INLINE F sphere_point_density(F z, F distance, F lamp_radius, F ball_radius) {
-  const F even = F(static_cast<float>(0.25 / pi)) / (lamp_radius * lamp_radius);
-  const F first = seen_from_ball(distance, lamp_radius, ball_radius), span = F(1.0f) - first;
-  const F growing = F(4.0f) * max(z - first, F(0.0f)) / (span * span);
-  return even * select(less(ball_radius, distance), growing, F(1.0f));
-}
+struct LampSide {
+  Vec3<F> center, axis;
+  F radius, first;  ///< first: least z that the ball sees
+  MaskOf<F> outside;
+};
+inline constexpr float facing_share = 0.75f, averted_share = 0.125f, even_share = 0.125f;
 
 template <class F>
-TYNDALL_INLINE LampPoint<F> sample_lamp(const LightColumns<F>& light, const ChainBall<F>& b, F time, Pair<F> u) {
+TYNDALL_INLINE LampSide<F> lamp_side(const LightColumns<F>& light, const ChainBall<F>& b, Vec3<F> asking, F time) {
+  const Vec3<F> center = sphere_light_center(light, time);
+  const F distance = length(b.center - center);
+  const auto outside = less(b.radius, distance);
+  const Vec3<F> way = select(outside, b.center, asking) - center;
+  const F scale = F(1.0f) / max(length(way), F(1e-30f));
+  return {center, scale * way, light.length_u, seen_from_ball(distance, light.length_u, b.radius), outside};
+}
+
+/// Density per unit of area.
+template <class F>
+TYNDALL_INLINE F lamp_side_density(const LampSide<F>& side, F z) {
+  const F even = F(static_cast<float>(0.25 / pi)) / (side.radius * side.radius), span = F(1.0f) - side.first;
+  const F growing = F(4.0f) * max(z - side.first, F(0.0f)) / (span * span);
+  const F share = select(less(F(0.0f), z), F(4.0f * facing_share), F(4.0f * averted_share));
+  return even * select(side.outside, growing, mul_add(share, abs(z), F(even_share)));
+}
+
+/// The cosine z for a random number.
+template <class F>
+TYNDALL_INLINE F draw_on_lamp_side(const LampSide<F>& side, F u) {
+  const F growing = mul_add(F(1.0f) - side.first, sqrt(u), side.first);
+  const F behind = u - F(facing_share), rest = behind - F(averted_share);
+  const F facing = sqrt(min(u * F(1.0f / facing_share), F(1.0f)));
+  const F averted = -sqrt(min(max(behind * F(1.0f / averted_share), F(0.0f)), F(1.0f)));
+  const F even = mul_add(rest, F(2.0f / even_share), F(-1.0f));
+  const F within = select(less(behind, F(0.0f)), facing, select(less(rest, F(0.0f)), averted, even));
+  return select(side.outside, growing, within);
+}
+
+/// asking: the point that asks for a chain.
+template <class F>
+TYNDALL_INLINE LampPoint<F> sample_lamp(const LightColumns<F>& light, const ChainBall<F>& b, Vec3<F> asking, F time,
+                                        Pair<F> u) {
   const Vec3<F> flat =
       along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v);
   LampPoint<F> at{flat, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
   const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
   if (!any(round)) return at;
-  const Vec3<F> center = sphere_light_center(light, time), way = b.center - center;
-  const F distance = length(way), radius = light.length_u;
-  const auto outside = less(b.radius, distance);
-  const F first = seen_from_ball(distance, radius, b.radius);
-  const F z = mul_add(F(1.0f) - first, select(outside, sqrt(u.x), u.x), first);
-  const Vec3<F> axis = select(outside, (F(1.0f) / max(distance, F(1e-30f))) * way, Vec3<F>{F(0.0f), F(0.0f), F(1.0f)});
-  const Vec3<F> normal = around(axis, z, u.y);
-  const F density = sphere_point_density(z, distance, radius, b.radius);
-  return {select(round, along(center, radius, normal), at.point), select(round, normal, at.normal),
-          select(round, density, at.density)};
+  const LampSide<F> side = lamp_side(light, b, asking, time);
+  const F z = draw_on_lamp_side(side, u.x);
+  const Vec3<F> normal = around(side.axis, z, u.y);
+  return {select(round, along(side.center, side.radius, normal), at.point), select(round, normal, at.normal),
+          select(round, lamp_side_density(side, z), at.density)};
 }
 
 /// The density with which sample_lamp gives a point of the lamp.
 template <class F>
-TYNDALL_INLINE LampPoint<F> lamp_point(const LightColumns<F>& light, const ChainBall<F>& b, F time, Vec3<F> point) {
+TYNDALL_INLINE LampPoint<F> lamp_point(const LightColumns<F>& light, const ChainBall<F>& b, Vec3<F> asking, F time,
+                                       Vec3<F> point) {
   LampPoint<F> at{point, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
   const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
   if (!any(round)) return at;
-  const Vec3<F> center = sphere_light_center(light, time), way = b.center - center;
-  const F distance = length(way), radius = light.length_u;
-  const Vec3<F> normal = normalize(point - center);
-  const F z = dot(normal, way) / max(distance, F(1e-30f));
-  const F density = sphere_point_density(z, distance, radius, b.radius);
-  return {point, select(round, normal, at.normal), select(round, density, at.density)};
+  const LampSide<F> side = lamp_side(light, b, asking, time);
+  const Vec3<F> normal = normalize(point - side.center);
+  return {point, select(round, normal, at.normal),
+          select(round, lamp_side_density(side, dot(normal, side.axis)), at.density)};
 }
 
 /// Share of a lamp's surface that light which arrives in `direction` sees: the cosine; spheres shine outward.
@@ -119,7 +148,7 @@ TYNDALL_INLINE F spread_of(const ChainTurn<F>& chain, const ChainEnds<F>& e, F s
 template <class F>
 struct ChainTrail {
   Vec3<F> start;  ///< where the path scattered last, evenly or in fog
-  F density;      ///< with which it took its direction there
+  F density;      ///< with which it took its direction there, over the probability that it asked for a chain
   /// -1: no chain, for what it met. Else bits: 0-3 events at the outer sphere, 4-8 at the inner one, 9-12 reflections
   /// there, 13 whether it started away from the centre, from 14 on the ball + 1 (0: nothing met yet).
   IntOf<F> met;
@@ -146,6 +175,15 @@ TYNDALL_INLINE IntOf<F> meet_ball(const SceneView& s, const ChainTrail<F>& trail
   return select(mask_or(none, mask_or(other, full)), I(-1), old + event);
 }
 
+/// Probability with which an event asks for a chain: what balls may send it of the lamps' light over what it may get
+/// from the lamps, at least a quarter. So little time is spent where chains bring little.
+template <class F>
+TYNDALL_INLINE F chain_probability(const SceneView& s, Vec3<F> point) {
+  const LightView &pairs = s.chains.choice, &lamps = s.lights;
+  if (pairs.count > most_lights_by_contribution || lamps.count > most_lights_by_contribution) return F(1.0f);
+  return min(max(total_worth<F>(pairs, point) / total_worth<F>(lamps, point), F(0.25f)), F(1.0f));
+}
+
 /// Follows what lanes did at an event to which `ray` came. density: of the direction in which they go on.
 template <class F>
 TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const Ray<F>& ray, const auto& e,
@@ -155,7 +193,7 @@ TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const
   if (any(goes_on)) trail.met = select(goes_on, meet_ball(s, trail, ray, e.at.element, reflected), trail.met);
   trail.met = select(spreads, IntOf<F>(0), trail.met);
   trail.start = select(spreads, e.point, trail.start);
-  trail.density = select(spreads, density, trail.density);
+  trail.density = select(spreads, density / chain_probability(s, e.point), trail.density);
 }
 
 template <class F>
@@ -181,7 +219,7 @@ TYNDALL_INLINE F found_by_chance_weight(const auto& s, const ChainTrail<F>& trai
   if (!any(could)) return F(1.0f);
   const ChainBall<F> b = load_ball<F>(c, ball, ray.time);
   const LightColumns<F> columns = load_light<F>(s.lights, lamp);
-  const LampPoint<F> at = lamp_point(columns, b, ray.time, point);
+  const LampPoint<F> at = lamp_point(columns, b, trail.start, ray.time, point);
   const ChainPlane<F> plane = plane_of(b, trail.start, point);
   const ChainEnds<F> ends = ends_of(b, plane.near, plane.far);
   const ChainWord<F> word = word_of<F>(trail.met);

@@ -119,25 +119,45 @@ TYNDALL_INLINE TurnAt<F> last_turn(const Turn<F>& turn) {
   return {F(static_cast<float>(0.5 * pi)) * times, F(2.0f) * turn.most * slope};
 }
 
+/// Two places of s between which the slope of a turn changes its sign, and the slopes there.
+template <class F>
+struct SlopeBracket {
+  F low, high, at_low, at_high;
+};
+
+/// A round of the method of C. Ridders, A New Algorithm for Computing a Single Root of a Real Continuous Function, IEEE
+/// Transactions on Circuits and Systems 26(11), 1979.
+template <class F>
+TYNDALL_INLINE void narrow(const Turn<F>& turn, SlopeBracket<F>& b) {
+  const F middle = F(0.5f) * (b.low + b.high), at_middle = turn_at(turn, middle).slope;
+  const F root = sqrt(max(at_middle * at_middle - b.at_low * b.at_high, F(1e-30f)));
+  const F step = (middle - b.low) * copy_sign(F(1.0f), b.at_low - b.at_high) * at_middle / root;
+  const F place = min(max(middle + step, b.low), b.high), at_place = turn_at(turn, place).slope;
+  const auto replace = [&](F s, F slope) __attribute__((always_inline)) {
+    const auto like_low = less(F(0.0f), slope * b.at_low), inside = mask_and(less(b.low, s), less(s, b.high));
+    const auto low = mask_and(inside, like_low), high = mask_and_not(inside, like_low);
+    b.low = select(low, s, b.low), b.at_low = select(low, slope, b.at_low);
+    b.high = select(high, s, b.high), b.at_high = select(high, slope, b.at_high);
+  };
+  replace(middle, at_middle);
+  replace(place, at_place);
+}
+
 template <class F>
 TYNDALL_INLINE Pieces<F> cut_turn(const Turn<F>& turn) {
-  constexpr int steps = std::is_same_v<F, double> ? 48 : 5;
+  // After two rounds and the secant the turn there is mostly exact to 1e-6, the rounding of float.
+  constexpr int rounds = std::is_same_v<F, double> ? 8 : 2;
   const F first = F(least_parameter);
   const TurnAt<F> start = turn_at(turn, first), end = last_turn(turn);
-  F low = first, high = turn.last, below = start.slope, above = end.slope;
-  const auto bends = mask_not(less_equal(F(0.0f), below * above));
+  const auto bends = mask_not(less_equal(F(0.0f), start.slope * end.slope));
   F middle = turn.last;
   F at_middle = end.angle;
   if (any(bends)) {
-    for (int i = 0; i < steps; ++i) {  // false position with halved weights (Illinois), after every second a halving
-      F s = i % 3 == 2 ? F(0.5f) * (low + high) : low + (high - low) * below / (below - above);
-      s = select(mask_and(less_equal(low, s), less_equal(s, high)), s, F(0.5f) * (low + high));
-      const F slope = turn_at(turn, s).slope;
-      const auto same = less(F(0.0f), slope * start.slope);
-      low = select(same, s, low), below = select(same, slope, F(0.5f) * below);
-      high = select(same, high, s), above = select(same, F(0.5f) * above, slope);
-    }
-    middle = select(bends, F(0.5f) * (low + high), middle);
+    SlopeBracket<F> b{first, turn.last, start.slope, end.slope};
+    for (int i = 0; i < rounds; ++i) narrow(turn, b);
+    const F secant = b.low + (b.high - b.low) * b.at_low / (b.at_low - b.at_high);
+    const F place = select(mask_and(less_equal(b.low, secant), less_equal(secant, b.high)), secant, b.low);
+    middle = select(bends, place, middle);
     at_middle = select(bends, turn_at(turn, middle).angle, at_middle);
   }
   return {{first, middle, start.angle, at_middle}, {middle, turn.last, at_middle, end.angle}, bends};

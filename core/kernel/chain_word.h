@@ -157,7 +157,8 @@ TYNDALL_INLINE ChainWord<F> main_word(const ChainBall<F>& b, const ChainEnds<F>&
 // Words are drawn, an octal digit a decision: first whether it is the main one, else whether off the outside of glass,
 // whether past the inner sphere of a thick shell, and then whether to be reflected at each event.
 inline constexpr int most_decisions = 7;
-inline constexpr float take_main = 5.0f / 8.0f;
+inline constexpr std::int32_t main_digits = 6;  ///< of eight
+inline constexpr float take_main = 0.125f * main_digits;
 inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes" in each of the others
 
 /// Whether rays can pass through a shell's glass and miss what is within.
@@ -204,7 +205,7 @@ TYNDALL_INLINE WordWalk<F> start_walk(const ChainBall<F>& b, const ChainEnds<F>&
   using I = IntOf<F>;
   WordWalk<F> walk;
   walk.decide = {digits};
-  walk.main = mask_or(b.mirror, walk.decide.below(5));
+  walk.main = mask_or(b.mirror, walk.decide.below(main_digits));
   walk.off = mask_and_not(mask_and(e.both_out, walk.decide.below(3)), walk.main);
   const auto past = mask_and(mask_and(e.both_out, is_thick(b)), walk.decide.below(3));
   walk.layered = mask_and(b.hollow, mask_or(walk.main, mask_not(past)));

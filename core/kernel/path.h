@@ -90,15 +90,9 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
                                  as_int(p.dice.high),
                                  as_int(p.dice.event),
                                  select(e.medium, I(1), I(0))};
-  alignas(64) float number[Queue::numbers][lanes_of<F>];
-  alignas(64) std::int32_t word[Queue::words][lanes_of<F>];
-  for (int k = 0; k < Queue::numbers; ++k) store(number[k], numbers[k]);
-  for (int k = 0; k < Queue::words; ++k) store(word[k], words[k]);
-  for (std::uint32_t left = bits(lanes); left; left &= left - 1, ++queue.count) {
-    const int lane = __builtin_ctz(left);
-    for (int k = 0; k < Queue::numbers; ++k) queue.number[k][queue.count] = number[k][lane];
-    for (int k = 0; k < Queue::words; ++k) queue.word[k][queue.count] = word[k][lane];
-  }
+  for (int k = 0; k < Queue::numbers; ++k) append(queue.number[k] + queue.count, numbers[k], lanes);
+  for (int k = 0; k < Queue::words; ++k) append(queue.word[k] + queue.count, words[k], lanes);
+  queue.count += __builtin_popcount(bits(lanes));
 }
 
 /// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
@@ -138,7 +132,8 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   }
   if (s.has_chains()) {
     const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
-    const auto asking = mask_and(scattering, mask_or(e.medium, evenly));
+    const auto drawn = less(p.dice.one_alone(dimension::chain_asked), chain_probability(s, e.point));
+    const auto asking = mask_and(mask_and(scattering, drawn), mask_or(e.medium, evenly));
     if constexpr (ChainQueue<F>::waits)
       enqueue(chains, p, e, asking);
     else if (any(asking))

@@ -111,7 +111,7 @@ TEST_CASE("chains: the solid angle that a lamp fills off a mirror ball is what r
   double sum = 0;
   constexpr int points = 20000;
   for (int i = 0; i < points; ++i) {
-    const LampPoint<double> at = sample_lamp(light, b, 0.0, Pair<double>{u(engine), u(engine)});
+    const LampPoint<double> at = sample_lamp(light, b, point, 0.0, Pair<double>{u(engine), u(engine)});
     const ChainPlane<double> plane = plane_of(b, point, at.point);
     const ChainEnds<double> ends = ends_of(b, plane.near, plane.far);
     const ChainTurn<double> chain = turn_between(b, main_word(b, ends), plane.near, plane.far);
