@@ -13,6 +13,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shlex
 import shutil
 import subprocess
@@ -147,8 +148,10 @@ class Commands:
         yield from self.run([*program, *words, *small], {3} if opens_window else {0, 1} if checks else {0})
 
     def run(self, command, expected):
+        # A limit of processor time, as it does not depend on what else the machine is doing. CTest ends what only waits.
         done = subprocess.run(command, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120)
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (240, 240)))
         if done.returncode not in expected:
             shown = " ".join(str(word) for word in command)
             yield f"exit code {done.returncode}: {shown}: {done.stderr.decode().strip()}"

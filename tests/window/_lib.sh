@@ -17,10 +17,13 @@ if [ -z "${IN_XVFB:-}" ]; then
     [ "${CI:-}" = true ] && exit 1
     exit 77
   done
-  rm -rf "${scratch:?}"/* && mkdir -p "$scratch/screen"
-  IN_XVFB=1 exec xvfb-run -a -s "-r -screen 0 1280x1820x24 -nolisten tcp -fbdir $scratch/screen" \
+  # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
+  screen=$scratch/screen.$$
+  rm -rf "${scratch:?}"/* && mkdir -p "$screen"
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x1820x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
+screen=$IN_XVFB
 
 fail() {
   exec >&2
@@ -60,7 +63,7 @@ SCENE
 
 # Nothing here waits for a time: a test sends something and waits until the window's log says that it has arrived and
 # what came of it. This many seconds end a test that hangs, and do nothing else.
-patience=60
+patience=150
 
 # wait_until COMMAND...: until it succeeds.
 wait_until() {
@@ -201,7 +204,7 @@ brightness() {
   line=$(grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1)
   # shellcheck disable=SC2086
   set -- $line
-  python3 - "$scratch/screen/Xvfb_screen0" "$3" "$4" "$5" "$6" <<'PY'
+  python3 - "$screen/Xvfb_screen0" "$3" "$4" "$5" "$6" <<'PY'
 import struct, sys
 data = open(sys.argv[1], "rb").read()
 x0, y0, x1, y1 = map(int, sys.argv[2:6])

@@ -8,7 +8,7 @@ start scene.json --set /image/width=640 --set /image/height=400
 settle
 
 same_as_the_screen() { # SNAPSHOT
-  python3 - "$1" screen/Xvfb_screen0 <<'PY'
+  python3 - "$1" "$screen/Xvfb_screen0" <<'PY'
 import struct, sys, zlib
 data = open(sys.argv[1], "rb").read()
 at, packed = 8, b""
