@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <set>
+#include <string>
 
 using namespace tyndall;
 using Json = nlohmann::json;
@@ -28,7 +30,8 @@ TEST_CASE("schema: what users rely on") {
     return Json();
   };
   const Json render = parts["render"]["properties"];
-  CHECK(render["integrator"]["enum"] == Json{"path", "nee", "mis"});
+  const std::set<std::string> integrators = render["integrator"]["enum"];
+  for (const char* name : {"path", "nee", "mis"}) CHECK(integrators.count(name) == 1);
   CHECK(render["integrator"]["default"] == "mis");
   CHECK(render["max_depth"]["default"] == 1000);
   CHECK(render["max_depth"]["minimum"] == 0);
