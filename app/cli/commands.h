@@ -15,6 +15,7 @@ int run(const CompareCommand& command);
 int run(const ChartCommand& command);
 int run(const VerifyCommand& command);
 int run(const MergeCommand& command);
+int run(const DenoiseCommand& command);
 int run(const InspectCommand& command);
 int run(const ScenesCommand& command);
 int run(const ConvertCommand& command);

@@ -35,8 +35,8 @@ Report examine(const InspectCommand& command) {
   const Kernels kernels = find_kernels(command.isa);
   report.kernel = kernels.set_for(report.compiled.kernel);
   if (command.measure) report.gain = measure_kernel_gain(report.compiled, kernels);
-  report.film_bytes =
-      sizeof(FilmPixel) * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  report.film_bytes = bytes_per_pixel(has_material<Light<double>>(report.compiled.needs)) *
+                      static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
 }
 

@@ -1,20 +1,26 @@
 #include "app/cli/commands.h"
+#include "app/cli/render_setup.h"
 #include "app/files/film_files.h"
 #include "app/files/outputs.h"
+#include "app/files/stats.h"
 #include "app/text/standard_streams.h"
 
 namespace tyndall {
 namespace {
 
-/// Reads a part. Its layers (albedo, normal, depth) are not read: a merged EXR has none.
-bool write(const Film& film, const Scene& scene, const MergeCommand& command) {
-  const auto embedded = [&](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(scene, ".", film, file), ""};
-  };
-  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  const auto problems = write_images({film, image, scene.display, embedded, {}}, command.outputs);
+/// The exit code.
+int write(const Film& film, const Scene& scene, const std::vector<std::filesystem::path>& files,
+          const std::optional<CleanOfFilm>& clean) {
+  const std::vector<std::string> problems = write_film(film, scene, files, clean);
   for (const std::string& problem : problems) complain(problem);
-  return problems.empty();
+  return problems.empty() ? 0 : output_failed;
+}
+
+void refuse_own_film(const DenoiseCommand& command) {
+  std::error_code error;
+  for (const auto& file : command.outputs)
+    if (std::filesystem::equivalent(file, command.film, error))
+      throw UsageError("--output: found " + file.string() + ", the film that is read; expected another file");
 }
 
 }  // namespace
@@ -35,7 +41,27 @@ int run(const MergeCommand& command) {
     parts.push_back(std::move(stored.part));
   }
   const Film film = merge(std::move(parts));
-  return write(film, *scene, command) ? 0 : output_failed;
+  std::optional<CleanOfFilm> clean;
+  if (command.denoise) clean = clean_view(film, *scene, command.parts.front().string());
+  return write(film, *scene, command.outputs, clean);
+}
+
+int run(const DenoiseCommand& command) {
+  check_image_names(command.outputs);
+  find_kernels(command.isa);
+  refuse_own_film(command);
+  for (const auto& file : command.outputs) check_can_write(file);
+  if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
+  const StoredFilm stored = read_stored_film(command.film);
+  const Film& film = stored.part.film;
+  const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
+  const int code = write(film, stored.scene, command.outputs, clean);
+  const std::string stats = clean_stats_text(film, clean.picture, clean.seconds);
+  if (command.stats == "-")
+    write_standard_output(stats);
+  else if (!command.stats.empty())
+    write_text_file(command.stats, stats);
+  return code;
 }
 
 }  // namespace tyndall

@@ -59,10 +59,35 @@ Command read_merge(Words words) {
   add_arguments(*app, "PART", "EXR files that hold films of the same scene, in any order", parts);
   add_values(*app, "-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
              [&](Text t) { command.outputs.push_back(t); });
+  app->add_flag("--denoise", command.denoise, "files hold the filtered picture, as of 'tyndall render --denoise'");
   if (auto help = parse(*app, words)) return PrintCommand{*help};
   require(*app, !parts.empty(), "PART");
   require(*app, !command.outputs.empty(), "an output (-o FILE)");
   command.parts.assign(parts.begin(), parts.end());
+  return command;
+}
+
+Command read_denoise(Words words) {
+  DenoiseCommand command;
+  const auto app = new_command(
+      "denoise FILM.exr -o FILE [options]",
+      "Filters the picture of a finished film and says how wrong the result still is. The film stays as it is.\n\n"
+      "Each half of the samples is filtered from itself alone; what the halves say of each other decides\n"
+      "where the filtered and where the raw picture is shown, and tells the error.",
+      "Example:\n  tyndall denoise fog.exr -o fog-clean.png");
+  std::string film;
+  add_argument(*app, "FILM.exr", "an EXR that 'tyndall render' or 'tyndall merge' wrote", film);
+  add_values(*app, "-o,--output", "FILE",
+             ".png .pfm .hdr: the filtered picture; .exr: the film, and beside\n"
+             "it denoised.R/G/B and denoised.error; repeatable; required",
+             [&](Text t) { command.outputs.push_back(t); });
+  add_value(*app, "--stats", "FILE.json", "write the filtered picture's estimated error, its hash and the time",
+            [&](Text t) { command.stats = t; });
+  add_machine_options(*app, command.threads, command.isa);
+  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  require(*app, !film.empty(), "FILM.exr");
+  require(*app, !command.outputs.empty(), "an output (-o FILE)");
+  command.film = film;
   return command;
 }
 
@@ -124,6 +149,7 @@ constexpr Entry entries[] = {
     {"chart", "speed against accuracy: error over time of several methods", read_chart},
     {"verify", "check the renderer against known answers", read_verify},
     {"merge", "add films of neighbouring sample ranges", read_merge},
+    {"denoise", "filter the picture of a finished film", read_denoise},
     {"inspect", "what a scene contains and which models it needs", read_inspect},
     {"scenes", "list the built-in scenes", read_scenes},
     {"convert", "write a scene in normal form, also from an image", read_convert},

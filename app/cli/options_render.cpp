@@ -2,6 +2,7 @@
 
 #include "app/cli/setting_options.h"
 #include "core/base/crew.h"
+#include "core/render/clean_film.h"
 
 namespace tyndall {
 namespace {
@@ -24,7 +25,9 @@ void add_limits(CLI::App& app, RenderCommand& command) {
             [&](Text t) { command.samples = read_samples(t); });
   add_value(app, "--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
             [&](Text t) { command.time_limit = read_number(t, above(0), "a number of seconds > 0"); });
-  add_value(app, "--target-error", "E", "estimated relative error; its square estimates relMSE",
+  add_value(app, "--target-error", "E",
+            "estimated relative error, with --denoise that of the filtered\n"
+            "picture; its square estimates relMSE",
             [&](Text t) { command.target_error = read_number(t, above(0), "a number > 0"); });
 }
 
@@ -38,6 +41,11 @@ void add_output(CLI::App& app, RenderCommand& command) {
             "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
             "PNG, PFM and HDR get the region's size, EXR a data window",
             [&](Text t) { command.region = read_region(t); });
+  app.add_flag("--denoise", command.denoise,
+               "files hold the filtered picture: noise is taken away where the\n"
+               "samples tell what is noise, and the error of the result is\n"
+               "told; EXR files get it in denoised.R/G/B and denoised.error\n"
+               "beside the untouched picture; not with --samples");
   add_value(app, "--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
   add_value(app, "--replay", "X,Y,SAMPLE",
             "write no image; print the path of this sample of this pixel,\n"
@@ -49,7 +57,11 @@ void add_output(CLI::App& app, RenderCommand& command) {
 
 void refuse_conflicts(const RenderCommand& c) {
   if (c.replay && !c.outputs.empty()) throw UsageError("--replay and -o exclude each other: a replay writes no image");
+  if (c.denoise && c.spp && *c.spp < least_clean_spp)
+    throw UsageError("--denoise: found --spp " + std::to_string(*c.spp) + ", expected at least " +
+                     std::to_string(least_clean_spp) + " samples a pixel");
   if (!c.samples) return;
+  if (c.denoise) throw UsageError("--samples and --denoise exclude each other: a part is filtered when it is merged");
   const char* other = c.spp                  ? "--spp"
                       : c.time_limit < 1e300 ? "--time"
                       : c.target_error > 0   ? "--target-error"

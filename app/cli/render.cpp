@@ -13,7 +13,7 @@
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
 #include "core/render/plan.h"
-#include "core/render/rare.h"
+#include "core/accuracy/rare.h"
 
 #include <fmt/core.h>
 
@@ -78,7 +78,9 @@ std::string outcome(const Job& job) {
   const RenderProgress end{job.picture.spp, r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
                            job.picture.estimate.relative_error};
-  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + losses(job.picture.totals);
+  const std::string clean =
+      r.clean ? fmt::format(", filtered to {:.2g} in {:.2g} s", r.clean->relative_error, r.seconds_clean) : "";
+  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + clean + losses(job.picture.totals);
 }
 
 void render(Job& job, const SignalWatch& signals) {
@@ -96,8 +98,9 @@ void render(Job& job, const SignalWatch& signals) {
     job.result = render(job.compiled, job.options, progress, std::move(job.film));
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
+    const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
     throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB", r.width(), r.height(),
-                              1e-9 * sizeof(FilmPixel) * r.width() * r.height()));
+                              1e-9 * bytes * r.width() * r.height()));
   }
   job.picture = finished_picture(job.result);
   job.rare_bright_paths = has_rare_bright_paths(job.picture.estimate, job.picture.totals.least_taken,
@@ -118,7 +121,8 @@ bool write(const Job& job) {
                     embedded_stats_text(figures(job))};
   };
   const auto layers = [&job] { return layers_of(job.compiled, job.result.film, job.result.kernels); };
-  auto problems = write_images({job.result.film, job.picture.image, job.loaded.scene.display, embedded, layers},
+  const CleanPicture* clean = job.result.clean ? &*job.result.clean : nullptr;
+  auto problems = write_images({job.result.film, job.picture.image, job.loaded.scene.display, embedded, layers, clean},
                                job.command.outputs);
   const std::filesystem::path& stats = job.command.stats;
   try {
@@ -136,6 +140,8 @@ bool write(const Job& job) {
 /// Also without progress: a warning is none.
 void warn(const Job& job) {
   if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
+  if (job.options.clean && !job.result.clean)
+    complain("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
   const FilmTotals& sum = job.picture.totals;
   if (sum.rejected == 0) return;
   std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +

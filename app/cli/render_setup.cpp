@@ -54,6 +54,7 @@ RenderOptions render_options(const RenderCommand& command, const LoadedScene& lo
   options.time_limit = command.time_limit;
   options.target_error = command.target_error;
   options.adaptive = adaptive;
+  options.clean = command.denoise;
   return options;
 }
 

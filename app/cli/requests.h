@@ -35,6 +35,7 @@ struct RenderCommand {
   std::string isa;                  ///< "": the best
   std::filesystem::path stats;      ///< empty: none
   bool resume = false;
+  bool denoise = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
@@ -74,6 +75,15 @@ struct ChartCommand {
 
 struct MergeCommand {
   std::vector<std::filesystem::path> parts, outputs;
+  bool denoise = false;
+};
+
+struct DenoiseCommand {
+  std::filesystem::path film;
+  std::vector<std::filesystem::path> outputs;
+  std::filesystem::path stats;  ///< empty: none
+  int threads = 0;              ///< 0: all cores
+  std::string isa;              ///< "": the best
 };
 
 struct InspectCommand {
@@ -97,6 +107,6 @@ struct PrintCommand {
 };
 
 using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,
-                             InspectCommand, ScenesCommand, ConvertCommand, PrintCommand>;
+                             DenoiseCommand, InspectCommand, ScenesCommand, ConvertCommand, PrintCommand>;
 
 }  // namespace tyndall

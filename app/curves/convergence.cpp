@@ -50,13 +50,15 @@ void Convergence::keep_current() {
   if (earlier_.size() > most_earlier) earlier_.erase(earlier_.begin());
 }
 
-std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept) {
+std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept, const Convergence* clean) {
   using Role = NamedCurve::Role;
   std::vector<NamedCurve> named;
   const std::string& now = curves.current().method;
   for (const ErrorCurve& curve : curves.earlier())
     named.push_back({Role::earlier, &curve, curve.method == now ? now + " before" : curve.method});
   if (kept) named.push_back({Role::kept, &kept->current(), "A: " + kept->current().method});
+  if (clean && !clean->current().points.empty())
+    named.push_back({Role::clean, &clean->current(), (kept ? "B: " : "") + clean->current().method});
   named.push_back({Role::current, &curves.current(), kept ? "B: " + now : now});
   return named;
 }

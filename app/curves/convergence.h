@@ -41,13 +41,15 @@ class Convergence {
 
 /// A curve and what it is called in the chart and in files.
 struct NamedCurve {
-  enum class Role { earlier, kept, current } role = Role::earlier;
+  enum class Role { earlier, kept, clean, current } role = Role::earlier;
   const ErrorCurve* curve = nullptr;
   std::string name;
 };
 
-/// All curves, the current one last. kept: of the other half of a split view; null: there is none.
-std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept);
+/// All curves, the current one last. kept: of the other half of a split view; clean: of the clean view of the current
+/// picture; null: there is none.
+std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept,
+                                     const Convergence* clean = nullptr);
 
 /// Copies under the names that the chart shows, for its files. Curves without points are left out.
 std::vector<ErrorCurve> copies_of(const std::vector<NamedCurve>& named);

@@ -1,6 +1,11 @@
 #include "app/files/film_files.h"
 
+#include "app/files/outputs.h"
+#include "app/files/stats.h"
 #include "app/text/values.h"
+#include "core/base/seconds.h"
+#include "core/compile/compile.h"
+#include "core/render/clean_film.h"
 #include "core/render/plan.h"
 #include "core/scene/load.h"
 
@@ -39,6 +44,28 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
                            const std::filesystem::path& image) {
   scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, most_samples));
   return write_scene(move_textures(std::move(scene), textures, image.parent_path()));
+}
+
+CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads,
+                       const std::string& isa) {
+  if (totals(film).least_taken < least_clean_spp)
+    throw UsageError(file + ": found pixels with fewer than " + std::to_string(least_clean_spp) +
+                     " samples, expected as many in each: a filter compares their two halves");
+  const RenderScene compiled = compile(scene);
+  const auto start = std::chrono::steady_clock::now();
+  CleanOfFilm clean{clean_film(film, compiled, threads, isa)};
+  clean.seconds = seconds_since(start);
+  return clean;
+}
+
+std::vector<std::string> write_film(const Film& film, const Scene& scene,
+                                    const std::vector<std::filesystem::path>& files,
+                                    const std::optional<CleanOfFilm>& clean) {
+  const auto embedded = [&](const std::filesystem::path& file) {
+    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : ""};
+  };
+  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr}, files);
 }
 
 }  // namespace tyndall

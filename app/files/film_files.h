@@ -1,9 +1,11 @@
 #pragma once
+#include "core/clean/clean.h"
 #include "core/film/merge.h"
 #include "core/image/image_io.h"
 #include "core/scene/scene.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 /// Films in files: what --resume goes on from and merge adds.
@@ -25,5 +27,21 @@ bool same_samples(Scene a, Scene b);
 /// folder that the scene's texture files are relative to.
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image);
+
+/// The clean view of a film, and how long that took.
+struct CleanOfFilm {
+  CleanPicture picture;
+  double seconds = 0;
+};
+
+/// Filters the film of the scene. Throws UsageError, which names `file`, if some pixels have fewer than 2 samples.
+CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads = 0,
+                       const std::string& isa = "");
+
+/// Writes all images of a film that can be written; returns what went wrong, a line each. textures: see embedded_scene.
+/// Layers (albedo, normal, depth) are not written: such an EXR has none.
+std::vector<std::string> write_film(const Film& film, const Scene& scene,
+                                    const std::vector<std::filesystem::path>& files,
+                                    const std::optional<CleanOfFilm>& clean);
 
 }  // namespace tyndall

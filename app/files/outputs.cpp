@@ -41,20 +41,44 @@ void check_can_write(const std::filesystem::path& file) {
   WholeFile probe(file);  // removed again, as it is not committed
 }
 
+namespace {
+
+/// Layers of an EXR: those of the scene and, if there is one, the clean view with its error.
+std::vector<Layer> all_layers(const Picture& picture) {
+  std::vector<Layer> layers;
+  if (picture.layers) layers = picture.layers();
+  if (!picture.clean) return layers;
+  Layer clean{"denoised", {"R", "G", "B", "error"}, {}};
+  clean.values.reserve(4 * picture.clean->pixel_error.size());
+  for (std::size_t i = 0; i < picture.clean->pixel_error.size(); ++i) {
+    const float* rgb = picture.clean->rgb.data() + 3 * i;
+    clean.values.insert(clean.values.end(), {rgb[0], rgb[1], rgb[2], picture.clean->pixel_error[i]});
+  }
+  layers.push_back(std::move(clean));
+  return layers;
+}
+
+/// What files of one picture show.
+LinearImage shown(const Picture& picture) {
+  if (!picture.clean) return picture.image;
+  return {picture.clean->width, picture.clean->height, picture.clean->rgb};
+}
+
+}  // namespace
+
 std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : files) {
     try {
       const std::string kind = ending(file);
       if (kind == ".exr")
-        write_exr(file, picture.film, picture.layers ? picture.layers() : std::vector<Layer>(), picture.embedded(file),
-                  &picture.image);
+        write_exr(file, picture.film, all_layers(picture), picture.embedded(file), &picture.image);
       else if (kind == ".png")
-        write_png(file, picture.image, picture.display.exposure, picture.display.tone_map, picture.embedded(file));
+        write_png(file, shown(picture), picture.display.exposure, picture.display.tone_map, picture.embedded(file));
       else if (kind == ".pfm")
-        write_pfm(file, picture.image);
+        write_pfm(file, shown(picture));
       else
-        write_hdr(file, picture.image);
+        write_hdr(file, shown(picture));
     } catch (const std::bad_alloc&) {
       problems.push_back(file.string() + ": cannot write: not enough memory");
     } catch (const std::exception& error) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/clean/clean.h"
 #include "core/image/image_io.h"
 #include "core/scene/scene.h"
 
@@ -26,6 +27,7 @@ struct Picture {
   Display display;                                                      ///< for PNG
   std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
   std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty
+  const CleanPicture* clean = nullptr;         ///< shown in place of the means, in EXR beside them; null: none
 };
 
 /// Writes all files that can be written; returns what went wrong, a line each.

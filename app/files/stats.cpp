@@ -1,5 +1,7 @@
 #include "app/files/stats.h"
 
+#include "core/render/plan.h"
+
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -46,6 +48,16 @@ void add_choices(Json& json, const RenderSettings& settings) {
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
 }
 
+/// Of the clean view.
+void add_clean(Json& json, const RunFigures& run) {
+  json["denoised"] = run.result.clean.has_value();
+  json["denoised_relative_error_estimate"] =
+      run.result.clean ? number(run.result.clean->relative_error) : Json(nullptr);
+}
+Json clean_hash(const RunFigures& run) {
+  return run.result.clean ? Json(hash_text(run.picture.clean_hash)) : Json(nullptr);
+}
+
 /// Figures that were added after the first version, at the end, so that the order of the older ones stays.
 void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["truncated_throughput"] = sum.cut_throughput;
@@ -82,6 +94,9 @@ std::string stats_text(const RunFigures& run) {
   json["image_hash"] = hash_text(run.picture.hash);
   json["version"] = TYNDALL_VERSION;
   add_losses(json, run, sum);
+  add_clean(json, run);
+  json["seconds_denoise"] = run.result.seconds_clean;
+  json["denoised_hash"] = clean_hash(run);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -96,6 +111,25 @@ std::string embedded_stats_text(const RunFigures& run) {
   add_method(json, run, sum);
   json["image_hash"] = hash_text(run.picture.hash);
   add_losses(json, run, sum);
+  add_clean(json, run);
+  json["denoised_hash"] = clean_hash(run);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string clean_stats_text(const Film& film, const CleanPicture& clean, double seconds) {
+  const FilmTotals sum = totals(film);
+  Json json;
+  json["version"] = TYNDALL_VERSION;
+  json["width"] = film.region.width();
+  json["height"] = film.region.height();
+  json["spp"] = labelled_spp(film, sum);
+  json["samples"] = sum.samples;
+  json["relative_error_estimate"] = number(estimated_relative_error(film));
+  json["image_hash"] = hash_text(image_hash(film.region.width(), film.region.height(), resolve(film)));
+  json["denoised"] = true;
+  json["denoised_relative_error_estimate"] = number(clean.relative_error);
+  if (seconds > 0) json["seconds_denoise"] = seconds;
+  json["denoised_hash"] = hash_text(image_hash(clean.width, clean.height, clean.rgb));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

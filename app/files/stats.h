@@ -27,6 +27,9 @@ std::string stats_text(const RunFigures& run);
 /// What PNG and EXR carry beside the scene: the figures that are the same for every run of the same build.
 std::string embedded_stats_text(const RunFigures& run);
 
+/// The same for a film that was read from a file and filtered: what is known of it.
+std::string clean_stats_text(const Film& film, const CleanPicture& clean, double seconds);
+
 /// Most memory that this process has held at a time, bytes.
 std::size_t peak_memory();
 

@@ -19,6 +19,8 @@ constexpr ActionEntry entries[] = {
     {Action::save, "save the scene", {'S', true}},
     {Action::save_as, "save as", {'S', true, true}, {}, "", true},
     {Action::snapshot, "snapshot", {'P', true}, {}, "PNG and EXR, numbered"},
+    {Action::clean, "clean view on or off", {'N'}, {}, "noise filtered away"},
+    {Action::clean_beside_raw, "clean beside raw", {'N', false, true}, {}, "", true},
     {Action::panels, "hide the panels", {key_tab}},
     {Action::full_screen, "full screen", {key_f11}, {}, "", true},
     {Action::quit, "close the window", {'Q', true}},
@@ -106,7 +108,7 @@ std::string text_of(const Key& key) {
 std::vector<HelpLine> help_lines() {
   std::vector<HelpLine> lines(std::begin(mouse_lines), std::end(mouse_lines));
   for (const ActionEntry& entry : entries) {
-    if (entry.action == Action::panels) {
+    if (entry.action == Action::clean) {
       lines.push_back(views_line(false));
       lines.push_back(views_line(true));
     }

@@ -22,6 +22,8 @@ enum class Action {
   save_as,
   snapshot,
   view,
+  clean,
+  clean_beside_raw,
   panels,
   full_screen,
   quit,

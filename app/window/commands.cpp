@@ -37,6 +37,14 @@ void Commands::act(const KeyCommand& command) {
     case Action::view:
       select_view(command.view);
       break;
+    case Action::clean:
+      session_.set_clean(!session_.clean());
+      pacing_.on_new_start(clock_seconds());
+      break;
+    case Action::clean_beside_raw:
+      session_.set_clean_beside_raw(!session_.clean_beside_raw());
+      pacing_.on_event();
+      break;
     case Action::panels:
       shows_panels_ = !shows_panels_;
       break;

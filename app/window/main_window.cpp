@@ -141,6 +141,7 @@ void MainWindow::fill_panels() {
   panels_.facts.title = session_.editor().document().origin->title;
   panels_.facts.threads = session_.renderers().threads();
   panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
+  panels_.facts.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
   panels_.facts.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
@@ -153,9 +154,11 @@ void MainWindow::draw_interface(const Layout& layout) {
   picture_.draw_halves(ui_, layout.image);
   const RendererPair& renderers = session_.renderers();
   const LiveAccuracy& accuracy = session_.accuracy();
-  draw_status(ui_, layout.status,
-              status_cells(panels_.facts.frame.get(), accuracy.curves(Half::current).current(),
-                           session_.editor().document(), {renderers.paused(), accuracy.is_true(), renderers.split()}));
+  draw_status(
+      ui_, layout.status,
+      status_cells(panels_.facts.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
+                   {renderers.paused(), accuracy.is_true(), renderers.split(),
+                    &accuracy.curves(Half::current, Kind::clean).current()}));
   draw_message(ui_, layout.area, session_.messages().current());
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;
@@ -200,6 +203,11 @@ void MainWindow::apply_panels(double now) {
   if (wishes.export_chart) session_.export_chart();
   if (wishes.split) {
     session_.set_split(*wishes.split);
+    pacing_.on_new_start(now);
+  }
+  if (wishes.clean) {
+    session_.set_clean(*wishes.clean > 0);
+    session_.set_clean_beside_raw(*wishes.clean > 1);
     pacing_.on_new_start(now);
   }
   if (wishes.reference) commands_.ask_reference();

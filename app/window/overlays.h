@@ -23,8 +23,9 @@ struct StatusCell {
 
 struct StatusState {
   bool paused = false;
-  bool is_true = false;  ///< errors are against a reference, not estimated
-  bool split = false;    ///< the frame is the right half, B
+  bool is_true = false;                   ///< errors are against a reference, not estimated
+  bool split = false;                     ///< the frame is the right half, B
+  const ErrorCurve* clean_run = nullptr;  ///< how the error of its clean view fell; null: not known
 };
 
 /// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.

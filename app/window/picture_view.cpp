@@ -27,25 +27,48 @@ void PictureView::take() {
   take_half(Half::kept, left_);
 }
 
-bool PictureView::shows_halves() const { return session_.renderers().split() && !session_.accuracy().map(); }
+bool PictureView::shows_halves() const {
+  return (session_.renderers().split() && !session_.accuracy().map()) || shows_raw_beside();
+}
+
+/// The left side is then the right one's picture as it is.
+bool PictureView::shows_raw_beside() const {
+  return session_.clean_beside_raw() && !session_.accuracy().map() && clean_of(right_.frame);
+}
+
+/// The clean view that a frame shows; null: it shows something else.
+std::shared_ptr<const CleanFrame> PictureView::clean_of(const std::shared_ptr<const Frame>& frame) {
+  return frame && frame->view == View::beauty ? frame->clean : nullptr;
+}
 
 /// "mis · sobol   1,024 spp   est. error 1.2 %".
 std::string PictureView::text_of(Half half) const {
   const Frame* frame = (half == Half::kept ? left_ : right_).frame.get();
   std::string method = session_.method(half);
+  if (frame && frame->clean) method += " · clean";
   if (!frame || frame->spp == 0) return method;
   std::string text = method + "   " + format_count(frame->spp) + " spp";
-  const ErrorCurve& curve = session_.accuracy().curves(half).current();
+  const Kind kind_of_picture = frame->clean ? Kind::clean : Kind::raw;
+  const ErrorCurve& curve = session_.accuracy().curves(half, kind_of_picture).current();
   if (curve.edit != frame->edit || curve.points.empty()) return text;
   const char* kind = session_.accuracy().is_true() ? "true" : "est.";
   return text + fmt::format("   {} error {:.2g} %", kind, 100 * std::sqrt(curve.points.back().rel_mse));
+}
+
+SplitLabels PictureView::labels() const {
+  if (!shows_raw_beside()) return {text_of(Half::kept), text_of(Half::current)};
+  const Frame& frame = *right_.frame;
+  const auto text = [](const char* name, std::uint32_t spp, double error) {
+    return std::string(name) + "   " + format_count(spp) + fmt::format(" spp   est. error {:.2g} %", 100 * error);
+  };
+  return {text("raw", frame.spp, frame.relative_error), text("clean", frame.clean->spp, frame.clean->relative_error)};
 }
 
 void PictureView::draw_halves(Ui& ui, const Rect& image) const {
   if (!shows_halves()) return;
   if (ui.log && left_.frame && right_.frame)
     ui.log->changed("halves", fmt::format("A {:.2f} B {:.2f}", left_.frame->seconds, right_.frame->seconds));
-  draw_split(ui, image, divider_, {text_of(Half::kept), text_of(Half::current)});
+  draw_split(ui, image, divider_, labels());
 }
 
 bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free) {
@@ -61,16 +84,29 @@ bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bo
 }
 
 void PictureView::upload() {
-  if (!session_.renderers().split()) left_ = {};
+  if (!session_.renderers().split() && !shows_raw_beside()) left_ = {};
   const auto map = session_.accuracy().map();
   const auto& frame = right_.frame;
   if (map && map != right_.uploaded) right_.display->upload(map->width, map->height, map->rgba);
-  if (!map && frame && frame != right_.uploaded) right_.display->upload(frame->width, frame->height, frame->rgba);
-  right_.uploaded = map ? std::shared_ptr<const void>(map) : frame;
-  if (!shows_halves() || !left_.frame || left_.frame == left_.uploaded) return;
+  if (map)
+    right_.uploaded = map;
+  else if (frame)
+    upload_picture(right_, frame, true);
+  if (!shows_halves()) return;
+  const bool beside = shows_raw_beside();
+  const auto& left = beside ? right_.frame : left_.frame;
+  if (!left) return;
   if (!left_.display) left_.display = std::make_unique<FrameDisplay>();
-  left_.display->upload(left_.frame->width, left_.frame->height, left_.frame->rgba);
-  left_.uploaded = left_.frame;
+  upload_picture(left_, left, !beside);
+}
+
+/// Puts what a frame shows on a side's display, unless it is there. clean: its clean view, if it has one.
+void PictureView::upload_picture(Side& side, const std::shared_ptr<const Frame>& frame, bool clean) {
+  const auto filtered = clean ? clean_of(frame) : nullptr;
+  const auto shown = filtered ? std::shared_ptr<const void>(filtered) : frame;
+  if (shown == side.uploaded) return;
+  side.display->upload(frame->width, frame->height, filtered ? filtered->rgba : frame->rgba);
+  side.uploaded = shown;
 }
 
 void PictureView::show(Platform& platform, const Rect& image) {
@@ -93,7 +129,7 @@ void PictureView::show(Platform& platform, const Rect& image) {
   if (shows_halves() && left_.display) {
     Rect left = whole;
     left.x1 = std::round(divider_.x(image)) * dots;
-    left_.display->draw(whole, height, look(left_.frame.get()), left);
+    left_.display->draw(whole, height, look(shows_raw_beside() ? right_.frame.get() : left_.frame.get()), left);
   }
   platform.end_frame();
 }

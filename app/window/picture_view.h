@@ -38,6 +38,10 @@ class PictureView {
     std::unique_ptr<FrameDisplay> display;
   };
   bool shows_halves() const;
+  bool shows_raw_beside() const;
+  SplitLabels labels() const;
+  static std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame);
+  static void upload_picture(Side& side, const std::shared_ptr<const Frame>& frame, bool clean);
   std::string text_of(Half half) const;
   void upload();
 

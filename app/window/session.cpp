@@ -3,6 +3,7 @@
 #include "app/curves/chart_files.h"
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
+#include "app/window/system/preferences.h"
 #include "core/base/error.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       loading_(wake),
       saving_(wake) {
   accuracy_.set_threads(renderers_.threads());
+  renderers_.set_clean(read_preferences(preferences_file()).clean);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
 }
@@ -92,6 +94,20 @@ void Session::set_threads(int threads) {
 void Session::set_view(View view, ErrorView error) {
   renderers_.set_view(view);
   accuracy_.set_view(error);
+}
+
+void Session::set_clean(bool clean) {
+  if (clean == renderers_.clean()) return;
+  renderers_.set_clean(clean);
+  saving_.run([clean]() -> JobQueue::Result {
+    write_preferences(preferences_file(), {clean});
+    return {};
+  });
+}
+
+void Session::set_clean_beside_raw(bool beside) {
+  beside_ = beside;
+  if (beside) set_clean(true);
 }
 
 void Session::set_split(bool split) {

@@ -53,6 +53,13 @@ class Session {
   void set_threads(int threads);
   /// error: a picture of differences instead of the view.
   void set_view(View view, ErrorView error);
+  /// Shows pictures filtered, or as they are. Remembered from one start to the next.
+  void set_clean(bool clean);
+  bool clean() const { return renderers_.clean(); }
+  /// The picture as it is on the left, the clean view on the right, while the clean view is on and nothing else is
+  /// compared.
+  void set_clean_beside_raw(bool beside);
+  bool clean_beside_raw() const { return beside_ && clean() && !renderers_.split(); }
   /// Side by side: on the left the settings that the scene has now, on the right those that it will have, each for as
   /// many core-seconds. Both start anew.
   void set_split(bool split);
@@ -78,6 +85,7 @@ class Session {
   SendTimer timer_;
   std::uint64_t problem_edit_ = 0;  ///< newest edit whose problem was told
   std::atomic<bool> closing_ = false;
+  bool beside_ = false;  ///< the clean view beside the raw one
   Editor editor_;
   References references_;
   NumberedFiles snapshots_, charts_;

@@ -2,6 +2,7 @@
 #include "app/text/progress.h"
 #include "app/window/overlays.h"
 #include "app/window/system/imgui_compat.h"
+#include "core/render/clean_film.h"
 
 #include <fmt/core.h>
 
@@ -30,6 +31,25 @@ std::string time_left(const Frame& frame, const ErrorCurve& run) {
   return seconds > 0 ? duration(seconds) : "reached";
 }
 
+/// The true error that was measured last of an edit's picture, as it is or clean; "?" where it was not.
+std::string measured(const ErrorCurve* run, std::uint64_t edit) {
+  const bool known = run && run->edit == edit && !run->points.empty();
+  return known ? percent(std::sqrt(std::max(run->points.back().rel_mse, 0.0))) : "?";
+}
+
+/// What is said of the errors: of the clean view first, as that is shown.
+void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& state, std::vector<StatusCell>& cells) {
+  if (frame.clean) {
+    cells.push_back({state.is_true ? "true clean" : "clean",
+                     state.is_true ? measured(state.clean_run, frame.edit) : percent(frame.clean->relative_error), 1});
+    if (frame.clean->spp < rough_clean_spp)
+      cells.push_back({"", fmt::format("rough below {} spp", rough_clean_spp), 2, true});
+  }
+  const char* raw = frame.clean ? "raw" : "error";
+  if (state.is_true) cells.push_back({frame.clean ? "true raw" : "true error", measured(&run, frame.edit), 1});
+  cells.push_back({state.is_true ? "estimated" : raw, percent(frame.relative_error), state.is_true ? 3 : 1});
+}
+
 }  // namespace
 
 std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
@@ -38,10 +58,7 @@ std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, 
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
-    const bool measured = state.is_true && run.edit == frame->edit && !run.points.empty();
-    if (state.is_true)
-      cells.push_back({"true error", measured ? percent(std::sqrt(run.points.back().rel_mse)) : "?", 1});
-    cells.push_back({state.is_true ? "estimated" : "error", percent(frame->relative_error), state.is_true ? 3 : 1});
+    add_errors(*frame, run, state, cells);
     cells.push_back({"to 1 %", time_left(*frame, run), 2});
     cells.push_back({"", fmt::format("{:.{}f} Mrays/s", frame->mrays_per_s, frame->mrays_per_s < 10 ? 1 : 0), 3});
     cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),

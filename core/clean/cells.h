@@ -3,7 +3,7 @@
 #include "core/clean/filter_view.h"
 
 /// The cells of a picture: what the regression knows of their pixels, and the sums of products of that.
-namespace tyndall {
+namespace tyndall::filter {
 
 /// The columns of one cell, pixel by pixel; 0 outside of the picture.
 struct CellColumns {
@@ -81,4 +81,4 @@ TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
   }
 }
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

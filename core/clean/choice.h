@@ -9,7 +9,7 @@
 ///     E[(P-I)(P-Q)]  = E[(PA-A)(PB-QB) + (PB-B)(PA-QA)] / 2 + E[(PA-PB)((PA-PB) - (QA-QB))] / 4
 ///
 /// as A and B are independent and right on average. No model of the noise is needed, and no sampler assumed.
-namespace tyndall {
+namespace tyndall::filter {
 
 inline constexpr int chunk = 256;       ///< pixels of a row that are treated together
 inline constexpr int window_reach = 6;  ///< a choice is made from 13 x 13 pixels …
@@ -234,4 +234,4 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
   v.row_noise[y] = noise_sum;
 }
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

@@ -1,11 +1,16 @@
 #include "core/clean/clean.h"
 
+#include "core/clean/filter_view.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace tyndall {
+using namespace filter;
 namespace {
+
+static_assert(Planes::margin == row_margin);
 
 constexpr FilterSteps (*filters[target_count])() = {
     scalar_filter,
@@ -53,6 +58,7 @@ int cells_in(int pixels) { return (pixels + cell_edge - 1) / cell_edge; }
 }  // namespace
 
 struct Cleaner::Memory {
+  FilterSteps steps;
   std::vector<ColumnPair> pairs = column_pairs();
   Planes work;  ///< filtered 6, level, gain, distance
   std::vector<float> sums, coefficients;
@@ -105,7 +111,9 @@ double sum_of(const std::vector<double>& rows) {
 
 }  // namespace
 
-Cleaner::Cleaner(Target target) : steps_(filters[static_cast<int>(target)]()), memory_(std::make_unique<Memory>()) {}
+Cleaner::Cleaner(Target target) : memory_(std::make_unique<Memory>()) {
+  memory_->steps = filters[static_cast<int>(target)]();
+}
 Cleaner::~Cleaner() = default;
 Cleaner::Cleaner(Cleaner&&) noexcept = default;
 Cleaner& Cleaner::operator=(Cleaner&&) noexcept = default;
@@ -133,13 +141,13 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
     return !give_up;
   };
   const auto mix = [&](Rival rival) {
-    return each(v.height, [&](int y) { steps_.compare(v, rival, y); }) &&
-           each(v.height, [&](int y) { steps_.mix(v, rival, y); });
+    return each(v.height, [&](int y) { m.steps.compare(v, rival, y); }) &&
+           each(v.height, [&](int y) { m.steps.mix(v, rival, y); });
   };
-  const bool whole = each(m.cells_y, [&](int row) { steps_.sum_cells(v, row); }) &&
-                     each(m.cells_y + 1, [&](int row) { steps_.fit_blocks(v, row); }) &&
-                     each(m.cells_y, [&](int row) { steps_.predict(v, row); }) && mix(Rival::blurred) &&
-                     mix(Rival::raw) && each(v.height, [&](int y) { steps_.judge(v, y); });
+  const bool whole = each(m.cells_y, [&](int row) { m.steps.sum_cells(v, row); }) &&
+                     each(m.cells_y + 1, [&](int row) { m.steps.fit_blocks(v, row); }) &&
+                     each(m.cells_y, [&](int row) { m.steps.predict(v, row); }) && mix(Rival::blurred) &&
+                     mix(Rival::raw) && each(v.height, [&](int y) { m.steps.judge(v, y); });
   if (!whole) return false;
   const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
   out.width = v.width, out.height = v.height;

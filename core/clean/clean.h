@@ -1,10 +1,10 @@
 #pragma once
 #include "core/base/crew.h"
 #include "core/base/target.h"
-#include "core/clean/filter_view.h"
 #include "core/film/film.h"
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,16 +21,19 @@ struct FirstSeen {
   float depth = 0;  ///< > 0, in any unit; 0: nothing is seen
 };
 
-/// Planes of numbers, all of one size, with margins (see FilterView).
+/// Planes of numbers, all of one size. Rows have room to the left and right, so that whole groups of lanes can be read
+/// everywhere.
 class Planes {
  public:
+  static constexpr int margin = 16;
+
   /// Zeros. Keeps its memory where the size is the same, with whatever it holds within the rows.
   void resize(int width, int height, int count);
   std::ptrdiff_t stride() const { return stride_; }
   int count() const { return count_; }
   /// The first number of the first row.
-  float* plane(int i) { return data_.data() + row_margin + i * height_ * stride_; }
-  const float* plane(int i) const { return data_.data() + row_margin + i * height_ * stride_; }
+  float* plane(int i) { return data_.data() + margin + i * height_ * stride_; }
+  const float* plane(int i) const { return data_.data() + margin + i * height_ * stride_; }
 
  private:
   int width_ = 0, height_ = 0, count_ = 0;
@@ -57,7 +60,7 @@ struct CleanPicture {
   int width = 0, height = 0;
   std::vector<float> rgb;  ///< 3 floats a pixel, linear, top row first
   /// Estimated relative error: its square estimates the picture's relMSE.
-  double relative_error = 0;
+  double relative_error = std::numeric_limits<double>::infinity();
   /// The same of each pixel, from the 13 x 13 pixels around it.
   std::vector<float> pixel_error;
 };
@@ -77,7 +80,6 @@ class Cleaner {
 
  private:
   struct Memory;
-  FilterSteps steps_;
   std::unique_ptr<Memory> memory_;
 };
 

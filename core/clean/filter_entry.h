@@ -3,7 +3,7 @@
 
 /// The filter's entry points for one number type; each instruction set's file names its own and nothing else. Internal
 /// to each file: of an ordinary template the linker could keep the copy with wide instructions for all files.
-namespace tyndall {
+namespace tyndall::filter {
 
 template <class F>
 static void sum_cells_entry(const FilterView& view, int row) {
@@ -35,4 +35,4 @@ static FilterSteps filter_of() {
   return {sum_cells_entry<F>, fit_blocks_entry<F>, predict_entry<F>, compare_entry<F>, mix_entry<F>, judge_entry<F>};
 }
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

@@ -6,7 +6,7 @@
 
 /// The filter's numbers as plain pointers. The code of the instruction sets uses nothing else: of a container's member
 /// function the linker could keep the copy with wide instructions for all files, which would crash older CPUs.
-namespace tyndall {
+namespace tyndall::filter {
 
 /// Planes have room to the left and right of each row, so that whole groups of lanes can be read everywhere.
 inline constexpr int row_margin = 16;
@@ -78,4 +78,4 @@ FilterSteps sse4_filter();
 FilterSteps avx2_filter();
 FilterSteps avx512_filter();
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

@@ -1,5 +1,7 @@
 #include "core/clean/clean.h"
 
+#include "core/clean/filter_view.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,8 @@ namespace tyndall {
 void Planes::resize(int width, int height, int count) {
   if (width == width_ && height == height_ && count == count_) return;
   width_ = width, height_ = height, count_ = count;
-  stride_ = (std::ptrdiff_t{width} + row_margin - 1) / row_margin * row_margin + std::ptrdiff_t{3} * row_margin;
-  data_.assign(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * row_margin, 0.0f);
+  stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
+  data_.assign(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin, 0.0f);
 }
 
 namespace {
@@ -29,8 +31,8 @@ void read_row(const Film& film, int y, CleanInput& input) {
   const auto width = static_cast<std::size_t>(input.width);
   const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(y) * width;
   const std::ptrdiff_t row = y * input.halves.stride();
-  float* to[outputs];
-  for (int k = 0; k < outputs; ++k) to[k] = input.halves.plane(k) + row;
+  float* to[filter::outputs];
+  for (int k = 0; k < filter::outputs; ++k) to[k] = input.halves.plane(k) + row;
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
     double per[2] = {per_sample(film, pixel, 0, scale), per_sample(film, pixel, 1, scale)};
@@ -41,17 +43,33 @@ void read_row(const Film& film, int y, CleanInput& input) {
   }
 }
 
+void read_emission_row(const Film& film, int y, CleanInput& input) {
+  for (int x = 0; x < input.width; ++x)
+    for (int half = 0; half < 2; ++half) {
+      const std::size_t pixel = film.index(film.region.x0 + x, film.region.y0 + y);
+      const Vec3f mean = (1 / input.scale) * half_emission(film, pixel, half);
+      const std::ptrdiff_t at = y * input.emission.stride() + x;
+      input.emission.plane(3 * half)[at] = mean.x;
+      input.emission.plane(3 * half + 1)[at] = mean.y;
+      input.emission.plane(3 * half + 2)[at] = mean.z;
+    }
+}
+
 }  // namespace
 
 void read_film(const Film& film, Crew& crew, CleanInput& input) {
   input.width = film.region.width(), input.height = film.region.height();
   input.scale = scale_of(film);
-  input.halves.resize(input.width, input.height, outputs);
-  crew.for_each(input.height, [&](int y) { read_row(film, y, input); });
+  input.halves.resize(input.width, input.height, filter::outputs);
+  input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms);
+  crew.for_each(input.height, [&](int y) {
+    read_row(film, y, input);
+    if (!film.emission.empty()) read_emission_row(film, y, input);
+  });
 }
 
 void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, CleanInput& input) {
-  input.seen.resize(width, height, seen_features);
+  input.seen.resize(width, height, filter::seen_features);
   double near = 0;
   std::size_t met = 0;
   for (const FirstSeen& p : pixels)
@@ -62,9 +80,10 @@ void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height
       const FirstSeen& p =
           pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
       const bool seen = p.depth > 0;
-      const float values[seen_features] = {
+      const float values[filter::seen_features] = {
           p.albedo.x, p.albedo.y, p.albedo.z, p.normal.x, p.normal.y, p.normal.z, 1 / (1 + p.depth * per_depth)};
-      for (int k = 0; k < seen_features; ++k) input.seen.plane(k)[y * input.seen.stride() + x] = seen ? values[k] : 0;
+      for (int k = 0; k < filter::seen_features; ++k)
+        input.seen.plane(k)[y * input.seen.stride() + x] = seen ? values[k] : 0;
     }
 }
 

@@ -8,7 +8,7 @@
 /// Bitterli et al., Nonlinearly Weighted First-order Regression for Denoising Monte Carlo Renderings, Computer Graphics
 /// Forum 35 (2016), has the regression on noisy features; He, Sun, Tang, Guided Image Filtering, TPAMI 35 (2013),
 /// blocks with shared sums.
-namespace tyndall {
+namespace tyndall::filter {
 
 /// Where the product of the terms i >= j of a half's system is among the sums, and that of a channel and a term.
 TYNDALL_INLINE int product_sum(int half, int i, int j) {
@@ -241,4 +241,4 @@ TYNDALL_INLINE void predict_of(const FilterView& v, int cell_row) {
   }
 }
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

@@ -1,8 +1,8 @@
 // One number at a time: the readable reference, for any processor.
 #include "core/clean/filter_entry.h"
 
-namespace tyndall {
+namespace tyndall::filter {
 
 FilterSteps scalar_filter() { return filter_of<float>(); }
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

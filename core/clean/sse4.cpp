@@ -2,7 +2,7 @@
 #include "core/base/lanes_simd.h"
 #include "core/clean/filter_entry.h"
 
-namespace tyndall {
+namespace tyndall::filter {
 
 namespace {
 using F = HWY_NAMESPACE::Floats;
@@ -11,4 +11,4 @@ static_assert(lanes_of<F> == 4, "the SIMD library fell back to a narrower set: a
 
 FilterSteps sse4_filter() { return filter_of<F>(); }
 
-}  // namespace tyndall
+}  // namespace tyndall::filter

@@ -8,7 +8,7 @@
 
 namespace tyndall {
 
-Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit) {
+Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit, bool emission) {
   assert(0 <= region.x0 && region.x0 < region.x1 && region.x1 <= width);
   assert(0 <= region.y0 && region.y0 < region.y1 && region.y1 <= height);
   assert(unit > 0);
@@ -19,8 +19,10 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
             .unit = unit,
             .cut_throughput = {},
             .pixels = {},
+            .emission = {},
             .planned = {}};
   film.pixels.resize(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()));
+  if (emission) film.emission.resize(film.pixels.size());
   return film;
 }
 
@@ -59,6 +61,15 @@ Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half) {
   return {mean_of(sum[0], film.unit, count), mean_of(sum[1], film.unit, count), mean_of(sum[2], film.unit, count)};
 }
 
+Vec3f half_emission(const Film& film, std::size_t pixel, int half) {
+  const std::uint32_t count = counted(film, film.pixels[pixel], half);
+  if (count == 0 || film.emission.empty()) return {};
+  const double per = film.unit * 0x1p-29 / count;
+  const std::int64_t* sum = film.emission[pixel].sum[half];
+  return {static_cast<float>(static_cast<double>(sum[0]) * per), static_cast<float>(static_cast<double>(sum[1]) * per),
+          static_cast<float>(static_cast<double>(sum[2]) * per)};
+}
+
 void add_pixel(FilmPixel& to, const FilmPixel& from) {
   for (int half = 0; half < 2; ++half) {
     for (int channel = 0; channel < 3; ++channel) to.sum[half][channel].add(from.sum[half][channel]);
@@ -66,6 +77,11 @@ void add_pixel(FilmPixel& to, const FilmPixel& from) {
   }
   to.taken += from.taken;
   to.truncated += from.truncated;
+}
+
+void add_emission(EmissionSums& to, const EmissionSums& from) {
+  for (int half = 0; half < 2; ++half)
+    for (int channel = 0; channel < 3; ++channel) to.sum[half][channel] += from.sum[half][channel];
 }
 
 std::vector<float> resolve(const Film& film) {

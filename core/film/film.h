@@ -27,6 +27,14 @@ struct FilmPixel {
 };
 static_assert(sizeof(FilmPixel) == 112);
 
+/// The part of a pixel's sums that came straight from lamps and sky: of paths that met no surface but smooth ones and
+/// no medium before. It tells filters where lamps are seen. In units of 2^-29 of the film's unit; smaller bits of each
+/// sample are cut off. As exact as an ExactSum's high part: 2^24 samples of less than 2^30 units fit likewise.
+struct EmissionSums {
+  std::int64_t sum[2][3] = {};
+  bool operator==(const EmissionSums&) const = default;
+};
+
 /// What a round of adaptive sampling does to a pixel.
 struct PlannedSamples {
   std::uint32_t from = 0;  ///< samples taken when it begins
@@ -37,12 +45,13 @@ struct PlannedSamples {
 /// Samples gathered for the pixels of a region. Adding films of disjoint sample ranges gives, bit for bit, the film of
 /// all of them.
 struct Film {
-  int width = 0, height = 0;       ///< of the full image
-  Region region;                   ///< the part that is held
-  std::uint32_t first_sample = 0;  ///< index of every pixel's first sample
-  double unit = 1;                 ///< a power of two not below the brightest emitter: what sums are divided by
-  ExactSum cut_throughput;         ///< sum over paths that max_depth cut off: their throughput's brightest channel
-  std::vector<FilmPixel> pixels;   ///< region, row by row
+  int width = 0, height = 0;           ///< of the full image
+  Region region;                       ///< the part that is held
+  std::uint32_t first_sample = 0;      ///< index of every pixel's first sample
+  double unit = 1;                     ///< a power of two not below the brightest emitter: what sums are divided by
+  ExactSum cut_throughput;             ///< sum over paths that max_depth cut off: their throughput's brightest channel
+  std::vector<FilmPixel> pixels;       ///< region, row by row
+  std::vector<EmissionSums> emission;  ///< likewise; empty: not recorded (no lamps, or a film of an older version)
   /// For each cell of 4 x 4 pixels the current or last round of adaptive sampling (see plan.h); empty: none yet.
   std::vector<PlannedSamples> planned;
 
@@ -55,8 +64,11 @@ struct Film {
   bool operator==(const Film&) const = default;
 };
 
-/// An empty film. unit: see Film.
-Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit);
+/// An empty film. unit: see Film; emission: whether it is recorded.
+Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit, bool emission = false);
+
+/// Memory that a film takes for each pixel.
+inline std::size_t bytes_per_pixel(bool emission) { return sizeof(FilmPixel) + (emission ? sizeof(EmissionSums) : 0); }
 
 /// A power of two not below `brightest` (>= 0); 1 for a scene without light.
 double film_unit(double brightest);
@@ -72,30 +84,50 @@ inline std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half)
 /// Mean radiance of a pixel, and of one of its halves; black before the first sample.
 Vec3f mean(const Film& film, const FilmPixel& pixel);
 Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half);
+/// Mean emission of a half of the pixel of that index; black where it is not recorded.
+Vec3f half_emission(const Film& film, std::size_t pixel, int half);
 
 /// What a sample has to stay below, in units of its film: see ExactSum. Only light sampling without MIS comes near it,
 /// where a phase function has a peak of g > 0.9998.
 inline constexpr double sample_limit = 0x1p30;
 
+/// A sample in units of its film, and whether a film takes it.
+struct ScaledSample {
+  double x, y, z;
+  TYNDALL_INLINE bool fits() const {
+    return x > -sample_limit && x < sample_limit && y > -sample_limit && y < sample_limit && z > -sample_limit &&
+           z < sample_limit;
+  }
+};
+TYNDALL_INLINE ScaledSample scaled(Vec3f radiance, double per_unit) {
+  return {static_cast<double>(radiance.x) * per_unit, static_cast<double>(radiance.y) * per_unit,
+          static_cast<double>(radiance.z) * per_unit};
+}
+
 /// Adds one sample of a pixel; half is its index & 1. What is not finite or not within sample_limit units is counted as
 /// rejected instead. Does not change `taken`.
 TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
-  const double x = static_cast<double>(radiance.x) * per_unit, y = static_cast<double>(radiance.y) * per_unit,
-               z = static_cast<double>(radiance.z) * per_unit;
-  const auto fits = [](double value) __attribute__((always_inline)) {
-    return value > -sample_limit && value < sample_limit;
-  };
-  if (!fits(x) || !fits(y) || !fits(z)) {
+  const ScaledSample sample = scaled(radiance, per_unit);
+  if (!sample.fits()) {
     ++pixel.rejected[half];
     return;
   }
-  pixel.sum[half][0].add(x);
-  pixel.sum[half][1].add(y);
-  pixel.sum[half][2].add(z);
+  pixel.sum[half][0].add(sample.x);
+  pixel.sum[half][1].add(sample.y);
+  pixel.sum[half][2].add(sample.z);
+}
+/// Adds a sample to the sums of emission, unless add_sample() rejects it.
+TYNDALL_INLINE void add_emission(EmissionSums& to, std::uint32_t half, Vec3f radiance, double per_unit) {
+  const ScaledSample sample = scaled(radiance, per_unit);
+  if (!sample.fits()) return;
+  to.sum[half][0] += static_cast<std::int64_t>(sample.x * 0x1p29);
+  to.sum[half][1] += static_cast<std::int64_t>(sample.y * 0x1p29);
+  to.sum[half][2] += static_cast<std::int64_t>(sample.z * 0x1p29);
 }
 
 /// Adds what another buffer has gathered for the same pixel.
 void add_pixel(FilmPixel& to, const FilmPixel& from);
+void add_emission(EmissionSums& to, const EmissionSums& from);
 
 /// Means of the region, 3 floats a pixel, top row first.
 std::vector<float> resolve(const Film& film);

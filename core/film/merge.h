@@ -21,7 +21,8 @@ struct MergeError : std::runtime_error {
 
 /// The film of all samples of all parts, which may come in any order: bit for bit the film that one run would have
 /// gathered. They must have the same image, region and unit, and the sample ranges must follow each other without
-/// overlap or hole; an empty part (no samples) adds nothing. At least one part. Throws MergeError.
+/// overlap or hole; an empty part (no samples) adds nothing. Emission is kept if all parts but empty ones have it. At
+/// least one part. Throws MergeError.
 Film merge(std::vector<FilmPart> parts);
 
 }  // namespace tyndall

@@ -42,6 +42,18 @@ std::vector<FilmChannel> film_channels() {
   return channels;
 }
 
+std::vector<FilmChannel> emission_channels() {
+  std::vector<FilmChannel> channels;
+  for (std::size_t half = 0; half < 2; ++half)
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const std::string name = std::string("film.") + "AB"[half] + '.' + "RGB"[channel] + ".emission";
+      const std::size_t sum = offsetof(EmissionSums, sum) + (half * 3 + channel) * sizeof(std::int64_t);
+      channels.push_back({name + '0', sum});
+      channels.push_back({name + '1', sum + 4});
+    }
+  return channels;
+}
+
 namespace {
 
 /// The file as OpenEXR sees it. OpenEXR ignores errors while it finishes a file, so the first one is kept here and
@@ -130,6 +142,10 @@ void write_exr(const std::filesystem::path& file, const Film& film, const std::v
   for (const FilmChannel& channel : film_channels()) {
     picture.add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
   }
+  const char* emission = reinterpret_cast<const char*>(film.emission.data());
+  if (!film.emission.empty())
+    for (const FilmChannel& channel : emission_channels())
+      picture.add(channel.name, Imf::UINT, emission + channel.offset, sizeof(EmissionSums));
   WholeFile out(file);
   Stream stream(out, file.string());
   try {

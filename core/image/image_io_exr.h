@@ -3,15 +3,17 @@
 #include <string>
 #include <vector>
 
-/// How an EXR carries a film: each field of FilmPixel as channels of 32-bit words.
+/// How an EXR carries a film: each field of FilmPixel and of EmissionSums as channels of 32-bit words.
 namespace tyndall {
 
 /// One channel of a film in an EXR.
 struct FilmChannel {
   std::string name;    ///< film.A.R.high0 ...: half A or B, channel, limb, word (0: the low half of the limb)
-  std::size_t offset;  ///< of the word in FilmPixel, bytes
+  std::size_t offset;  ///< of the word in FilmPixel or EmissionSums, bytes
 };
 std::vector<FilmChannel> film_channels();
+/// Those of EmissionSums, film.A.R.emission0 ...: in files of films that have it.
+std::vector<FilmChannel> emission_channels();
 
 // Names of the header's attributes.
 namespace exr_name {

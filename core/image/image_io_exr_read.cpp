@@ -138,12 +138,18 @@ std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFi
   if (count * sizeof(FilmPixel) / 1100 > std::filesystem::file_size(file)) damaged_film(file, "most of it is missing");
   film.pixels.resize(count);
   Target target{{}, exr.header().dataWindow()};
-  char* pixels = reinterpret_cast<char*>(film.pixels.data());
-  for (const FilmChannel& channel : film_channels()) {
-    const Imf::Channel* found = present.findChannel(channel.name);
-    if (found == nullptr || found->type != Imf::UINT)
-      damaged_film(file, "no channel " + channel.name + " of type uint");
-    target.add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
+  const auto add = [&](const std::vector<FilmChannel>& channels, void* first, std::size_t stride) {
+    for (const FilmChannel& channel : channels) {
+      const Imf::Channel* found = present.findChannel(channel.name);
+      if (found == nullptr || found->type != Imf::UINT)
+        damaged_film(file, "no channel " + channel.name + " of type uint");
+      target.add(channel.name, Imf::UINT, static_cast<char*>(first) + channel.offset, stride);
+    }
+  };
+  add(film_channels(), film.pixels.data(), sizeof(FilmPixel));
+  if (present.findChannel(emission_channels().front().name)) {
+    film.emission.resize(count);
+    add(emission_channels(), film.emission.data(), sizeof(EmissionSums));
   }
   target.read(exr);
   check_counts(file, film);

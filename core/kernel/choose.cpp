@@ -30,8 +30,8 @@ Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }
 }  // namespace
 
 void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                          UnitCounts& counts) const {
-  render_units[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, counts);
+                          UnitCounts& counts, EmissionSums* emission) const {
+  render_units[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, emission, counts);
 }
 
 KernelSet Kernels::set_for(KernelSet least) const {

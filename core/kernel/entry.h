@@ -69,8 +69,9 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
 /// The table of one instruction set. Internal to each file that uses it: of an ordinary template the linker could keep
 /// the copy with wide instructions for all files, which would crash older CPUs.
 template <class F, KernelSet set>
-static void render_unit_entry(const SceneView& s, const Unit& u, double film_unit, FilmPixel* p, UnitCounts& c) {
-  render_unit<F>(SceneViewFor<set>{s}, u, film_unit, p, c);
+static void render_unit_entry(const SceneView& s, const Unit& u, double film_unit, FilmPixel* p, EmissionSums* e,
+                              UnitCounts& c) {
+  render_unit<F>(SceneViewFor<set>{s}, u, {1 / film_unit, p, e, c});
 }
 template <class F>
 static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {

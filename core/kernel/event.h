@@ -19,6 +19,7 @@ struct Paths {
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
   FogFlight<F> flight;      ///< that led to where the ray starts; only in scenes with lamps in fog
   ChainTrail<F> trail;      ///< since it scattered last; only in scenes with chains
+  MaskOf<F> straight;       ///< met nothing yet but smooth glass and mirrors; only in scenes with lamps
   IntOf<F> slot;            ///< 2 · pixel within the tile + half
   std::uint32_t alive = 0;  ///< a bit a lane
 };
@@ -35,6 +36,13 @@ struct Event {
   IntOf<F> kind;  ///< of the material
   F g;
 };
+
+/// Whether light that arrives after an event counts as seen by way of a mirror: the event sends it into one direction,
+/// or into a lobe with a density above 8 per steradian, about 20 degrees wide.
+template <class F>
+TYNDALL_INLINE MaskOf<F> is_narrow(F density) {
+  return mask_not(mask_and(less(F(0.0f), density), less(density, F(8.0f))));
+}
 
 /// Density per steradian with which a medium scatters from one direction into another.
 template <class F>

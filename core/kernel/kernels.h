@@ -27,7 +27,7 @@ struct UnitCounts {
 };
 
 using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                            UnitCounts& counts);
+                            EmissionSums* emission, UnitCounts& counts);
 
 /// One ray for `trace`.
 struct TraceRay {
@@ -60,9 +60,9 @@ struct Kernels {
   FirstHits first_hits;
 
   /// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts, by the kernel set that the scene
-  /// names. `taken` is set for what was sampled.
-  void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                   UnitCounts& counts) const;
+  /// names. `taken` is set for what was sampled. emission: likewise of the tile; null: not wanted.
+  void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts,
+                   EmissionSums* emission = nullptr) const;
 
   /// The set whose kernel renders a scene that needs at least the models of `least`: `least` itself, or everything
   /// where this instruction set has the full kernel alone.

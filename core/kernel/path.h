@@ -38,6 +38,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     p.depth = select(m, IntOf<F>(0), p.depth);
     p.density = select(m, F(one_direction), p.density);
     if (s.has_chains()) p.trail.met = select(m, IntOf<F>(-1), p.trail.met);
+    if (s.has_lamps()) p.straight = mask_or(m, p.straight);
     p.alive |= fresh;
   }
 }
@@ -140,6 +141,10 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
       p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
   }
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
+  if (s.has_lamps()) {
+    const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));
+    p.straight = mask_and_not(p.straight, mask_and_not(scattering, mirrored));
+  }
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
@@ -152,6 +157,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
 struct UnitFilm {
   double per_unit;
   FilmPixel* pixels;
+  EmissionSums* emission;  ///< null: not wanted
   UnitCounts& counts;
 };
 
@@ -163,10 +169,14 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
   alignas(64) std::int32_t slot[lanes_of<F>];
   store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slot, p.slot);
   store(carried, max_component(p.throughput));
+  const std::uint32_t straight = film.emission ? bits(p.straight) : 0;
   for (; finished; finished &= finished - 1) {
     const int lane = __builtin_ctz(finished);
     FilmPixel& pixel = film.pixels[slot[lane] >> 1];
-    add_sample(pixel, static_cast<std::uint32_t>(slot[lane]) & 1u, {r[lane], g[lane], b[lane]}, film.per_unit);
+    const std::uint32_t half = static_cast<std::uint32_t>(slot[lane]) & 1u;
+    const Vec3f radiance{r[lane], g[lane], b[lane]};
+    add_sample(pixel, half, radiance, film.per_unit);
+    if (straight >> lane & 1u) add_emission(film.emission[slot[lane] >> 1], half, radiance, film.per_unit);
     ++pixel.taken;
     if (!(cut >> lane & 1u)) continue;
     ++pixel.truncated;
@@ -207,15 +217,14 @@ TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, con
 }
 
 template <class F>
-TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, double film_unit, FilmPixel* pixels,
-                                UnitCounts& counts) {
+TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm& film) {
+  UnitCounts& counts = film.counts;
   UnitSamples samples;
   list_samples(unit, samples);
   CameraQueue<F> queue;
   ChainQueue<F> chains{};
   Paths<F> p{};
   p.dice.sampler = s.sampler;
-  const UnitFilm film{1 / film_unit, pixels, counts};
   // Chains are asked for at one place, or their code would stand twice in each kernel.
   for (bool sampling = true; sampling || chains.count > 0;) {
     take_samples(p, queue, samples, s, unit);

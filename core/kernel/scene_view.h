@@ -79,6 +79,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_image_textures() const { return needs.image_textures; }
   TYNDALL_INLINE bool has_lamps_in_fog() const { return near_count > 0; }
   TYNDALL_INLINE bool has_chains() const { return chains.pairs > 0; }
+  TYNDALL_INLINE bool has_lamps() const { return lights.count > 0; }
 };
 
 /// The same for a kernel that leaves models out: the answers about these are constants when it is compiled.

@@ -3,7 +3,7 @@
 #include "core/base/seconds.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
-#include "core/render/rare.h"
+#include "core/accuracy/rare.h"
 
 #include <exception>
 #include <utility>
@@ -31,20 +31,25 @@ void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
 }
 
 Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
-    : mail_(mail), kernels_(kernels), on_frame_(std::move(on_frame)), crew_(std::make_unique<Crew>(threads)) {}
+    : mail_(mail),
+      kernels_(kernels),
+      on_frame_(std::move(on_frame)),
+      crew_(std::make_unique<Crew>(threads)),
+      clean_(kernels) {}
 
 void Director::run(const std::stop_token& stop) {
   const std::stop_callback leave(stop, [this] { mail_.interrupt(); });
-  while (mail_.wait(stop, [this](std::uint32_t limit) { return unfinished(limit); })) {
+  while (mail_.wait(stop, [this](std::uint32_t limit) { return unfinished(limit) || clean_is_due(); })) {
     follow(mail_.take());
     if (stop.stop_requested()) return;
-    if (!unfinished(limit_)) continue;
-    if (picture_.run_pass(engine(), {.spp = limit_}, mail_.give_up())) finish_pass();
+    if (unfinished(limit_) && picture_.run_pass(engine(), {.spp = limit_}, mail_.give_up())) finish_pass();
+    if (clean_is_due() && !mail_.give_up()) make_clean();
   }
 }
 
 void Director::follow(const Orders& orders) {
   view_ = orders.view;
+  clean_.set_wanted(orders.clean);
   limit_ = orders.limit;
   if (orders.threads > 0 && orders.threads != crew_->size()) crew_ = std::make_unique<Crew>(orders.threads);
   if (orders.scene) {
@@ -76,6 +81,7 @@ void Director::take_scene(const Orders& orders) {
     budget_ = budget;
     views_.change_scene();
     rare_paths_.change_scene();
+    clean_.change_scene();
     mail_.post(shown_.compiled);
   } catch (const std::exception& e) {
     mail_.post(RenderProblem{orders.edit, e.what()});
@@ -89,6 +95,7 @@ void Director::start_over(double budget) {
   const int step = first_pictures_.step_for(pixels, budget);
   picture_.start(scene, {0, 0, scene.width, scene.height}, 0, progression_options(*shown_.scene, step));
   rare_paths_.start_over();
+  clean_.start_over();
   first_picture_ms_.reset();
 }
 
@@ -96,6 +103,11 @@ void Director::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
   rare_paths_.look(shown_, picture_);
   publish();
+}
+
+/// Filters what there is. An edit or another wish interrupts it; then it is tried again.
+void Director::make_clean() {
+  if (clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
 
 void Director::publish() {
@@ -112,6 +124,9 @@ void Director::publish() {
   frame->pass = ++frames_;
   frame->width = film.width, frame->height = film.height;
   frame->view = view_;
+  frame->clean = clean_.latest();
+  frame->awaits_clean = clean_is_due();
+  if (view_ == View::noise && frame->clean) frame->rgba = noise_rgba(frame->clean->pixel_error);
   frame->step = picture_.step();
   frame->spp = picture_.taken();
   frame->relative_error = picture_.error();
@@ -121,7 +136,7 @@ void Director::publish() {
   frame->first_picture_ms = *first_picture_ms_;
   frame->rejected = tally.rejected, frame->truncated = tally.truncated;
   frame->cut_throughput = picture_.cut_throughput();
-  frame->film_bytes = film.pixels.size() * sizeof(FilmPixel);
+  frame->film_bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
   frame->isa = kernels_.isa;
   frame->lanes = kernels_.lanes, frame->threads = crew_->size();
   mail_.post(frame);

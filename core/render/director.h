@@ -1,4 +1,5 @@
 #pragma once
+#include "core/render/clean_film.h"
 #include "core/render/mailbox.h"
 #include "core/render/preview.h"
 #include "core/render/progression.h"
@@ -50,6 +51,8 @@ class Director {
   void answer_films();
   void finish_pass();
   void publish();
+  void make_clean();
+  bool clean_is_due() const { return shown_.compiled && clean_.is_due(picture_, !unfinished(limit_)); }
   bool unfinished(std::uint32_t limit) const { return shown_.compiled && picture_.taken() < limit; }
   RenderEngine engine() const { return {*crew_, kernels_, shown_.view->view()}; }
 
@@ -63,6 +66,7 @@ class Director {
   FirstPictures first_pictures_;
   RarePathWatch rare_paths_;
   Views views_;
+  LiveClean clean_;
   FrameMemory frame_memory_;
 
   View view_ = View::beauty;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,15 @@ constexpr Word word(View view) {
   return {};
 }
 
+/// The clean view of a picture: filtered, and so labelled wherever it is shown. Never changes after it was published.
+struct CleanFrame {
+  std::vector<float> rgba;         ///< like Frame's
+  std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from those around it
+  double relative_error = 0;       ///< estimated
+  std::uint32_t spp = 0;           ///< samples a pixel that it was made from
+  double seconds = 0;              ///< rendering and filtering since the edit
+};
+
 /// One finished pass, ready to be shown. Never changes after it was published.
 struct Frame {
   std::uint64_t edit = 0;  ///< number of the edit (Renderer::submit) that it shows
@@ -41,11 +51,15 @@ struct Frame {
   /// The picture itself, in the same form, while `view` is another one. Empty while `view` is beauty or only a coarse
   /// pass is there.
   std::vector<float> beauty;
+  /// The newest clean view of the same picture, perhaps of fewer samples; null: none yet, or none is wanted. To be
+  /// shown in place of `rgba` while `view` is beauty; the noise view is then of it.
+  std::shared_ptr<const CleanFrame> clean;
+  bool awaits_clean = false;  ///< a newer one will come, even if no more samples will
   View view = View::beauty;
   int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
   std::uint32_t spp = 0;      ///< samples that every pixel has, with adaptive sampling their mean. The film is the one
                               ///< that render() makes for that number. 0 while only a coarse pass is there
-  bool finished = false;      ///< the limit is reached
+  bool finished = false;      ///< the limit is reached, and the clean view is of that
   double relative_error = 0;  ///< estimated; infinite before two samples
   bool rare_bright_paths = false;  ///< the estimate cannot be trusted: see has_rare_bright_paths
   double seconds = 0;              ///< rendering time since the edit, pauses left out

@@ -73,6 +73,14 @@ void Mailbox::set_view(View view) {
   wake(true);
 }
 
+void Mailbox::set_clean(bool clean) {
+  const std::lock_guard lock(mutex_);
+  if (orders_.clean == clean) return;
+  orders_.clean = clean;
+  orders_.redraw = true;
+  wake(true);
+}
+
 void Mailbox::set_threads(int threads) {
   const std::lock_guard lock(mutex_);
   orders_.threads = threads;
@@ -128,7 +136,7 @@ std::vector<std::promise<Film>> Mailbox::take_film_requests() {
 
 void Mailbox::post(std::shared_ptr<Frame> frame) {
   const std::lock_guard lock(mutex_);
-  frame->finished = frame->spp >= limit_;
+  frame->finished = frame->spp >= limit_ && !frame->awaits_clean;
   latest_ = std::move(frame);
 }
 

@@ -36,6 +36,7 @@ struct Orders {
   bool restart = false;
   bool redraw = false;  ///< the view or the limit changed: the samples there are have to be shown again
   View view = View::beauty;
+  bool clean = false;       ///< whether the clean view is wanted
   std::uint32_t limit = 0;  ///< samples a pixel at which to stop; at most 1 while the renderer is paused
   int threads = 0;          ///< how many to use; 0: as many as before
 };
@@ -54,6 +55,7 @@ class Mailbox {
   bool paused() const;
   void restart();
   void set_view(View view);
+  void set_clean(bool clean);
   void set_threads(int threads);
   std::future<Film> ask_for_film();
   std::shared_ptr<const Frame> latest() const;

@@ -16,10 +16,22 @@ int chosen_tile(std::uint32_t samples, int step) {
   return std::clamp(static_cast<int>(std::sqrt(pixels)) / 8 * 8, least_tile, most_tile);
 }
 
+/// What a unit gathers.
+struct UnitBuffer {
+  std::vector<FilmPixel> pixels;
+  std::vector<EmissionSums> emission;
+
+  void clear(std::size_t size, bool with_emission) {
+    pixels.assign(size, {});
+    emission.assign(with_emission ? size : 0, {});
+  }
+  EmissionSums* emission_or_null() { return emission.empty() ? nullptr : emission.data(); }
+};
+
 /// The buffer of a thread, kept from unit to unit: after its first unit a thread allocates nothing.
-std::vector<FilmPixel>& buffer() {
-  thread_local std::vector<FilmPixel> pixels;
-  return pixels;
+UnitBuffer& buffer() {
+  thread_local UnitBuffer unit;
+  return unit;
 }
 
 /// How many samples pixels lack on average.
@@ -95,11 +107,13 @@ bool Pass::run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film&
 
 void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Film& film) {
   const Region where = tile(unit);
-  auto& pixels = buffer();
-  pixels.assign(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()), {});
+  UnitBuffer& unit_film = buffer();
+  unit_film.clear(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()),
+                  !film.emission.empty());
   UnitCounts counts;
-  kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, pixels.data(), counts);
-  add_unit(where, first_ == film.first_sample, pixels, film);
+  kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, unit_film.pixels.data(), counts,
+                      unit_film.emission_or_null());
+  add_unit(where, first_ == film.first_sample, film);
   add_counts(counts);
 }
 
@@ -107,27 +121,36 @@ void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Fi
 bool Pass::fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
                      const std::atomic<bool>& give_up) {
   const Region where = tile(unit);
-  auto& pixels = buffer();
+  UnitBuffer& unit_film = buffer();
   thread_local std::vector<std::uint32_t> first, last;
   for (;;) {
     if (!list_lacking(film, wanted_, where, first, last)) return true;
     if (give_up.load(std::memory_order_relaxed)) return false;
-    pixels.assign(first.size(), {});
+    unit_film.clear(first.size(), !film.emission.empty());
     UnitCounts counts;
     const Unit lacking{where, 1, 0, 0, 0, first.data(), last.data()};
-    kernels.render_unit(scene, lacking, film.unit, pixels.data(), counts);
-    add_unit(where, false, pixels, film);
+    kernels.render_unit(scene, lacking, film.unit, unit_film.pixels.data(), counts, unit_film.emission_or_null());
+    add_unit(where, false, film);
     add_counts(counts);
   }
 }
 
-/// Adds a unit's samples to the film, or lets them replace what its pixels held.
-void Pass::add_unit(const Region& where, bool replace, const std::vector<FilmPixel>& pixels, Film& film) {
+/// Adds the samples of the thread's unit to the film, or lets them replace what its pixels held.
+void Pass::add_unit(const Region& where, bool replace, Film& film) {
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
-  auto from = pixels.begin();
+  const UnitBuffer& unit = buffer();
+  auto from = unit.pixels.begin();
   for (int y = where.y0; y < where.y1; ++y)
     for (int x = where.x0; x < where.x1; ++x, ++from) {
       if (!from->taken) continue;
+      if (!unit.emission.empty()) {
+        EmissionSums& to = film.emission[film.index(x, y)];
+        const EmissionSums& own = unit.emission[static_cast<std::size_t>(from - unit.pixels.begin())];
+        if (replace)
+          to = own;
+        else
+          add_emission(to, own);
+      }
       paths += from->taken;
       rejected += from->rejected[0] + from->rejected[1];
       truncated += from->truncated;

@@ -72,8 +72,9 @@ std::vector<float> grey_rgba(std::size_t pixels, float grey) {
   return rgba;
 }
 
-std::vector<float> noise_rgba(const Film& film) {
-  const std::vector<float> errors = pixel_relative_error(film);
+std::vector<float> noise_rgba(const Film& film) { return noise_rgba(pixel_relative_error(film)); }
+
+std::vector<float> noise_rgba(const std::vector<float>& errors) {
   std::vector<float> rgba(4 * errors.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const float error = std::min(errors[i], 1.0f);  // the error is infinite before two samples

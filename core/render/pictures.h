@@ -37,6 +37,7 @@ std::vector<float> grey_rgba(std::size_t pixels, float grey);
 
 /// The estimated relative error of each pixel (see pixel_relative_error) as grey: white is an error of 100 % or more.
 std::vector<float> noise_rgba(const Film& film);
+std::vector<float> noise_rgba(const std::vector<float>& errors);
 
 /// The number of samples of each pixel as grey: the pixel with most samples is white.
 std::vector<float> samples_rgba(const Film& film);

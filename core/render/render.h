@@ -1,5 +1,6 @@
 #pragma once
 #include "core/accuracy/estimate.h"
+#include "core/clean/clean.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
@@ -23,9 +24,10 @@ struct RenderOptions {
   /// Samples a pixel at which to stop, those of a continued film included (see also `adaptive`); absent: no limit.
   std::optional<std::uint32_t> spp;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
-  double target_error = 0;                                      ///< estimated relative error at which to stop; 0: none
-  bool adaptive = false;  ///< more samples where the error is larger (see plan.h); spp is then their mean
-  int tile = 0;           ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
+  double target_error = 0;  ///< estimated relative error at which to stop, with `clean` that of the clean view; 0: none
+  bool clean = false;       ///< make the clean view, too; needs 2 samples a pixel
+  bool adaptive = false;    ///< more samples where the error is larger (see plan.h); spp is then their mean
+  int tile = 0;             ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
 };
 
 struct RenderProgress {
@@ -44,6 +46,8 @@ struct RenderResult {
   Kernels kernels{};                        ///< that made the film
   bool interrupted = false;                 ///< the callback said stop
   std::optional<ErrorEstimate> estimate{};  ///< of this film; absent if neither a limit nor the callback asked for it
+  std::optional<CleanPicture> clean{};      ///< the clean view of the film as it is, if it was asked for
+  double seconds_clean = 0;  ///< spent on filtering in all; only what came before the end is in `seconds`
 };
 
 /// Called on the calling thread between passes, and about every 50 ms within long ones. Returns false to stop.
@@ -61,8 +65,9 @@ struct FinishedPicture {
   FilmTotals totals;
   std::uint32_t spp = 0;  ///< see labelled_spp
   ErrorEstimate estimate;
-  LinearImage image;       ///< the pixels' means
-  std::uint64_t hash = 0;  ///< see image_hash
+  LinearImage image;             ///< the pixels' means
+  std::uint64_t hash = 0;        ///< see image_hash
+  std::uint64_t clean_hash = 0;  ///< the same of the clean view; 0: there is none
 };
 FinishedPicture finished_picture(const RenderResult& result);
 

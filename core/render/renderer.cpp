@@ -51,6 +51,8 @@ void Renderer::restart() { state_->mail.restart(); }
 
 void Renderer::set_view(View view) { state_->mail.set_view(view); }
 
+void Renderer::set_clean(bool clean) { state_->mail.set_clean(clean); }
+
 void Renderer::set_threads(int threads) { state_->mail.set_threads(threads); }
 
 Film Renderer::film() const { return state_->mail.ask_for_film().get(); }

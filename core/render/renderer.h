@@ -41,6 +41,8 @@ class Renderer {
   /// Throws the samples away and starts over.
   void restart();
   void set_view(View view);
+  /// Whether frames carry a clean view; off at first.
+  void set_clean(bool clean);
   void set_threads(int threads);
 
   /// A copy of the film, for example for snapshots. Waits for the end of the pass that is under way, so that all pixels

@@ -22,7 +22,7 @@ Known known_picture(int width, int height, float noise, unsigned seed = 1) {
   std::gamma_distribution<float> gamma(0.5f, 2.0f);  // skew, of mean 1 and variance 2, as path tracing's noise is
   Known k;
   k.input.width = width, k.input.height = height;
-  k.input.halves.resize(width, height, outputs);
+  k.input.halves.resize(width, height, 6);
   std::vector<FirstSeen> seen;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -146,7 +146,7 @@ TEST_CASE("clean: pictures of any size, of nothing and of far too bright pixels"
       CHECK(all_finite(picture.rgb));
       CleanInput black;
       black.width = size[0], black.height = size[1];
-      black.halves.resize(size[0], size[1], outputs);
+      black.halves.resize(size[0], size[1], 6);
       read_first_seen(std::vector<FirstSeen>(k.truth.size() / 3), size[0], size[1], black);
       picture = clean(black, 2, target);
       CHECK(std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float v) { return v == 0; }));

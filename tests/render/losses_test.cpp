@@ -144,13 +144,13 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
                  {"a", result_of(scene, kernels.isa, 3, 64, 0, 11).film}}) == whole);
     Crew crew(2);
     const SceneViewOf view(scene);
-    Film film = make_film(61, 43, whole.region, 0, scene.film_unit);
+    Film film = make_film(61, 43, whole.region, 0, scene.film_unit, !whole.emission.empty());
     const std::atomic<bool> no = false, yes = true;
     Pass pass(whole.region, 0, 24, 1, 0, 16);
     pass.run(crew, kernels, view.view(), film, yes);
     for (int time = 0; time < 2; ++time) CHECK(pass.run(crew, kernels, view.view(), film, no));  // then nothing is left
     CHECK(film == whole);
-    Film uneven = make_film(61, 43, whole.region, 0, scene.film_unit);
+    Film uneven = make_film(61, 43, whole.region, 0, scene.film_unit, !whole.emission.empty());
     Pass upper({0, 0, 61, 20}, 0, 24);
     CHECK(upper.run(crew, kernels, view.view(), uneven, no));
     Progression picture;

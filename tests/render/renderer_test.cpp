@@ -164,7 +164,7 @@ TEST_CASE("renderer: frames tell of error, time and memory") {
     CHECK(frame->first_picture_ms == first);
     CHECK((frame->spp >= 2) == std::isfinite(frame->relative_error));
     CHECK(frame->mrays_per_s > 0);
-    CHECK(frame->film_bytes == sizeof(FilmPixel) * width * height);
+    CHECK(frame->film_bytes == bytes_per_pixel(true) * width * height);
     CHECK(frame->threads == 2);
   }
 }

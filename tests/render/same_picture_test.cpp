@@ -122,7 +122,7 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
     const SceneViewOf view(scene);
     const Film whole = shard(scene, real, 0, 24);
     stop.real = real;
-    Film film = make_film(width, height, whole.region, 0, scene.film_unit);
+    Film film = make_film(width, height, whole.region, 0, scene.film_unit, !whole.emission.empty());
     for (const auto& [first, last] : {std::pair{0u, 1u}, {1u, 3u}, {3u, 24u}}) {
       Pass pass(whole.region, first, last, 1, 0, 8);
       for (bool done = false; !done;) {
@@ -145,7 +145,7 @@ TEST_CASE("same picture: coarse passes and the rest of the first sample are the 
     const SceneViewOf view(scene);
     const Film whole = shard(scene, kernels, 0, 1);
     for (const int step : {8, 4, 2}) {
-      Film film = make_film(width, height, whole.region, 0, scene.film_unit);
+      Film film = make_film(width, height, whole.region, 0, scene.film_unit, !whole.emission.empty());
       const std::atomic<bool> give_up = false;
       Pass coarse(whole.region, 0, 1, step), rest(whole.region, 0, 1, 1, step);
       CHECK(coarse.run(crew, kernels, view.view(), film, give_up));

@@ -14,8 +14,8 @@ struct Stop {
 inline Stop stop;
 
 inline void stopping_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                          UnitCounts& counts) {
-  stop.real.render_unit(scene, unit, film_unit, pixels, counts);
+                          EmissionSums* emission, UnitCounts& counts) {
+  stop.real.render_unit(scene, unit, film_unit, pixels, counts, emission);
   if (--stop.units_left == 0) stop.give_up = true;
 }
 

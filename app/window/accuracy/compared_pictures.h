@@ -22,11 +22,14 @@ constexpr bool is_slow(Measurement m) { return m == Measurement::flip_map || m =
 constexpr bool is_truth(Measurement m) { return m == Measurement::truth || m == Measurement::kept_truth; }
 constexpr Half half_of(Measurement m) { return m == Measurement::kept_truth ? Half::kept : Half::current; }
 
+/// A picture as it is, or its clean view.
+enum class Kind { raw, clean };
+
 /// One half of the screen; without a split view all of it.
 struct ComparedHalf {
   std::shared_ptr<const Scene> scene = std::make_shared<const Scene>();  ///< that is rendered now
   std::optional<ReferenceFit> fit;                                       ///< absent: there is no reference
-  Convergence estimated, truth;
+  Convergence estimated, truth, clean_estimated, clean_truth;
   std::shared_ptr<const Frame> frame;  ///< on the screen; null: none yet
   std::string method;                  ///< by which the frame was rendered
   bool newest = false;                 ///< the frame is of `scene`, not of an earlier one
@@ -49,11 +52,13 @@ class ComparedPictures {
   void shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest);
   /// Adds a measured point to a half's curve.
   void add_truth(Half half, const Frame& frame, const std::string& method, double rel_mse);
+  /// The same of the frame's clean view.
+  void add_clean_truth(Half half, const Frame& frame, const std::string& method, double rel_mse);
 
   const ComparedHalf& half(Half which) const { return halves_[static_cast<std::size_t>(which)]; }
   /// Whether errors are measured against a reference of this scene; else they are estimates.
   bool is_true() const;
-  const Convergence& curves(Half which) const { return is_true() ? half(which).truth : half(which).estimated; }
+  const Convergence& curves(Half which, Kind kind = Kind::raw) const;
   std::vector<NamedCurve> named_curves() const;
 
   /// Whether there is a use for this measurement.

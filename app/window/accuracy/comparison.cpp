@@ -48,7 +48,10 @@ ComparisonResult compare(const ComparisonOrder& order) {
   const std::vector<float>& against = order.kept ? kept : order.reference->image.rgb;
   ComparisonResult result;
   result.rel_mse = relative_mse(image, against);
-  if (!order.kept && order.independent) result.rel_mse -= order.reference->rel_mse;
+  if (order.clean && order.frame->clean) result.clean_rel_mse = relative_mse(rgb_of(order.frame->clean->rgba), against);
+  const double noise = !order.kept && order.independent ? order.reference->rel_mse : 0;
+  result.rel_mse -= noise;
+  if (result.clean_rel_mse) *result.clean_rel_mse -= noise;
   if (order.map == ErrorView::error) result.map = map_of(pixel_relative_error(image, against, width, height), grey);
   if (order.flip || order.map == ErrorView::flip) {
     const std::vector<float> flip = flip_map(image, against, width, height);

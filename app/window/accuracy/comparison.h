@@ -18,14 +18,16 @@ struct ComparisonOrder {
   std::shared_ptr<const Reference> reference;
   ErrorView map = ErrorView::none;
   bool flip = false;        ///< also FLIP
+  bool clean = false;       ///< also the frame's clean view
   bool independent = true;  ///< of the reference's random numbers: its own noise is taken off, where that is known
 };
 
 struct ComparisonResult {
-  double rel_mse = 0;          ///< <= 0: less than the reference's own noise
-  std::optional<double> flip;  ///< mean over the pixels, as `tyndall compare` prints it
-  std::vector<float> map;      ///< 4 floats a pixel; empty: none was asked for
-  double cpu_seconds = 0;      ///< what this took
+  double rel_mse = 0;                   ///< <= 0: less than the reference's own noise
+  std::optional<double> clean_rel_mse;  ///< of the clean view, if that was asked for
+  std::optional<double> flip;           ///< mean over the pixels, as `tyndall compare` prints it
+  std::vector<float> map;               ///< 4 floats a pixel; empty: none was asked for
+  double cpu_seconds = 0;               ///< what this took
 };
 
 /// Whether both pictures are there and have one size.

@@ -135,6 +135,7 @@ void LiveAccuracy::take(Measurement what, const ComparisonOrder& order, const st
   const Frame& frame = *order.frame;
   if (is_truth(what)) {
     pictures_.add_truth(half_of(what), frame, method, result.rel_mse);
+    if (result.clean_rel_mse) pictures_.add_clean_truth(half_of(what), frame, method, *result.clean_rel_mse);
     if (pictures_.split()) return;  // this was no comparison of the two halves
   }
   if (!is_slow(what)) pair_.rel_mse = result.rel_mse;

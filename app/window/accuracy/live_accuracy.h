@@ -63,7 +63,7 @@ class LiveAccuracy {
 
   /// Whether the curves are errors against the reference; else they are estimates.
   bool is_true() const { return pictures_.is_true(); }
-  const Convergence& curves(Half half) const { return pictures_.curves(half); }
+  const Convergence& curves(Half half, Kind kind = Kind::raw) const { return pictures_.curves(half, kind); }
   /// All curves of the chart, under their names.
   std::vector<NamedCurve> named_curves() const { return pictures_.named_curves(); }
   const PairErrors& pair() const { return pair_; }

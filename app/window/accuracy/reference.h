@@ -42,5 +42,7 @@ ReferenceFit fit_of(const Reference& reference, const Scene& scene);
 
 /// Linear RGB, 3 floats a pixel, of a frame's picture; empty where the frame has none (a view's coarse pass).
 std::vector<float> picture_of(const Frame& frame);
+/// 3 of 4 floats a pixel.
+std::vector<float> rgb_of(const std::vector<float>& rgba);
 
 }  // namespace tyndall

@@ -38,6 +38,7 @@ void RendererPair::begin_split(const Scene& scene) {
   kept_ = scene.render;
   second_ = std::make_shared<Renderer>(Renderer::Options{threads_, isa_}, on_frame_);
   second_->set_view(view_);
+  second_->set_clean(clean_);
   kept_edit_ = 0;
   submit_kept(scene);
   renderer_.restart();
@@ -78,6 +79,12 @@ void RendererPair::set_view(View view) {
   if (second_) second_->set_view(view);
 }
 
+void RendererPair::set_clean(bool clean) {
+  clean_ = clean;
+  renderer_.set_clean(clean);
+  if (second_) second_->set_clean(clean);
+}
+
 std::shared_ptr<const Frame> RendererPair::latest(Half half) const {
   if (half == Half::current) return renderer_.latest();
   return second_ ? second_->latest() : nullptr;
@@ -86,7 +93,8 @@ std::shared_ptr<const Frame> RendererPair::latest(Half half) const {
 bool RendererPair::finished() const {
   const auto ended = [this](Half half) {
     const auto frame = latest(half);
-    return frame && frame->edit == edit(half) && frame->finished && frame->view == view_;
+    return frame && frame->edit == edit(half) && frame->finished && frame->view == view_ &&
+           (!clean_ || frame->clean || frame->spp < least_clean_spp);
   };
   const bool current = ended(Half::current) && renderer_.latest()->pass > restarted_after_;
   return current && (!second_ || ended(Half::kept));

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/accuracy/fair_share.h"
 #include "app/window/accuracy/half.h"
+#include "core/render/clean_film.h"
 #include "core/render/renderer.h"
 
 #include <atomic>
@@ -46,6 +47,9 @@ class RendererPair {
   void set_threads(int threads);
   int threads() const { return threads_; }
   void set_view(View view);
+  /// Whether frames carry a clean view.
+  void set_clean(bool clean);
+  bool clean() const { return clean_; }
 
   /// The newest frame; null: there is none.
   std::shared_ptr<const Frame> latest(Half half) const;
@@ -67,7 +71,7 @@ class RendererPair {
   std::string isa_;
   std::function<void()> on_frame_;
   int threads_;
-  bool paused_ = false;
+  bool paused_ = false, clean_ = false;
   View view_ = View::beauty;
   std::atomic<std::uint64_t> edit_ = 0;
   RenderSettings kept_;  ///< of the left half

@@ -26,6 +26,8 @@ ChartLine line_of(const NamedCurve& named) {
       break;
     case NamedCurve::Role::kept:
       return {named.curve, named.name, shade(palette::amber), 2};
+    case NamedCurve::Role::clean:
+      return {named.curve, named.name, shade(palette::text), 2};
     case NamedCurve::Role::current:
       return {named.curve, named.name, shade(palette::blue), 2.5f};
   }

@@ -19,6 +19,7 @@ struct Wishes {
   bool export_chart = false;  ///< write the chart's curves into files
   bool reference = false;     ///< ask which picture errors are measured against
   std::optional<bool> split;
+  std::optional<int> clean;  ///< 0: off, 1: on, 2: beside the raw picture
 };
 
 /// What panels tell about the window, besides the scene.
@@ -29,6 +30,7 @@ struct PanelFacts {
   bool can_show_errors = false;  ///< there is something to measure the picture against
   std::vector<BuiltIn> scenes;
   std::string title;  ///< of the open scene
+  int clean = 0;      ///< see Wishes
   int threads = 1;
 };
 

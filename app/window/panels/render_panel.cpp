@@ -60,6 +60,21 @@ void split_row(Ui& ui, PanelState& state) {
     state.wishes.split = chosen == 1;
 }
 
+std::string clean_meaning(const PanelState& state) {
+  if (state.facts.clean == 0) return "";
+  const CleanFrame* clean = state.facts.frame ? state.facts.frame->clean.get() : nullptr;
+  if (!clean) return "from 2 samples a pixel on";
+  return fmt::format("filtered at {} spp; files are not", format_count(clean->spp));
+}
+
+void clean_row(Ui& ui, PanelState& state) {
+  static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
+  int chosen = state.facts.clean;
+  const char* help = "noise is filtered away where the samples tell what is noise: key N";
+  if (choice_row(ui, {"clean", "Clean", {}, {}, "", help, clean_meaning(state)}, choices, chosen))
+    state.wishes.clean = chosen;
+}
+
 /// "7 spheres, 1 quad, 1 medium, 1 light".
 std::string contents_text(const Scene& scene) {
   const Contents contents = contents_of(scene);
@@ -83,6 +98,7 @@ void image_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Image", "never starts over")) return;
   ui.scope = "image.";
   field_rows(ui, state.scene.display);
+  clean_row(ui, state);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) {
     const bool missing = shows_errors(k) && !state.facts.can_show_errors;

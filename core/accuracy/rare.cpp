@@ -1,4 +1,4 @@
-#include "core/render/rare.h"
+#include "core/accuracy/rare.h"
 
 namespace tyndall {
 
