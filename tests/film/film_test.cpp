@@ -185,6 +185,26 @@ TEST_CASE("film: resolve gives the means, row by row") {
   CHECK(resolve(film) == std::vector<float>{0, 0, 0, 0.5f, 0.25f, 2});
 }
 
+TEST_CASE("film: emission is a sum of its own, of what counts") {
+  Film film = make_film(1, 1, {0, 0, 1, 1}, 0, 4, true);
+  CHECK(bytes_per_pixel(true) == bytes_per_pixel(false) + sizeof(EmissionSums));
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const Vec3f radiance : {Vec3f{1, 2, 3}, Vec3f{infinity, 0, 0}, Vec3f{3, 0, 1e-6f}}) {
+    add_sample(film.pixels[0], 1, radiance, 0.25);
+    add_emission(film.emission[0], 1, radiance, 0.25);
+  }
+  film.pixels[0].taken = 6;  // three of them of half 0, which met no lamp
+  CHECK(half_emission(film, 0, 0) == Vec3f{});
+  CHECK(half_emission(film, 0, 1).x == 2);
+  CHECK(half_emission(film, 0, 1).y == 1);
+  CHECK(half_emission(film, 0, 1).z == doctest::Approx(1.5 + 0.5e-6).epsilon(1e-8));
+  EmissionSums twice = film.emission[0];
+  add_emission(twice, film.emission[0]);
+  CHECK(twice.sum[1][0] == 2 * film.emission[0].sum[1][0]);
+  film.emission.clear();
+  CHECK(half_emission(film, 0, 1) == Vec3f{});
+}
+
 // Reference: FNV-1a over the bytes 01000000 01000000 0000803f 0000003f 00000000, by hand (a few lines of Python).
 TEST_CASE("image hash: FNV-1a of size and means, minus zero as zero") {
   CHECK(image_hash(1, 1, {1, 0.5f, 0}) == 0xc8ec25a66acc9dd5u);

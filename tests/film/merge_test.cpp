@@ -19,8 +19,11 @@ void take(Film& film, int x, int y, std::uint32_t index) {
 }
 
 /// Samples first ... last - 1 of each pixel.
-Film film_of(std::uint32_t first, std::uint32_t last) {
-  Film film = make_film(6, 5, {1, 1, 5, 4}, first, 4);
+Film film_of(std::uint32_t first, std::uint32_t last, bool emission = false) {
+  Film film = make_film(6, 5, {1, 1, 5, 4}, first, 4, emission);
+  for (std::size_t i = 0; i < film.emission.size(); ++i)
+    for (std::uint32_t s = first; s < last; ++s)
+      add_emission(film.emission[i], s & 1u, {static_cast<float>(i + s), 1, 0.1f}, 1 / film.unit);
   for (int y = 1; y < 4; ++y) {
     for (int x = 1; x < 5; ++x) {
       for (std::uint32_t i = first; i < last; ++i) take(film, x, y, i);
@@ -41,6 +44,13 @@ TEST_CASE("merge: parts in any order give the film of one run, bit for bit") {
     for (const std::size_t i : order) shuffled.push_back(parts[i]);
     CHECK(merge(shuffled) == whole);
   } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("merge: emission adds up where all parts have it, and is dropped else") {
+  const Film whole = film_of(0, 13, true);
+  CHECK(merge({{"b", film_of(6, 13, true)}, {"none", film_of(3, 3)}, {"a", film_of(0, 6, true)}}) == whole);
+  CHECK(merge({{"b", film_of(6, 13, true)}, {"a", film_of(0, 6)}}) == film_of(0, 13));
+  CHECK(merge({{"b", film_of(6, 13)}, {"a", film_of(0, 6, true)}}) == film_of(0, 13));
 }
 
 TEST_CASE("merge: a range that does not begin at 0, a single part, nothing but empty parts") {

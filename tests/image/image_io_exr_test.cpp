@@ -48,6 +48,20 @@ std::string small_exr(const fs::path& folder) {
 
 }  // namespace
 
+TEST_CASE("EXR: a film's emission comes back, bit for bit, and a film without it has none") {
+  const fs::path folder = scratch_folder("emission");
+  Film film = make_film(5, 4, {1, 0, 5, 3}, 0, 2, true);
+  std::mt19937_64 engine(6);
+  for (EmissionSums& pixel : film.emission)
+    for (auto& half : pixel.sum)
+      for (std::int64_t& sum : half) sum = static_cast<std::int64_t>(engine()) >> engine() % 64;
+  write_exr(folder / "lamps.exr", film, {}, notes);
+  CHECK(read_film(folder / "lamps.exr") == film);
+  film.emission.clear();
+  write_exr(folder / "none.exr", film, {}, notes);
+  CHECK(read_film(folder / "none.exr") == film);
+}
+
 TEST_CASE("exr: a build without OpenEXR says so" * doctest::skip(has_openexr())) {
   const fs::path file = scratch_folder("exr_none") / "a.exr";
   const std::string text = "this build has no EXR images (OpenEXR was not found when it was configured)";

@@ -38,6 +38,27 @@ TEST_CASE("the status line tells what is on the screen") {
     CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
 }
 
+TEST_CASE("the status line tells the errors of the clean view and of the raw picture") {
+  Frame frame;
+  frame.edit = 3;
+  frame.spp = 20;
+  frame.relative_error = 0.041;
+  auto clean = std::make_shared<CleanFrame>();
+  clean->relative_error = 0.009;
+  clean->spp = 16;
+  frame.clean = clean;
+  std::string text = text_of(status_cells(&frame, {}, document(), {}));
+  for (const char* part : {"clean=0.9 %;", "raw=4.1 %;"}) CHECK_MESSAGE(text.find(part) != std::string::npos, text);
+  CHECK(text.find("rough") == std::string::npos);
+  clean->spp = 8;
+  text = text_of(status_cells(&frame, {}, document(), {}));
+  CHECK_MESSAGE(text.find("=rough below 16 spp;") != std::string::npos, text);
+  const ErrorCurve raw{"", {{10, 1.6e-3}}, 3}, filtered{"", {{10, 1e-4}}, 3};
+  text = text_of(status_cells(&frame, raw, document(), {.is_true = true, .clean_run = &filtered}));
+  for (const char* part : {"true clean=1 %;", "true raw=4 %;", "estimated=4.1 %;"})
+    CHECK_MESSAGE(text.find(part) != std::string::npos, text);
+}
+
 TEST_CASE("what is not known yet is not made up") {
   Frame frame;
   frame.step = 8;

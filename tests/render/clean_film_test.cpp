@@ -1,0 +1,134 @@
+#include "core/render/clean_film.h"
+
+#include "core/accuracy/error.h"
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+#include "core/scene/load.h"
+#include "tests/support/pictures.h"
+#include "tests/support/watched_renderer.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+Scene small(const char* name, int width, int height) {
+  Scene scene = load_scene(name).scene;
+  scene.width = width, scene.height = height;
+  scene.render.spp.reset();
+  return scene;
+}
+
+RenderResult rendered(const Scene& scene, std::uint32_t spp, bool clean = false, int threads = 2) {
+  RenderOptions options;
+  options.spp = spp;
+  options.clean = clean;
+  options.threads = threads;
+  return render(compile(scene), options);
+}
+
+Vec3f emission(const Film& film, int x, int y) {
+  return half_emission(film, film.index(x, y), 0) + half_emission(film, film.index(x, y), 1);
+}
+
+}  // namespace
+
+TEST_CASE("emission: is all that is seen of a lamp, also in a mirror, and nothing of what it shines on") {
+  Scene scene = small("cornell-box", 32, 32);
+  const Film box = rendered(scene, 8).film;
+  CHECK(emission(box, 16, 5).x > 20);  // the lamp, in both halves
+  CHECK(half_emission(box, box.index(16, 5), 0) == half_mean(box, box.at(16, 5), 0));
+  CHECK(emission(box, 16, 30) == Vec3f{});
+  CHECK(mean(box, box.at(16, 30)).x > 0);
+  double shining = 0;
+  for (std::size_t i = 0; i < box.emission.size(); ++i) shining += half_emission(box, i, 1).x > 0 ? 1 : 0;
+  CHECK(shining < 40);
+  for (Material& material : scene.materials)
+    if (std::holds_alternative<Lambertian<>>(material.kind)) material.kind = Metal<>{0};
+  const Film mirrors = rendered(scene, 8).film;
+  for (std::size_t i = 0; i < mirrors.emission.size(); ++i)
+    for (int half = 0; half < 2; ++half)
+      REQUIRE(half_emission(mirrors, i, half).y == half_mean(mirrors, mirrors.pixels[i], half).y);
+}
+
+TEST_CASE("emission: costs no memory where there is no lamp") {
+  CHECK(rendered(small("metal-spheres", 16, 9), 2).film.emission.empty());
+}
+
+TEST_CASE("clean view: nearer to the truth than the picture, with an error that it knows, and the film is the same") {
+  for (const char* name : {"cornell-box", "cornell-smoke", "showroom", "metal-spheres"}) {
+    CAPTURE(name);
+    const Scene scene = small(name, 96, 96);
+    const RenderResult raw = rendered(scene, 8), result = rendered(scene, 8, true);
+    CHECK(result.film == raw.film);
+    REQUIRE(result.clean);
+    Scene other = scene;
+    other.render.seed = 99;
+    const std::vector<float> truth = resolve(rendered(other, 512).film);
+    const double before = relative_mse(resolve(raw.film), truth), after = relative_mse(result.clean->rgb, truth);
+    CHECK(after < 0.5 * before);
+    CHECK(result.clean->relative_error > 0.5 * std::sqrt(after));
+    CHECK(result.clean->relative_error < 2 * std::sqrt(after));
+  }
+}
+
+TEST_CASE("clean view: of regions, and the same for any number of threads and after an interruption") {
+  const Scene scene = small("cornell-box", 40, 30);
+  const RenderScene compiled = compile(scene);
+  const RenderResult one = rendered(scene, 4, true, 1), two = rendered(scene, 4, true, 3);
+  CHECK(one.clean->rgb == two.clean->rgb);
+  RenderOptions options;
+  options.spp = 4;
+  options.clean = true;
+  options.region = Region{7, 3, 8, 20};
+  CHECK(render(compiled, options).clean->rgb.size() == 3 * 17);
+  options.region.reset();
+  options.spp = 2;
+  RenderResult half = render(compiled, options);
+  options.spp = 4;
+  CHECK(render(compiled, options, {}, std::move(half.film)).clean->rgb == one.clean->rgb);
+}
+
+TEST_CASE("clean view: its error ends a render that asks for that, and one sample a pixel has none") {
+  const Scene scene = small("cornell-box", 48, 48);
+  RenderOptions options;
+  options.clean = true;
+  options.target_error = 0.12;
+  const RenderResult result = render(compile(scene), options);
+  REQUIRE(result.clean);
+  CHECK(result.clean->relative_error <= 0.12);
+  CHECK(estimate_error(result.film).relative_error > 0.12);
+  CHECK(result.seconds_clean > 0);
+  CHECK_FALSE(rendered(scene, 1, true).clean);
+}
+
+TEST_CASE("clean view: comes with frames when it is wanted, of the newest scene, and goes with the wish") {
+  WatchedRenderer renderer;
+  Scene scene = small("cornell-box", 64, 64);
+  scene.render.spp = 8;
+  CHECK_FALSE(renderer.wait_finished(renderer->submit(scene))->clean);
+  renderer->set_clean(true);
+  const FramePointer clean = renderer.wait_for([](const Frame& f) { return f.clean && f.finished; });
+  CHECK(clean->clean->spp == 8);
+  CHECK(clean->clean->rgba.size() == clean->rgba.size());
+  CHECK(clean->clean->relative_error < clean->relative_error);
+  const RenderResult blocking = rendered(scene, 8, true);
+  CHECK(clean->clean->rgba[4 * 1000] == blocking.clean->rgb[3 * 1000]);
+  CHECK(clean->clean->relative_error == blocking.clean->relative_error);
+
+  scene.camera.vfov = 30;
+  const std::size_t before = renderer.frames().size();
+  const FramePointer next = renderer.wait_finished(renderer->submit(scene), before);
+  REQUIRE(next->clean);
+  CHECK(next->clean->spp == 8);
+  for (const FramePointer& frame : renderer.frames())
+    if (frame->edit == next->edit && frame->clean) CHECK(frame->clean->rgba != clean->clean->rgba);
+  renderer->set_clean(false);
+  renderer.catch_up();
+  CHECK_FALSE(renderer->latest()->clean);
+  CHECK(renderer->latest()->spp == 8);
+}
