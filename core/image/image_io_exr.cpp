@@ -166,15 +166,11 @@ void write_exr(const std::filesystem::path& file, const Film& film, const std::v
 
 namespace tyndall {
 
-namespace {
-constexpr const char* missing = "this build has no EXR images (OpenEXR was not found when it was configured)";
-}
-
 bool has_openexr() { return false; }
 
 void write_exr(const std::filesystem::path& file, const Film&, const std::vector<Layer>&, const Embedded&,
                const LinearImage*) {
-  cannot_write(file, missing);
+  cannot_write(file, without_openexr);
 }
 
 }  // namespace tyndall

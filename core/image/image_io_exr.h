@@ -15,6 +15,10 @@ std::vector<FilmChannel> film_channels();
 /// Those of EmissionSums, film.A.R.emission0 ...: in files of films that have it.
 std::vector<FilmChannel> emission_channels();
 
+/// Why no EXR is read or written where OpenEXR was not found when the build was configured.
+inline constexpr const char* without_openexr =
+    "this build has no EXR images (OpenEXR was not found when it was configured)";
+
 // Names of the header's attributes.
 namespace exr_name {
 inline constexpr const char* scene = "tyndall:scene";

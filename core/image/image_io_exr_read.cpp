@@ -181,22 +181,16 @@ std::optional<std::string> exr_text(const std::filesystem::path& file, const std
 
 namespace tyndall {
 
-namespace {
-
-[[noreturn]] void missing(const std::filesystem::path& file) {
-  cannot_read(file, "this build has no EXR images (OpenEXR was not found when it was configured)");
-}
-
-}  // namespace
-
-LinearImage read_exr(const std::filesystem::path& file) { missing(file); }
+LinearImage read_exr(const std::filesystem::path& file) { cannot_read(file, without_openexr); }
 
 std::optional<Film> read_film(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) == ImageKind::exr) missing(file);
+  if (image_kind(read_bytes(file, 16)) == ImageKind::exr) cannot_read(file, without_openexr);
   return {};
 }
 
-std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) { missing(file); }
+std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
+  cannot_read(file, without_openexr);
+}
 
 }  // namespace tyndall
 
