@@ -13,7 +13,7 @@
 /// A window's session for tests: everything but the window.
 namespace tyndall::test {
 
-/// A session over a small scene file of its own, and a clock that waits for it.
+/// A session over a small scene file in a folder of its own, which is the current folder while this lives.
 class OpenedSession {
  public:
   explicit OpenedSession(const std::string& name) : folder_(scratch_folder() / ("session_" + name)) {

@@ -31,7 +31,8 @@ TEST_CASE("jobs run in order elsewhere, results here, and none is lost at the en
     CHECK(order == std::vector<int>{0, 1, 2});
     for (int k = 0; k < 3; ++k)
       jobs.run([&]() -> JobQueue::Result {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the queue goes before
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(20));  // the queue is destroyed before these jobs have run
         ++ran;
         return {};
       });
