@@ -1,0 +1,198 @@
+#include "tests/support/chain_rooms.h"
+
+#include "tests/support/probe.h"
+
+namespace tyndall::test {
+namespace {
+
+constexpr Vec3d ball_center{0, 1.2, 0}, lamp_center{0.08, 4.1, 0.05};
+constexpr Vec3d bulb_center{-0.3, 1.8, -0.2}, beside_center{-0.1, 1.9, -0.1};
+
+/// Walls of a room, seen from a corner.
+Scene dim_room() {
+  Scene scene = dark_room();
+  scene.width = 48, scene.height = 36;
+  scene.render.integrator = Integrator::mis;
+  scene.render.sampler = SamplerKind::sobol;
+  scene.camera.look_from = {2.8, 2.6, 2.7};
+  scene.camera.look_at = {-0.6, 1, -0.6};
+  scene.camera.vfov = 75;
+  add(scene, Box<>{{-3, 0, -3}, {3, 5, 3}}, lambertian(0.2));
+  return scene;
+}
+
+/// A hood over the middle of the floor: from a lamp in it light leads only to a ball below.
+Scene hooded_room() {
+  Scene scene = dim_room();
+  const Material black = lambertian(0);
+  const double half = 0.3, low = 3, high = 4.5, wide = 2 * half;
+  for (const double side : {-half, half}) {
+    add(scene, Quad<>{{-half, low, side}, {wide, 0, 0}, {0, high - low, 0}}, black);
+    add(scene, Quad<>{{side, low, -half}, {0, 0, wide}, {0, high - low, 0}}, black);
+  }
+  add(scene, Quad<>{{-half, high, -half}, {wide, 0, 0}, {0, 0, wide}}, black);
+  return scene;
+}
+
+Scene under_hood() {
+  Scene scene = hooded_room();
+  add(scene, sphere(lamp_center, 0.05), lamp(700));
+  return scene;
+}
+
+void add_shell(Scene& scene, Vec3d center, double inner, Vec3d way = {}) {
+  const auto moving = [&](double radius) {
+    return way == Vec3d{} ? sphere(center, radius) : Sphere<>{center, radius, center + way};
+  };
+  add(scene, moving(1), glass(1.5));
+  add(scene, moving(-inner), glass(1.5));
+}
+
+Scene with(Scene scene, auto change) {
+  change(scene);
+  return scene;
+}
+
+void open_shutter(Scene& scene) { scene.camera.shutter_open = 0.2, scene.camera.shutter_close = 0.9; }
+
+void add_fog(Scene& scene) { add_medium(scene, Box<>{{-2.9, 0.1, -2.9}, {1.8, 2.9, 2.9}}, {0.3, 0.3}, 0.9); }
+
+std::vector<ChainRoom> balls() {
+  const auto ball = [](const Material& material) {
+    return with(under_hood(), [&](Scene& s) { add(s, sphere(ball_center, 1), material); });
+  };
+  const auto shell = [](double inner) {
+    return with(under_hood(), [&](Scene& s) { add_shell(s, ball_center, inner); });
+  };
+  return {
+      {"mirror", ball(metal(0.9, 0)), 256},
+      {"glass", ball(glass(1.5)), 4096},
+      {"glass of index 2.4", ball(glass(2.4)), 4096},
+      {"air in glass", ball(glass(0.75)), 1024},
+      {"shell", shell(0.85), 256},
+      {"shell of two indices",
+       with(ball(glass(1.5)), [](Scene& s) { add(s, sphere(ball_center, 0.85), glass(1 / 1.5)); }), 256},
+      {"thick shell", shell(0.5), 2048},
+      {"thing in a shell", with(shell(0.85),
+                                [](Scene& s) {
+                                  add(s, sphere({0.3, 1.3, 0.1}, 0.3), lambertian(0.5));
+                                })},
+  };
+}
+
+std::vector<ChainRoom> bulbs() {
+  const auto bulb = [](Vec3d at, auto add_glass) {
+    return with(dim_room(), [&](Scene& s) {
+      add(s, sphere(at, 0.05), lamp(300));
+      add_glass(s);
+    });
+  };
+  const auto shell = [](Scene& s) { add_shell(s, bulb_center, 0.85); };
+  const auto solid = [](Scene& s) { add(s, sphere(bulb_center, 1), glass(1.5)); };
+  return {
+      {"bulb", bulb(beside_center, shell)},
+      {"bulb, lamp in the middle", bulb(bulb_center, shell)},
+      {"bulb of thick glass", bulb({-0.2, 1.9, -0.15}, [](Scene& s) { add_shell(s, bulb_center, 0.4); }), 1024},
+      {"lamp in glass", bulb(beside_center, solid)},
+      {"lamp in the middle of glass", bulb(bulb_center, solid)},
+      {"moving bulb", bulb(beside_center,
+                           [](Scene& s) {
+                             add_shell(s, bulb_center, 0.85, {0.1, 0.1, 0});
+                             open_shutter(s);
+                           })},
+      {"fog in a bulb", bulb(beside_center,
+                             [&](Scene& s) {
+                               shell(s);
+                               add_medium(s, sphere(bulb_center, 0.85), {0.5, 0.3}, 0.9);
+                             })},
+      {"bulb in fog", bulb(beside_center,
+                           [&](Scene& s) {
+                             shell(s);
+                             add_fog(s);
+                           })},
+  };
+}
+
+std::vector<ChainRoom> in_fog_and_moving() {
+  const auto moving = [](const Material& material) {
+    return with(under_hood(), [&](Scene& s) {
+      add(s, Sphere<>{ball_center, 1, ball_center + Vec3d{0.1, 0.1, 0.1}}, material);
+      open_shutter(s);
+    });
+  };
+  const auto foggy = [](const Material& material) {
+    return with(under_hood(), [&](Scene& s) {
+      add(s, sphere(ball_center, 1), material);
+      add_fog(s);
+    });
+  };
+  return {
+      {"moving mirror", moving(metal(0.9, 0)), 256},
+      {"moving glass", moving(glass(1.5)), 4096},
+      {"moving shell",
+       with(under_hood(),
+            [](Scene& s) {
+              add_shell(s, ball_center, 0.85, {0.1, 0.1, 0.1});
+              open_shutter(s);
+            }),
+       256},
+      {"mirror in fog", foggy(metal(0.9, 0))},
+      {"glass in fog", foggy(glass(1.5)), 4096},
+      {"shell in fog", with(under_hood(),
+                            [](Scene& s) {
+                              add_shell(s, ball_center, 0.85);
+                              add_fog(s);
+                            })},
+      {"fog in glass",
+       with(under_hood(),
+            [](Scene& s) {
+              add(s, sphere(ball_center, 1), glass(1.5));
+              add_medium(s, sphere(ball_center, 1), {0.5, 0.3}, 0.9);
+            }),
+       2048},
+  };
+}
+
+std::vector<ChainRoom> lamps() {
+  const auto lit = [](auto add_lamps) {
+    return with(hooded_room(), [&](Scene& s) {
+      add(s, sphere(ball_center, 1), metal(0.9, 0));
+      add_lamps(s);
+    });
+  };
+  const Quad<> quad{{-0.1, 4.1, -0.05}, {0.15, 0, 0}, {0, 0.03, 0.15}};
+  return {
+      {"quad as lamp", lit([&](Scene& s) { add(s, quad, lamp(500)); }), 256},
+      {"textured lamp", lit([&](Scene& s) {
+         s.textures.push_back({"tiles", Checker<>{0.04, {0.1, 0.5, 1}, {1, 0.7, 0.2}}});
+         add(s, quad, {"", TextureIndex{0}, Light<>{}});
+       }),
+       256},
+      {"box as lamp", lit([](Scene& s) {
+         add(s, Box<>{{-0.05, 4, -0.05}, {0.05, 4.1, 0.05}}, lamp(500));
+       }),
+       256},
+      {"moving lamp", lit([](Scene& s) {
+         add(s, Sphere<>{{-0.1, 4.1, 0}, 0.05, Vec3d{0.1, 4.2, 0.05}}, lamp(700));
+         open_shutter(s);
+       }),
+       256},
+      {"two lamps and two balls", lit([](Scene& s) {
+         add(s, sphere(lamp_center, 0.05), lamp(700));
+         add(s, sphere({-0.1, 4.2, -0.1}, 0.03), lamp(900));
+         add(s, sphere({1.7, 0.5, -1.5}, 0.5), glass(1.5));
+       }),
+       512},
+  };
+}
+
+}  // namespace
+
+std::vector<ChainRoom> chain_rooms() {
+  std::vector<ChainRoom> all;
+  for (const std::vector<ChainRoom>& some : {balls(), bulbs(), in_fog_and_moving(), lamps()})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+}  // namespace tyndall::test

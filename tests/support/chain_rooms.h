@@ -1,0 +1,24 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+/// Rooms whose light comes by chains: a small lamp hangs in a hood, or in glass, so that no point of the walls sees it.
+/// What is wrong with one kind of chain then is wrong with all of the picture.
+namespace tyndall::test {
+
+struct ChainRoom {
+  std::string name;
+  Scene scene;
+  /// Samples a pixel and seed, and particles, for a standard error of about a thousandth of the mean.
+  int spp = 512;
+  double particles = 1e7;
+};
+
+/// One room for each kind of chain: off metal and glass, through balls with inner reflections, through shells written
+/// both ways and off their inner spheres, out of bulbs, with moving balls and lamps, several lamps, quads, boxes and
+/// textures as lamps, in fog and with fog within.
+std::vector<ChainRoom> chain_rooms();
+
+}  // namespace tyndall::test

@@ -1,0 +1,33 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+/// Light traced the other way: particles from the lamps, joined to the camera wherever they scatter at a matt surface
+/// or in fog. Light through glass and off mirrors, which paths from the camera find by chance or by chains, arrives
+/// here by itself. A second opinion that shares nothing with the kernels but the scene.
+namespace tyndall::test {
+
+struct LightTracing {
+  std::uint64_t particles = 1u << 20;
+  std::uint64_t seed = 1;
+  int batches = 16;  ///< independent parts of the particles
+  int threads = 0;   ///< 0: all cores; never changes the picture
+};
+
+struct LightTraced {
+  int width = 0, height = 0;
+  /// Of each batch the mean radiance of all pixels, 3 numbers a pixel, top row first.
+  std::vector<std::vector<double>> batches;
+  /// By pixel, 1: all that it shows is matt, or fog in front of that. Particles cannot be joined to the camera by way
+  /// of glass, metal or a lamp: pixels that show one of those are dark here, and marked 0.
+  std::vector<char> joined;
+};
+
+/// The picture of a scene with spheres and parallelograms as lamps. As few scattering events as the scene's max_depth
+/// are followed. Not in a room's lamp: no shape or camera within a sphere that shines. Throws std::invalid_argument for
+/// scenes that LightRoom does not cover.
+LightTraced trace_light(const Scene& scene, const LightTracing& how);
+
+}  // namespace tyndall::test
