@@ -49,6 +49,14 @@ void check_if_complete(const Job& job) {
              std::to_string(*job.options.spp) + " asked for; it is written as it is");
 }
 
+/// Says so if chains are asked for by option where none are looked for.
+void check_if_ignored(const RenderCommand& command, const RenderSettings& settings) {
+  if (!command.scene.render.given.contains("caustics") || settings.caustics != Caustics::chains) return;
+  if (settings.integrator != Integrator::mis)
+    complain("--caustics chains: ignored, because chains are a part of integrator mis, and this is " +
+             std::string(name_of(settings.integrator)));
+}
+
 /// Finds everything that can be wrong before the first sample.
 void prepare(Job& job) {
   const RenderCommand& command = job.command;
@@ -63,6 +71,7 @@ void prepare(Job& job) {
   job.film = film_to_resume(command, job.loaded, job.options);
   job.samples_before = totals(job.film).samples;
   check_if_complete(job);
+  check_if_ignored(command, job.loaded.scene.render);
 }
 
 /// What the picture lacks, if it lacks anything.

@@ -7,6 +7,7 @@
 #include "core/compile/compile.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
+#include "core/scene/json_tree.h"
 #include "core/scene/load.h"
 
 #include <algorithm>
@@ -24,26 +25,49 @@ void strip(Scene& scene) {
     if (Image* image = std::get_if<Image>(&texture.kind)) image->file.clear();  // its pixels are compared
 }
 
+constexpr const char* caustics_pointer = "/render/caustics";
+
+/// Whether the text that a film carries says how caustics were found. Films from before there was a choice do not, and
+/// left them to chance.
+bool says_caustics(const std::string& text) {
+  const JsonValue json = parse_json(text);
+  const auto* root = std::get_if<JsonObject>(&json.value);
+  const JsonValue* render = root ? find(*root, "render") : nullptr;
+  const auto* settings = render ? std::get_if<JsonObject>(&render->value) : nullptr;
+  return settings && find(*settings, "caustics");
+}
+
+bool could_have_chains(Scene scene) {
+  scene.render.caustics = Caustics::chains;
+  return !compile(scene).chains.ball.empty();
+}
+
 }  // namespace
 
 StoredFilm read_stored_film(const std::filesystem::path& file) {
   std::optional<Film> film = read_film(file);
   if (!film) throw UsageError(file.string() + ": found no film, expected an EXR that 'tyndall render' wrote");
   LoadedScene loaded = load_scene(file.string());
-  const Scene scene = move_textures(loaded.scene, loaded.folder, ".");
+  Scene scene = move_textures(loaded.scene, loaded.folder, ".");
+  if (!says_caustics(loaded.text)) scene.render.caustics = Caustics::scatter;
   return {{file.string(), std::move(*film)}, scene};
 }
 
 bool same_samples(Scene a, Scene b) {
   strip(a);
   strip(b);
-  return a == b;
+  if (a.render.caustics == b.render.caustics) return a == b;
+  b.render.caustics = a.render.caustics;
+  return a == b && !could_have_chains(a);
 }
 
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image) {
   scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, most_samples));
-  return write_scene(move_textures(std::move(scene), textures, image.parent_path()));
+  const std::string caustics = name_of(scene.render.caustics);
+  JsonValue json = parse_json(write_scene(move_textures(std::move(scene), textures, image.parent_path())));
+  apply_override(json, {caustics_pointer, caustics});
+  return print_json(json);
 }
 
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads,

@@ -17,13 +17,16 @@ struct StoredFilm {
   Scene scene;
 };
 
-/// Reads an EXR that render wrote. Throws UsageError if it holds no film or no scene.
+/// Reads an EXR that render wrote. A film whose text does not say how caustics were found is of scattering: it is from
+/// before chains. Throws UsageError if it holds no film or no scene.
 StoredFilm read_stored_film(const std::filesystem::path& file);
 
-/// Whether the samples of both scenes are the same: all but names, display and the number of samples is equal.
+/// Whether the samples of both scenes are the same: all but names, display and the number of samples is equal. How
+/// caustics are found may differ where no chains would be looked for.
 bool same_samples(Scene a, Scene b);
 
-/// The scene's text for an image of `film` at `image`: with the number of samples that the film has. textures: the
+/// The scene's text for an image of `film` at `image`: with the number of samples that the film has, and how caustics
+/// were found even where that is the default. textures: the
 /// folder that the scene's texture files are relative to.
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image);

@@ -98,6 +98,10 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
     row("came by     ", exact(v.direction));
     row("throughput  ", exact(v.throughput));
     row("radiance    ", exact(v.radiance));
+    if (!(v.by_chains == Vec3f{})) row("by chains   ", exact(v.by_chains));
+    if (v.chance < 1)
+      text +=
+          fmt::format("    by chance   this lamp counts {:.3g}: chains find it, too\n", static_cast<double>(v.chance));
     text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
             std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
   }

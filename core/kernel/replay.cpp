@@ -58,6 +58,26 @@ Fate fate_of(const Meeting& m, const Paths<float>& after, bool survives, bool cu
   return black || below ? Fate::absorbed : Fate::roulette;
 }
 
+/// The scene without chains: what its step does less is theirs.
+SceneView without_chains(SceneView s) {
+  s.chains.pairs = 0;
+  return s;
+}
+
+void tell_chains(const SceneView& s, Paths<float> before, const Paths<float>& after, PathVertex& v) {
+  if (!s.has_chains()) return;
+  const Vec3f start = before.radiance;
+  bool cut = false;
+  std::uint32_t shadows = 0;
+  ChainQueue<float> chains{};
+  step(without_chains(s), before, true, cut, chains, shadows);
+  const float with = max_component(after.radiance - start), alone = max_component(before.radiance - start);
+  if (with < alone)
+    v.chance = with / alone;
+  else
+    v.by_chains = after.radiance - before.radiance;
+}
+
 }  // namespace
 
 PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
@@ -74,8 +94,10 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
     bool cut = false;
     std::uint32_t shadows = 0;
     ChainQueue<float> chains{};
+    const Paths<float> before = p;
     const bool survives = step(s, p, true, cut, chains, shadows);
     PathVertex& v = meeting.vertex;
+    tell_chains(s, before, p, v);
     v.radiance = p.radiance;
     v.fate = fate_of(meeting, p, survives, cut);
     v.inside = v.met == Met::surface && survives && p.ray.from >= 0 &&

@@ -22,6 +22,8 @@ struct PathVertex {
   Vec3f point;                ///< RenderScene coordinates
   Vec3f throughput;           ///< with which it came
   Vec3f radiance;             ///< gathered so far, this vertex included
+  Vec3f by_chains;            ///< what exact chains from here added to it
+  float chance = 1;  ///< share of a lamp's light that counts here; the rest is left to chains, which find it too
   std::uint32_t first_dimension;  ///< of the event's random numbers
 };
 

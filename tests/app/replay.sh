@@ -29,6 +29,12 @@ grep -Eq '^1 after [0-9.]+ meets .* \(white\), ' out || fail "the ceiling: $(cat
 expect 0 "$tyndall" render cornell-box --size 32x24 --max-depth 0 --replay 16,12,0
 grep -q 'is cut at max_depth' out || fail "the cut: $(cat out)"
 
+# Light that chains found is said to be theirs.
+expect 0 "$tyndall" render stress-caustic-shell --size 32x24 --replay 10,20,1
+grep -q '^    by chains   [0-9]' out || fail "no chains: $(cat out)"
+expect 0 "$tyndall" render stress-caustic-shell --size 32x24 --replay 10,20,1 --caustics scatter
+! grep -q 'by chains' out || fail "chains by chance: $(cat out)"
+
 # Bad requests.
 expect 2 "$tyndall" render showroom --size 32x24 --replay 32,0,0
 complains '--replay' '32,0' '32x24'

@@ -52,4 +52,24 @@ complains 'going.exr'
 expect 2 "$tyndall" render "${scene[@]}" --samples 4:20 --resume -q -o going.exr
 complains 'going.exr'
 
+# Films of chains and of scattering are of different samples where there are chains; what says so is in the film.
+balls=(stress-caustic-glass --size 16x12 -q)
+expect 0 "$tyndall" render "${balls[@]}" --samples 0:2 -o chains.exr
+expect 0 "$tyndall" render "${balls[@]}" --samples 2:4 --caustics scatter -o scatter.exr
+expect 2 "$tyndall" merge chains.exr scatter.exr -o mixed.png
+complains 'scatter.exr' 'other settings'
+expect 2 "$tyndall" render "${balls[@]}" --spp 4 --caustics scatter --resume -o chains.exr
+complains 'chains.exr' 'other settings'
+expect 0 "$tyndall" render "${balls[@]}" --spp 4 --resume -o chains.exr
+expect 0 "$tyndall" render "${scene[@]}" --samples 0:9 --caustics scatter -q -o plain.exr
+expect 0 "$tyndall" merge plain.exr c.exr -o plain.pfm # no chains here either way
+cmp -s plain.pfm one.pfm || fail 'a scene without chains differs by --caustics'
+
+# Chains are a part of mis: asked for with another integrator they are ignored, and that is said.
+expect 0 "$tyndall" render "${balls[@]}" --spp 1 --integrator path --caustics chains -o path.pfm
+complains '--caustics chains' 'ignored' 'path'
+expect 0 "$tyndall" render "${balls[@]}" --spp 1 --integrator path -o same.pfm
+[ ! -s err ] || fail "without --caustics it says: $(cat err)"
+cmp -s path.pfm same.pfm || fail '--caustics chains changes what integrator path renders'
+
 finish

@@ -102,3 +102,30 @@ TEST_CASE("replay: shows where a number was lost") {
   CHECK(path.vertices[0].fate == Fate::lost);
   CHECK(std::isnan(path.radiance.x));
 }
+
+TEST_CASE("replay: says what chains add, and how much a lamp counts that they find too") {
+  Scene scene = dark_room();
+  scene.render.integrator = Integrator::mis;
+  add(scene, Quad<>{{-6, 0, -6}, {0, 0, 12}, {12, 0, 0}}, lambertian(0.7));
+  add(scene, sphere({0, 5.2, 0}, 0.9), lamp(5));
+  add(scene, sphere({0, 1.2, 0}, 1), glass(1.5));
+  aim(scene, {0, 0.1, 5}, {0, 0, 0.1});
+  const auto tell = [](const Scene& told) {
+    const RenderScene compiled = compile(told);
+    const SceneViewOf view(compiled);
+    int by_chains = 0, shared = 0;
+    for (std::uint32_t sample = 0; sample < 400; ++sample) {
+      const PathReplay path = replay(view.view(), 1, 2, sample);
+      for (const PathVertex& v : path.vertices) {
+        by_chains += v.by_chains.x > 0 && v.by_chains.x <= v.radiance.x ? 1 : 0;
+        shared += v.chance < 1 && v.fate == Fate::ends_at_light ? 1 : 0;
+      }
+    }
+    return std::pair{by_chains, shared};
+  };
+  const auto [by_chains, shared] = tell(scene);
+  CHECK(by_chains > 50);
+  CHECK(shared > 5);
+  scene.render.caustics = Caustics::scatter;
+  CHECK(tell(scene) == std::pair{0, 0});
+}

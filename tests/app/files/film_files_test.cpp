@@ -1,0 +1,60 @@
+#include "app/files/film_files.h"
+
+#include "core/image/image_io.h"
+#include "core/scene/json.h"
+#include "tests/support/pictures.h"
+#include "tests/support/scratch.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+Film small_film() {
+  Film film = make_film(2, 1, {0, 0, 2, 1}, 0, 4);
+  for (FilmPixel& pixel : film.pixels) {
+    add_sample(pixel, 0, {1, 1, 1}, 0.25);
+    pixel.taken = 1;
+  }
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("films with and without chains are told apart, where chains would be looked for") {
+  const auto both = [](const char* name) {
+    Scene chains = small_scene(name, 2, 1, 1), scatter = chains;
+    scatter.render.caustics = Caustics::scatter;
+    return same_samples(chains, scatter);
+  };
+  CHECK_FALSE(both("stress-caustic-glass"));
+  CHECK(both("cornell-box"));  // no balls: the samples are the same
+  Scene path = small_scene("stress-caustic-glass", 2, 1, 1), other = path;
+  path.render.integrator = other.render.integrator = Integrator::path;
+  other.render.caustics = Caustics::scatter;
+  CHECK(same_samples(path, other));  // chains belong to mis
+  other.render.seed = 7;
+  CHECK_FALSE(same_samples(path, other));
+}
+
+TEST_CASE("a film says how caustics were found; one that does not is from before chains") {
+  const auto folder = scratch_folder("caustics");
+  const Film film = small_film();
+  Scene scene = small_scene("stress-caustic-glass", 2, 1, 1);
+  if (!has_openexr()) return;
+  for (const Caustics caustics : {Caustics::chains, Caustics::scatter}) {
+    scene.render.caustics = caustics;
+    write_exr(folder / "new.exr", film, {}, {embedded_scene(scene, {}, film, folder / "new.exr"), ""});
+    const Scene stored = read_stored_film(folder / "new.exr").scene;
+    CHECK(stored.render.caustics == caustics);
+    CHECK(same_samples(stored, scene));
+  }
+  scene.render.caustics = Caustics::chains;
+  write_exr(folder / "old.exr", film, {}, {write_scene(scene), ""});
+  const StoredFilm old = read_stored_film(folder / "old.exr");
+  CHECK(old.part.film.pixels == film.pixels);
+  CHECK(old.scene.render.caustics == Caustics::scatter);
+  CHECK_FALSE(same_samples(old.scene, scene));
+}
