@@ -34,11 +34,15 @@ Scene hooded_room() {
   return scene;
 }
 
-Scene under_hood() {
+/// The lamp's power is the same for every radius. Solid balls gather the light of small lamps at bright edges, and then
+/// the noise is that of a few samples: they get a larger lamp.
+Scene under_hood(double lamp_radius = 0.05) {
   Scene scene = hooded_room();
-  add(scene, sphere(lamp_center, 0.05), lamp(700));
+  add(scene, sphere(lamp_center, lamp_radius), lamp(1.75 / (lamp_radius * lamp_radius)));
   return scene;
 }
+
+constexpr double large_lamp = 0.2;
 
 void add_shell(Scene& scene, Vec3d center, double inner, Vec3d way = {}) {
   const auto moving = [&](double radius) {
@@ -58,21 +62,21 @@ void open_shutter(Scene& scene) { scene.camera.shutter_open = 0.2, scene.camera.
 void add_fog(Scene& scene) { add_medium(scene, Box<>{{-2.9, 0.1, -2.9}, {1.8, 2.9, 2.9}}, {0.3, 0.3}, 0.9); }
 
 std::vector<ChainRoom> balls() {
-  const auto ball = [](const Material& material) {
-    return with(under_hood(), [&](Scene& s) { add(s, sphere(ball_center, 1), material); });
+  const auto ball = [](const Material& material, double lamp_radius = 0.05) {
+    return with(under_hood(lamp_radius), [&](Scene& s) { add(s, sphere(ball_center, 1), material); });
   };
-  const auto shell = [](double inner) {
-    return with(under_hood(), [&](Scene& s) { add_shell(s, ball_center, inner); });
+  const auto shell = [](double inner, double lamp_radius = 0.05) {
+    return with(under_hood(lamp_radius), [&](Scene& s) { add_shell(s, ball_center, inner); });
   };
   return {
       {"mirror", ball(metal(0.9, 0)), 256},
-      {"glass", ball(glass(1.5)), 4096},
-      {"glass of index 2.4", ball(glass(2.4)), 4096},
+      {"glass", ball(glass(1.5), large_lamp), 1024},
+      {"glass of index 2.4", ball(glass(2.4), large_lamp), 1024},
       {"air in glass", ball(glass(0.75)), 1024},
       {"shell", shell(0.85), 256},
       {"shell of two indices",
        with(ball(glass(1.5)), [](Scene& s) { add(s, sphere(ball_center, 0.85), glass(1 / 1.5)); }), 256},
-      {"thick shell", shell(0.5), 2048},
+      {"thick shell", shell(0.5, large_lamp), 1024},
       {"thing in a shell", with(shell(0.85),
                                 [](Scene& s) {
                                   add(s, sphere({0.3, 1.3, 0.1}, 0.3), lambertian(0.5));
@@ -81,9 +85,9 @@ std::vector<ChainRoom> balls() {
 }
 
 std::vector<ChainRoom> bulbs() {
-  const auto bulb = [](Vec3d at, auto add_glass) {
+  const auto bulb = [](Vec3d at, auto add_glass, double lamp_radius = 0.05) {
     return with(dim_room(), [&](Scene& s) {
-      add(s, sphere(at, 0.05), lamp(300));
+      add(s, sphere(at, lamp_radius), lamp(0.75 / (lamp_radius * lamp_radius)));
       add_glass(s);
     });
   };
@@ -100,35 +104,39 @@ std::vector<ChainRoom> bulbs() {
                              add_shell(s, bulb_center, 0.85, {0.1, 0.1, 0});
                              open_shutter(s);
                            })},
-      {"fog in a bulb", bulb(beside_center,
-                             [&](Scene& s) {
-                               shell(s);
-                               add_medium(s, sphere(bulb_center, 0.85), {0.5, 0.3}, 0.9);
-                             })},
-      {"bulb in fog", bulb(beside_center,
-                           [&](Scene& s) {
-                             shell(s);
-                             add_fog(s);
-                           })},
+      {"fog in a bulb", bulb(
+                            beside_center,
+                            [&](Scene& s) {
+                              shell(s);
+                              add_medium(s, sphere(bulb_center, 0.85), {0.5, 0.3}, 0.9);
+                            },
+                            large_lamp)},
+      {"bulb in fog", bulb(
+                          beside_center,
+                          [&](Scene& s) {
+                            shell(s);
+                            add_fog(s);
+                          },
+                          large_lamp)},
   };
 }
 
 std::vector<ChainRoom> in_fog_and_moving() {
   const auto moving = [](const Material& material) {
-    return with(under_hood(), [&](Scene& s) {
+    return with(under_hood(large_lamp), [&](Scene& s) {
       add(s, Sphere<>{ball_center, 1, ball_center + Vec3d{0.1, 0.1, 0.1}}, material);
       open_shutter(s);
     });
   };
   const auto foggy = [](const Material& material) {
-    return with(under_hood(), [&](Scene& s) {
+    return with(under_hood(large_lamp), [&](Scene& s) {
       add(s, sphere(ball_center, 1), material);
       add_fog(s);
     });
   };
   return {
       {"moving mirror", moving(metal(0.9, 0)), 256},
-      {"moving glass", moving(glass(1.5)), 4096},
+      {"moving glass", moving(glass(1.5)), 1024},
       {"moving shell",
        with(under_hood(),
             [](Scene& s) {
@@ -137,19 +145,19 @@ std::vector<ChainRoom> in_fog_and_moving() {
             }),
        256},
       {"mirror in fog", foggy(metal(0.9, 0))},
-      {"glass in fog", foggy(glass(1.5)), 4096},
-      {"shell in fog", with(under_hood(),
+      {"glass in fog", foggy(glass(1.5)), 1024},
+      {"shell in fog", with(under_hood(large_lamp),
                             [](Scene& s) {
                               add_shell(s, ball_center, 0.85);
                               add_fog(s);
                             })},
       {"fog in glass",
-       with(under_hood(),
+       with(under_hood(large_lamp),
             [](Scene& s) {
               add(s, sphere(ball_center, 1), glass(1.5));
               add_medium(s, sphere(ball_center, 1), {0.5, 0.3}, 0.9);
             }),
-       2048},
+       1024},
   };
 }
 
