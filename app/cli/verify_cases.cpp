@@ -23,6 +23,14 @@ const JsonArray& list_of(const JsonObject& object, const Place& at, const char* 
   return array_at(*json, {at, key}, what);
 }
 
+/// A switch that is off where it is not given.
+bool flag_of(const JsonObject& object, const Place& at, const char* key, const char* what) {
+  const JsonValue* json = find(object, key);
+  if (!json) return false;
+  if (!std::holds_alternative<bool>(json->value)) fail({at, key}, describe(*json), what);
+  return std::get<bool>(json->value);
+}
+
 /// Appends what is under "set".
 void read_overrides(const JsonObject& object, const Place& at, std::vector<Override>& out) {
   const JsonValue* json = find(object, "set");
@@ -51,16 +59,14 @@ VerifyCase read_case(const JsonValue& json, const Place& at, const VerifyCase& g
 void read_group(const JsonValue& json, const Place& at, const std::filesystem::path& folder,
                 std::vector<VerifyCase>& out) {
   const JsonObject& object = object_at(json, at, "a group of cases");
-  allow_keys(object, at, {"name", "scene", "source", "set", "light_sampling", "cases"});
+  allow_keys(object, at, {"name", "scene", "source", "set", "light_sampling", "chains", "cases"});
   VerifyCase group;
   group.name = text_of(object, at, "name", "the group's name");
   group.scene = folder / text_of(object, at, "scene", "the name of a scene file beside this one");
   group.source = text_of(object, at, "source", "where the expected numbers are from");
-  if (const JsonValue* needed = find(object, "light_sampling")) {
-    if (!std::holds_alternative<bool>(needed->value))
-      fail({at, "light_sampling"}, describe(*needed), "true if chance alone does not find the lights, else false");
-    group.needs_light_sampling = std::get<bool>(needed->value);
-  }
+  group.needs_light_sampling =
+      flag_of(object, at, "light_sampling", "true if chance alone does not find the lights, else false");
+  group.needs_chains = flag_of(object, at, "chains", "true if exact chains alone find the light, else false");
   read_overrides(object, at, group.overrides);
   const JsonArray& list = list_of(object, at, "cases", "the group's cases");
   for (std::size_t i = 0; i < list.size(); ++i) {

@@ -21,7 +21,8 @@ int count(const VerifyRun& run, Verdict verdict) {
 std::string line_of(const VerifyRow& row, std::size_t name_width) {
   const std::string start = "  " + row.what.name + std::string(name_width + 2 - row.what.name.size(), ' ');
   if (row.verdict == Verdict::skipped)
-    return start + fmt::format("{:<12.7g} needs light sampling                          skipped\n", row.what.expected);
+    return start + fmt::format("{:<12.7g} {:<45} skipped\n", row.what.expected,
+                               row.what.needs_chains ? "needs chains" : "needs light sampling");
   const Measured& m = row.measured;
   std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.what.expected,
                                          m.value.mean, m.value.error, row.z, m.totals.truncated, name_of(row.verdict));
