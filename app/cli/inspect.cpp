@@ -2,8 +2,10 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/files/open_scene.h"
+#include "app/report/chain_gain.h"
 #include "app/report/contents.h"
 #include "app/report/kernel_gain.h"
+#include "app/report/names.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
@@ -25,16 +27,20 @@ struct Report {
   KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
+  ChainGain chain_gain;
 };
 
 Report examine(const InspectCommand& command) {
-  Report report{open_scene(command.scene), {}, {}, {}, 0, {}};
+  Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
   report.compiled = compile(scene);
   const Kernels kernels = find_kernels(command.isa);
   report.kernel = kernels.set_for(report.compiled.kernel);
-  if (command.measure) report.gain = measure_kernel_gain(report.compiled, kernels);
+  if (command.measure) {
+    report.gain = measure_kernel_gain(report.compiled, kernels);
+    report.chain_gain = measure_chain_gain(scene, kernels.isa);
+  }
   report.film_bytes = bytes_per_pixel(has_material<Light<double>>(report.compiled.needs)) *
                       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
@@ -66,6 +72,8 @@ std::string json_text(const Report& report) {
   json["phase_functions"] = c.phase_functions;
   json["lights"] = c.lights;
   json["chains"] = report.compiled.chains.ball.size();
+  if (report.chain_gain.measured)
+    json["chain_gain"] = {{"time", report.chain_gain.time}, {"squared_error", report.chain_gain.error}};
   json["background"] = c.background;
   json["motion"] = c.motion;
   json["defocus"] = c.defocus;
@@ -98,6 +106,17 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
+/// The objects that elements belong to, the first few by name.
+std::string named(const Report& report, const std::vector<std::int32_t>& elements) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(elements.size(), most); ++i) {
+    const auto element = static_cast<std::size_t>(elements[i]);
+    text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.compiled.elements.object[element]);
+  }
+  return text + (elements.size() > most ? ", ..." : "");
+}
+
 /// What exact chains are looked for.
 std::string chains_text(const Report& report) {
   const Chains& chains = report.compiled.chains;
@@ -118,7 +137,9 @@ std::string chains_text(const Report& report) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
   };
   add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell");
-  return text + ", each alone, to " + counted(static_cast<int>(lamps.size()), "lamp") +
+  const std::string count = counted(static_cast<int>(lamps.size()), "lamp");
+  for (std::int32_t& lamp : lamps) lamp = report.compiled.lights.element[static_cast<std::size_t>(lamp)];
+  return text + " (" + named(report, chains.outer) + "), each alone, to " + count + " (" + named(report, lamps) + ")" +
          "; by chance: ways over two balls, quads, boxes and fuzzy metal";
 }
 
@@ -132,6 +153,12 @@ std::string gain_text(const KernelGain& gain) {
   return fmt::format("{}: {:.2f} times as fast as the full kernel ({:.2f} to {:.2f} in {} pairs), {}", gain.isa,
                      gain.gain, gain.least, gain.most, gain.pairs,
                      gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
+}
+
+std::string chain_gain_text(const ChainGain& gain) {
+  return fmt::format(
+      "a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times scattering's",
+      gain.time, gain.error);
 }
 
 std::string table(const Report& report) {
@@ -152,6 +179,7 @@ std::string table(const Report& report) {
   row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
   row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
   row("chains", chains_text(report));
+  if (report.chain_gain.measured) row("", chain_gain_text(report.chain_gain));
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");

@@ -1,5 +1,6 @@
 #include "app/report/replay.h"
 
+#include "app/report/names.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
 
@@ -11,31 +12,6 @@ namespace {
 Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
-
-/// The innermost object on a path of indices, and its place in the file.
-struct Named {
-  const Object* object;
-  std::string pointer;
-};
-Named object_at(const Scene& scene, const std::vector<int>& path) {
-  const std::vector<Object>* list = &scene.objects;
-  Named named{nullptr, ""};
-  for (const int index : path) {
-    named.object = &(*list)[static_cast<std::size_t>(index)];
-    named.pointer += "/objects/" + std::to_string(index);
-    if (const auto* group = std::get_if<Group>(&named.object->kind)) list = &group->objects;
-  }
-  return named;
-}
-
-/// `"ball" (glass)`.
-std::string object_text(const Scene& scene, const std::vector<int>& path) {
-  const Named named = object_at(scene, path);
-  const std::string name = named.object->name.empty() ? named.pointer : in_quotes(named.object->name);
-  const auto* solid = std::get_if<Solid3d>(&named.object->kind);
-  if (!solid) return printable(name);
-  return printable(name + " (" + scene.materials[static_cast<std::size_t>(solid->material)].name + ")");
-}
 
 /// The paths of all media with a density, in the order in which they are compiled.
 void list_media(const std::vector<Object>& objects, std::vector<int> path, std::vector<std::vector<int>>& out) {
