@@ -8,12 +8,12 @@
 #include "app/files/stats.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
+#include "core/accuracy/rare.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
 #include "core/render/plan.h"
-#include "core/accuracy/rare.h"
 
 #include <fmt/core.h>
 

@@ -1,9 +1,9 @@
 #include "core/render/director.h"
 
+#include "core/accuracy/rare.h"
 #include "core/base/seconds.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
-#include "core/accuracy/rare.h"
 
 #include <exception>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "core/accuracy/estimate.h"
-#include "core/render/caustics.h"
 #include "core/accuracy/rare.h"
+#include "core/render/caustics.h"
 #include "tests/support/pictures.h"
 #include "tests/support/random_room.h"
 #include "tests/support/references.h"
