@@ -102,7 +102,8 @@ struct CameraQueue {
 };
 
 template <class F>
-TYNDALL_INLINE void refill(CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s, const Unit& unit) {
+[[gnu::noinline]] static void refill(CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s,
+                                     const Unit& unit) {
   constexpr int lanes = lanes_of<F>;
   alignas(64) float x[lanes] = {}, y[lanes] = {};
   alignas(64) std::uint32_t ix[lanes] = {}, iy[lanes] = {}, index[lanes] = {};

@@ -75,7 +75,7 @@ TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEn
       const Ray<F> ray{from, (F(1.0f) / length_of) * (to - from), time,
                        select(from_outer, b.outer, b.inner) * I(4) + select(outward, I(0), I(1))};
       shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(here)));
-      clear = mask_and_not(clear, blocked_towards(s, ray, length_of, select(to_outer, b.outer, b.inner), -1, here));
+      clear = mask_and_not(clear, call_blocked(s, ray, length_of, select(to_outer, b.outer, b.inner), here));
       if (s.has_media()) share = select(here, share * pass_media(s, ray, length_of, here), share);
     }
     way.angle = end;
@@ -212,8 +212,8 @@ TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, 
 
 /// Light by chains from where lanes scatter evenly or in fog.
 template <class F>
-TYNDALL_INLINE Vec3<F> chain_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
-                                   std::uint32_t& shadow_rays) {
+[[gnu::noinline]] static Vec3<F> chain_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                                             std::uint32_t& shadow_rays) {
   const ChainAsked<F> a = ask_chain<F>(s, e.point, p.ray.time, p.dice);
   const auto asked = mask_and(lanes, mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine)));
   if (!any(asked)) return zero3<F>();
@@ -240,7 +240,7 @@ TYNDALL_INLINE Vec3<F> chain_light(const auto& s, const Paths<F>& p, const Event
     const Ray<F>& ray = leg == 0 ? near : far;
     const F way = leg == 0 ? found.near_way : found.far_way;
     shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(arrives)));
-    arrives = mask_and_not(arrives, blocked_towards(s, ray, way, leg == 0 ? near_wall : lamp, -1, arrives));
+    arrives = mask_and_not(arrives, call_blocked(s, ray, way, leg == 0 ? near_wall : lamp, arrives));
     if (!any(arrives)) return zero3<F>();
     if (s.has_media()) weight = weight * pass_media(s, ray, way, arrives);
   }

@@ -206,8 +206,8 @@ TYNDALL_INLINE ChainWord<F> word_of(IntOf<F> met) {
 /// Weight of a lamp that lanes found at `point` after the events of their trail: r² / (1 + r²) with r the density of
 /// scattering, times the share of light that takes this chain, over the chain's.
 template <class F>
-TYNDALL_INLINE F found_by_chance_weight(const auto& s, const ChainTrail<F>& trail, const Ray<F>& ray, IntOf<F> light,
-                                        Vec3<F> point, MaskOf<F> lit) {
+[[gnu::noinline]] static F found_by_chance_weight(const SceneView& s, ChainTrail<F> trail, Ray<F> ray, IntOf<F> light,
+                                                  Vec3<F> point, MaskOf<F> lit) {
   using I = IntOf<F>;
   auto could = mask_and(mask_and(lit, less_equal(I(0), light)), less(I((1 << 14) - 1), trail.met));
   if (!any(could)) return F(1.0f);

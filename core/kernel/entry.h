@@ -23,7 +23,7 @@ TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHi
                      load<F>(column[6]),
                      load_int<F>(from)};
     const auto mask = mask_from_bits<F>(active);
-    const Hit<F> hit = brute_force ? closest_of_all(s, ray, mask) : closest(s, ray, mask);
+    const Hit<F> hit = brute_force ? closest_of_all(s, ray, mask) : call_closest(s, ray, mask);
     store(column[0], hit.t);
     store(from, hit.element);
     for (int k = 0; k < lanes && first + k < count; ++k) hits[first + k] = {column[0][k], from[k]};
@@ -43,7 +43,7 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
       const Ray<F> ray =
           camera_ray(s.camera, load<F>(column[0]), splat<F>(static_cast<float>(y) + 0.5f), middle_of_lens, time);
       const auto everywhere = less(F(0.0f), F(1.0f));
-      const Hit<F> hit = closest(s, ray, everywhere);
+      const Hit<F> hit = call_closest(s, ray, everywhere);
       const auto met = less_equal(IntOf<F>(0), hit.element);
       store(element, hit.element);
       if (any(met)) {

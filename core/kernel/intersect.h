@@ -19,6 +19,11 @@ TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, Mas
   return best;
 }
 
+template <class F>
+TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
+}
+
 /// Lanes whose way to `distance` is blocked by anything but element `aim`. If `aim` is a face of a box, the other faces
 /// do block. common_aim: the element that all lanes aim at, or -1.
 template <class F>
@@ -38,9 +43,18 @@ TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distan
   return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
 }
 
+// The same as calls, for places that are not reached often: each inlined copy takes seconds to compile. They are given
+// copies, for the path loop keeps its rays in registers.
+
 template <class F>
-TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
-  return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
+[[gnu::noinline]] static Hit<F> call_closest(const SceneView& s, Ray<F> ray, MaskOf<F> active) {
+  return closest(s, ray, active);
+}
+
+template <class F>
+[[gnu::noinline]] static MaskOf<F> call_blocked(const SceneView& s, Ray<F> ray, F distance, IntOf<F> aim,
+                                                MaskOf<F> active) {
+  return blocked_towards(s, ray, distance, aim, -1, active);
 }
 
 }  // namespace tyndall
