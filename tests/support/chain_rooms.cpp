@@ -43,6 +43,7 @@ Scene under_hood(double lamp_radius = 0.05) {
 }
 
 constexpr double large_lamp = 0.2;
+constexpr double edges = 0.02;  // precision where such edges, or fog within glass, leave light to chance
 
 void add_shell(Scene& scene, Vec3d center, double inner, Vec3d way = {}) {
   const auto moving = [&](double radius) {
@@ -70,13 +71,13 @@ std::vector<ChainRoom> balls() {
   };
   return {
       {"mirror", ball(metal(0.9, 0)), 256},
-      {"glass", ball(glass(1.5), large_lamp), 1024},
-      {"glass of index 2.4", ball(glass(2.4), large_lamp), 1024},
+      {"glass", ball(glass(1.5), large_lamp), 1024, edges},
+      {"glass of index 2.4", ball(glass(2.4), large_lamp), 1024, edges},
       {"air in glass", ball(glass(0.75)), 1024},
       {"shell", shell(0.85), 256},
       {"shell of two indices",
        with(ball(glass(1.5)), [](Scene& s) { add(s, sphere(ball_center, 0.85), glass(1 / 1.5)); }), 256},
-      {"thick shell", shell(0.5, large_lamp), 1024},
+      {"thick shell", shell(0.5, large_lamp), 1024, 0.006},
       {"thing in a shell", with(shell(0.85),
                                 [](Scene& s) {
                                   add(s, sphere({0.3, 1.3, 0.1}, 0.3), lambertian(0.5));
@@ -104,20 +105,24 @@ std::vector<ChainRoom> bulbs() {
                              add_shell(s, bulb_center, 0.85, {0.1, 0.1, 0});
                              open_shutter(s);
                            })},
-      {"fog in a bulb", bulb(
-                            beside_center,
-                            [&](Scene& s) {
-                              shell(s);
-                              add_medium(s, sphere(bulb_center, 0.85), {0.5, 0.3}, 0.9);
-                            },
-                            large_lamp)},
-      {"bulb in fog", bulb(
-                          beside_center,
-                          [&](Scene& s) {
-                            shell(s);
-                            add_fog(s);
-                          },
-                          large_lamp)},
+      {"fog in a bulb",
+       bulb(
+           beside_center,
+           [&](Scene& s) {
+             shell(s);
+             add_medium(s, sphere(bulb_center, 0.85), {0.5, 0.3}, 0.9);
+           },
+           large_lamp),
+       512, edges},
+      {"bulb in fog",
+       bulb(
+           beside_center,
+           [&](Scene& s) {
+             shell(s);
+             add_fog(s);
+           },
+           large_lamp),
+       512, edges},
   };
 }
 
@@ -136,7 +141,7 @@ std::vector<ChainRoom> in_fog_and_moving() {
   };
   return {
       {"moving mirror", moving(metal(0.9, 0)), 256},
-      {"moving glass", moving(glass(1.5)), 1024},
+      {"moving glass", moving(glass(1.5)), 1024, edges},
       {"moving shell",
        with(under_hood(),
             [](Scene& s) {
@@ -144,20 +149,22 @@ std::vector<ChainRoom> in_fog_and_moving() {
               open_shutter(s);
             }),
        256},
-      {"mirror in fog", foggy(metal(0.9, 0))},
-      {"glass in fog", foggy(glass(1.5)), 1024},
-      {"shell in fog", with(under_hood(large_lamp),
-                            [](Scene& s) {
-                              add_shell(s, ball_center, 0.85);
-                              add_fog(s);
-                            })},
+      {"mirror in fog", foggy(metal(0.9, 0)), 512, 0.006},
+      {"glass in fog", foggy(glass(1.5)), 1024, edges},
+      {"shell in fog",
+       with(under_hood(large_lamp),
+            [](Scene& s) {
+              add_shell(s, ball_center, 0.85);
+              add_fog(s);
+            }),
+       512, edges},
       {"fog in glass",
        with(under_hood(large_lamp),
             [](Scene& s) {
               add(s, sphere(ball_center, 1), glass(1.5));
               add_medium(s, sphere(ball_center, 1), {0.5, 0.3}, 0.9);
             }),
-       1024},
+       1024, edges},
   };
 }
 
@@ -179,7 +186,7 @@ std::vector<ChainRoom> lamps() {
       {"box as lamp", lit([](Scene& s) {
          add(s, Box<>{{-0.05, 4, -0.05}, {0.05, 4.1, 0.05}}, lamp(500));
        }),
-       256},
+       256, 0.006},
       {"moving lamp", lit([](Scene& s) {
          add(s, Sphere<>{{-0.1, 4.1, 0}, 0.05, Vec3d{0.1, 4.2, 0.05}}, lamp(700));
          open_shutter(s);

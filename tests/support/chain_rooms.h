@@ -11,8 +11,9 @@ namespace tyndall::test {
 struct ChainRoom {
   std::string name;
   Scene scene;
-  /// Samples a pixel and seed, and particles, for a standard error of about a thousandth of the mean.
+  /// Samples a pixel and seed, and particles, that bring the standard error below `precision` of the mean.
   int spp = 512;
+  double precision = 0.003;
   double particles = 1e7;
 };
 
