@@ -4,16 +4,21 @@
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 
+#include <optional>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
+double squared(double x) { return x * x; }
+
 /// A picture that is rendered further and further, each time from where it was left.
 class GrowingPicture {
  public:
-  GrowingPicture(const Scene& scene, const std::string& isa, const ChartRun& run) : scene_(compile(scene)), run_(run) {
+  GrowingPicture(const Scene& scene, const std::string& isa, bool clean, const ChartRun& run)
+      : scene_(compile(scene)), run_(run) {
     options_.isa = isa;
+    options_.clean = clean;
     options_.threads = run.threads;
     options_.adaptive = scene.render.adaptive;
   }
@@ -27,6 +32,19 @@ class GrowingPicture {
   }
   double seconds() const { return seconds_; }
   FinishedPicture finished() const { return finished_picture(result_); }
+  /// The error of the picture as it is or, if that was asked for, of its clean view; nothing where there is none.
+  std::optional<ErrorPoint> point(std::uint32_t spp, const ChartReference& reference) const {
+    if (options_.clean && !result_.clean) return {};
+    if (options_.clean) {
+      const CleanPicture& clean = *result_.clean;
+      return ErrorPoint{seconds_ + result_.seconds_clean,
+                        relative_mse(clean.rgb, reference.image.rgb) - reference.noise, spp,
+                        squared(clean.relative_error)};
+    }
+    const FinishedPicture now = finished();
+    return ErrorPoint{seconds_, relative_mse(now.image.rgb, reference.image.rgb) - reference.noise, spp,
+                      squared(now.estimate.relative_error)};
+  }
 
  private:
   RenderScene scene_;
@@ -36,8 +54,6 @@ class GrowingPicture {
   double seconds_ = 0;     ///< of all steps
 };
 
-double squared(double x) { return x * x; }
-
 }  // namespace
 
 ChartReference render_reference(Scene scene, double seconds, const ChartRun& run) {
@@ -46,7 +62,7 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
   scene.render.fresnel = FresnelKind::exact;
   scene.render.adaptive = false;
   scene.render.seed += 0x5eed;
-  GrowingPicture picture(scene, "", run);
+  GrowingPicture picture(scene, "", false, run);
   std::uint32_t spp = 2;
   while (picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds() < seconds * 1.4) spp *= 2;
   FinishedPicture reference = picture.finished();
@@ -59,13 +75,13 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
 ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
                          const ChartRun& run) {
   scene.render = method.settings;
-  GrowingPicture picture(scene, method.isa, run);
+  GrowingPicture picture(scene, method.isa, method.clean, run);
   ErrorCurve curve{method.name, {}};
   for (std::uint32_t spp = 1; spp < (1u << 22) && picture.grow(spp); spp *= 2) {
-    const FinishedPicture now = picture.finished();
-    const double measured = relative_mse(now.image.rgb, reference.image.rgb);
-    const double noise = squared(now.estimate.relative_error);
-    curve.points.push_back({picture.seconds(), measured - reference.noise, spp, noise});
+    const auto point = picture.point(spp, reference);
+    if (!point) continue;
+    curve.points.push_back(*point);
+    const double measured = point->rel_mse + reference.noise;
     if (measured < least_measurable(reference.noise) || 2 * picture.seconds() > seconds * 1.4) break;
   }
   return curve;

@@ -14,7 +14,8 @@ namespace tyndall {
 struct ChartMethod {
   std::string name;
   RenderSettings settings;
-  std::string isa;  ///< "": the best
+  std::string isa;     ///< "": the best
+  bool clean = false;  ///< the filtered picture; its time includes the filter
 };
 
 /// First the method of the books, then each improvement switched on in addition to those before it, then approximations

@@ -37,6 +37,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});
+  methods.push_back({"+ clean (filtered)", settings, "", true});
   settings.adaptive = true;
   methods.push_back({"+ adaptive", settings, ""});
   settings.adaptive = false;

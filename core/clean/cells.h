@@ -22,7 +22,9 @@ TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int ins
   }
 }
 
-/// All columns of a cell, or without `halves` those that a prediction needs.
+/// All columns of a cell. Where lamps are seen the halves are without the emission, which would bleed: it is added to
+/// what the regression predicts of the rest. It stays a term, as pixels that a lamp covers in part hide the rest in
+/// part. Without `halves` those that a prediction needs.
 TYNDALL_INLINE void fill_columns(const FilterView& v, int cell_x, int cell_y, bool halves, CellColumns& cell) {
   const int x0 = cell_x * cell_edge, y0 = cell_y * cell_edge;
   const int inside_x = least(cell_edge, v.width - x0), inside_y = least(cell_edge, v.height - y0);
@@ -42,7 +44,11 @@ TYNDALL_INLINE void fill_columns(const FilterView& v, int cell_x, int cell_y, bo
     for (int k = 0; k < 2 * emission_terms; ++k)
       take_cell(v.emission[k] + at, v.stride, inside_x, inside_y, cell.of[emission_column + k]);
   if (!halves) return;
-  for (int k = 0; k < outputs; ++k) take_cell(v.half[k] + at, v.stride, inside_x, inside_y, cell.of[half_column + k]);
+  for (int k = 0; k < outputs; ++k) {
+    float* column = cell.of[half_column + k];
+    take_cell(v.half[k] + at, v.stride, inside_x, inside_y, column);
+    for (int q = 0; cell.shines && q < cell_pixels; ++q) column[q] -= cell.of[emission_column + k][q];
+  }
 }
 
 TYNDALL_INLINE bool any_emission(const CellColumns& cell) {

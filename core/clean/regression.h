@@ -209,7 +209,7 @@ TYNDALL_INLINE F predict_pixels(const CellColumns& cell, const CellBlocks& block
                       load<F>(cell.of[emission_column + output / 3 * emission_terms + i] + pixel), sum);
     total = mul_add(load<F>(tent[k] + pixel), sum, total);
   }
-  return total;
+  return cell.shines ? total + load<F>(cell.of[emission_column + output] + pixel) : total;
 }
 
 template <class F>

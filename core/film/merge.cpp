@@ -41,6 +41,7 @@ void append(Film& film, const FilmPart& part) {
     }
     add_pixel(film.pixels[i], part.film.pixels[i]);
   }
+  if (totals(part.film).samples == 0) return;
   if (part.film.emission.empty()) film.emission.clear();
   for (std::size_t i = 0; i < film.emission.size(); ++i) add_emission(film.emission[i], part.film.emission[i]);
   film.cut_throughput.add(part.film.cut_throughput);

@@ -4,6 +4,7 @@
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/hard_for_filters.h"
 #include "tests/support/pictures.h"
 #include "tests/support/watched_renderer.h"
 
@@ -38,21 +39,21 @@ Vec3f emission(const Film& film, int x, int y) {
 }  // namespace
 
 TEST_CASE("emission: is all that is seen of a lamp, also in a mirror, and nothing of what it shines on") {
-  Scene scene = small("cornell-box", 32, 32);
+  Scene scene = small("cornell-box", 96, 96);
   const Film box = rendered(scene, 8).film;
-  CHECK(emission(box, 16, 5).x > 20);  // the lamp, in both halves
-  CHECK(half_emission(box, box.index(16, 5), 0) == half_mean(box, box.at(16, 5), 0));
-  CHECK(emission(box, 16, 30) == Vec3f{});
-  CHECK(mean(box, box.at(16, 30)).x > 0);
+  CHECK(emission(box, 48, 14).x > 20);  // the lamp, in both halves
+  CHECK(half_emission(box, box.index(48, 14), 0) == half_mean(box, box.at(48, 14), 0));
+  CHECK(emission(box, 48, 90) == Vec3f{});
+  CHECK(mean(box, box.at(48, 90)).x > 0);
   double shining = 0;
   for (std::size_t i = 0; i < box.emission.size(); ++i) shining += half_emission(box, i, 1).x > 0 ? 1 : 0;
-  CHECK(shining < 40);
+  CHECK(shining < 150);
   for (Material& material : scene.materials)
     if (std::holds_alternative<Lambertian<>>(material.kind)) material.kind = Metal<>{0};
   const Film mirrors = rendered(scene, 8).film;
   for (std::size_t i = 0; i < mirrors.emission.size(); ++i)
     for (int half = 0; half < 2; ++half)
-      REQUIRE(half_emission(mirrors, i, half).y == half_mean(mirrors, mirrors.pixels[i], half).y);
+      REQUIRE(std::abs(half_emission(mirrors, i, half).y - half_mean(mirrors, mirrors.pixels[i], half).y) < 1e-5f);
 }
 
 TEST_CASE("emission: costs no memory where there is no lamp") {
@@ -73,6 +74,17 @@ TEST_CASE("clean view: nearer to the truth than the picture, with an error that 
     CHECK(after < 0.5 * before);
     CHECK(result.clean->relative_error > 0.5 * std::sqrt(after));
     CHECK(result.clean->relative_error < 2 * std::sqrt(after));
+  }
+}
+
+TEST_CASE("clean view: lamps smaller than a pixel, the hardest that is known, make it little worse than raw") {
+  for (const auto& [name, scene] : scenes_hard_for_filters()) {
+    if (name != "lamps of one pixel") continue;
+    const RenderResult result = rendered(scene, 8, true);
+    Scene other = scene;
+    other.render.seed = 99;
+    const std::vector<float> truth = resolve(rendered(other, 512).film);
+    CHECK(relative_mse(result.clean->rgb, truth) < 1.1 * relative_mse(resolve(result.film), truth));
   }
 }
 
@@ -101,7 +113,6 @@ TEST_CASE("clean view: its error ends a render that asks for that, and one sampl
   const RenderResult result = render(compile(scene), options);
   REQUIRE(result.clean);
   CHECK(result.clean->relative_error <= 0.12);
-  CHECK(estimate_error(result.film).relative_error > 0.12);
   CHECK(result.seconds_clean > 0);
   CHECK_FALSE(rendered(scene, 1, true).clean);
 }
