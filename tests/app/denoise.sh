@@ -15,7 +15,7 @@ python3 - "$(json clean.json denoised_relative_error_estimate)" "$(json clean.js
   "$(json clean.json seconds_denoise)" <<'PY' || fail 'figures of the filtered picture'
 import sys
 clean, raw, seconds = map(float, sys.argv[1:])
-sys.exit(not (0 < clean < raw / 2 and 0 < seconds < 60))
+sys.exit(not (0 < clean < raw and 0 < seconds < 60))
 PY
 grep -aq '"denoised": *true' clean.png || fail 'the PNG does not say that it is filtered'
 expect 0 "$tyndall" render clean.png -q -o again.pfm
