@@ -29,6 +29,7 @@ SMALL = {
 LIMITS = {"--samples", "--replay"}  # options of render that exclude --spp
 PLACEHOLDERS = {
     "SCENE": "cornell-box", "IMAGE": "a.exr", "REFERENCE": "b.exr", "PART": "a.exr b.exr", "PART...": "a.exr b.exr",
+    "FILM.exr": "fog.exr",
     "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
     "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
 }
@@ -91,7 +92,7 @@ class Commands:
         self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
         shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
         try:
-            for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4")):
+            for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4"), ("fog", "0:4")):
                 self.output(["render", "cornell-smoke", "--samples", samples, *small, "-o", name + ".exr"])
         except subprocess.CalledProcessError:
             self.with_exr = False  # a build without OpenEXR

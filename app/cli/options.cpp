@@ -99,7 +99,7 @@ Command read_inspect(Words words) {
   add_scene(*app, command.scene);
   app->add_flag("--json", command.json, "print JSON");
   app->add_flag("--measure", command.measure,
-                "measure what the kernel gains over the full one, and chains over chance (4 s)");
+                "measure what the kernel gains over the full one,\nand chains over chance (4 s)");
   app->add_flag("--accuracy", command.accuracy,
                 "print what each approximation costs: the books' Fresnel rule,\n"
                 "limits of depth, float lanes, 8 bits; without SCENE: in all\n"

@@ -30,7 +30,7 @@ Film film_of(const RenderScene& scene, std::uint32_t first, std::uint32_t spp, F
 /// Some pixels of one film, the others of another with more samples: what an interrupted pass leaves.
 Film mixed(Film few, const Film& many) {
   for (std::size_t i = 0; i < few.pixels.size(); ++i)
-    if (i * i % 7 < 3) few.pixels[i] = many.pixels[i];
+    if (i * i % 7 < 3) few.pixels[i] = many.pixels[i], few.emission[i] = many.emission[i];
   return few;
 }
 

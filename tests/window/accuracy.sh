@@ -27,7 +27,7 @@ key r # so that the curve begins at the first sample
 wait_for '^frame 1 ([3-9][0-9][0-9]|[0-9]{4,}) ' "$lines"
 lines=$(here)
 point chart 60 55
-wait_for '^reading path · random: ' "$lines"
+wait_for '^reading path · random.*: ' "$lines"
 
 # The error is a picture; nothing starts over for it.
 bright=$(brightness picture)

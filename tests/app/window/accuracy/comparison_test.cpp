@@ -36,7 +36,7 @@ TEST_CASE("errors against a reference are those of the command compare, less the
   const std::vector<float> image = picture_of(*frame);
   const ComparisonResult quick = compare({frame, nullptr, reference});
   CHECK(quick.rel_mse == doctest::Approx(image_error(image, reference->image.rgb).rel_mse - 1e-3));
-  CHECK(compare({frame, nullptr, reference, ErrorView::none, false, false}).rel_mse ==
+  CHECK(compare({frame, nullptr, reference, ErrorView::none, false, false, false}).rel_mse ==
         doctest::Approx(quick.rel_mse + 1e-3));
   CHECK_FALSE(quick.flip);
   CHECK(quick.map.empty());
