@@ -20,10 +20,14 @@ if [ -z "${IN_XVFB:-}" ]; then
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
   screen=$scratch/screen.$$
   rm -rf "${scratch:?}"/* && mkdir -p "$screen"
-  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x1820x24 -nolisten tcp -fbdir $screen" \
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x1960x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
+# The window remembers nothing of other tests, and shows the raw picture; clean.sh begins as a first start does.
+export XDG_CONFIG_HOME=$scratch/config
+mkdir -p "$XDG_CONFIG_HOME/tyndall"
+echo 'clean off' >"$XDG_CONFIG_HOME/tyndall/window.txt"
 
 fail() {
   exec >&2
@@ -128,7 +132,7 @@ start() {
   wait_for '^frame 1 '
   window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
   # All of the column is on the screen.
-  sends 1 '^size 1280 1780$' xdotool windowsize "$window" 1280 1780
+  sends 1 '^size 1280 1920$' xdotool windowsize "$window" 1280 1920
   move 5 5
   wait_for '^widget scenes.cover '
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The clean view: on at first, key N, beside the raw picture, labelled with both errors, and remembered.
 . "$(dirname "$0")/_lib.sh"
+rm -r "$XDG_CONFIG_HOME" # as on a first start
 
-export XDG_CONFIG_HOME=$scratch/config
 write_scene scene.json 0.3 64
 sed -i 's/"integrator": "path", "sampler": "random"/"integrator": "mis"/' scene.json
 start scene.json

@@ -6,8 +6,6 @@
 write_scene scene.json 0.3 8
 start scene.json --set /image/width=640 --set /image/height=400
 settle
-key n # the raw picture: a snapshot is never filtered
-settle
 
 same_as_the_screen() { # SNAPSHOT
   python3 - "$1" "$screen/Xvfb_screen0" <<'PY'
