@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 TOP_LEVEL = """app assets core shaders tests third_party .ci .github .clang-format .clang-tidy .gitignore CMakeLists.txt
-CMakePresets.json CONTRIBUTING.md LICENSE README.md SECURITY.md run test""".split()
+CMakePresets.json LICENSE README.md run test""".split()
 LARGEST_FILE = 1_000_000  # bytes
 LARGE_FILES = []  # paths of files that may be larger, each with a comment that says why
 # One name for each kind of file that runs leave.
