@@ -2,16 +2,18 @@
 #include "core/kernel/chain_path.h"
 #include "core/kernel/event.h"
 
-/// Light that reaches a point through or off one ball, asked for exactly: a lamp and a ball are chosen, a point of the
-/// lamp is drawn, and the events at the ball; then all chains of these events between the two points are found, and one
-/// of them is tested in place of all. Chains are one more strategy of the power heuristic beside scattering, which
-/// finds the same paths by chance.
+/// Light that a lamp sends to a point through or off one ball, such as the bright spot under a glass ball: solved for,
+/// where scattering would have to find it by chance. First a ball and a lamp are chosen, then a point of the lamp, then
+/// which surfaces of the ball the light meets and how. All chains between the two points that do so are found; one of
+/// them, drawn at random, is tested for things in its way, and counts for all. As scattering finds the same paths, both
+/// are weighed by the power heuristic.
 namespace tyndall {
 
-// The part of a chain that is within its ball: looked at where other things, fog or a lamp are in there or reach into
-// it.
+// The part of a chain that is within its ball. It is tested only if the ball is crowded: if other surfaces, fog or a
+// lamp are in it or reach into it.
 
-/// A plane through the ball's centre, in which the chain turns from `out` towards `side`.
+/// The way of a chain within its ball. It lies in a plane through the ball's centre; its places are told by their angle
+/// about the centre, measured from `out` towards `side`.
 template <class F>
 struct InsideWay {
   Vec3<F> out, side;  ///< unit
@@ -19,13 +21,16 @@ struct InsideWay {
   F angle;            ///< from `out` to where the ball is met first
 };
 
+/// The angle about the centre by which light turns between its place next to the centre and the radius reach / n: see
+/// Turn. 0 where p > reach, as the light stays above that radius.
 template <class F>
 TYNDALL_INLINE F turn_above(F p, F reach) {
   const F sine = min(p / max(reach, F(1e-30f)), F(1.0f));
   return acos(sine);
 }
 
-/// The way through the ball from that end which is in it, or else from the near end. sign: of that end.
+/// The way through the ball, seen from the end that is in the ball; from the near end if none is. near_sign, far_sign:
+/// see EndSigns. sense: see TurnRoot.
 template <class F>
 TYNDALL_INLINE InsideWay<F> inside_way(const ChainBall<F>& b, const ChainPlane<F>& plane, const ChainEnds<F>& e,
                                        F near_sign, F far_sign, F sense, F p) {
@@ -38,7 +43,7 @@ TYNDALL_INLINE InsideWay<F> inside_way(const ChainBall<F>& b, const ChainPlane<F
           select(from_far, -sense * plane.far_side, sense * plane.near_side), p, select(e.both_out, outside, inside)};
 }
 
-/// A point of one of the ball's spheres.
+/// The point at `angle` on the sphere of `radius` about the ball's centre.
 template <class F>
 TYNDALL_INLINE Vec3<F> point_at(const ChainBall<F>& b, const InsideWay<F>& way, F angle, F radius) {
   const F turns = angle * F(static_cast<float>(0.5 / pi));
@@ -46,7 +51,8 @@ TYNDALL_INLINE Vec3<F> point_at(const ChainBall<F>& b, const InsideWay<F>& way, 
   return along(along(b.center, radius * a.cos, way.out), radius * a.sin, way.side);
 }
 
-/// Share of light that goes the way within the ball: 0 where something is in the way. digits: of the word.
+/// Share of light that passes along the way within the ball: below 1 in fog, 0 where a surface is in the way. digits:
+/// those from which the word was drawn, so that the same events follow in the same order.
 template <class F>
 TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEnds<F>& e, InsideWay<F> way,
                              UintOf<F> digits, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
@@ -60,7 +66,8 @@ TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEn
   const F across = glass - turn_above(way.p, b.index * b.inner_radius);
   const F chord = F(2.0f) * turn_above(way.p, b.inner_index * b.inner_radius);
   I at = select(e.deep, I(1), I(0));  // the sphere that the way is at: 1 is the inner one
-  auto moves = e.both_out;            // an end within the ball: its first event is where the way begins
+  // With an end within the ball way.angle already is that of the first event: the first round does not move.
+  auto moves = e.both_out;
   for (int i = 0; i < most_decisions && any(walk.open); ++i) {
     const auto to_outer = equal(walk.next, I(0)), from_outer = equal(at, I(0));
     const auto same = mask_or(mask_and(to_outer, from_outer), mask_not(mask_or(to_outer, from_outer)));
@@ -86,7 +93,7 @@ TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEn
   return select(clear, share, F(0.0f));
 }
 
-/// What is asked for at a group of points: one lamp, one ball.
+/// What each lane asks for: light by one ball from one point of one lamp, and how these lie to each other.
 template <class F>
 struct ChainAsked {
   LightChoice<F> pair;
@@ -98,7 +105,7 @@ struct ChainAsked {
   ChainEnds<F> ends;
 };
 
-/// One chain of those that there are.
+/// One chain, drawn from all that there are between two points by one word.
 template <class F>
 struct ChainFound {
   MaskOf<F> found;
@@ -108,11 +115,11 @@ struct ChainFound {
   F count;            ///< how many there are
 };
 
-/// The chain as rays.
+/// The parts of a chain between its ends and the ball.
 template <class F>
 struct ChainRays {
-  Vec3<F> direction, arrive;  ///< unit: at the near end, at the lamp
-  F near_way, far_way;        ///< from each end to the ball
+  Vec3<F> direction, arrive;  ///< unit: in which a path leaves the near end, and in which it arrives at the lamp
+  F near_way, far_way;        ///< distances from each end to the ball
 };
 
 template <class F>
@@ -129,7 +136,8 @@ TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, Vec3<F> point, F time, con
   return a;
 }
 
-/// Density of scattering from an event into a direction; 0 where chains are not asked for.
+/// Density, per steradian, with which an event that asks for chains (at a Lambertian surface or in fog) scatters into a
+/// direction.
 template <class F>
 TYNDALL_INLINE F scattered_density(const auto& s, const Paths<F>& p, const Event<F>& e, Vec3<F> direction) {
   const F diffuse = density(Lambertian<F>{}, e.incident, direction);
@@ -137,7 +145,8 @@ TYNDALL_INLINE F scattered_density(const auto& s, const Paths<F>& p, const Event
   return select(e.medium, phase_density(s, e.g, p.ray.direction, direction), diffuse);
 }
 
-/// Way from an end to the ball's surface next to it: outside, or within what holds the end.
+/// Distance that light goes from an end to the surface of the ball that it meets first: from outside to the outer
+/// sphere, from within to the wall of the glass or of the hollow in which the end is.
 template <class F>
 TYNDALL_INLINE F way_to_ball(const ChainBall<F>& b, const Turn<F>& turn, F end, F reach, F sign, F s) {
   const auto out = less(b.radius, end);
@@ -147,7 +156,8 @@ TYNDALL_INLINE F way_to_ball(const ChainBall<F>& b, const Turn<F>& turn, F end, 
   return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
 }
 
-/// The roots for either sign of the end that is within the ball.
+/// Finds all chains of a word between the two points, and takes one of them. For an end within the ball both signs are
+/// tried (see EndSigns). pick: a random number in [0, 1).
 template <class F>
 TYNDALL_INLINE ChainFound<F> find_chain(const auto& s, const ChainAsked<F>& a, const ChainWord<F>& word, F pick,
                                         MaskOf<F> lanes) {
@@ -192,7 +202,7 @@ TYNDALL_INLINE ChainRays<F> rays_of(const ChainAsked<F>& a, const ChainFound<F>&
           way_to_ball(a.ball, turn, a.ends.far, a.ends.far_reach, c.sign.far, c.s)};
 }
 
-/// What the chain brings, of the lamp's radiance, the way being free.
+/// The factor by which the lamp's radiance counts if nothing is in the way, the weight of the power heuristic included.
 template <class F>
 TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, const ChainAsked<F>& a,
                            const ChainWord<F>& word, const ChainFound<F>& c, const ChainRays<F>& rays) {
@@ -210,7 +220,8 @@ TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, 
   return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
 }
 
-/// Light by chains from where lanes scatter evenly or in fog.
+/// Light that reaches events at Lambertian surfaces and in fog by chains, times what the path carries. Each test for
+/// things in the way adds one to shadow_rays.
 template <class F>
 [[gnu::noinline]] static Vec3<F> chain_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                              std::uint32_t& shadow_rays) {

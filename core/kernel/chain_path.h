@@ -3,36 +3,40 @@
 #include "core/kernel/lights.h"
 #include "core/kernel/shade.h"
 
-/// One chain: from a point where light scatters, by a ball, to a point of a lamp. Below, its other side: a path that
-/// scattered into a ball by chance and found a lamp is weighed against the chain that would have found it. For that it
-/// carries where it scattered last, and what it has met since.
+/// A chain is a way of light from a point of a lamp, through or off a ball, to a point where light scatters. The first
+/// half of this file draws the lamp's point and describes the chain. The second half is for paths that go such a way by
+/// chance: a path that scatters into a ball and then finds a lamp is weighed against the chain that would have found
+/// the same light. For that, paths remember where they scattered last and what they have met since (ChainTrail).
 namespace tyndall {
 
-/// A point of a lamp, drawn without regard to what is in between.
+/// A point on a lamp's surface, drawn without regard to what is in between.
 template <class F>
 struct LampPoint {
   Vec3<F> point, normal;
   F density;  ///< per unit of area
 };
 
-/// Lowest cosine, from the axis towards a ball, of points of a sphere lamp which the ball sees; none (-1) if it holds
-/// the lamp's centre.
+/// A ball sees a cap of a sphere lamp: the points whose normals are close to the axis towards the ball. This is the
+/// least cosine between normal and axis in the cap; -1, for the whole lamp, if the ball holds the lamp's centre.
+/// distance: between the two centres.
 template <class F>
 TYNDALL_INLINE F seen_from_ball(F distance, F lamp_radius, F ball_radius) {
   return select(less(ball_radius, distance), max((lamp_radius - ball_radius) / max(distance, F(1e-30f)), F(-1.0f)),
                 F(-1.0f));
 }
 
-/// Where on a sphere lamp points are drawn, as shares of the cosine z of a point's normal from `axis`.
-/// Outside of the ball the axis leads to its centre: the density grows from nothing where the ball begins to see the
-/// points, as their light does. A lamp whose centre is in the ball shines out of it almost straight: the axis leads to
-/// the point that asks, most points face it, and others are there for light that the ball throws back.
+/// How points are drawn on a sphere lamp: by z, the cosine between a point's normal and `axis`.
+/// If the lamp is outside of the ball, the axis leads to the ball's centre, and the density grows with z from 0 at the
+/// edge of the cap that the ball sees, because the light that reaches the ball from there grows likewise. If the lamp's
+/// centre is in the ball, most of its light leaves the ball almost straight. Then the axis leads to the point that asks
+/// for light, and most points are drawn on the half that faces it; the others are for light that the ball throws back.
 template <class F>
 struct LampSide {
   Vec3<F> center, axis;
-  F radius, first;  ///< first: least z that the ball sees
-  MaskOf<F> outside;
+  F radius, first;    ///< of the lamp; least z that the ball sees
+  MaskOf<F> outside;  ///< the lamp's centre is outside of the ball
 };
+/// For a lamp in the ball: shares of points on the half that faces the axis, on the other half, and anywhere.
 inline constexpr float facing_share = 0.75f, averted_share = 0.125f, even_share = 0.125f;
 
 template <class F>
@@ -45,7 +49,7 @@ TYNDALL_INLINE LampSide<F> lamp_side(const LightColumns<F>& light, const ChainBa
   return {center, scale * way, light.length_u, seen_from_ball(distance, light.length_u, b.radius), outside};
 }
 
-/// Density per unit of area.
+/// Density, per unit of area, of the points that draw_on_lamp_side() gives at the cosine z.
 template <class F>
 TYNDALL_INLINE F lamp_side_density(const LampSide<F>& side, F z) {
   const F even = F(static_cast<float>(0.25 / pi)) / (side.radius * side.radius), span = F(1.0f) - side.first;
@@ -54,7 +58,7 @@ TYNDALL_INLINE F lamp_side_density(const LampSide<F>& side, F z) {
   return even * select(side.outside, growing, mul_add(share, abs(z), F(even_share)));
 }
 
-/// The cosine z for a random number.
+/// The cosine z for a random number u in [0, 1).
 template <class F>
 TYNDALL_INLINE F draw_on_lamp_side(const LampSide<F>& side, F u) {
   const F growing = mul_add(F(1.0f) - side.first, sqrt(u), side.first);
@@ -66,7 +70,7 @@ TYNDALL_INLINE F draw_on_lamp_side(const LampSide<F>& side, F u) {
   return select(side.outside, growing, within);
 }
 
-/// asking: the point that asks for a chain.
+/// Draws a point of a lamp whose light is to go by ball `b`. asking: the point that asks for the chain.
 template <class F>
 TYNDALL_INLINE LampPoint<F> sample_lamp(const LightColumns<F>& light, const ChainBall<F>& b, Vec3<F> asking, F time,
                                         Pair<F> u) {
@@ -82,7 +86,7 @@ TYNDALL_INLINE LampPoint<F> sample_lamp(const LightColumns<F>& light, const Chai
           select(round, lamp_side_density(side, z), at.density)};
 }
 
-/// The density with which sample_lamp gives a point of the lamp.
+/// A given point of the lamp, with its normal and the density with which sample_lamp() would have drawn it.
 template <class F>
 TYNDALL_INLINE LampPoint<F> lamp_point(const LightColumns<F>& light, const ChainBall<F>& b, Vec3<F> asking, F time,
                                        Vec3<F> point) {
@@ -95,20 +99,22 @@ TYNDALL_INLINE LampPoint<F> lamp_point(const LightColumns<F>& light, const Chain
           select(round, lamp_side_density(side, dot(normal, side.axis)), at.density)};
 }
 
-/// Share of a lamp's surface that light which arrives in `direction` sees: the cosine; spheres shine outward.
+/// Cosine between a lamp's normal and the way back from it, where a ray arrives in `direction`. Flat lamps shine to
+/// both sides; spheres shine outward only, so that their cosine is negative for rays that arrive from within.
 template <class F>
 TYNDALL_INLINE F lamp_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3<F> direction) {
   const F cosine = -dot(direction, normal);
   return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
 }
 
-/// The plane of a chain: of its ends and the ball's centre.
+/// The plane that holds a chain: that of its two ends and the ball's centre. The near end is the point that asks for
+/// light, the far end the lamp's point.
 template <class F>
 struct ChainPlane {
   Vec3<F> near_out, far_out;    ///< unit, from the centre to each end
-  Vec3<F> near_side, far_side;  ///< unit, across it, the short way from the near end to the far one
-  F near, far;                  ///< distances from the centre
-  F angle, sine;                ///< between the ends, seen from the centre
+  Vec3<F> near_side, far_side;  ///< unit, at right angles to these, turning the short way from the near end to the far
+  F near, far;                  ///< distances of the ends from the centre
+  F angle, sine;                ///< between the ends, seen from the centre, in [0, pi]; and its sine
 };
 
 template <class F>
@@ -125,16 +131,18 @@ TYNDALL_INLINE ChainPlane<F> plane_of(const ChainBall<F>& b, Vec3<F> near, Vec3<
   return plane;
 }
 
-/// sqrt(reach² - p²), exact to rounding next to grazing: by the same s as the turn.
+/// sqrt(reach² - p²), from the parameter s of the turn (p = most (1 - s²)): exact to rounding even where the way grazes
+/// a sphere and the plain difference would cancel.
 template <class F>
 TYNDALL_INLINE F depth_of(const Turn<F>& turn, F reach, F s) {
   const F drop = turn.most * s * s;
   return sqrt(max(((reach - turn.most) + drop) * (reach + (turn.most - drop)), F(0.0f)));
 }
 
-/// Density of the direction at the near end, per steradian, that a density per area at the far end makes, over that
-/// density: dA cos / dω, for the chain of parameter s. From dω = sin θ dθ dψ with n a sin θ = p at the near end, and
-/// dA = b sin φ dψ · b cos θ' dφ across the ray at the far end, where dφ = turn' dp.
+/// dA / dω for the chain of parameter s: times a density per unit of area of the lamp, at the far end, this is the
+/// density of the direction at the near end, per steradian. It follows from dω = sin θ dθ dψ with n a sin θ = p at the
+/// near end, and dA · cosine = b sin φ dψ · b cos θ' dφ at the far end, where dφ = turn' dp and `cosine` is that of the
+/// ray at the lamp. a, b: distances of the ends from the centre. slope: of the turn, by s.
 template <class F>
 TYNDALL_INLINE F spread_of(const ChainTurn<F>& chain, const ChainEnds<F>& e, F sine, F s, F slope, F cosine) {
   const Turn<F>& turn = chain.turn;
@@ -144,17 +152,19 @@ TYNDALL_INLINE F spread_of(const ChainTurn<F>& chain, const ChainEnds<F>& e, F s
   return (e.near_reach * e.far_reach * sine) * depths * abs(slope) / (rate * max(cosine, F(1e-30f)));
 }
 
-/// Only in scenes with chains.
+/// What a path remembers, in scenes with chains, so that a lamp which it finds by chance can be weighed against them.
 template <class F>
 struct ChainTrail {
-  Vec3<F> start;  ///< where the path scattered last, evenly or in fog
-  F density;      ///< with which it took its direction there, over the probability that it asked for a chain
-  /// -1: no chain, for what it met. Else bits: 0-3 events at the outer sphere, 4-8 at the inner one, 9-12 reflections
-  /// there, 13 whether it started away from the centre, from 14 on the ball + 1 (0: nothing met yet).
+  Vec3<F> start;  ///< where the path last scattered at a Lambertian surface or in fog
+  F density;      ///< of its direction from there, per steradian, over the probability that it asked for a chain there
+  /// What it has met since then. 0: nothing yet. -1: something that no chain meets. Else its bits are numbers: 0-3 of
+  /// events at the ball's outer sphere, 4-8 of events at the inner one, 9-12 of reflections there; bit 13 says whether
+  /// the path first went away from the ball's centre; from bit 14 on, the ball's index + 1.
   IntOf<F> met;
 };
 
-/// What lanes at surfaces have met when they go on from `element`. `reflected`: on the side that they came from.
+/// The new value of trail.met for lanes that leave the surface of `element`. reflected: those that leave it on the side
+/// from which they came.
 template <class F>
 TYNDALL_INLINE IntOf<F> meet_ball(const SceneView& s, const ChainTrail<F>& trail, const Ray<F>& ray, IntOf<F> element,
                                   MaskOf<F> reflected) {
@@ -175,8 +185,9 @@ TYNDALL_INLINE IntOf<F> meet_ball(const SceneView& s, const ChainTrail<F>& trail
   return select(mask_or(none, mask_or(other, full)), I(-1), old + event);
 }
 
-/// Probability with which an event asks for a chain: what balls may send it of the lamps' light over what it may get
-/// from the lamps, at least a quarter. So little time is spent where chains bring little.
+/// Probability with which an event asks for a chain: the light that it may get by balls over the light that it may get
+/// from lamps directly, both roughly estimated, and within [0.25, 1]. So little time is spent where chains bring
+/// little. 1 where there are too many lamps, or pairs of a ball and a lamp, to estimate.
 template <class F>
 TYNDALL_INLINE F chain_probability(const SceneView& s, Vec3<F> point) {
   const LightView &pairs = s.chains.choice, &lamps = s.lights;
@@ -184,7 +195,9 @@ TYNDALL_INLINE F chain_probability(const SceneView& s, Vec3<F> point) {
   return min(max(total_worth<F>(pairs, point) / total_worth<F>(lamps, point), F(0.25f)), F(1.0f));
 }
 
-/// Follows what lanes did at an event to which `ray` came. density: of the direction in which they go on.
+/// Brings the trail up to date after event `e`: it starts anew where light scattered at a Lambertian surface or in fog,
+/// and grows by the surface that was met elsewhere. ray: by which the lanes came to the event. reflected: lanes that
+/// leave a surface on the side from which they came. density: of the direction in which they go on, per steradian.
 template <class F>
 TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const Ray<F>& ray, const auto& e,
                                  MaskOf<F> reflected, F density) {
@@ -196,6 +209,7 @@ TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const
   trail.density = select(spreads, density / chain_probability(s, e.point), trail.density);
 }
 
+/// Takes the events apart that ChainTrail::met counts.
 template <class F>
 TYNDALL_INLINE ChainWord<F> word_of(IntOf<F> met) {
   using I = IntOf<F>;
@@ -203,8 +217,10 @@ TYNDALL_INLINE ChainWord<F> word_of(IntOf<F> met) {
           from_int<F>(as_int(shift_right<9>(as_uint(met))) & I(15))};
 }
 
-/// Weight of a lamp that lanes found at `point` after the events of their trail: r² / (1 + r²) with r the density of
-/// scattering, times the share of light that takes this chain, over the chain's.
+/// Weight of the light of a lamp that the lanes `lit` found by chance at `point`, after the events of their trail; 1
+/// where no chain could have found it. By the power heuristic it is r² / (1 + r²). r is the density with which the path
+/// scattered into its direction times the probability that the ball's surfaces sent it this way, over the density with
+/// which a chain would have been found there.
 template <class F>
 [[gnu::noinline]] static F found_by_chance_weight(const SceneView& s, ChainTrail<F> trail, Ray<F> ray, IntOf<F> light,
                                                   Vec3<F> point, MaskOf<F> lit) {

@@ -2,21 +2,26 @@
 #include "core/base/math.h"
 #include "core/kernel/scene_view.h"
 
-/// Flights in fog that end where a lamp is close. Lengths that follow the fog's density seldom end there, where a small
-/// lamp's light, by the inverse square, has no bound; so lengths are also sampled by the angle at which a lamp sees
-/// them: C. Kulla, M. Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, EGSR 2012,
-/// section 4. Only pairs of a medium and a lamp in or near it take part.
+/// Flights in fog that end close to a lamp. Free flights, whose lengths follow the fog's density, seldom end there,
+/// though a small lamp's light is strongest there, without bound: it falls with the squared distance. The few that do
+/// would be bright dots in the picture. So distances are also sampled evenly in the angle at which a lamp sees them:
+/// C. Kulla, M. Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, EGSR 2012, section 4.
+/// This is done only for pairs of a medium and a lamp in it or near it.
 namespace tyndall {
 
-/// Distances within [begin, end] along a ray, uniform in the angle seen from a point beside it.
+/// A distribution of distances along a ray, from begin to end: uniform in the angle seen from a lamp's centre.
 template <class F>
 struct Equiangular {
   F begin, end;
-  F middle;  ///< distance to the place next to the lamp's centre
-  F across;  ///< from there to the centre; not below half of the lamp's reach, within which there is no inverse square
-  F angle;   ///< 0: so narrow that distances are uniform
+  F middle;  ///< distance to the place closest to the lamp's centre; may be outside of [begin, end]
+  /// Distance from that place to the centre, increased by half of the lamp's reach (root of the sum of the squares),
+  /// because that close to the lamp its light no longer grows with the inverse squared distance.
+  F across;
+  F angle;  ///< between begin and end, seen from the centre; 0: it is so narrow that distances are drawn uniformly
 };
 
+/// to_center: from the ray's origin to the lamp's centre. reach2: squared radius of a ball around it that holds the
+/// lamp.
 template <class F>
 TYNDALL_INLINE Equiangular<F> equiangular(Vec3<F> to_center, F reach2, Vec3<F> direction, F begin, F end) {
   const F middle = dot(to_center, direction);
@@ -35,6 +40,7 @@ TYNDALL_INLINE F density(const Equiangular<F>& e, F distance) {
          select(uniform, e.end - e.begin, e.angle * mul_add(off, off, e.across * e.across));
 }
 
+/// The distance for a random number u in [0, 1).
 template <class F>
 TYNDALL_INLINE F sample(const Equiangular<F>& e, F u) {
   const SinCos<F> part = sin_cos_turn(u * e.angle * F(static_cast<float>(0.5 / pi)));
@@ -45,16 +51,18 @@ TYNDALL_INLINE F sample(const Equiangular<F>& e, F u) {
   return min(max(distance, e.begin), e.end);
 }
 
-/// A flight that ended in a medium: what the density of ending there by angle needs.
+/// A flight along a ray that ended in a medium, with all that is needed to tell how likely each way of sampling was to
+/// end it there.
 template <class F>
 struct FogFlight {
-  IntOf<F> medium;  ///< -1: it did not end in one
+  IntOf<F> medium;  ///< -1: the flight did not end in one
   Vec3<F> origin, direction;
-  F begin, end;  ///< of its way within the medium
+  F begin, end;  ///< distances at which its ray enters the medium, and leaves it or meets a surface
   F distance;    ///< where it ended
-  F density;     ///< with which free flights end there, in this medium, per unit length
+  F density;     ///< probability density, per unit length, with which free flights end there in this medium
 };
 
+/// The distribution by which a flight is ended by angle for a light.
 template <class F>
 TYNDALL_INLINE Equiangular<F> way_past(const LightView& l, IntOf<F> light, const FogFlight<F>& flight) {
   const auto at = [&](const float* column) { return lookup<F>(column, l.count, light); };
@@ -62,8 +70,9 @@ TYNDALL_INLINE Equiangular<F> way_past(const LightView& l, IntOf<F> light, const
   return equiangular(center - flight.origin, at(l.reach2), flight.direction, flight.begin, flight.end);
 }
 
-/// Squared ratio of the densities of ending a flight by angle, with regard to `light`, and of ending it freely and
-/// then choosing that light with `probability`; 0 where the first cannot be.
+/// The term q² of the power heuristic in direct_light(). q is the density with which this flight is ended by angle for
+/// `light`, over that with which it ends freely and `light` is then chosen with `probability`. 0 where flights in this
+/// medium are never ended by angle for this light.
 template <class F>
 TYNDALL_INLINE F by_angle_odds(const SceneView& s, const FogFlight<F>& flight, IntOf<F> light, F probability) {
   const auto in_fog = less_equal(IntOf<F>(0), flight.medium);

@@ -1,8 +1,9 @@
 #pragma once
 #include "core/kernel/tree.h"
 
-/// The closest surface along a ray. A lane's hit is a function of its ray and the scene alone, whatever rays run beside
-/// it: ties go to the lower element, and a box may cull a primitive only where the primitive's hit could not win.
+/// Finds the closest surface along a ray, and whether anything blocks a way. A lane's result depends on its own ray and
+/// the scene alone, never on the rays in other lanes: of two hits at one distance the lower element wins, and a box may
+/// rule out a primitive only if the primitive's hit could not win.
 namespace tyndall {
 
 template <class F>
@@ -24,8 +25,8 @@ TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> a
   return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
 }
 
-/// Lanes whose way to `distance` is blocked by anything but element `aim`. If `aim` is a face of a box, the other faces
-/// do block. common_aim: the element that all lanes aim at, or -1.
+/// Lanes that would meet anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other
+/// faces do block. common_aim: the element that all lanes aim at, or -1 if they may aim at different ones.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim,
                                          std::int32_t common_aim, MaskOf<F> active) {
@@ -37,14 +38,14 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, 
   return less_equal(IntOf<F>(0), best.element);
 }
 
-/// The same on the way to a light.
+/// The same for ways to lights. aim: the light's element.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
 }
 
-// The same as calls, for places that are not reached often: each inlined copy takes seconds to compile. They are given
-// copies, for the path loop keeps its rays in registers.
+// The same as real function calls, for code that seldom runs: each inlined copy takes seconds to compile. They take
+// rays by value, because a reference would force the path loop to keep its rays in memory instead of registers.
 
 template <class F>
 [[gnu::noinline]] static Hit<F> call_closest(const SceneView& s, Ray<F> ray, MaskOf<F> active) {

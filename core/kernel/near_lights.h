@@ -1,13 +1,16 @@
 #pragma once
 #include "core/kernel/event.h"
 
-/// Light that scatters in fog close to a lamp: by flights that end by angle.
+/// Direct light in fog close to a small lamp. For each ray that crosses fog a pair of a medium and a lamp near it is
+/// drawn, a place on the ray is sampled by the angle at which the lamp sees it (see Equiangular), and the lamp is asked
+/// for light there.
 namespace tyndall {
 
-/// A medium and a lamp near it for each lane, and the flight that ends in it with regard to that lamp.
+/// What fly_by_angle() samples for each lane: a pair of a medium and a lamp near it, and a flight that ends in the
+/// medium at a distance chosen for that lamp.
 template <class F>
 struct NearEvent {
-  MaskOf<F> happens;
+  MaskOf<F> happens;  ///< the ray crosses the medium
   IntOf<F> light;
   FogFlight<F> flight;
   F density, g;  ///< of the medium
@@ -15,6 +18,7 @@ struct NearEvent {
   IntOf<F> texture, from;
 };
 
+/// to_surface: distance along the ray to the next surface.
 template <class F>
 TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
   const F count = splat<F>(static_cast<float>(s.near_count));
@@ -50,7 +54,8 @@ TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, 
   return event;
 }
 
-/// The free flight that led to an event in a medium, for comparison.
+/// Describes the free flight that ended at the event `found`, so that its density can be weighed against that of a
+/// flight ended by angle. lengths: of the ray, to its event (x) and to the next surface (y).
 template <class F>
 TYNDALL_INLINE FogFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray, const MediumEvent<F>& found,
                                            Pair<F> lengths) {
@@ -58,8 +63,8 @@ TYNDALL_INLINE FogFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray
   return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, density};
 }
 
-/// Adds the light that reaches flights ended by angle, and leaves in `p` the free flight that the event in a medium
-/// `found` ended. lengths: of the ray, to its event and to the surface.
+/// Adds to the radiance of `p` the light that lamps send to the places sampled by angle. Also sets p.flight to the
+/// free flight that ended at the event `found`. lengths: of the ray, to its event (x) and to the next surface (y).
 template <class F>
 TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, const MediumEvent<F>& found, MaskOf<F> active,
                                      Pair<F> lengths, std::uint32_t& shadow_rays) {

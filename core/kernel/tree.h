@@ -1,17 +1,18 @@
 #pragma once
 #include "core/kernel/lone_ray.h"
 
-/// Takes rays through the tree: all lanes together, as long as enough of them meet the same boxes.
+/// Takes rays through the tree of boxes (core/compile/bvh.h) to the primitives that they may meet. All lanes go from
+/// node to node together, as long as enough of them meet the same boxes; then each goes on alone (lone_ray.h).
 namespace tyndall {
 
-/// Nodes still to visit, and the distance at which each lane enters them; infinity: it does not.
+/// Nodes that are still to be visited. near: the distance at which each lane enters the node; infinity if it misses it.
 template <class F>
 struct Stack {
   F near[bvh_stack];
   std::int32_t node[bvh_stack];
   int size = 0;
 
-  /// Of the nodes from `bottom` on, brings the one that a lane enters at the least distance to the top.
+  /// Of the nodes from place `bottom` on, moves the one that any lane enters first to the top, to be visited next.
   TYNDALL_INLINE void raise_nearest(int bottom) {
     const int top = size - 1;
     int nearest = top;
@@ -28,13 +29,14 @@ struct Stack {
   }
 };
 
-/// At a node that at most so many lanes have to enter, each of them goes on alone (lone_ray.h): tests for all lanes
-/// cost more than these few save by sharing them. 4 of 32 and 2 of 16 lanes are best for the rays of paths; for rays in
-/// random order twice as many are. Leaves are entered together all the same: there is too little work in them.
+/// If no more lanes than this have to enter a node, each of them goes on alone (lone_ray.h): a test in all lanes would
+/// be wasted on most of them. By measurement 4 of 32 and 2 of 16 lanes are best for the rays of paths, and twice as
+/// many for rays in random order. Lanes always enter a leaf together: there is too little work in it to go alone.
 template <class F>
 inline constexpr int few_lanes = lanes_of<F> < bvh_width ? 0 : lanes_of<F> / 8;
 
-/// Takes nodes off the stack up to one in which some lane may find a closer hit. Returns these lanes; none: finished.
+/// Takes nodes off the stack until there is one in which some lane may find a hit closer than its best, and sets `node`
+/// to it. Returns a bit for each such lane; 0: no node is left.
 template <class F, class Q>
 TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& asked, const Hit<F>& best) {
   const F infinity = F(__builtin_inff());
@@ -64,7 +66,8 @@ TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F li
   if (stack.size > bottom + 1) stack.raise_nearest(bottom);
 }
 
-/// best.t: how far to look; negative in lanes that take no part.
+/// Replaces `best` in lanes that meet something closer. On entry best.t says how far each lane has to look; negative:
+/// the lane takes no part.
 template <class F, class Q>
 TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hit<F>& best) {
   const Slopes<F> slopes = slopes_of(ray);
