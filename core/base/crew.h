@@ -10,7 +10,7 @@
 /// Threads that share work.
 namespace tyndall {
 
-inline constexpr int most_threads = 4096;  ///< that options and the window offer
+inline constexpr int most_threads = 4096;  ///< the largest number that options and the window accept
 
 /// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
 class Crew {
@@ -37,7 +37,7 @@ class Crew {
   int count_ = 0, busy_ = 0;
   std::uint64_t round_ = 0;
   std::atomic<int> next_ = 0;
-  std::vector<std::jthread> threads_;  // last: joined first
+  std::vector<std::jthread> threads_;  // declared last, so that the threads end before what they use goes
 };
 
 }  // namespace tyndall

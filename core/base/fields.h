@@ -32,12 +32,12 @@ struct Slider {
   double low = 0, high = 1;
   bool logarithmic = false;
 };
-/// For values without a slider. A place in the scene is dragged by the scene's size instead.
+/// For values without a slider, for example places in the scene: their range follows from the scene's size.
 constexpr Slider no_slider() { return {0, 0}; }
 constexpr bool has_slider(const Slider& slider) { return slider.low < slider.high; }
 
 /// One editable value of Owner. T: double, int, std::uint32_t, bool, Vec3<double>, an enum with words (choice.h), or
-/// std::optional of one of them: what is absent stays at what its comment says.
+/// std::optional of one of them; what an empty one means is said beside the member.
 template <class Owner, class T>
 struct Field {
   const char* name;  ///< key in the scene file; options spell it with dashes

@@ -27,7 +27,7 @@ inline constexpr std::uint32_t near_distance = 10;
 inline constexpr std::uint32_t near_point = 12;   // and 13
 inline constexpr std::uint32_t chain_point = 14;  // and 15
 inline constexpr std::uint32_t per_event = 16;
-// within an event, too, in a stream of their own
+// within an event, too, but far from the numbered ones, so that these may grow: for Dice::alone()
 inline constexpr std::uint32_t chain_word = 0x40000000u;
 inline constexpr std::uint32_t chain_root = 0x40000001u;
 inline constexpr std::uint32_t chain_asked = 0x40000002u;
@@ -151,8 +151,9 @@ struct Dice {
     return x ^ shift_right<15>(x);
   }
   TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
-  /// The same without regard to other samples. Spreading numbers evenly makes those of two dimensions go together more
-  /// than chance would; so a choice that decides what many others mean, such as the events of a chain, is drawn so.
+  /// Like word(), but independent of the pixel's other samples with either sampler. Numbers that are spread evenly are
+  /// slightly correlated from one dimension to another. A choice that decides what the other numbers mean, such as
+  /// which events a chain has, must not be.
   TYNDALL_INLINE U alone(std::uint32_t offset) const {
     if (sampler != SamplerKind::sobol) return word(offset);
     return hash(hash(low + event + U(offset * golden_ratio)) ^ high);

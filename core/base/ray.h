@@ -1,19 +1,20 @@
 #pragma once
 #include "core/base/random.h"
 
-/// Rays, and what shapes, materials and media are told about a hit and answer.
+/// Rays, and the structs in which shapes, materials and media are asked about a ray and give their answers.
 namespace tyndall {
 
-/// How a ray starts on or in a shape. A ray knows which shape it leaves and on which side. That is right at every scale
-/// and where surfaces coincide, while a least distance would skip thin gaps or meet the same point again.
+/// How a ray starts on or in a shape. Each ray knows which shape it leaves and on which side, so that it cannot meet
+/// the place where it starts. This is right at every scale and where surfaces coincide; the usual way, to skip hits
+/// below a least distance, would skip thin gaps or meet the same point again.
 enum class Side : std::int32_t {
-  outward = 0,  ///< on it, leaving along its geometric outward normal: cannot meet the shape again (all are convex)
-  inward = 1,   ///< on it, going in: meets the far side
+  outward = 0,  ///< on its surface, going out: cannot meet the shape again, because all shapes are convex
+  inward = 1,   ///< on its surface, going in: meets the far side
   within = 2,   ///< somewhere inside: meets the far side
 };
 
-inline constexpr std::int32_t from_nowhere =
-    -4;  ///< a start neither on nor in a shape that rays keep track of, for example at the camera
+/// Ray::from of a ray that starts neither on nor in any shape that rays keep track of, for example at the camera.
+inline constexpr std::int32_t from_nowhere = -4;
 
 /// A group of rays. direction: unit length. from: 4·element + side, or from_nowhere.
 template <class F>
@@ -30,11 +31,11 @@ struct Interval {
   MaskOf<F> hit;
 };
 
-/// The ray's start with regard to one shape.
+/// Whether a ray starts on or in one given shape.
 template <class F>
 struct Start {
   MaskOf<F> here;  ///< it starts on or in this very shape
-  MaskOf<F> out;   ///< ... and leaves outward
+  MaskOf<F> out;   ///< it starts on this shape and goes out
 };
 
 /// Start for a shape that owns the elements first ... first + count - 1.
@@ -53,22 +54,22 @@ TYNDALL_INLINE Start<F> start_on(IntOf<F> from, IntOf<F> element) {
   return {here, mask_and(here, equal(from & I(3), I(0)))};
 }
 
-/// What meets a surface, for one scattering event.
+/// A ray that meets a surface: what a material is told in order to scatter it.
 template <class F>
 struct Incident {
   Vec3<F> direction;  ///< unit, towards the surface
   Vec3<F> normal;     ///< unit, the surface's own (reversed for a negative radius)
   Vec3<F> facing;     ///< the normal, turned against the direction
   F cosine;           ///< between facing and the reversed direction, in [0, 1]
-  MaskOf<F> along;    ///< the direction goes along the normal: leaving what the surface encloses
+  MaskOf<F> along;    ///< the direction is on the normal's side: the ray leaves what the surface encloses
   Vec3<F> unit;       ///< uniform on the unit sphere, from the event's direction dimensions
-  bool schlick;       ///< the books' approximation of Fresnel's equations
+  bool schlick;       ///< use the books' approximation of Fresnel's equations
   const Dice<F>* dice;
 };
 
-/// Whether a shadow ray is sent to a light where a material scatters: never (mirrors and glass send light into single
-/// directions), always, or only where integrator mis weights it, because the lobe may be so narrow that a direction
-/// towards a light almost never falls into it (`weighted`).
+/// Whether shadow rays are sent to lights from where a material scatters. never: it sends light into single directions
+/// only, like mirrors and glass. always. weighted: only with integrator mis, because the lobe may be so narrow that
+/// directions to lights almost never fall into it, and without weights the few that do would be bright dots.
 enum class LightSampling { never, weighted, always };
 
 /// What leaves a surface after a scattering event.
@@ -77,7 +78,7 @@ struct Scattered {
   Vec3<F> direction;      ///< unit
   MaskOf<F> absorbed;     ///< nothing leaves
   MaskOf<F> transmitted;  ///< the direction is on the other side of the surface
-  F density;              ///< of the direction, per steradian; `one_direction`: it was the only one, or one of two
+  F density;  ///< of the direction, per steradian; one_direction: it was the only possible one, or one of two
 };
 
 /// Marks a direction that light sampling cannot choose: a mirror's, glass's, the camera's.

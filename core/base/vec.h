@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/lanes.h"
 
+/// Three numbers for places, directions and colours, and their arithmetic.
 namespace tyndall {
 
 /// A point, a direction or a colour (linear Rec.709: x red, y green, z blue). Vec3<float> is a single one, Vec3 of a

@@ -4,14 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+/// The tree of boxes by which rays find the few primitives that they may meet.
 namespace tyndall {
 
-inline constexpr int bvh_width = 8;
+inline constexpr int bvh_width = 8;  ///< most children of a node
 inline constexpr int bvh_most_primitives = 1 << 24;
 inline constexpr int bvh_stack = 640;  ///< more nodes than can wait in a traversal: 7 in each of 48 + 24 + 2 levels
 
-/// The children's boxes, component by component: one ray can be tested against all of them, or many rays against one.
-/// A load of 16 values from the start of a row of 8 stays within the node, as other members follow.
+/// The children's boxes, component by component, so that one ray can be tested against all of them, or many rays
+/// against one. Groups of 16 lanes may load 16 values from the start of a row of 8: that stays within the node, because
+/// other members follow.
 struct alignas(64) BvhNode {
   float low[3][bvh_width], high[3][bvh_width];
   std::int32_t child[bvh_width];  ///< >= 0: node; < 0: leaf ~child

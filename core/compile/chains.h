@@ -2,12 +2,14 @@
 #include "core/compile/flatten.h"
 #include "core/compile/render_scene.h"
 
+/// Which caustics are computed exactly (chains, see core/kernel/chain_light.h), and which are left to chance.
 namespace tyndall {
 
-/// Balls that bend or mirror light exactly (metal without fuzz, glass, shells of two concentric spheres of glass that
-/// hold what is around them) and the lamps that are small as seen from them: at most a quarter of their distance, or of
-/// the radius of a ball that holds them. Larger lamps are found by chance about as fast. `scene`: with its elements and
-/// lights. None where nothing scatters evenly.
+/// Pairs of a ball and a lamp. The balls are those that reflect or refract light exactly: metal without fuzz, solid
+/// glass, and glass shells, two spheres around one centre, if the same is inside of them as around them. The lamps are
+/// those whose radius is at most a quarter of their distance from the ball, or of the radius of a ball that holds them:
+/// larger ones are found by chance about as fast. There are no pairs if no surface or medium of the scene scatters
+/// evenly. compiled: the scene with its elements and lights.
 Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

@@ -17,7 +17,8 @@
 /// What kernels read: flat float arrays, made from a Scene by compile(). Positions are relative to `origin`.
 namespace tyndall {
 
-/// Which models a scene contains. The kernel is chosen by them; what it leaves out changes no bit of the picture.
+/// Which models a scene contains. By these a kernel is chosen that leaves others out, which changes no bit of the
+/// picture.
 struct Needs {
   bool spheres = false, moving_spheres = false, quads = false, boxes = false;
   bool media = false, phase_functions = false;                      ///< phase_functions: some medium has g != 0
@@ -61,7 +62,7 @@ struct Flats {
   int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (hull.h)
 };
 
-/// Per element: a sphere, a quad, or a face of a box.
+/// Columns by element. An element is a sphere, a quad or a face of a box.
 struct Elements {
   /// Spheres: centre and 1 / signed radius. Flats: unit outward normal and 0.
   std::vector<float> x, y, z, inverse_radius;
@@ -75,7 +76,7 @@ struct Elements {
   int count() const { return static_cast<int>(material.size()); }
 };
 
-/// Per material; parameter i is the kind's i-th field.
+/// Columns by material. parameter[i] holds the i-th field of the material's kind.
 struct Materials {
   std::vector<std::int32_t> kind;  ///< index into MaterialKinds
   std::vector<float> red, green, blue;
@@ -132,7 +133,7 @@ struct NearLamps {
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
-/// Balls of glass and mirrors, and the lamps whose light integrator mis looks for through and off each.
+/// Balls of glass and mirror balls, and for each the lamps whose light integrator mis looks for through it or off it.
 struct Chains {
   // Columns by ball: one sphere, or two around one centre.
   std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
@@ -147,7 +148,8 @@ struct Chains {
   std::vector<std::int32_t> ball_of;  ///< by element: 2 · ball + (1: inner sphere), or -1
 };
 
-/// The variants of the kernels, by what they leave out. A scene that lacks it gives the same picture, to the last bit.
+/// The variants of the kernels, by the models that they hold or leave out. A scene that does not have the models which
+/// a variant leaves out gives the same picture with it, to the last bit.
 enum class KernelSet { everything, chains_alone, no_chains, no_lamps_in_fog, no_fog_nor_textures };
 inline constexpr int kernel_sets = 5;
 const char* name_of(KernelSet set);
@@ -173,7 +175,7 @@ struct RenderScene {
   bool schlick = false;
   SamplerKind sampler = SamplerKind::sobol;
   Integrator integrator = Integrator::mis;
-  bool light_sampling = false;  ///< the integrator asks for light, and there is some
+  bool light_sampling = false;  ///< the integrator sends shadow rays to lights, and the scene has lights
   double film_unit = 1;
   Needs needs;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs

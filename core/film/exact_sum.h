@@ -1,10 +1,11 @@
 #pragma once
 #include "core/base/lanes.h"
 
+/// Sums that are the same to the last bit in whatever order their numbers come, so that threads, tiles, pauses and
+/// machines cannot change a picture.
 namespace tyndall {
 
-/// A sum of numbers that does not depend on their order, so that threads, tiles, pauses and machines cannot change a
-/// picture. It is held in fixed point as two integers: `high` counts 2^-29 of the film's `unit`, `low` counts 2^-61.
+/// A sum in fixed point, held as two integers: `high` counts 2^-29 of the film's `unit`, `low` counts 2^-61 of it.
 /// Smaller bits of each number are cut off before it is added. 2^24 numbers of less than 2^30 units fit if their sum is
 /// below 2^34 units. That holds for the samples of a pixel: their mean is at most one unit, so a sample of 2^30 units
 /// has a chance of at most 2^-30, and 16 of them among 2^24 samples have one of 2^-140.

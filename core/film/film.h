@@ -8,6 +8,7 @@
 
 /// What a render gathers: for each pixel exact sums of its samples, and how many they are.
 namespace tyndall {
+
 /// Pixels x0 <= x < x1, y0 <= y < y1 of the full image, y down.
 struct Region {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -27,9 +28,9 @@ struct FilmPixel {
 };
 static_assert(sizeof(FilmPixel) == 112);
 
-/// The part of a pixel's sums that came straight from lamps and sky: of paths that met no surface but smooth ones and
-/// no medium before. It tells filters where lamps are seen. In units of 2^-29 of the film's unit; smaller bits of each
-/// sample are cut off. As exact as an ExactSum's high part: 2^24 samples of less than 2^30 units fit likewise.
+/// The part of a pixel's sums that came straight from lamps and sky, by paths that met nothing before but smooth glass
+/// and mirrors. It tells filters where lamps are seen. The sums count 2^-29 of the film's unit, and smaller bits of
+/// each sample are cut off, like the high part of an ExactSum: so the same numbers of samples fit.
 struct EmissionSums {
   std::int64_t sum[2][3] = {};
   bool operator==(const EmissionSums&) const = default;
@@ -87,8 +88,8 @@ Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half);
 /// Mean emission of a half of the pixel of that index; black where it is not recorded.
 Vec3f half_emission(const Film& film, std::size_t pixel, int half);
 
-/// What a sample has to stay below, in units of its film: see ExactSum. Only light sampling without MIS comes near it,
-/// where a phase function has a peak of g > 0.9998.
+/// A sample has to be below this many units of its film to be added: see ExactSum. Only integrator nee comes near it,
+/// in media with g above 0.9998, whose phase functions have a high peak.
 inline constexpr double sample_limit = 0x1p30;
 
 /// A sample in units of its film, and whether a film takes it.
@@ -104,8 +105,8 @@ TYNDALL_INLINE ScaledSample scaled(Vec3f radiance, double per_unit) {
           static_cast<double>(radiance.z) * per_unit};
 }
 
-/// Adds one sample of a pixel; half is its index & 1. What is not finite or not within sample_limit units is counted as
-/// rejected instead. Does not change `taken`.
+/// Adds one sample of a pixel. half: the sample's index & 1. A sample that is not finite, or not below sample_limit
+/// units, is counted as rejected instead. Does not change `taken`.
 TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
   const ScaledSample sample = scaled(radiance, per_unit);
   if (!sample.fits()) {

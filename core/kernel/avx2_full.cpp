@@ -1,4 +1,4 @@
-// The kernels with chains, of AVX2: see avx2.cpp.
+// The kernels with chains for AVX2, apart from the others so that two processors can compile them: see avx2.cpp.
 #include "core/base/lanes_twice.h"
 #include "core/kernel/entry.h"
 

@@ -1,4 +1,5 @@
-// Two groups of 16 lanes. Compiled with the flags of this instruction set: nothing but the kernels may be in here.
+// The kernels for AVX-512: two groups of 16 lanes. This file is compiled with flags that older CPUs cannot run, so
+// nothing but the kernels may be in it.
 #include "core/base/lanes_twice.h"
 #include "core/kernel/entry.h"
 

@@ -1,4 +1,4 @@
-// The kernels with chains, of AVX-512: see avx512.cpp.
+// The kernels with chains for AVX-512, apart from the others so that two processors can compile them: see avx512.cpp.
 #include "core/base/lanes_twice.h"
 #include "core/kernel/entry.h"
 

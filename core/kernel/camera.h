@@ -4,10 +4,11 @@
 #include "core/kernel/kernels.h"
 #include "core/kernel/scene_view.h"
 
-/// Camera rays: which samples a unit of work holds, and the rays they start with.
+/// Camera rays: which samples a unit of work holds, and the ray with which each of them starts.
 namespace tyndall {
 
-/// Ray through a point of the picture, in pixels from its upper left corner; lens: point in the unit disc.
+/// The ray through a point (x, y) of the picture, in pixels from its upper left corner. lens: where it leaves the lens,
+/// a point in the unit disc.
 /// Ray Tracing in One Weekend, section 13.2 "Generating Sample Rays".
 template <class F>
 TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens, F time) {
@@ -29,18 +30,19 @@ TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& di
 
 inline constexpr int most_unit_pixels = 4096;
 
-/// The samples of a unit in the order in which lanes take them: all pixels with their first index, then the next index.
+/// The samples of a unit, in the order in which lanes take them: first one sample of every pixel, then the next one of
+/// every pixel, and so on.
 struct UnitSamples {
   std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
-  std::uint32_t start[most_unit_pixels];                          ///< first sample, where each pixel has its own
+  std::uint32_t start[most_unit_pixels];                          ///< first sample, if each pixel has its own
   int width;                                                      ///< of the tile
   const std::uint32_t *first_of, *last_of;                        ///< see Unit
   std::uint32_t first;
   int pixels;
-  int pixel;            ///< next
-  std::uint32_t round;  ///< next sample of a pixel, counted from its first
+  int pixel;            ///< the next one, as an index into these lists
+  std::uint32_t round;  ///< its next sample, counted from the pixel's first
   std::uint32_t rounds;
-  std::uint32_t next_finish;  ///< round at which some pixels may have all their samples
+  std::uint32_t next_finish;  ///< the round before which no pixel has all its samples
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
@@ -101,6 +103,7 @@ struct CameraQueue {
   int next = 0, end = 0;
 };
 
+/// Fills the queue with the rays of the next samples.
 template <class F>
 [[gnu::noinline]] static void refill(CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s,
                                      const Unit& unit) {

@@ -1,15 +1,15 @@
 #pragma once
 #include "core/base/math.h"
 
-/// Light through or off concentric spheres: how far it turns about their centre, and which rays turn it as far as is
-/// wanted. By Bouguer's formula (Born & Wolf, Principles of Optics, section 3.2.1) p = n r sin(angle to the radius) is
-/// the same along the whole way, in every layer; so all ways between two points through the same surfaces lie in one
-/// plane and have one unknown, p. From radius r to where the way is closest to the centre it turns by acos(p / (n r)),
-/// so the whole turn is a sum of such terms.
+/// Finds the ways of light between two points, through or off spheres around one centre. By Bouguer's formula (Born &
+/// Wolf, Principles of Optics, section 3.2.1) p = n r sin(angle to the radius) is the same all along such a way, in
+/// every layer. So all ways between two points by the same surfaces lie in one plane and have one unknown, p. What must
+/// come out right is the turn: the angle about the centre from one point to the other. From radius r to its place
+/// closest to the centre a way turns by acos(p / (n r)), so that the whole turn is a sum of such terms.
 namespace tyndall {
 
-/// acos(1 - h) over sqrt(h (2 - h)), its sine; h in [0, 1]. Minimax polynomial by Remez' algorithm; relative error
-/// below 2e-7.
+/// acos(1 - h) divided by its sine, sqrt(h (2 - h)), for h in [0, 1]. Minimax polynomial by Remez' algorithm; relative
+/// error below 2e-7.
 template <class F>
 TYNDALL_INLINE F angle_over_sine(F h) {
   F p = mul_add(h, F(0.0174790093f), F(-0.0425665624f));
@@ -26,25 +26,26 @@ TYNDALL_INLINE double angle_over_sine(double h) {
   return std::atan2(std::sqrt(h * (2 - h)), 1 - h) / std::sqrt(h * (2 - h));
 }
 
-/// The turn of one way through given surfaces, as a function of s: p = most (1 - s²). s near 0 grazes the surface that
-/// limits p, where all terms are smooth in s; s = 1 goes through the centre.
+/// The turn of ways through given surfaces, as a function of s, where p = most (1 - s²). At s = 0 the way grazes the
+/// surface that limits p; at s = 1 it goes through the centre. All terms are smooth functions of s; of p they are not,
+/// because acos has an infinite slope where the way grazes.
 template <class F>
 struct Turn {
   static constexpr int most_terms = 6;
   F gap[most_terms];      ///< 1 - most / (n r) of each term, at least 0
   F inverse[most_terms];  ///< 1 / (n r)
-  F times[most_terms];    ///< how often it counts
-  F most;                 ///< largest p
-  F last;                 ///< s of the smallest p
+  F times[most_terms];    ///< how often the term counts; negative: it is subtracted
+  F most;                 ///< largest p that is possible
+  F last;                 ///< s of the smallest p that is possible
   int terms;
 };
 
-/// s below this is left out: within a hundred-millionth of grazing.
+/// Ways with a smaller s are left out: they graze, with p within a hundred-millionth of its largest value.
 inline constexpr float least_parameter = 1e-4f;
 
 template <class F>
 struct TurnAt {
-  F angle, slope;  ///< slope: by s
+  F angle, slope;  ///< slope: the derivative by s
 };
 
 template <class F>
@@ -67,14 +68,15 @@ struct Piece {
   F low, high, at_low, at_high;  ///< s, and the turn there
 };
 
-/// Where a way turns as wanted.
+/// The s of a way that turns as far as is wanted, and the turn's slope there.
 template <class F>
 struct TurnPlace {
   F s, slope;
 };
 
-/// Newton's steps, halving where one would leave the stretch; `target` lies within it. folded: the turn is least or
-/// greatest at the low end (1), at the high one (-1), or at neither (0). The slope is that before the last step.
+/// Finds the s of a piece at which the turn is `target`, which lies between the turns at the piece's ends. By Newton's
+/// method, and by halving where a step of it would leave the piece. folded: the turn is least or greatest at the low
+/// end (1), at the high end (-1) or at neither (0). The slope that is returned is that before the last step.
 template <class F>
 TYNDALL_INLINE TurnPlace<F> find_root(const Turn<F>& turn, const Piece<F>& piece, F target, F folded) {
   constexpr int steps = std::is_same_v<F, double> ? 40 : 5;
@@ -90,7 +92,7 @@ TYNDALL_INLINE TurnPlace<F> find_root(const Turn<F>& turn, const Piece<F>& piece
     const F off = at.angle - target;
     const auto above = less(F(0.0f), select(rises, off, -off));
     high = select(above, s, high), low = select(above, low, s);
-    const F next = s - off / at.slope;  // what is no number is not inside
+    const F next = s - off / at.slope;  // not a number where the slope is 0: then it does not count as inside
     const auto inside = mask_and(less_equal(low, next), less_equal(next, high));
     s = select(inside, next, F(0.5f) * (low + high));
     slope = at.slope;
@@ -98,16 +100,16 @@ TYNDALL_INLINE TurnPlace<F> find_root(const Turn<F>& turn, const Piece<F>& piece
   return {s, slope};
 }
 
-/// The turn over all s, cut where it is least or greatest. It has at most one such place; where the slopes at both ends
-/// have one sign it has none. (Two were found for one in a thousand geometries of a shell that is not filled with
-/// air.)
+/// The turn over all s, cut into pieces on which it only grows or only falls. It is taken to have at most one least or
+/// greatest value, and none where the slopes at both ends have the same sign. (It had two in one of a thousand tested
+/// geometries of a shell that is not filled with air.)
 template <class F>
 struct Pieces {
-  Piece<F> outer, inner;  ///< grazing first; the inner one is empty (low == high) where there is no such place
-  MaskOf<F> folded;
+  Piece<F> outer, inner;  ///< outer begins with grazing ways; inner is empty (low == high) where nothing was cut
+  MaskOf<F> folded;       ///< it was cut
 };
 
-/// The turn at the end of s: mostly through the centre, where every term is a right angle.
+/// The turn at the largest s. That way mostly goes through the centre, where every term is a right angle.
 template <class F>
 TYNDALL_INLINE TurnAt<F> last_turn(const Turn<F>& turn) {
   if (any(less(turn.last, F(1.0f)))) return turn_at(turn, turn.last);
@@ -125,8 +127,8 @@ struct SlopeBracket {
   F low, high, at_low, at_high;
 };
 
-/// A round of the method of C. Ridders, A New Algorithm for Computing a Single Root of a Real Continuous Function, IEEE
-/// Transactions on Circuits and Systems 26(11), 1979.
+/// Brings the two places closer together, by one round of the method of C. Ridders, A New Algorithm for Computing a
+/// Single Root of a Real Continuous Function, IEEE Transactions on Circuits and Systems 26(11), 1979.
 template <class F>
 TYNDALL_INLINE void narrow(const Turn<F>& turn, SlopeBracket<F>& b) {
   const F middle = F(0.5f) * (b.low + b.high), at_middle = turn_at(turn, middle).slope;
@@ -145,7 +147,7 @@ TYNDALL_INLINE void narrow(const Turn<F>& turn, SlopeBracket<F>& b) {
 
 template <class F>
 TYNDALL_INLINE Pieces<F> cut_turn(const Turn<F>& turn) {
-  // After two rounds and the secant the turn there is mostly exact to 1e-6, the rounding of float.
+  // Two rounds and the secant below mostly give the turn there to 1e-6, which is the rounding of float.
   constexpr int rounds = std::is_same_v<F, double> ? 8 : 2;
   const F first = F(least_parameter);
   const TurnAt<F> start = turn_at(turn, first), end = last_turn(turn);
@@ -163,13 +165,15 @@ TYNDALL_INLINE Pieces<F> cut_turn(const Turn<F>& turn) {
   return {{first, middle, start.angle, at_middle}, {middle, turn.last, at_middle, end.angle}, bends};
 }
 
-/// Ways that turn by `angle` in [0, pi] one way round or the other, any number of full turns added: how many there are
-/// in a piece, and the turn of each.
+/// The ways in a piece that lead from one point to the other. They turn by the angle between the points one way round
+/// (forth) or by its negative (back), plus any number of whole turns.
 template <class F>
 struct TurnCounts {
-  F forth_first, forth, back_first, back;  ///< whole turns to add to the first, and how many there are; likewise back
+  F forth_first, forth;  ///< whole turns of the first way forth, and how many ways there are, each a turn longer
+  F back_first, back;    ///< the same for ways back
 };
 
+/// angle: between the two points, seen from the centre, in [0, pi].
 template <class F>
 TYNDALL_INLINE TurnCounts<F> count_turns(const Piece<F>& piece, F angle) {
   const F whole = F(static_cast<float>(0.5 / pi));
@@ -179,14 +183,15 @@ TYNDALL_INLINE TurnCounts<F> count_turns(const Piece<F>& piece, F angle) {
           floor((greatest + angle) * whole) + F(1.0f) - back_first};
 }
 
-/// One of the ways that turn as wanted.
+/// One of the ways between the two points.
 template <class F>
 struct TurnRoot {
   MaskOf<F> found;
   F s, slope;
-  F sense;  ///< 1: by the angle itself; -1: the other way round
+  F sense;  ///< 1: it turns by the angle between the points; -1: the other way round
 };
 
+/// All ways between the two points.
 template <class F>
 struct TurnRoots {
   Pieces<F> pieces;
@@ -205,7 +210,7 @@ TYNDALL_INLINE TurnRoots<F> list_roots(const Turn<F>& turn, F angle, MaskOf<F> l
   return roots;
 }
 
-/// Puts a for b where `here`.
+/// Replaces b by a in the lanes of `here`.
 template <class F>
 TYNDALL_INLINE void choose(MaskOf<F> here, const TurnRoots<F>& a, TurnRoots<F>& b) {
   const auto put = [&](F from, F & to) __attribute__((always_inline)) { to = select(here, from, to); };
@@ -221,7 +226,7 @@ TYNDALL_INLINE void choose(MaskOf<F> here, const TurnRoots<F>& a, TurnRoots<F>& 
   put_counts(a.outer, b.outer), put_counts(a.inner, b.inner), put(a.count, b.count);
 }
 
-/// Root `index`, from 0, of the list.
+/// Computes way number `index` of the list, counted from 0.
 template <class F>
 TYNDALL_INLINE TurnRoot<F> take_root(const Turn<F>& turn, const TurnRoots<F>& roots, F angle, F index) {
   const F in_outer = roots.outer.forth + roots.outer.back;

@@ -3,17 +3,20 @@
 #include "core/kernel/scene_view.h"
 #include "core/materials/dielectric.h"
 
-/// Which surfaces of a ball a chain meets, in which way, and what that is worth. A ball is a mirror, solid glass or a
-/// shell: two concentric spheres, with any index between them and within.
+/// The word of a chain: which surfaces of a ball it meets and what happens there. Words are drawn at random; this file
+/// tells with which probability, and which share of the light takes the way that a word describes. A ball is a mirror,
+/// solid glass, or a shell: two spheres around one centre, with any refractive index between them and within.
 namespace tyndall {
 
+/// A ball's columns for each lane: see Chains.
 template <class F>
 struct ChainBall {
   Vec3<F> center;
-  F radius, index;              ///< of the outer sphere, and within it
-  F inner_radius, inner_index;  ///< of the inner sphere, and within it; radius 0: there is none
-  IntOf<F> outer, inner;        ///< elements
-  MaskOf<F> mirror, hollow, crowded;
+  F radius, index;              ///< of the outer sphere, and the refractive index within it
+  F inner_radius, inner_index;  ///< the same of the inner sphere; radius 0: there is none
+  IntOf<F> outer, inner;        ///< elements of the spheres
+  MaskOf<F> mirror, hollow;     ///< metal; a shell
+  MaskOf<F> crowded;            ///< other things are in it or reach into it
 };
 
 template <class F>
@@ -32,7 +35,8 @@ TYNDALL_INLINE ChainBall<F> load_ball(const ChainView& c, IntOf<F> ball, F time)
   return b;
 }
 
-/// The events of a chain, counted.
+/// The events of a chain, counted by kind. Their order is left out, because neither the turn of the way nor the share
+/// of light that takes it depends on it.
 template <class F>
 struct ChainWord {
   F outer;            ///< at the outer sphere
@@ -40,15 +44,15 @@ struct ChainWord {
   F inner_reflected;  ///< of these, reflections
 };
 
-/// Where a chain's ends are: at least one is outside of the ball.
+/// Where a chain's ends are with regard to the ball. At least one must be outside of it.
 template <class F>
 struct ChainEnds {
   F near, far;              ///< distance of each end from the centre
-  F near_reach, far_reach;  ///< times the index there
-  F far_index;
-  MaskOf<F> both_out;
-  MaskOf<F> deep;   ///< one end is inside the inner sphere
-  MaskOf<F> valid;  ///< not both inside, none within the glass of a shell
+  F near_reach, far_reach;  ///< these distances times the refractive index there
+  F far_index;              ///< refractive index at the far end
+  MaskOf<F> both_out;       ///< both ends are outside of the ball
+  MaskOf<F> deep;           ///< one end is inside the inner sphere
+  MaskOf<F> valid;          ///< one end is outside, the other not on a surface, in metal or in the glass of a shell
 };
 
 template <class F>
@@ -70,21 +74,23 @@ TYNDALL_INLINE ChainEnds<F> ends_of(const ChainBall<F>& b, F near, F far) {
   return e;
 }
 
-/// Signs of the ends' terms: 1 where the way there is between the end and the place next to the centre, -1 where it
-/// leads straight away from that place.
+/// Signs with which the ends' terms enter the turn. An end outside of the ball always has 1. An end within it has 1 if
+/// the way from it to the ball's surface first comes closer to the centre, and -1 if it leads outward at once.
 template <class F>
 struct EndSigns {
   F near, far;
 };
 
+/// The turn of a word, and whether a way of that word can exist at all.
 template <class F>
 struct ChainTurn {
   Turn<F> turn;
   MaskOf<F> possible;
 };
 
-/// The turn of a chain. Outside: acos(p/a) - acos(p/R), for each end; each way through the glass of a shell:
-/// acos(p/(nR)) - acos(p/(n Ri)); each chord within it 2 acos(p/(m Ri)); through solid glass 2 acos(p/(nR)).
+/// The turn of a chain, as the sum of: acos(p/a) - acos(p/R) for each end outside, at distance a; acos(p/(nR)) -
+/// acos(p/(n Ri)) for each way through the glass of a shell; 2 acos(p/(m Ri)) for each chord within its inner sphere;
+/// 2 acos(p/(nR)) for each chord through solid glass. R, Ri: radii of the spheres; n, m: refractive index within each.
 template <class F>
 TYNDALL_INLINE ChainTurn<F> turn_of(const ChainView& c, const ChainBall<F>& b, const ChainEnds<F>& e,
                                     const ChainWord<F>& w, const EndSigns<F>& sign) {
@@ -110,7 +116,7 @@ TYNDALL_INLINE ChainTurn<F> turn_of(const ChainView& c, const ChainBall<F>& b, c
     turn.times[i] = times[i], turn.inverse[i] = F(1.0f) / safe;
     turn.gap[i] = (safe - turn.most) * turn.inverse[i];
   }
-  // Through the glass of a shell past its inner sphere.
+  // A word that goes through the glass of a shell past its inner sphere: p must stay above n Ri.
   const auto misses = mask_and(mask_and(b.hollow, e.both_out), mask_and_not(less(F(1.0f), w.outer), visits));
   const F least = select(misses, b.index * b.inner_radius, F(0.0f));
   turn.last = select(misses, sqrt(max(F(1.0f) - least / turn.most, F(0.0f))), F(1.0f));
@@ -125,8 +131,8 @@ TYNDALL_INLINE F whole_power(F x, F exponent) {
   return select(less(F(0.5f), exponent), exp(exponent * log(max(x, F(1e-30f)))), F(1.0f));
 }
 
-/// Share of light that takes a chain of all that comes along it: the product of what each surface reflects or lets
-/// through. By Bouguer's formula the angles are the same at all events of a sphere.
+/// Share of the light that takes a chain: the product of what each surface reflects or lets through. All events at one
+/// sphere have the same angle (Bouguer's formula), so that one share per sphere is enough.
 template <class F>
 TYNDALL_INLINE F share_of(const ChainBall<F>& b, const ChainEnds<F>& e, const ChainWord<F>& w, F p) {
   const auto cosine = [&](F reach) {
@@ -146,7 +152,7 @@ TYNDALL_INLINE F share_of(const ChainBall<F>& b, const ChainEnds<F>& e, const Ch
   return select(visits, share * visit, share);
 }
 
-/// The chain that carries most: through the ball by the fewest events, or off a mirror.
+/// The word of the chain that carries most light: through the ball by the fewest events, or off a mirror.
 template <class F>
 TYNDALL_INLINE ChainWord<F> main_word(const ChainBall<F>& b, const ChainEnds<F>& e) {
   const F one = F(1.0f), two = F(2.0f), none = F(0.0f);
@@ -154,14 +160,15 @@ TYNDALL_INLINE ChainWord<F> main_word(const ChainBall<F>& b, const ChainEnds<F>&
           select(b.hollow, select(e.both_out, two, select(e.deep, one, none)), none), none};
 }
 
-// Words are drawn, an octal digit a decision: first whether it is the main one, else whether off the outside of glass,
-// whether past the inner sphere of a thick shell, and then whether to be reflected at each event.
-inline constexpr int most_decisions = 7;
-inline constexpr std::int32_t main_digits = 6;  ///< of eight
+// A word is drawn by decisions, each of which takes one octal digit of a random number. First: is it the main word?
+// If not: does the light reflect off the outside of the glass? Does it go past the inner sphere of a thick shell? Then,
+// at each event: is it reflected?
+inline constexpr int most_decisions = 7;        ///< about events at most; longer words are left to scattering
+inline constexpr std::int32_t main_digits = 6;  ///< how many of the eight digits mean the main word
 inline constexpr float take_main = 0.125f * main_digits;
-inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes" in each of the others
+inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes" in each of the other decisions
 
-/// Whether rays can pass through a shell's glass and miss what is within.
+/// Whether light can pass through a shell's glass without meeting the inner sphere.
 template <class F>
 TYNDALL_INLINE MaskOf<F> is_thick(const ChainBall<F>& b) {
   return mask_and(b.hollow, less(b.index * b.inner_radius, F(0.999f) * min(b.radius, b.index * b.radius)));
@@ -170,7 +177,7 @@ TYNDALL_INLINE MaskOf<F> is_thick(const ChainBall<F>& b) {
 template <class F>
 struct DrawnWord {
   ChainWord<F> word;
-  MaskOf<F> drawn;  ///< none where it grew too long
+  MaskOf<F> drawn;  ///< false where the word would have more events than there are decisions
 };
 
 template <class F>
@@ -179,10 +186,11 @@ TYNDALL_INLINE MaskOf<F> same_word(const ChainWord<F>& a, const ChainWord<F>& b)
                   equal(a.inner_reflected, b.inner_reflected));
 }
 
-/// Decisions, the highest octal digit first.
+/// The decisions that 32 random bits make, three bits each, from the highest down.
 template <class F>
 struct Decisions {
   UintOf<F> digits;
+  /// Whether the next digit, 0 ... 7, is below `limit`. Moves on to the digit after it.
   TYNDALL_INLINE MaskOf<F> below(std::int32_t limit) {
     const auto yes = less(as_int(shift_right<29>(digits)), IntOf<F>(limit));
     digits = shift_left<3>(digits);
@@ -190,14 +198,14 @@ struct Decisions {
   }
 };
 
-/// A word while it is drawn, event by event.
+/// The state of a word that is drawn event by event.
 template <class F>
 struct WordWalk {
   Decisions<F> decide;
-  MaskOf<F> main, off;  ///< the main word; reflected at the outside of glass
+  MaskOf<F> main, off;  ///< it is the main word; it only reflects off the outside of the glass
   MaskOf<F> layered;    ///< the way meets the inner sphere
   MaskOf<F> open;       ///< more events follow
-  IntOf<F> next;        ///< event: 0 at the outer sphere, 1 at the inner one from the glass, 2 from within
+  IntOf<F> next;        ///< next event: 0 at the outer sphere, 1 at the inner one from the glass, 2 there from within
 };
 
 template <class F>
@@ -214,11 +222,13 @@ TYNDALL_INLINE WordWalk<F> start_walk(const ChainBall<F>& b, const ChainEnds<F>&
   return walk;
 }
 
+/// One event of a walk. Neither at_outer nor at_inner is set in lanes whose walk has ended.
 template <class F>
 struct WordEvent {
   MaskOf<F> at_outer, at_inner, reflects;
 };
 
+/// Draws the walk's next event, and what follows it.
 template <class F>
 TYNDALL_INLINE WordEvent<F> step_walk(WordWalk<F>& walk) {
   using I = IntOf<F>;
@@ -231,6 +241,7 @@ TYNDALL_INLINE WordEvent<F> step_walk(WordWalk<F>& walk) {
   return event;
 }
 
+/// Draws a word. digits: 32 random bits.
 template <class F>
 TYNDALL_INLINE DrawnWord<F> draw_word(const ChainBall<F>& b, const ChainEnds<F>& e, UintOf<F> digits) {
   const F one = F(1.0f), none = F(0.0f);
@@ -249,7 +260,7 @@ TYNDALL_INLINE DrawnWord<F> draw_word(const ChainBall<F>& b, const ChainEnds<F>&
           mask_and_not(e.valid, walk.open)};
 }
 
-/// Probability with which a word is looked for.
+/// Probability with which draw_word() draws these events in one given order.
 template <class F>
 TYNDALL_INLINE F word_probability(const ChainBall<F>& b, const ChainEnds<F>& e, const ChainWord<F>& w) {
   const F yes = F(take_octal), no = F(1.0f) - yes;

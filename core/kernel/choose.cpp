@@ -4,8 +4,8 @@
 namespace tyndall {
 namespace {
 
-/// The kernels of each target, in the order of Target; null where this build has no code for it, which
-/// available_targets() then leaves out.
+/// The kernels of each target, in the order of Target. Null: this build has no code for the target, and
+/// available_targets() does not list it.
 constexpr Kernels (*tables[target_count])() = {
     scalar_kernels,
 #if defined(TYNDALL_HAVE_SSE4)

@@ -1,4 +1,4 @@
-// The kernels over double, for any CPU: they show what rounding costs the others.
+// The kernels in double precision, for any CPU. They are slow, and show how much rounding changes in the others.
 #include "core/kernel/entry.h"
 
 namespace tyndall {

@@ -1,9 +1,11 @@
 #pragma once
 #include "core/kernel/path.h"
 
-/// The kernels' entry points for one number type; each instruction set's file names its own and nothing else.
+/// The kernels' entry points as templates over the number type F. Each instruction set has a small .cpp file, which
+/// chooses F and makes a table of them.
 namespace tyndall {
 
+/// See TraceRays.
 template <class F>
 TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHit* hits, int count, bool brute_force) {
   constexpr int lanes = lanes_of<F>;
@@ -30,6 +32,7 @@ TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHi
   }
 }
 
+/// See FirstHits.
 template <class F>
 TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHit* hits) {
   constexpr int lanes = lanes_of<F>;
@@ -66,8 +69,8 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
-/// The table of one instruction set. Internal to each file that uses it: of an ordinary template the linker could keep
-/// the copy with wide instructions for all files, which would crash older CPUs.
+// The functions that stand in the table of an instruction set. They are static, so that each file has its own: of an
+// ordinary template the linker keeps one copy for all files, and one with wide instructions would crash older CPUs.
 template <class F, KernelSet set>
 static void render_unit_entry(const SceneView& s, const Unit& u, double film_unit, FilmPixel* p, EmissionSums* e,
                               UnitCounts& c) {
@@ -81,8 +84,9 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// One kernel for each set: for the instruction sets that most processors render with. `full`, with every model, and
-/// `chains`, without fog and textures, come from a file of their own, so that two processors compile side by side.
+/// A table with a kernel of its own for each KernelSet, for the instruction sets that most processors have. `full`,
+/// with every model, and `chains`, without fog and textures, are passed in, because they are compiled in another file:
+/// so two processors can compile the kernels side by side.
 template <class F>
 static Kernels kernels_of(const char* isa, RenderUnit full, RenderUnit chains) {
   return {isa,
@@ -92,8 +96,8 @@ static Kernels kernels_of(const char* isa, RenderUnit full, RenderUnit chains) {
           trace_entry<F>,
           first_hits_entry<F>};
 }
-/// The kernel that holds every model, in the place of each set: the same pictures, a little slower, in a fifth of
-/// the time to compile. For references and for old processors.
+/// A table in which the kernel with every model stands for each KernelSet. It gives the same pictures, a little slower,
+/// and takes a fifth of the time to compile: for references and for old processors.
 template <class F>
 static Kernels full_kernel_of(const char* isa) {
   const RenderUnit render = render_unit_entry<F, KernelSet::everything>;

@@ -5,8 +5,8 @@
 #include "core/kernel/lights.h"
 #include "core/kernel/shade.h"
 
-/// What happens to a group of paths where they meet something: light that is found, light that is asked for,
-/// scattering.
+/// What happens to a group of paths where they meet something: they add the light of a lamp that they have found, ask a
+/// lamp for light by a shadow ray, and scatter into new directions.
 namespace tyndall {
 
 /// Everything a group of paths carries from event to event.
@@ -17,24 +17,24 @@ struct Paths {
   Dice<F> dice;
   IntOf<F> depth;  ///< scattering events so far
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
-  FogFlight<F> flight;      ///< that led to where the ray starts; only in scenes with lamps in fog
-  ChainTrail<F> trail;      ///< since it scattered last; only in scenes with chains
-  MaskOf<F> straight;       ///< met nothing yet but smooth glass and mirrors; only in scenes with lamps
+  FogFlight<F> flight;      ///< the flight to where the ray starts; only in scenes with lamps in fog
+  ChainTrail<F> trail;      ///< what it met since it scattered last; only in scenes with chains
+  MaskOf<F> straight;       ///< it has met nothing yet but smooth glass and mirrors; only in scenes with lamps
   IntOf<F> slot;            ///< 2 · pixel within the tile + half
-  std::uint32_t alive = 0;  ///< a bit a lane
+  std::uint32_t alive = 0;  ///< bit i: lane i follows a path
 };
 
-/// What a group of lanes is at: surfaces and points in media, ready to scatter.
+/// The places where a group of lanes is about to scatter: points of surfaces and points within media.
 template <class F>
 struct Event {
-  MaskOf<F> surface, medium;  ///< lanes; never both
+  MaskOf<F> surface, medium;  ///< which lanes are at a surface, which in a medium; never both
   Vec3<F> point;
   Vec3<F> colour;  ///< albedo
-  IntOf<F> from;   ///< Ray::from on the side that the ray came from, or within the medium
+  IntOf<F> from;   ///< Ray::from of rays that leave to the side from which the ray came, or that start in the medium
   Incident<F> incident;
   SurfacePoint<F> at;
-  IntOf<F> kind;  ///< of the material
-  F g;
+  IntOf<F> kind;  ///< of the material: its place in MaterialKinds
+  F g;            ///< of the medium
 };
 
 /// Whether light that arrives after an event counts as seen by way of a mirror: the event sends it into one direction,
@@ -54,16 +54,18 @@ TYNDALL_INLINE F phase_density(const auto& s, F g, Vec3<F> before, Vec3<F> after
 /// Which light an event asks for, and how the event was found.
 template <class F>
 struct LightAsked {
-  LightChoice<F> choice;  ///< the probability is choose_light's
-  Pair<F> u;
-  FogFlight<F> flight;  ///< that led to the event
-  bool by_angle;        ///< it ended by angle, with regard to just this light
+  LightChoice<F> choice;  ///< with the probability with which choose_light() takes this light there
+  Pair<F> u;              ///< random numbers for the point of the light
+  FogFlight<F> flight;    ///< the flight that led to the event
+  bool by_angle;          ///< that flight was ended by angle for this very light
 };
 
-/// Light that lanes see directly from an event, by one sample of one light, weighed against what scattering would have
-/// found by itself. E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2: the power
-/// heuristic, written in ratios of densities to that of free flight and light sampling: r for scattering, q for events
-/// found by angle: 1 / (1 + r² + q²), r² / (1 + r² + q²), q² / (1 + r² + q²).
+/// Light that arrives at an event straight from a lamp, estimated by one shadow ray to one light. With integrator mis
+/// it is weighed by the power heuristic (E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
+/// section 9.2) against two other ways to sample the same path. All densities are divided by that of free flight and
+/// light sampling; let r be that of scattering towards the light, q that of ending the flight by angle. Then the
+/// weights are 1 / (1 + r² + q²) for light sampling, r² / (1 + r² + q²) for scattering, q² / (1 + r² + q²) for flights
+/// by angle.
 template <class F>
 TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                     const LightAsked<F>& asked, std::uint32_t& shadow_rays) {
@@ -94,7 +96,7 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   return select(arrives, weight * (p.throughput * e.colour * radiance), zero3<F>());
 }
 
-/// Weight of a light that a ray met by itself.
+/// Weight of the light of a lamp that a ray met by chance: 1 where no shadow ray could have asked for it.
 template <class F>
 TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
   const auto could = mask_and(lit, less(F(0.0f), p.density));
@@ -110,7 +112,7 @@ TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> e
   return select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f));
 }
 
-/// Adds what lanes on a light see, and fills the event of the others.
+/// Adds the radiance of the lamp in lanes that have met one, and describes the event in the others.
 template <class F>
 TYNDALL_INLINE void meet_surfaces(const auto& s, Paths<F>& p, const Hit<F>& hit, Vec3<F> unit, Event<F>& e) {
   e.at = surface_at(s, p.ray, hit.t, hit.element);
@@ -138,6 +140,7 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, Paths<F>& p, const Hit<F>& hit,
   e.from = select(e.surface, e.at.element * IntOf<F>(4) + inside, e.from);
 }
 
+/// Describes the event in lanes that scatter in a medium.
 template <class F>
 TYNDALL_INLINE void meet_media(const auto& s, const MediumEvent<F>& found, Event<F>& e) {
   Vec3<F> albedo = found.albedo;
@@ -148,7 +151,7 @@ TYNDALL_INLINE void meet_media(const auto& s, const MediumEvent<F>& found, Event
   e.g = found.g;
 }
 
-/// New directions; answers which lanes go on.
+/// Gives the paths new directions. Returns which lanes go on; the others were absorbed.
 template <class F>
 TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u) {
   const Vec3<F> before = p.ray.direction;

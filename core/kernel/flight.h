@@ -14,14 +14,15 @@ struct MediumEvent {
   MaskOf<F> happens;
   Vec3<F> point;  ///< the ray's origin where nothing happens
   IntOf<F> medium;
-  F density;      ///< of the medium
-  F begin, far;   ///< where the ray is within its boundary
+  F density;      ///< of the medium: its mean number of events per unit length
+  F begin, far;   ///< distances between which the ray is within the medium's boundary
   IntOf<F> from;  ///< Ray::from of a start within the medium
   Vec3<F> albedo;
   IntOf<F> texture;
   F g;
 };
 
+/// No event in any lane.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> no_event(const Ray<F>& ray) {
   MediumEvent<F> none{};
@@ -32,7 +33,7 @@ TYNDALL_INLINE MediumEvent<F> no_event(const Ray<F>& ray) {
   return none;
 }
 
-/// Where a line is inside a medium's boundary. from: see Ray.
+/// The distances between which a line is inside a medium's boundary. from: see Ray.
 template <class F>
 TYNDALL_INLINE Interval<F> medium_interval(const MediumColumns& m, Vec3<F> origin, Vec3<F> direction, IntOf<F> from) {
   const Start<F> start = start_on<F>(from, m.first, m.count);
@@ -49,8 +50,9 @@ TYNDALL_INLINE Interval<F> medium_interval(const MediumColumns& m, Vec3<F> origi
   return any(start.here) ? leave_sphere(line, to_center, direction, from, start) : line;
 }
 
-/// Where the way of a ray in a medium begins. After a long way to it, rounding moves this point; where it could move by
-/// more than a thousandth of a mean free path, the point is computed again from close by.
+/// The point at which a ray enters a medium; its origin if it starts inside. After a long way the point is rounded to
+/// the spacing of floats. Where that could be more than a thousandth of a mean free path, the point is computed a
+/// second time from the first result, which is close to it.
 template <class F>
 TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, const Interval<F>& inside,
                                     MaskOf<F> lanes) {
@@ -66,8 +68,9 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
   return along(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
 }
 
-/// Where a path scatters next: the shortest of independent flights, one for each medium, if it ends before the surface.
-/// This is right where media overlap too, as their densities add. Shortens `nearest` to it.
+/// Draws where a path scatters in media before it meets a surface. Each medium has a free flight of its own, and the
+/// shortest counts; this is right where media overlap, too, because their densities add. nearest: on entry the distance
+/// to the surface; shortened to the event where there is one.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
                                                 F& nearest) {
@@ -97,7 +100,7 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const auto& s, const Ray<F>& ray
   return event;
 }
 
-/// Share of light that passes all media on the way to `distance`.
+/// Share of the light, in [0, 1], that passes all media on the way to `distance`.
 template <class F>
 TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, MaskOf<F> active) {
   F depth = F(0.0f);

@@ -7,22 +7,23 @@
 #include <string_view>
 #include <vector>
 
-/// The kernels as the rest of the program sees them: a table of functions for each instruction set, all of one source.
+/// The kernels as the rest of the program sees them: a table of functions for each instruction set. All tables are
+/// compiled from the same source.
 namespace tyndall {
 
 /// A unit of work: samples [first, last) of the pixels of a tile.
 struct Unit {
-  Region tile;                        ///< full-image coordinates
-  int step = 1;                       ///< only pixels whose x and y are multiples of step; step 1: all
-  int skip_step = 0;                  ///< > 0: pixels whose x and y are both multiples of it are left out (done before)
+  Region tile;        ///< full-image coordinates
+  int step = 1;       ///< only pixels whose x and y are multiples of step; step 1: all
+  int skip_step = 0;  ///< above 0: leaves out pixels whose x and y are both multiples of it, which are done already
   std::uint32_t first = 0, last = 0;  ///< sample indices
   /// Null, or for each pixel of the tile, row by row, its own first and last (<= last) in place of those above.
   const std::uint32_t *first_of = nullptr, *last_of = nullptr;
 };
 
 struct UnitCounts {
-  std::uint64_t rays = 0;         ///< closest-hit and occlusion queries
-  std::uint64_t shadow_rays = 0;  ///< of them, occlusion queries
+  std::uint64_t rays = 0;         ///< all rays that were traced
+  std::uint64_t shadow_rays = 0;  ///< those of them that only asked whether something is in the way
   ExactSum cut_throughput;        ///< sum over paths that max_depth cut off: their throughput's brightest channel
 };
 
@@ -40,36 +41,37 @@ struct TraceHit {
   std::int32_t element = -1;  ///< -1: nothing hit
   bool operator==(const TraceHit&) const = default;
 };
-/// Closest surfaces of `count` rays, in groups of lanes in the given order. brute_force: test every primitive.
+/// Finds the closest surface on each of `count` rays, which fill groups of lanes in the given order. brute_force: tests
+/// every primitive, without the tree.
 using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHit* hits, int count, bool brute_force);
 
-/// What is first seen through the centre of a pixel: for picking and the views.
+/// What is seen first through the centre of a pixel: for selecting objects with the mouse and for the views.
 struct FirstHit {
-  std::int32_t element = -1;
-  float depth = 0;  ///< distance along the camera's axis
+  std::int32_t element = -1;  ///< -1: nothing; the other values then are 0
+  float depth = 0;            ///< distance along the camera's axis
   Vec3f albedo, normal;
 };
-/// `hits`: the region, row by row.
+/// hits: one for each pixel of the region, row by row.
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;                       ///< "scalar", "sse4", "avx2", "avx512"
-  int lanes;                             ///< paths that run together
-  RenderUnit render_units[kernel_sets];  ///< by KernelSet; the full kernel in the place of each that was not compiled
+  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512" or "double"
+  int lanes;        ///< how many paths run together
+  RenderUnit render_units[kernel_sets];  ///< by KernelSet; the full kernel for each set that was not compiled
   TraceRays trace;
   FirstHits first_hits;
 
-  /// Gathers a unit into `pixels` (the tile, row by row, empty on entry) and counts, by the kernel set that the scene
-  /// names. `taken` is set for what was sampled. emission: likewise of the tile; null: not wanted.
+  /// Renders a unit of work with the kernel that the scene names (SceneView::kernel). Adds its samples to `pixels` (the
+  /// tile, row by row, empty on entry) and to `counts`. emission: the same for EmissionSums; null: not recorded.
   void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts,
                    EmissionSums* emission = nullptr) const;
 
-  /// The set whose kernel renders a scene that needs at least the models of `least`: `least` itself, or everything
-  /// where this instruction set has the full kernel alone.
+  /// The set whose kernel really runs for a scene that needs `least`: `least` itself, or `everything` for instruction
+  /// sets that have the full kernel alone.
   KernelSet set_for(KernelSet least) const;
 };
 
-// Each is in a file of its own, which is compiled with that instruction set's flags.
+// Each is in a file of its own, which is compiled with that instruction set's flags. Call only what this CPU can run.
 Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
@@ -82,9 +84,9 @@ RenderUnit avx512_chains_kernel();
 /// the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
 Kernels double_kernels();
 
-/// What this build has and this CPU runs, narrowest first ("scalar" always).
+/// All kernels that this build has and this CPU can run, the narrowest ("scalar", which is always there) first.
 std::vector<Kernels> available_kernels();
-/// The widest of them for "", else the one of that name; nothing if there is none.
+/// The kernels of that name, also "double"; for "" the widest available ones; nothing if there are none.
 std::optional<Kernels> choose_kernels(std::string_view isa);
 
 }  // namespace tyndall

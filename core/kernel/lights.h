@@ -4,12 +4,12 @@
 #include "core/kernel/scene_view.h"
 #include "core/shapes/sphere.h"
 
-/// Sampling lights as seen from a point: which light, and where on it, with the density of the direction per steradian.
-/// The density is a function of the point and the light alone, so that a ray which finds a light by itself can be
-/// weighed against the sample that would have chosen it.
+/// Samples lights as seen from a point: which light, which point of it, and with which density of the direction, per
+/// steradian. The density depends on the point and the light alone, so that a ray which meets a light by chance can be
+/// weighed against the sample that would have chosen the same direction.
 namespace tyndall {
 
-/// A light's columns for each lane. A scene with one light reads them once for all.
+/// A light's columns for each lane: see Lights. With one light in the scene they are read once for all lanes.
 template <class F>
 struct LightColumns {
   IntOf<F> kind;
@@ -33,7 +33,8 @@ TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
           value(l.area)};
 }
 
-/// What light k is worth at a point: its power over the squared distance, which stays finite within its reach.
+/// How much light k roughly contributes at a point: its power over the squared distance, which counts as no smaller
+/// than the squared radius of the light.
 template <class F>
 TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
   const Vec3<F> way = splat<F>(Vec3f{l.center[0][k], l.center[1][k], l.center[2][k]}) - point;
@@ -54,6 +55,8 @@ struct LightChoice {
   F probability;
 };
 
+/// Chooses a light for a point by u in [0, 1): in proportion to light_worth() if there are few lights, in proportion to
+/// their power (by Vose's alias table) if there are more than most_lights_by_contribution.
 template <class F>
 TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F u) {
   using I = IntOf<F>;
@@ -80,7 +83,7 @@ TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F 
   return {light, gather<F>(l.probability, light)};
 }
 
-/// Probability with which choose_light would take `light` at a point.
+/// Probability with which choose_light() takes `light` at a point.
 template <class F>
 TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> light) {
   if (l.count == 1) return F(1.0f);
@@ -94,15 +97,16 @@ TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> 
   return own / total;
 }
 
-/// A rectangle seen from a point: its edges in its own frame with the point at the origin, and its solid angle.
-/// The corners as complex numbers, z r + i x y: the angle of their product is the solid angle; so one arc tangent
-/// serves for Ureña, Fajardo, King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+/// A rectangle as seen from a point: its edges in a frame along its sides with the point at the origin, and its solid
+/// angle. After C. Ureña, M. Fajardo, A. King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+/// Each corner (x, y, z) at distance d is written as a complex number, z d + i x y. The angle of their product is the
+/// solid angle (two of the four are conjugated), so that one arc tangent is enough.
 template <class F>
 struct SphericalRectangle {
-  F x0, y0, x1, y1, z;  ///< z >= 0; in units of `scale`
-  F scale;
+  F x0, y0, x1, y1, z;   ///< in units of `scale`; z: distance from the rectangle's plane, >= 0
+  F scale;               ///< the largest of these coordinates, in scene units
   F solid_angle;         ///< 0: too small, too flat or too wide for these formulas; sample the area instead
-  F turn_cos, turn_sin;  ///< of the angle of conj(c01) c00
+  F turn_cos, turn_sin;  ///< cosine and sine of the angle of conj(c01) c00, the corners (x0, y1) and (x0, y0)
 };
 
 template <class F>
@@ -164,13 +168,13 @@ TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pa
   return {x, min(max(y, r.y0), r.y1)};
 }
 
-/// A sphere seen from a point: directions to it fill a cone, over which they are drawn evenly.
+/// A sphere as seen from a point: the directions to it fill a cone, in which they are drawn evenly.
 /// P. Shirley, C. Wang, K. Zimmerman, Monte Carlo Techniques for Direct Lighting Calculations, ACM TOG 15(1), 1996.
 template <class F>
 struct SphericalCap {
   Vec3<F> axis;     ///< unit, towards the centre
-  F one_minus_cos;  ///< of the half angle; 2: the point is inside, every direction meets it
-  F density;
+  F one_minus_cos;  ///< 1 - cos of the cone's half angle; 2: the point is inside, and every direction meets the sphere
+  F density;        ///< of each direction, per steradian
 };
 
 template <class F>
@@ -186,6 +190,7 @@ TYNDALL_INLINE SphericalCap<F> cap_from(Vec3<F> to_center, F radius) {
   return {select(less(F(0.0f), d2), scale * to_center, anywhere), part, F(static_cast<float>(0.5 / pi)) / part};
 }
 
+/// A direction in the cone, by u in [0, 1)².
 template <class F>
 TYNDALL_INLINE Vec3<F> in_cap(const SphericalCap<F>& cap, Pair<F> u) {
   const F x = u.x * cap.one_minus_cos;  // 1 - cos of the angle from the axis
@@ -232,7 +237,7 @@ TYNDALL_INLINE LightSample<F> sample_sphere_light(const LightColumns<F>& light, 
   const Vec3<F> to_center = sphere_light_center(light, time) - point;
   const SphericalCap<F> cap = cap_from(to_center, light.length_u);
   const Vec3<F> direction = in_cap(cap, u);
-  // A direction that misses by rounding counts as grazing: it was drawn within the cap.
+  // The direction was drawn within the cone: if it misses the sphere, by rounding, it counts as one that grazes it.
   const F middle = dot(to_center, direction);
   const Vec3<F> across = along(to_center, -middle, direction);
   const F half = sqrt(max(mul_add(light.length_u, light.length_u, -dot(across, across)), F(0.0f)));
@@ -254,8 +259,8 @@ TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, V
   return sample;
 }
 
-/// Density per steradian with which a direction from `point`, which meets `light` at `distance`, would be sampled; the
-/// choice of the light included.
+/// Density, per steradian, with which sample_light() gives `direction`, which meets `light` at `distance`, times the
+/// probability with which choose_light() takes this light.
 template <class F>
 TYNDALL_INLINE F light_density(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction,
                                F distance) {

@@ -1,11 +1,12 @@
 #pragma once
 #include "core/kernel/primitives.h"
 
-/// A ray that few others follow into a part of the tree goes alone: each lane then holds a box of a node, or a sphere
-/// of a leaf, in place of a ray. The arithmetic is the same, and so are the hits.
+/// Takes a single ray through a part of the tree that few other lanes enter. All lanes then work for this one ray: each
+/// tests another box of a node, or another sphere of a leaf. The arithmetic is the same, and so are the hits.
 namespace tyndall {
 
-/// A ray in the form that the slab test needs: it reaches the edge e of a box at e·slope + start.
+/// A ray in the form that the slab test needs: it reaches the plane at coordinate e of an axis at the distance
+/// e·slope + start.
 template <class F>
 struct Slopes {
   Vec3<F> slope, start;
@@ -17,8 +18,8 @@ TYNDALL_INLINE Slopes<F> slopes_of(const Ray<F>& ray) {
   return {slope, -(ray.origin * slope)};
 }
 
-/// Where lanes enter boxes, if they meet them before `limit`. low, high: the edges on an axis.
-/// Products and minima are monotonic in the box's edges, so a box within another is never entered before it.
+/// Where lanes enter boxes, if they meet them before the distance `limit`. low(axis), high(axis): the box's bounds.
+/// A box within another is never entered before it, whatever the rounding: products, minima and maxima are monotonic.
 template <class F>
 struct Entry {
   MaskOf<F> meets;
@@ -34,7 +35,8 @@ TYNDALL_INLINE Entry<F> enter_boxes(const auto& low, const auto& high, const Slo
   return {less_equal(near, far * F(slab_room)), near};
 }
 
-/// The narrowest group of lanes that holds a node's boxes; what further lanes read means nothing.
+/// The narrowest group of lanes that has one for each box of a node. Lanes beyond a node's last box hold numbers that
+/// are not used.
 template <class F>
 struct RowFor {
   using type = F;
@@ -44,24 +46,24 @@ requires(lanes_of<HalfOf<F>> >= bvh_width) struct RowFor<F> {
   using type = HalfOf<F>;
 };
 
-/// Nodes that a lone ray has still to visit, and where it enters them.
+/// Nodes that a lone ray has still to visit, and the distances at which it enters them.
 struct LoneStack {
   int size = 0;
   float near[bvh_stack];
   std::int32_t node[bvh_stack];
 };
 
-/// A ray in every lane of a row R, and what it has found and has still to visit.
+/// One ray, the same in every lane of R, and how far it has come.
 template <class R, class Q>
 struct LoneRay {
   Ray<R> ray;
   Slopes<R> slopes;
   Q asked;
   Hit<R> best;        ///< the same in all lanes
-  std::int32_t node;  ///< where it is
-  float near;         ///< where it enters that
+  std::int32_t node;  ///< the node that it visits; below 0: leaf ~node
+  float near;         ///< the distance at which it enters that node
 
-  /// To the nearest child that it meets; the others are put on the stack. Answers whether there is one.
+  /// Goes on to the nearest child that it meets, and puts the others on the stack. False: it meets none.
   TYNDALL_INLINE bool open_node(const BvhNode& n, LoneStack& stack) {
     const Entry<R> entry = enter_boxes(
         [&](int axis) __attribute__((always_inline)) { return load<R>(n.low[axis]); },
@@ -84,7 +86,7 @@ struct LoneRay {
     return true;
   }
 
-  /// To the next node on the stack that may hold something closer.
+  /// Goes on to the next node on the stack that may hold something closer. False: there is none.
   TYNDALL_INLINE bool take_node(LoneStack& stack) {
     const float limit = least_lane(best.t) * slab_room;
     while (stack.size > 0) {
@@ -95,7 +97,8 @@ struct LoneRay {
     return false;
   }
 
-  /// Takes over the best of the lanes that found something better; ties go to the lower element.
+  /// Each lane has tested another sphere: takes the closest hit of those that beat `best`, of equal ones the one with
+  /// the lower element. valid: bit i is set if lane i held a sphere.
   TYNDALL_INLINE void take_best(const Hit<R>& each, std::uint32_t valid) {
     const std::uint32_t better = valid & ~bits(equal(each.element, best.element));
     if (!better) return;
@@ -152,7 +155,7 @@ struct LoneRay {
   }
 };
 
-/// The rays of a group, kept in memory for lanes that go on alone.
+/// The rays of a group, stored in memory so that single ones can be taken out.
 template <class F>
 struct LoneRays {
   static constexpr int lanes = lanes_of<F>;
@@ -160,7 +163,7 @@ struct LoneRays {
   alignas(64) float origin[3][lanes], direction[3][lanes], slope[3][lanes], start[3][lanes], time[lanes];
   alignas(64) std::int32_t from[lanes], aim[lanes];
   std::int32_t common_aim;
-  // where they enter a node, and the best so far
+  // The distances at which they enter a node, and their closest hits so far.
   alignas(64) float near[lanes], t[lanes];
   alignas(64) std::int32_t element[lanes];
 
@@ -177,7 +180,7 @@ struct LoneRays {
   }
 };
 
-/// Sends lane k of a group through what is beneath a node.
+/// Takes the ray of lane k through everything beneath a node, and stores its closest hit in `rays`.
 template <class F, class Q>
 [[gnu::noinline]] static void test_lone_ray(const SceneView& s, LoneRays<F>& rays, int k, std::int32_t node) {
   using R = typename RowFor<F>::type;
@@ -196,7 +199,7 @@ template <class F, class Q>
   rays.t[k] = least_lane(lone.best.t), rays.element[k] = elements[0];
 }
 
-/// The same for each of the `live` lanes.
+/// The same for each lane whose bit is set in `live`.
 template <class F, class Q>
 TYNDALL_INLINE void test_lone_rays(const SceneView& s, LoneRays<F>& rays, std::int32_t node, std::uint32_t live,
                                    Hit<F>& best) {

@@ -3,10 +3,11 @@
 #include "core/kernel/chain_light.h"
 #include "core/kernel/near_lights.h"
 
-/// The path loop: a group of lanes, each following its own path; a lane whose path has ended takes the next camera ray.
+/// The path loop. Each lane of a group follows a path of its own; when that ends, the lane takes the next camera ray,
+/// so that no lane waits for the others.
 namespace tyndall {
 
-/// Gives free lanes a camera ray each, as long as there are samples.
+/// Gives each free lane a camera ray, as long as there are samples.
 template <class F>
 TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples& samples, const auto& s,
                                  const Unit& unit) {
@@ -43,9 +44,10 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
   }
 }
 
-/// Ends paths with a probability that grows as they carry less: survivors carry what the ended ones would have.
-/// Russian roulette: J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
-/// The factor 8 keeps paths above an eighth of full throughput; between 4 and 8 the time to a given error is flat.
+/// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
+/// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
+/// With the factor 8 only paths whose throughput is below 1/8 are at risk. The time to a given error was found to be
+/// the same for all factors from 4 to 8.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
   const F survival = F(8.0f) * max_component(p.throughput);
@@ -57,7 +59,8 @@ TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
   return mask_and_not(lanes, ended);
 }
 
-/// Lanes whose state is not finite, as `part` of it shows: their radiance becomes one that the film rejects and counts.
+/// Finds the lanes in which `part` of the path's state is not finite, and returns them. Their radiance is made not a
+/// number, so that the film rejects and counts the sample.
 template <class F>
 TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
   const F sum = F(0.0f) * part.x + F(0.0f) * part.y + F(0.0f) * part.z;  // 0, or not a number
@@ -66,8 +69,9 @@ TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
   return lost;
 }
 
-/// Events that ask for chains. Few lanes of a group are at one at a time, so they wait here until all lanes can be
-/// filled; what a chain brings is added to the film by itself. A single lane does not wait.
+/// Events that ask for chains. Only few lanes of a group are at such an event at a time, so events wait here until
+/// there are enough to fill all lanes. The light that a chain brings is added to the film apart from that of its path.
+/// With one lane (float, double) nothing waits.
 template <class F>
 struct ChainQueue {
   static constexpr bool waits = lanes_of<F> > 1;
@@ -96,8 +100,8 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
   queue.count += __builtin_popcount(bits(lanes));
 }
 
-/// One step of all lanes: to the next surface, event in a medium, or out. Answers which lanes go on; `cut` are those
-/// that max_depth ended.
+/// Takes all active lanes one step further: to the next surface, the next event in a medium, or out of the scene.
+/// Returns which lanes go on, and sets `cut` to those that ended because of max_depth.
 template <class F>
 TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut, ChainQueue<F>& chains,
                               std::uint32_t& shadow_rays) {
@@ -121,7 +125,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const auto met = mask_or(e.surface, e.medium);
   const Vec3<F> carried = p.throughput * e.colour;
   const auto lost = lose(p, met, carried + e.point);
-  // A path that carries nothing has ended, not been cut.
+  // A path that carries nothing any more has ended by itself: it does not count as cut.
   const auto useful = mask_and(mask_and_not(met, lost), less(F(0.0f), max_component(carried)));
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   cut = mask_and(useful, deep);
@@ -157,7 +161,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
 struct UnitFilm {
   double per_unit;
   FilmPixel* pixels;
-  EmissionSums* emission;  ///< null: not wanted
+  EmissionSums* emission;  ///< null: not recorded
   UnitCounts& counts;
 };
 
@@ -184,7 +188,7 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
   }
 }
 
-/// Looks for the chains of the last events that wait, as many as there are lanes.
+/// Looks for chains from the events at the end of the queue, as many as there are lanes, and removes these events.
 template <class F>
 TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, const UnitFilm& film) {
   using I = IntOf<F>;
@@ -225,7 +229,8 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm&
   ChainQueue<F> chains{};
   Paths<F> p{};
   p.dice.sampler = s.sampler;
-  // Chains are asked for at one place, or their code would stand twice in each kernel.
+  // The loop goes on until no event waits for a chain. A second loop for the last of them would put their code into
+  // each kernel twice.
   for (bool sampling = true; sampling || chains.count > 0;) {
     take_samples(p, queue, samples, s, unit);
     sampling = p.alive != 0;

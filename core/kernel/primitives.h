@@ -5,8 +5,8 @@
 #include "core/shapes/quad.h"
 #include "core/shapes/sphere.h"
 
-/// Rays against primitives, of which the closest is kept. Lanes are rays that all meet one primitive, or one ray that
-/// meets a primitive in each lane.
+/// Tests rays against primitives and keeps the closest hit. Either the lanes are rays that are tested against the same
+/// primitive, or all lanes hold the same ray and each tests another primitive (lone_ray.h).
 namespace tyndall {
 
 template <class F>
@@ -15,21 +15,23 @@ struct Hit {
   IntOf<F> element;  ///< -1: nothing hit
 };
 
-/// By how much boxes are widened against rounding: far more than rounding can be, far less than would cost time.
+/// The factor by which boxes are widened, so that rounding cannot hide what is in them. It is far more than rounding
+/// needs, and far less than would cost time.
 /// T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
-/// How a primitive test is asked for. shadow: only whether something is in the way counts, and each lane leaves out the
-/// element it aims at. by_tree: by a leaf of the tree, whose box a lane meets at `near`; infinity: it does not.
+/// What a test against primitives is for. is_shadow: to know whether anything is in the way; the element at which a
+/// lane aims does not count. is_by_tree: the primitives are those of a leaf of the tree, whose box the lane enters at
+/// `near`.
 template <class F, bool is_shadow, bool is_by_tree>
 struct Asked {
   static constexpr bool shadow = is_shadow, by_tree = is_by_tree;
-  F near;
-  IntOf<F> aim;             ///< shadow rays: the element that is left out
-  std::int32_t common_aim;  ///< the one that all lanes leave out, or -1
+  F near;                   ///< distance; infinity: the lane misses the leaf's box
+  IntOf<F> aim;             ///< shadow rays: the element that does not count
+  std::int32_t common_aim;  ///< the one that counts in no lane, or -1
 };
 
-/// Lanes whose candidate hit is closer than the best so far. The latter is negative in lanes that take no part.
+/// Lanes whose candidate, at distance t, is closer than the best so far. best.t is negative in lanes that take no part.
 template <class F, class Q>
 TYNDALL_INLINE MaskOf<F> beats(F t, IntOf<F> element, MaskOf<F> hit, const Hit<F>& best, const Q& asked) {
   const auto ahead = mask_and(hit, less(F(0.0f), t));

@@ -58,7 +58,7 @@ Fate fate_of(const Meeting& m, const Paths<float>& after, bool survives, bool cu
   return black || below ? Fate::absorbed : Fate::roulette;
 }
 
-/// The scene without chains: what its step does less is theirs.
+/// The scene without chains. What a step in the full scene adds beyond a step in this one was added by chains.
 SceneView without_chains(SceneView s) {
   s.chains.pairs = 0;
   return s;

@@ -1,9 +1,12 @@
 #pragma once
 #include "core/compile/render_scene.h"
 
-/// A RenderScene as plain pointers. Kernels use nothing else: of a container's member function the linker could keep
-/// the copy with wide instructions for all files, which would crash older CPUs.
+/// A RenderScene as plain pointers, which is all that kernels read. They must not call a container's member functions:
+/// the linker keeps one copy of each for all files, and one with wide instructions would crash older CPUs.
 namespace tyndall {
+
+// Each of these has the columns of a struct in compile/render_scene.h, which says what they mean: SphereView those of
+// Spheres, and so on.
 
 struct SphereView {
   int count = 0;
@@ -12,7 +15,7 @@ struct SphereView {
 };
 struct FlatView {
   int count = 0;
-  int hiding = 0;  ///< the first of them, which shadow rays have to be tested with
+  int hiding = 0;  ///< so many from the first on can be in the way of shadow rays; the others bound the scene
   const Affine* map;
   const std::int32_t* element;
 };
@@ -61,9 +64,9 @@ struct SceneView {
   const TextureView* textures;
   int medium_count;
   const MediumColumns* media;
-  int near_count;  ///< pairs of a medium and a lamp in or near it
+  int near_count;  ///< number of pairs of a medium and a lamp in it or near it: see NearLamps
   const std::int32_t *near_medium, *near_light;
-  const float* near_probability;  ///< medium · number of lights + light
+  const float* near_probability;  ///< at medium · number of lights + light
   ChainView chains;
   const float* gradients;
   int max_depth;
@@ -74,6 +77,7 @@ struct SceneView {
   Needs needs;
   KernelSet kernel;
 
+  // What kernels ask before they run the code of a model.
   TYNDALL_INLINE bool has_media() const { return needs.media; }
   TYNDALL_INLINE bool has_textures() const { return needs.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return needs.image_textures; }
@@ -82,7 +86,8 @@ struct SceneView {
   TYNDALL_INLINE bool has_lamps() const { return lights.count > 0; }
 };
 
-/// The same for a kernel that leaves models out: the answers about these are constants when it is compiled.
+/// The scene as a kernel that leaves models out sees it: for those models has_...() is a constant false, so that the
+/// compiler drops their code.
 template <KernelSet set>
 struct SceneViewFor : SceneView {
   static constexpr bool fog_and_textures = set != KernelSet::no_fog_nor_textures && set != KernelSet::chains_alone;

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-/// What a ray finds where it ends: background, surface, colour, and the scattering of the material there.
+/// What a ray finds where it ends: the background, or a surface with its colour and its material's scattering.
 namespace tyndall {
 
 /// Gradient: Ray Tracing in One Weekend, section 4.2 "Sending Rays Into the Scene".
@@ -25,8 +25,8 @@ template <class F>
 struct SurfacePoint {
   Vec3<F> point;
   Vec3<F> normal;      ///< unit, the surface's own
-  MaskOf<F> inverted;  ///< own normal against the geometric outward one (negative radius)
-  IntOf<F> element;    ///< valid in all lanes
+  MaskOf<F> inverted;  ///< the normal points inward, because the sphere's radius is negative
+  IntOf<F> element;    ///< a valid index in all lanes, also in those that met nothing
   IntOf<F> material;
 };
 
@@ -76,7 +76,7 @@ TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& 
   v = select(round, round_v, v);
 }
 
-/// Colour of texture k of a point; surface: for uv, null in a medium.
+/// Colour of a texture at a point. surface: gives the uv coordinates for image textures; null in a medium.
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point,
                                       const SurfacePoint<F>* surface) {
@@ -98,7 +98,7 @@ TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, 
   return colour;
 }
 
-/// `colour`, replaced where `index` names a texture.
+/// `colour`, or the texture's colour in lanes whose `index` is not -1.
 template <class F>
 TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, MaskOf<F> lanes, Vec3<F> point,
                                 const SurfacePoint<F>* surface) {
@@ -117,7 +117,7 @@ TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, M
   return textured(s, colour, lookup_int<F>(s.texture_of, s.material_count, p.material), lanes, p.point, &p);
 }
 
-/// Radiance that a light's element sends from a point on it.
+/// Radiance that a light sends from a point on it. element: the light's.
 template <class F>
 TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
@@ -164,7 +164,7 @@ TYNDALL_INLINE bool asks_for_lights(const SceneView& s) {
          (M::light_sampling == LightSampling::weighted && s.integrator == Integrator::mis);
 }
 
-/// Scattering by whatever material each lane is at; lights absorb.
+/// Scattering by the material that each lane is at; lights absorb.
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                                         const Incident<F>& in) {
@@ -188,7 +188,8 @@ TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, I
   return out;
 }
 
-/// Density per steradian with which the material each lane is at scatters into `direction`.
+/// Density, per steradian, with which the material that each lane is at scatters into `direction`. 0 for materials for
+/// which lights are not sampled.
 template <class F>
 TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                              const Incident<F>& in, Vec3<F> direction) {

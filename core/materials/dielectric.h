@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+/// Glass and water: what users set, and how light is reflected and refracted.
 namespace tyndall {
 
 /// Smooth, clear glass or water: reflects or refracts, never absorbs. Unpolarised light.
@@ -23,10 +24,9 @@ constexpr auto fields(const Dielectric<F>*) {
                           "inside over outside; below 1 for a bubble", true}};
 }
 
-/// Snell's law at one boundary: n·cos of the refracted direction (n = eta), or 0 at total reflection.
-/// cos_in: between the ray and the normal on its own side, in [0, 1]. eta: index of the far side over the near side.
-/// sqrt(cos² + eta² - 1); eta = 1 gives cos_in to the last bit, also where its square underflows: matched glass is
-/// invisible.
+/// Snell's law at one boundary: eta times the cosine of the refracted direction, sqrt(cos_in² + eta² - 1); 0 at total
+/// reflection. cos_in: between the ray and the normal on its own side, in [0, 1]. eta: index of the far side over that
+/// of the near side. With eta = 1 the result is cos_in to the last bit, so that matched glass is invisible.
 template <class F>
 TYNDALL_INLINE F refracted_cosine(F cos_in, F eta) {
   const F root = sqrt(max(mul_add(eta - F(1.0f), eta + F(1.0f), cos_in * cos_in), F(0.0f)));
@@ -51,9 +51,9 @@ TYNDALL_INLINE F fresnel(F cos_in, F eta) {
   return fresnel(cos_in, eta, refracted_cosine(cos_in, eta));
 }
 
-/// The books' rule: r0 + (1 - r0)(1 - cos)^5 with the cosine of incidence on the ray's own side, also inside the glass,
-/// where it is wrong by up to 0.93; total reflection as in the books. Kept for comparison.
-/// Ray Tracing in One Weekend, section 11.4 "Schlick Approximation".
+/// The books' approximation of fresnel(), kept for comparison: r0 + (1 - r0)(1 - cos_in)^5, and total reflection as in
+/// the books. They take the cosine on the ray's own side also inside the glass, where the result is wrong by up to
+/// 0.93. Ray Tracing in One Weekend, section 11.4 "Schlick Approximation".
 template <class F>
 TYNDALL_INLINE F schlick(F cos_in, F eta) {
   const F root = (F(1.0f) - eta) / (F(1.0f) + eta);

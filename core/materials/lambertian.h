@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+/// Matt surfaces: how they scatter light.
 namespace tyndall {
 
 /// A matt surface: sends light into all directions of its side with density cos θ / π, from wherever it comes.
@@ -29,8 +30,8 @@ TYNDALL_INLINE F density(const Lambertian<F>&, const Incident<F>& in, Vec3<F> di
   return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));
 }
 
-/// The normal plus a uniform unit vector: the sum's direction has density cos θ / π. Where they cancel to a length
-/// below 1e-3 (one direction in four million), rounding could lead below the surface: there the normal itself is taken.
+/// The direction of the normal plus a random unit vector, which has density cos θ / π. Where they nearly cancel, to a
+/// length below 1e-3 (once in four million times), rounding could lead below the surface: then the normal is taken.
 /// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Lambertian<F>&, const Incident<F>& in) {

@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+/// Lamps: the material that shines. Its radiance is the material's colour.
 namespace tyndall {
 
 /// A lamp: sends its radiance (W/(m² sr), linear Rec.709) from both sides, the same in all directions; reflects

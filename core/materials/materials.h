@@ -22,7 +22,7 @@ constexpr const char* colour_name(const std::variant<Kinds...>& kind) {
   return std::visit([](const auto& k) { return k.colour_name; }, kind);
 }
 
-/// Number of fields of a kind of material. Kernels read them from columns of floats: each is a scalar.
+/// Number of fields of a kind of material. Each must be a double, because kernels read them from columns of floats.
 template <class Kind>
 constexpr std::size_t count_scalars(const Kind*) {
   return std::apply(

@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+/// Metal, from mirrors to brushed surfaces: what users set, and how light is reflected.
 namespace tyndall {
 
 /// Polished to brushed metal: a mirror whose reflected direction is blurred by adding a random point of a ball.
@@ -24,13 +25,15 @@ constexpr auto fields(const Metal<F>*) {
                           "radius of the blur around the mirror direction; 0 is a mirror"}};
 }
 
-/// Up to this fuzz a metal counts as a mirror for light sampling: its lobe is narrower than float directions resolve
-/// well.
+/// Up to this fuzz a metal counts as a mirror, and lights are not sampled on it: directions in float are too coarse for
+/// so narrow a lobe.
 inline constexpr float least_sampled_fuzz = 1e-3f;
 
-/// Probability density per steradian of scattering into a unit direction above the surface; 0 below it and for a
-/// mirror. A ray from the centre of the mirror direction's unit sphere crosses the ball between s- and s+ = cos β ± h,
-/// h² = fuzz² - sin² β: the ball's uniform density 3 / (4π fuzz³), integrated with r² dr.
+/// Probability density, per steradian, of scattering into a unit direction above the surface; 0 below it and for a
+/// mirror. The random points fill a ball of radius fuzz around the tip of the mirror direction, with the uniform
+/// density 3 / (4π fuzz³). A ray from the origin at the angle β from the mirror direction is in this ball at distances
+/// from s- to s+, which are cos β ± h with h² = fuzz² - sin² β. The density of the direction is the integral over r² dr
+/// there.
 template <class F>
 TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direction) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
@@ -48,9 +51,9 @@ TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> d
   return select(mask_and(inside, less(F(0.0f), cosine)), volume * scale, F(0.0f));
 }
 
-/// The unit mirror direction plus fuzz times a point uniform in the unit ball; what ends below the surface is absorbed.
-/// Ray Tracing in One Weekend, section 10.6 "Fuzzy Reflection"; in the ball, not on the sphere, so that the density of
-/// directions stays bounded.
+/// The unit mirror direction plus fuzz times a random point of the unit ball; what ends below the surface is absorbed.
+/// Ray Tracing in One Weekend, section 10.6 "Fuzzy Reflection", takes points on the sphere; with points in the ball the
+/// density of directions stays bounded.
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
@@ -64,8 +67,8 @@ TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in
           select(less(F(least_sampled_fuzz), metal.fuzz), density(metal, in, out), F(one_direction))};
 }
 
-/// Share of the light that is not absorbed, at a cosine of incidence in [0, 1]: what ends below the surface is lost.
-/// The ball's mass above a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
+/// Share of the light that is not absorbed, at a cosine of incidence in [0, 1]: the share of the ball of random points
+/// that is above the surface, a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
 template <class F>
 TYNDALL_INLINE F metal_survival(F fuzz, F cosine) {
   const F c = min(cosine / max(fuzz, F(1e-9f)), F(1.0f));

@@ -5,10 +5,11 @@
 
 #include <tuple>
 
+/// Fog and other media: what users set, how far light flies in them, and how they scatter it.
 namespace tyndall {
 
-/// Fog, smoke, milk: the same everywhere inside its boundary. The scene holds its boundary and its colour (the
-/// scattering albedo); here is how it scatters.
+/// Fog, smoke or milk, the same everywhere inside its boundary. Its boundary and its colour (the scattering albedo) are
+/// members of the scene's Volume.
 template <class F = double>
 struct Medium {
   static constexpr const char* type = "medium";
@@ -28,7 +29,8 @@ constexpr auto fields(const Medium<F>*) {
                           "mean cosine of the scattering angle (Henyey-Greenstein); 0 scatters evenly"}};
 }
 
-/// Distance to the next event in a medium of the given density (> 0), from u in (0, 1]: the exponential law inverted.
+/// Distance to the next event in a medium of the given density (> 0), for a random number u in (0, 1]. Distances are
+/// distributed exponentially.
 template <class F>
 TYNDALL_INLINE F free_flight(F density, F u) {
   return -log(u) / density;
@@ -40,8 +42,9 @@ TYNDALL_INLINE F transmittance(F optical_depth) {
   return exp(-optical_depth);
 }
 
-/// Cosine of the scattering angle for u in [0, 1). Henyey & Greenstein, Diffuse Radiation in the Galaxy, Astrophysical
-/// Journal 93 (1941): the distribution inverted. Expanded around g = 0, where the plain form cancels.
+/// Cosine of the scattering angle for a random number u in [0, 1), by the inverse of the distribution of Henyey &
+/// Greenstein, Diffuse Radiation in the Galaxy, Astrophysical Journal 93 (1941). For small g the fraction is
+/// rearranged, because the plain form divides a difference that cancels by g.
 template <class F>
 TYNDALL_INLINE F henyey_greenstein_cosine(F g, F u) {
   const F s = mul_add(F(2.0f), u, F(-1.0f));
@@ -62,7 +65,7 @@ TYNDALL_INLINE F henyey_greenstein_density(F g, F cosine) {
   return F(static_cast<float>(0.25 / pi)) * (F(1.0f) - g * g) / (d * sqrt(d));
 }
 
-/// New direction after scattering. unit: uniform on the sphere, used as it is where g is 0.
+/// New direction after scattering. unit: a random direction, which is the result where g is 0. u in [0, 1)².
 template <class F>
 TYNDALL_INLINE Vec3<F> scatter_in_medium(F g, Vec3<F> direction, Vec3<F> unit, Pair<F> u) {
   const auto even = equal(g, F(0.0f));

@@ -1,10 +1,10 @@
 #pragma once
 #include "core/base/choice.h"
 
-/// How paths find light. A header of its own: kernels know the integrator, but no other setting.
+/// How paths find light. This is a header of its own because kernels know the integrator, but no other setting.
 ///
-/// To add one: a value and its word here; what it does in core/kernel (event.h weighs light that is found and light
-/// that is asked for); whether it asks for light at all, in core/compile/compile.cpp.
+/// To add one: give it a value and a word here; write what it does in core/kernel (event.h weighs light that paths meet
+/// by chance and light that shadow rays ask for); say in core/compile/compile.cpp whether it sends shadow rays at all.
 namespace tyndall {
 
 enum class Integrator { path, nee, mis };
@@ -12,11 +12,11 @@ enum class Integrator { path, nee, mis };
 constexpr Word word(Integrator integrator) {
   switch (integrator) {
     case Integrator::path:
-      return {"path", "no light sampling"};
+      return {"path", "paths meet lamps by chance alone"};
     case Integrator::nee:
-      return {"nee", "light sampling, without weights: in fog of g > 0.9998 too bright for a film now and then"};
+      return {"nee", "light sampling without weights, which may lose very bright samples in fog with g above 0.9998"};
     case Integrator::mis:
-      return {"mis", "light sampling, weighted"};
+      return {"mis", "light sampling and chance, weighted by how well each does"};
   }
   return {};
 }

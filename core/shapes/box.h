@@ -1,6 +1,7 @@
 #pragma once
 #include "core/shapes/quad.h"
 
+/// Boxes: what users set, and where rays enter and leave one.
 namespace tyndall {
 
 /// A solid block between two corners; a transform may turn it.
@@ -30,7 +31,7 @@ TYNDALL_INLINE F safe_reciprocal(F d) {
 template <class F>
 struct BoxSlabs {
   Interval<F> inside;
-  Vec3<F> near, far;  ///< per axis
+  Vec3<F> near, far;  ///< for each axis the distances at which the line enters and leaves the slab
   Vec3<F> slope;      ///< 1 / (the box's own direction)
 };
 
@@ -50,7 +51,8 @@ TYNDALL_INLINE BoxSlabs<F> box_slabs(const Affine& box, Vec3<F> origin, Vec3<F> 
   return {{t0, t1, less_equal(t0, t1)}, near, far, slope};
 }
 
-/// The interval of a ray that starts on or in the box.
+/// Corrects the interval of a line for rays that start on or in the box: they are inside from their start on, or never
+/// meet the box again.
 template <class F>
 TYNDALL_INLINE Interval<F> leave_box(Interval<F> line, Start<F> start) {
   return {select(start.here, F(-1.0f), line.near), select(start.here, max(line.far, F(1e-37f)), line.far),
@@ -67,7 +69,8 @@ TYNDALL_INLINE F leave_from_within(const BoxSlabs<F>& s) {
              min(max(s.far.y, quarter * abs(s.slope.y)), max(s.far.z, quarter * abs(s.slope.z))));
 }
 
-/// Face 0 … 5 (x-, x+, y-, y+, z-, z+ of the box's own axes) that the ray crosses: the one it enters by, or leaves by.
+/// The face by which a ray enters the box, or leaves it where `entering` is false: 0 … 5 for x-, x+, y-, y+, z-, z+ of
+/// the box's own axes.
 template <class F>
 TYNDALL_INLINE IntOf<F> box_face(const BoxSlabs<F>& s, MaskOf<F> entering) {
   using I = IntOf<F>;

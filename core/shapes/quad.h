@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+/// Parallelograms: what users set, and where rays meet one.
 namespace tyndall {
 
 /// A parallelogram: corner + a u + b v, a and b in [0, 1]. The normal is along u × v.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+/// Spheres: what users set, and where rays enter and leave one.
 namespace tyndall {
 
 /// A sphere; with center_end it moves: its centre is center + t (center_end - center) at time t.
@@ -43,8 +44,8 @@ TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> 
   return {middle - half, middle + half, less(F(0.0f), discriminant)};
 }
 
-/// The same for a ray that starts on or in the sphere. On it, the roots are 0 and 2 d·(c - o): no rounding of the
-/// origin can make it meet itself or miss the far side.
+/// Corrects the interval of a line for rays that start on or in the sphere. For a start on it the roots are taken as 0
+/// and 2 d·(c - o) exactly, so that no rounding of the origin lets the ray meet its own start or miss the far side.
 template <class F>
 TYNDALL_INLINE Interval<F> leave_sphere(Interval<F> line, Vec3<F> to_center, Vec3<F> direction, IntOf<F> from,
                                         Start<F> start) {

@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+/// Checker patterns: what users set, and their colour at a point.
 namespace tyndall {
 
 /// Cubes of two colours that fill space.

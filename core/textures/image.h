@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+/// Pictures as textures: what the scene holds, and their colour at a point.
 namespace tyndall {
 
-/// A picture, sRGB 8-bit, looked up by uv: bilinear; v points up; u repeats, v keeps the colour of the edge rows.
+/// A picture in sRGB of 8 bits, laid on a surface by its uv coordinates and interpolated between pixels. v points up.
+/// Outside of [0, 1] u repeats the picture, and v gives the colour of its first or last row.
 struct Image {
   static constexpr const char* type = "image";
   static constexpr const char* about =
@@ -26,7 +28,7 @@ struct Image {
   }
 };
 
-/// texels: 3·width·height linear floats, top row first.
+/// Colour at (u, v). texels: 3·width·height linear floats, top row first.
 template <class F>
 TYNDALL_INLINE Vec3<F> image_colour(const float* texels, int width, int height, F u, F v) {
   using I = IntOf<F>;

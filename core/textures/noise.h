@@ -7,6 +7,7 @@
 
 #include <tuple>
 
+/// Noise and marble: what users set, and their colour at a point.
 namespace tyndall {
 
 enum class NoiseStyle { perlin, turbulence, marble };
@@ -41,7 +42,8 @@ constexpr auto fields(const Noise<F>*) {
                     Field{"style", &Noise<F>::style, "what the noise is made into"}};
 }
 
-/// One of 256 unit vectors of a lattice that repeats every 256 cells; x, y, z: whole lattice coordinates.
+/// The part of the noise that one lattice point gives: its gradient times the offset from it. The gradient is one of
+/// 256 unit vectors; the lattice repeats every 256 cells. x, y, z: coordinates of the lattice point.
 template <class F>
 TYNDALL_INLINE F lattice_gradient(IntOf<F> x, IntOf<F> y, IntOf<F> z, Vec3<F> offset, const float* gradients) {
   using U = UintOf<F>;

@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+/// Single colours as textures.
 namespace tyndall {
 
 /// One colour, under a name that several materials can share.
