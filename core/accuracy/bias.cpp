@@ -11,7 +11,7 @@ double grey(Vec3f v) { return (static_cast<double>(v.x) + static_cast<double>(v.
 
 struct RegionSum {
   double value = 0, variance = 0;
-  bool whole = true;  ///< both halves have samples
+  bool whole = true;  ///< both halves of every pixel have samples
 
   void add(const Film& film, const FilmPixel& pixel) {
     whole = whole && counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;

@@ -11,16 +11,16 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float tiny = std::numeric_limits<float>::min();
-constexpr int reach = 2;               // pixels to each side that tell about a pixel's level
-constexpr int window = 2 * reach + 1;  // their edge
-constexpr int band_rows = 32;          // rows that one thread does in one go
+constexpr int reach = 2;               // how many pixels to each side tell about a pixel's level
+constexpr int window = 2 * reach + 1;  // edge of the square of these pixels
+constexpr int band_rows = 32;          // rows that a thread does at a time
 
-constexpr float largest = 1e30f;  // of a squared error: what is infinite means an empty half
+constexpr float largest = 1e30f;  // squared errors are cut at this, because an infinite one means an empty half
 
-/// Numbers for each pixel of a row, in units of the film, with `reach` zeros to both sides. A plane for each channel's
-/// mean m, its squared error n and the product of its halves, one that counts the pixel, and the lesser half of each
-/// channel; all 0 where a half is empty. The first planes are summed over windows. Single precision: what is lost in s
-/// is small against mu², and then g hardly depends on s.
+/// Planes of numbers for the pixels of a row, in units of the film, with `reach` zeros on both sides. For each channel:
+/// its mean m, its squared error n, the product of its halves, and the lesser half; and one plane that counts the
+/// pixel. All are 0 where a half is empty. All but the lesser halves are summed over windows. Single precision is
+/// enough: what it loses of s is small against mu², and then g hardly depends on s.
 struct Row {
   static constexpr std::size_t means = 0, noises = 3, products = 6, counts = 9, summed = 10, least = 10, planes = 13;
   std::array<std::vector<float>, planes> of;
@@ -51,8 +51,9 @@ void read_row(const Film& film, int row, Row& to) {
   }
 }
 
-/// Sums over the window around each pixel of the middle row, without the pixel itself. Nothing is subtracted: a bright
-/// pixel would leave its rounding behind. `columns`: memory for the sums of columns without the middle.
+/// Sums over the window around each pixel of the middle row, without the pixel itself. It is left out from the start
+/// and not subtracted at the end, because a bright pixel would leave its rounding behind. columns: memory for the sums
+/// of columns without the middle.
 void sum_around(const std::array<const Row*, window>& rows, Row& columns, Row& sums) {
   static_assert(reach == 2);
   for (std::size_t plane = 0; plane < Row::summed; ++plane) {
@@ -76,8 +77,8 @@ struct RowErrors {
   std::vector<float> own;    ///< n / (m² + 0.01), with the pixel's own mean
 };
 
-/// Adds those of a channel. sums: what is around each pixel; floor: 0.01 in squared units of the film. In two
-/// functions, as compilers do not vectorise both in one loop.
+/// Adds those of a channel. sums: over the pixels around each pixel. floor: 0.01 in squared units of the film. This and
+/// the next function are two because compilers do not vectorise both in one loop.
 void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, float floor, RowErrors& errors) {
   const float *own_m = row.of[Row::means + channel].data() + reach,
               *own_n = row.of[Row::noises + channel].data() + reach,
@@ -92,7 +93,7 @@ void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, floa
     const float mu = sum_m[x] * per, noise = std::max(n, sum_n[x] * per);
     const float s = std::max(sum_ab[x] * per - mu * mu, 0.0f);
     const float alike = noise / std::max(s + noise, tiny), doubt = 4 * n / std::max(m * m, tiny);
-    const float drawn = std::min(std::min(alike, doubt), counts[x]);  // 1 - w; none where there is no one around
+    const float drawn = std::min(std::min(alike, doubt), counts[x]);  // 1 - w; 0 where there are no pixels around
     const float g = std::max(m + drawn * (mu - m), own_least[x]);
     freed[x] += std::min(n / (g * g + floor), largest);
   }
@@ -156,7 +157,7 @@ void for_bands(const Film& film, Crew* crew, const std::function<void(int)>& job
   for (int band = 0; band < bands_of(film); ++band) job(band);
 }
 
-/// Sums of squared relative errors, of their squares, and of those with the pixels' own means.
+/// Sums over pixels: of the squared relative errors, of their squares, and of the errors with the pixels' own means.
 struct Spread {
   double sum = 0, squares = 0, own = 0;
 };
@@ -164,7 +165,8 @@ struct Spread {
 /// See ErrorEstimate.
 bool few_matter(const Spread& all, double pixels) {
   constexpr double few = 0.35, fewer = 0.22, hidden = 0.36;
-  const double spread = std::sqrt(all.squares) - 3 / std::sqrt(pixels) * all.sum;  // small pictures vary by themselves
+  // Small pictures show some spread by chance alone: the second term takes off as much.
+  const double spread = std::sqrt(all.squares) - 3 / std::sqrt(pixels) * all.sum;
   return spread > few * all.sum || (spread > fewer * all.sum && all.own < hidden * all.sum);
 }
 

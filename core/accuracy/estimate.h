@@ -29,9 +29,9 @@ struct ErrorEstimate {
   double relative_error = std::numeric_limits<double>::infinity();
   /// Whether a few pixels make up so much of the error that it means little: rare bright paths have been met in these,
   /// and not yet in others; or lamps smaller than a pixel. True where the standard deviation of the mean of the pixels'
-  /// squared errors is more than 0.35 of it, in large pictures: where it rests on about 8 pixels. From 0.25 on (about
-  /// 16 pixels) if the error also depends on how levels are found: if with the pixels' own means for g its square were
-  /// below 0.36 of what it is. False while a half of any pixel is empty.
+  /// squared errors is more than 0.35 of it, which in large pictures means that it rests on about 8 pixels. Already
+  /// above 0.22 (about 20 pixels) if the error also depends much on how levels are found: if its square would be below
+  /// 0.36 of what it is with the pixels' own means for g. False while a half of any pixel is empty.
   bool rests_on_few_pixels = false;
 };
 
@@ -45,8 +45,8 @@ double estimated_relative_error(const Film& film, Crew* crew = nullptr);
 /// empty.
 std::vector<double> squared_relative_errors(const Film& film, Crew* crew = nullptr);
 
-/// The estimated relative error of each pixel of the region from the 7 x 7 pixels around it, less those with an empty
-/// half; infinite where none is left.
+/// The estimated relative error of each pixel of the region, from the 7 x 7 pixels around it. Pixels with an empty half
+/// are left out; the result is infinite where all have one.
 std::vector<float> pixel_relative_error(const Film& film, Crew* crew = nullptr);
 
 }  // namespace tyndall

@@ -28,7 +28,7 @@ void append_escaped(std::string& out, unsigned char c) {
   }
 }
 
-/// Bytes of the UTF-8 letter at the beginning of a text, 1 to 4; 0 if they are none. (Unicode, table 3-7.)
+/// How many bytes the UTF-8 letter at the beginning of a text has, 1 to 4; 0 if it is not UTF-8. (Unicode, table 3-7.)
 std::size_t letter_size(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const auto continues = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
@@ -44,7 +44,7 @@ std::size_t letter_size(std::string_view text) {
   return first >= 0xf0 && continues(1) && continues(2) && continues(3) && !too_long && !too_large ? 4 : 0;
 }
 
-/// Edits (a letter added, left out, replaced, or two neighbours swapped) that turn a into b.
+/// How many edits turn a into b: a letter added, left out or replaced, or two neighbours swapped.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;

@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-/// Counts the kinds. The switch has no default: a new kind without a case does not compile, with one it is counted.
+/// Counts the kinds of primitives. The switch has no default, so that a kind without a case does not compile.
 constexpr int count_primitive_kinds() {
   for (int count = 0;; ++count) {
     switch (static_cast<PrimitiveKind>(count)) {
@@ -25,7 +25,8 @@ constexpr int count_primitive_kinds() {
 }
 static_assert(count_primitive_kinds() == primitive_kinds, "leaves have slots for every kind of primitive");
 
-/// Turns the binary tree into nodes of up to eight children by opening the child of largest surface first.
+/// Turns the binary tree into nodes of up to eight children: as long as a node has room, the child with the largest
+/// surface is replaced by its own two children.
 class Widener {
  public:
   Widener(const BinaryTree& tree, Bvh& out) : tree_(tree), out_(out) {}

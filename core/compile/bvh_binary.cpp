@@ -14,8 +14,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Bounds nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 constexpr int bins = 16;
 constexpr int most_in_leaf = 8;
-constexpr float traversal_cost = 4.0f;  // of a node, in tests of a primitive; measured, 3 to 6 are as good
-constexpr int deepest_heuristic = 48;   // deeper, ranges are halved, to bound the traversal's stack
+constexpr float traversal_cost = 4.0f;  // time for a node over that for a primitive's test; 3 to 6 were found as good
+constexpr int deepest_heuristic = 48;   // below this depth ranges are halved, so that the traversal's stack is bounded
 
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 

@@ -10,17 +10,17 @@
 namespace tyndall {
 namespace {
 
-constexpr double smallness = 0.25;  // of a lamp's reach against its distance from the ball, or the radius around it
+constexpr double smallness = 0.25;  // most that a lamp's reach may be over its distance, or over the ball around it
 constexpr std::size_t most_pairs = 256;
-constexpr double like_outside = 1e-3;  // of an index, from 1
+constexpr double like_outside = 1e-3;  // an index counts as that of the outside if it is this close to 1
 
-/// A sphere that light passes or that mirrors it.
+/// A sphere of glass or of metal without fuzz.
 struct Candidate {
   RoundBody body;
-  double index;       // within over outside; 0: metal
+  double index;       // refractive index within over that outside; 0: metal
   std::size_t shape;  // index into Flattened::shapes
-  int inside = -1;    // the candidate around the same centre that holds it most closely
-  int holds = -1;     // the largest around the same centre that it holds
+  int inside = -1;    // the smallest candidate around the same centre that holds this one; -1: none
+  int holds = -1;     // the largest candidate around the same centre that this one holds; -1: none
 };
 
 std::vector<Candidate> list_candidates(const Flattened& flat, const Scene& scene) {
@@ -65,7 +65,8 @@ struct BallAndLight {
   double worth;
 };
 
-/// What a lamp sends to a ball, as a measure for choosing; 0: chance finds the lamp well enough.
+/// How much light a lamp sends to a ball, roughly, by which pairs are chosen. 0: the lamp is so large as seen from the
+/// ball that paths find it by chance well enough.
 double worth_of(const RoundBody& body, const Lights& lights, std::size_t k, Vec3d origin) {
   const Vec3d lamp = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
   const double reach = std::sqrt(static_cast<double>(lights.reach2[k])) + 0.5 * length(body.way);
@@ -75,8 +76,8 @@ double worth_of(const RoundBody& body, const Lights& lights, std::size_t k, Vec3
   return static_cast<double>(lights.power[k]) * share * share;
 }
 
-/// A shell that holds something else than what is around it: its turn can be least and greatest at places within, so
-/// that roots would be lost. Such shells are left to chance.
+/// Whether what is within a shell is not what is around it. Such shells are left to chance: the turn of a way through
+/// them may have more than one least or greatest value, and chain_turn.h would then miss some of the ways.
 bool is_filled_shell(const std::vector<Candidate>& list, const Candidate& outer) {
   if (outer.holds < 0) return false;
   return std::abs(outer.index * list[static_cast<std::size_t>(outer.holds)].index - 1) > like_outside;

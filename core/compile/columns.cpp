@@ -40,7 +40,8 @@ void fill(TextureColumns& out, const Checker<>& checker, Vec3d origin) {
 }
 
 void fill(TextureColumns& out, const Noise<>& noise, Vec3d origin) {
-  const double scale = noise.style == Noise<>::Style::marble ? 1 : noise.scale;  // of marble it sets the veins only
+  // The scale of marble is that of its veins; the turbulence that bends them is not scaled.
+  const double scale = noise.style == Noise<>::Style::marble ? 1 : noise.scale;
   out.style = noise.style;
   out.scale = static_cast<float>(scale);
   out.offset = to_float(modulo(scale * origin, 256));

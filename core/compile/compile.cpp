@@ -14,8 +14,8 @@
 namespace tyndall {
 namespace {
 
-constexpr int most_by_brute_force = 16;   // primitives; for more the tree is faster
-constexpr double bounds_slack = 0x1p-20;  // relative, per side: covers the rounding of slab tests and primitives' tests
+constexpr int most_by_brute_force = 16;   // primitives; with more of them the tree is faster
+constexpr double bounds_slack = 0x1p-20;  // share by which bounds grow on each side, to cover rounding in the tests
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -33,8 +33,8 @@ Vec3d median_center(const Flattened& flat, const Camera& camera) {
   return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
 }
 
-/// Widens bounds on all axes by a share of their largest coordinate. A hit on a tilted surface that is far away on one
-/// axis has the rounding errors of that axis on the others too.
+/// Widens bounds on all axes by a share of their largest coordinate: a hit on a tilted surface that is far away on one
+/// axis has that axis's rounding errors in its other coordinates, too.
 Bounds widen(Vec3d low, Vec3d high) {
   const double reach = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});  // >= every |coordinate|
   const double slack = bounds_slack * reach;
@@ -129,7 +129,8 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
       m.center = to_float(place(volume.placement, sphere.center) - out.origin);
       m.radius = static_cast<float>(sphere.radius);
     }
-    // A boundary that is no surface has element numbers of its own, behind all others: rays can start within it too.
+    // A boundary that is no surface gets element numbers of its own, after all others, because rays can start within
+    // it.
     m.first = volume.surface ? first_element[static_cast<std::size_t>(*volume.surface)]
                              : out.elements.count() + 6 * static_cast<std::int32_t>(out.media.size());
     m.density = static_cast<float>(volume.medium.density);

@@ -8,8 +8,8 @@
 namespace tyndall {
 namespace {
 
-constexpr double touching = 1e-6;  // of the radius
-constexpr int moments = 64;        // at which a moving sphere is compared with flats
+constexpr double touching = 1e-6;  // share of the radius by which things may overlap without counting
+constexpr int moments = 64;        // number of moments at which a moving sphere is compared with flat shapes
 
 /// Least and greatest distance of two centres while they move.
 struct Distances {
@@ -36,9 +36,9 @@ double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
                    distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
 }
 
-/// Whether something comes closer to the body's centre than its radius. distance: from a place of that centre to the
-/// thing. For a body that moves it is asked at `moments` + 1 moments, and whatever could happen between two of them
-/// counts as happening.
+/// Whether something comes closer to the body's centre than its radius. distance(center): how far the thing is from
+/// such a place of the centre. A moving body is compared at `moments` + 1 moments; what could come close between two of
+/// them counts as if it did.
 template <class Distance>
 bool comes_close(const RoundBody& body, const Distance& distance) {
   const bool moves = length(body.way) > 0;

@@ -15,7 +15,7 @@ struct CosSin {
   double cos, sin;
 };
 
-/// Multiples of 90 degrees are exact.
+/// Cosine and sine of an angle, which are exact for multiples of 90 degrees.
 CosSin cos_sin(double degrees) {
   const double turn = std::fmod(degrees, 360.0);
   if (std::fmod(turn, 90.0) == 0) {

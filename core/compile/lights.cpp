@@ -10,7 +10,7 @@ namespace tyndall {
 namespace {
 
 struct Emitter {
-  double brightness;  // largest component of the radiance
+  double brightness;  // the largest component of its radiance
   std::int32_t element;
 };
 

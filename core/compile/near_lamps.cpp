@@ -7,9 +7,10 @@
 namespace tyndall {
 namespace {
 
-constexpr float nearness = 1.5f;      // of the light from the medium's centre, in half widths
-constexpr float small_lamp = 0.1f;    // radius of the light over the half width or the distance to the camera
-constexpr float most_free_paths = 4;  // in a half width of the medium
+// The conditions in near_lamps.h, as numbers.
+constexpr float nearness = 1.5f;      // largest distance of a light from the medium's centre, in half widths of it
+constexpr float small_lamp = 0.1f;    // largest radius of the light over the half width and over its camera distance
+constexpr float most_free_paths = 4;  // largest half width of the medium, in mean free paths
 
 struct Place {
   float outside;     // distance from the medium's centre, in half widths

@@ -14,17 +14,17 @@ namespace tyndall {
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
                const Embedded& embedded);
-/// Bottom row first, scale -1.0 (little endian). Carries nothing hidden.
+/// PFM: bottom row first, scale -1.0 (little endian). It carries no scene and no statistics.
 void write_pfm(const std::filesystem::path& file, const LinearImage& image);
-/// Radiance RGBE. Carries nothing hidden.
+/// Radiance HDR (RGBE). It carries no scene and no statistics.
 void write_hdr(const std::filesystem::path& file, const LinearImage& image);
-/// Float RGB, layers, the film itself in channels film.*, data window = the film's region. Throws if built without
-/// OpenEXR. image: the film's means, if the caller has them; null: they are found here.
+/// EXR: RGB in float, the layers, and the film itself in channels film.*; the data window is the film's region. Throws
+/// if built without OpenEXR. image: the film's means, if the caller has them; null: they are computed here.
 void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
                const Embedded& embedded, const LinearImage* image = nullptr);
 bool has_openexr();
 
-/// PNG (8-bit, sRGB decoded to linear), JPEG, PFM, HDR, EXR by content.
+/// Reads a PNG or JPEG (8 bits, decoded from sRGB to linear), PFM, HDR or EXR; the content tells which, not the name.
 LinearImage read_image(const std::filesystem::path& file);
 /// The film in an EXR that Tyndall wrote; nothing if it holds none.
 std::optional<Film> read_film(const std::filesystem::path& file);

@@ -8,14 +8,14 @@ namespace tyndall {
 
 /// One channel of a film in an EXR.
 struct FilmChannel {
-  std::string name;    ///< film.A.R.high0 ...: half A or B, channel, limb, word (0: the low half of the limb)
+  std::string name;    ///< for example film.A.R.high0: half A or B, channel, limb, word (0: the limb's low half)
   std::size_t offset;  ///< of the word in FilmPixel or EmissionSums, bytes
 };
 std::vector<FilmChannel> film_channels();
-/// Those of EmissionSums, film.A.R.emission0 ...: in files of films that have it.
+/// The channels of EmissionSums, for example film.A.R.emission0, in files of films that have it.
 std::vector<FilmChannel> emission_channels();
 
-/// Why no EXR is read or written where OpenEXR was not found when the build was configured.
+/// What users are told about EXR files if OpenEXR was not found when the build was configured.
 inline constexpr const char* without_openexr =
     "this build has no EXR images (OpenEXR was not found when it was configured)";
 

@@ -48,7 +48,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::siz
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file);
 
 enum class ImageKind { unknown, png, jpeg, pfm, hdr, exr };
-/// The kind that the first bytes of a file tell.
+/// The kind of an image file, by its first bytes.
 ImageKind image_kind(std::span<const std::uint8_t> start);
 
 // Readers by kind, from a file's bytes.

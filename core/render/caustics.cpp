@@ -9,8 +9,8 @@
 namespace tyndall {
 namespace {
 
-constexpr double least_catch = 0.01;  // share of a light that something smooth has to catch to matter
-constexpr double most_fuzz = 0.05;    // of metal that counts as smooth
+constexpr double least_catch = 0.01;  // share of a lamp's light that a smooth shape has to catch to matter
+constexpr double most_fuzz = 0.05;    // largest fuzz with which metal counts as smooth
 
 constexpr std::size_t most_pairs = 1000000;
 
@@ -39,7 +39,7 @@ const Material& material_of(const Scene& scene, const PlacedShape& shape) {
   return scene.materials[static_cast<std::size_t>(shape.material)];
 }
 
-/// What throws light by itself or on from elsewhere.
+/// A lamp, or a smooth shape that throws a lamp's light elsewhere.
 struct Thing {
   std::size_t shape;  // index into Flattened::shapes
   Ball ball;
@@ -96,7 +96,8 @@ double distance_to_nearest(const std::vector<Receiver>& receivers, Vec3d point) 
   return least;
 }
 
-/// Whether a lamp shines out of a ball of glass. If the camera is in it too, it is a room and no bulb.
+/// Whether a lamp is within a ball of glass and shines out of it. If the camera is in the ball, too, this is a room and
+/// not a bulb.
 bool is_bulb(const Thing& lamp, const Thing& thing, Vec3d camera) {
   const Ball& ball = thing.ball;
   return thing.glass && length(lamp.ball.center - ball.center) < ball.radius && lamp.ball.radius < ball.radius &&
@@ -110,8 +111,8 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   const std::vector<Receiver> receivers = list_receivers(scene, flat);
   if (receivers.empty()) return 1;
   const Things things = list_things(scene, flat);
-  const std::size_t step =
-      1 + things.lamps.size() * things.smooth.size() / most_pairs;  // of very many pairs it looks at every step-th only
+  const std::size_t step = 1 + things.lamps.size() * things.smooth.size() /
+                                   most_pairs;  // of very many pairs only every step-th is looked at
   double least = 1;
   for (const Thing& lamp : things.lamps)
     for (std::size_t i = 0; i < things.smooth.size(); i += step) {

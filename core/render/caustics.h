@@ -9,24 +9,24 @@
 /// is unlikely, the estimated error says too little, and users are warned (rare.h).
 namespace tyndall {
 
-/// Whether the light of a lamp that comes by way of a shape is found otherwise than by chance. Both are indices into
-/// Flattened::shapes of the scene.
+/// Tells whether light that comes from a lamp by way of a shape is computed exactly and not left to chance. Both are
+/// indices into Flattened::shapes of the scene.
 using IsFound = std::function<bool(std::size_t lamp, std::size_t shape)>;
 
-/// Glass and polished metal throw light on other surfaces that sampling the lamps does not find: a path has to meet the
-/// lamp by chance. This is the least chance of that, over all pairs of a lamp and a smooth shape that catches at least
-/// a hundredth of its light: the share of all directions that the lamp fills as seen from there, in (0, 1]. 1 if there
-/// is no such pair, or nothing that scatters evenly and would show such light.
-/// - The lobe of metal with a little fuzz makes the lamp appear larger by its own width. Lamps are sampled from there,
-///   but a path reaches such metal from a wall only by chance. From a fuzz of 0.05 on, metal is not smooth.
-/// - A lamp within glass, such as a bulb, shines on everything through it. It is seen from the nearest surface that
-///   scatters evenly, or from the glass if that is farther from the lamp.
-/// Until about 2 / chance samples a pixel most pixels have not met such light at all, and their two halves agree on
-/// what is wrong.
-/// is_found: pairs to be left out; empty: none.
+/// Glass and polished metal throw light on other surfaces. Shadow rays do not find that light: a path has to meet the
+/// lamp by chance, by way of the smooth shape. This function gives the smallest such chance in a scene, in (0, 1]: for
+/// each pair of a lamp and a smooth shape that catches at least a hundredth of its light, the share of all directions
+/// that the lamp fills as seen from the shape. 1 if there is no such pair, or nothing matt that would show such light.
+/// - A lamp seen in metal with a little fuzz counts as larger, by the width of the metal's lobe. Shadow rays are sent
+///   from such metal, but a path reaches it from a wall only by chance. Above a fuzz of 0.05 metal is not smooth.
+/// - A lamp within glass, such as a bulb, shines on everything through it. It counts as seen from the nearest matt
+///   surface, or from the glass if that is farther from the lamp.
+/// With fewer than about 2 / chance samples a pixel, most pixels have not met such light at all. Then their two halves
+/// agree on a wrong value, and the estimated error is too small.
+/// is_found: pairs that are left out; empty: none are.
 double chance_of_caustics(const Scene& scene, const IsFound& is_found = {});
 
-/// The same without the pairs of a ball and a lamp that chains find. compiled: the scene's own.
+/// The same, without the pairs of a ball and a lamp whose light chains compute. compiled: made from this scene.
 double chance_of_caustics(const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

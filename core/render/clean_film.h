@@ -6,23 +6,24 @@
 #include <memory>
 #include <optional>
 
-/// The clean view of films: brings together what the filter reads, and decides when to filter what grows.
+/// The clean view of films: collects what the filter in core/clean reads, and decides when a picture that is still
+/// being rendered is filtered.
 namespace tyndall {
 
 /// Samples a pixel from which on a picture can be filtered: one in each half.
 inline constexpr std::uint32_t least_clean_spp = 2;
-/// Below this number of samples a pixel the filtered picture's error is known roughly only.
+/// With fewer samples a pixel than this, the filtered picture's error is known only roughly.
 inline constexpr std::uint32_t rough_clean_spp = 16;
 
 /// Filters films, and keeps what is first seen until the scene changes.
 class FilmCleaner {
  public:
-  /// With the instruction set of these kernels.
+  /// Filters with the instruction set of these kernels.
   explicit FilmCleaner(const Kernels& kernels);
 
-  /// Other things are seen from now on.
+  /// The scene has changed: what is first seen has to be found anew.
   void change_scene() { seen_of_.reset(); }
-  /// See Cleaner::run. Every pixel of the film has least_clean_spp samples or more.
+  /// See Cleaner::run. Every pixel of the film must have least_clean_spp samples or more.
   bool run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up, CleanPicture& out);
 
  private:
@@ -30,7 +31,7 @@ class FilmCleaner {
 
   Cleaner cleaner_;
   CleanInput input_;
-  std::optional<Region> seen_of_;  ///< what input_.seen is of; absent: of nothing
+  std::optional<Region> seen_of_;  ///< the region that input_.seen shows; absent: none
 };
 
 /// The clean view of a finished film of the scene. threads: 0: all cores; isa: "": the best.
@@ -42,15 +43,16 @@ class LiveClean {
   explicit LiveClean(const Kernels& kernels) : cleaner_(kernels) {}
 
   void set_wanted(bool wanted);
-  /// Other things are seen from now on.
+  /// The scene has changed: what is first seen has to be found anew.
   void change_scene() { cleaner_.change_scene(); }
   /// The picture begins anew.
   void start_over();
 
-  /// Whether it is to be made now: first from two samples a pixel on, then whenever the samples have doubled and a
-  /// quarter of the time since the start allows it, and once more at the end. at_rest: nothing else is to be done.
+  /// Whether it is time to make one: when the picture has two samples a pixel, then whenever the samples have doubled,
+  /// as long as filtering takes at most a quarter of the time since the start, and once more at the end. at_rest: no
+  /// more samples are to be taken.
   bool is_due(const Progression& picture, bool at_rest) const;
-  /// Makes it. False if `give_up` was set before the end: then it stays due.
+  /// Makes one. False if `give_up` was set before the end: then it stays due.
   bool make(const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up);
   /// The newest one of this picture; null: there is none, or none is wanted.
   const std::shared_ptr<const CleanFrame>& latest() const { return latest_; }
@@ -60,9 +62,9 @@ class LiveClean {
   CleanPicture picture_;
   std::shared_ptr<const CleanFrame> latest_;
   bool wanted_ = false;
-  std::uint32_t made_of_ = 0;  ///< samples a pixel; 0: not made yet
-  double spent_ = 0;           ///< seconds, on pictures of the present one
-  double last_seconds_ = 0;    ///< that the newest one took
+  std::uint32_t made_of_ = 0;  ///< samples a pixel that the newest one was made from; 0: none was made yet
+  double spent_ = 0;           ///< seconds spent on all clean views of the present picture
+  double last_seconds_ = 0;    ///< seconds that the newest one took
 };
 
 }  // namespace tyndall

@@ -11,7 +11,7 @@
 namespace tyndall {
 namespace {
 
-constexpr double pass_budget = 0.15;  // seconds: how often a new picture should come while it sharpens
+constexpr double pass_budget = 0.15;  // seconds from one picture to the next while the picture sharpens
 
 ProgressionOptions progression_options(const Scene& scene, int coarse_step) {
   ProgressionOptions options;
@@ -62,8 +62,8 @@ void Director::follow(const Orders& orders) {
   if (orders.redraw && shown_.compiled && picture_.has_picture()) publish();
 }
 
-/// Makes the ordered scene the one that is rendered. One that cannot be compiled leaves everything as it was and is
-/// told as a problem.
+/// Makes the ordered scene the one that is rendered. If it cannot be compiled, everything stays as it was, and the
+/// mailbox gets a RenderProblem.
 void Director::take_scene(const Orders& orders) {
   try {
     ShownScene next{orders.scene, nullptr, nullptr, orders.edit, orders.submitted};
@@ -105,7 +105,7 @@ void Director::finish_pass() {
   publish();
 }
 
-/// Filters what there is. An edit or another wish interrupts it; then it is tried again.
+/// Filters the picture as it is now. An edit or another order interrupts this; then it is tried again later.
 void Director::make_clean() {
   if (clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
@@ -143,9 +143,9 @@ void Director::publish() {
   if (on_frame_) on_frame_();
 }
 
-/// Gives the film to those who wait for it. Between two passes every pixel has the samples that are planned for it;
-/// within a pass some pixels lack some. So a pass that was interrupted is finished first, unless the renderer is paused
-/// or has reached its limit: then nothing would finish it, and the film is given as it is.
+/// Gives a copy of the film to callers who wait for one. Within a pass some pixels lack samples that others have, so a
+/// pass that was interrupted is finished first. If the renderer is paused or has reached its limit nothing would finish
+/// the pass: then the film is given as it is.
 void Director::answer_films() {
   if (picture_.within_pass() && unfinished(limit_)) return;
   for (auto& request : mail_.take_film_requests()) request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});

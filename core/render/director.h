@@ -13,26 +13,26 @@
 /// frames.
 namespace tyndall {
 
-/// The scene that is rendered, in the forms that are needed.
+/// The scene that is rendered: as the user wrote it, compiled, and as kernels see it.
 struct ShownScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const RenderScene> compiled;
   std::unique_ptr<SceneViewOf> view;
   std::uint64_t edit = 0;
-  Clock::time_point submitted;  ///< the edit or the newest restart
+  Clock::time_point submitted;  ///< when the edit or the newest restart was asked for
 };
 
-/// Looks now and then whether light that only rare paths carry makes the estimated error say too little.
+/// Finds out, now and then, whether the estimated error is too small because of light that only rare paths carry.
 class RarePathWatch {
  public:
   void change_scene() { *this = {}; }
-  /// A pass ended. Looks where the error was estimated after it.
+  /// To be called when a pass has ended. Does nothing unless the error was estimated after it.
   void look(const ShownScene& shown, const Progression& picture);
   bool found() const { return found_; }
   void start_over() { found_ = false; }
 
  private:
-  std::optional<double> chance_;  ///< of meeting such light, once it was asked for: see caustics.h
+  std::optional<double> chance_;  ///< of meeting such light (see caustics.h); absent: not computed yet
   bool found_ = false;
 };
 
@@ -41,7 +41,7 @@ class Director {
   /// on_frame: see Renderer.
   Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame);
 
-  /// Until stop is requested.
+  /// Renders until a stop is requested.
   void run(const std::stop_token& stop);
 
  private:

@@ -54,12 +54,12 @@ struct Frame {
   /// The newest clean view of the same picture, perhaps of fewer samples; null: none yet, or none is wanted. To be
   /// shown in place of `rgba` while `view` is beauty; the noise view is then of it.
   std::shared_ptr<const CleanFrame> clean;
-  bool awaits_clean = false;  ///< a newer one will come, even if no more samples will
+  bool awaits_clean = false;  ///< a newer clean view will come, even if no more samples are taken
   View view = View::beauty;
   int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
   std::uint32_t spp = 0;      ///< samples that every pixel has, with adaptive sampling their mean. The film is the one
                               ///< that render() makes for that number. 0 while only a coarse pass is there
-  bool finished = false;      ///< the limit is reached, and the clean view is of that
+  bool finished = false;      ///< the limit is reached, and the clean view (if wanted) is made from all samples
   double relative_error = 0;  ///< estimated; infinite before two samples
   bool rare_bright_paths = false;  ///< the estimate cannot be trusted: see has_rare_bright_paths
   double seconds = 0;              ///< rendering time since the edit, pauses left out

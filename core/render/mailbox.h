@@ -19,8 +19,8 @@ namespace tyndall {
 
 using Clock = std::chrono::steady_clock;
 
-/// What an edit has changed of what is rendered. The scene's name and display, and the number of samples at which to
-/// stop, are not part of it: no sample depends on them.
+/// Which parts of a scene an edit has changed, among those on which samples depend. The scene's name, its display
+/// settings and the number of samples at which to stop are not among them.
 struct SceneChange {
   bool camera = false;
   bool others = false;  ///< anything but the camera
@@ -34,7 +34,7 @@ struct Orders {
   std::uint64_t edit = 0;              ///< number of that scene
   Clock::time_point submitted;         ///< when it came
   bool restart = false;
-  bool redraw = false;  ///< the view or the limit changed: the samples there are have to be shown again
+  bool redraw = false;  ///< the view or the limit has changed: the present samples have to be shown again
   View view = View::beauty;
   bool clean = false;       ///< whether the clean view is wanted
   std::uint32_t limit = 0;  ///< samples a pixel at which to stop; at most 1 while the renderer is paused

@@ -6,10 +6,14 @@
 namespace tyndall {
 namespace {
 
-constexpr double first_samples = 64;  // a pixel, of the first pilot: enough to meet what one path in ten thousand finds
-constexpr double margin = 0.85;       // share of the error to aim at: the pilot may have shown too small an error
-constexpr double far_off = 8;         // standard errors from the known answer: more samples would not help
-constexpr double most_growth = 16;    // of samples from pilot to pilot, as a pilot with a rough error plans badly
+// The first pilot takes this many samples a pixel: enough to meet what one path in ten thousand finds.
+constexpr double first_samples = 64;
+// Aims at this share of the wanted error, because the pilot's estimate of the error may be too small.
+constexpr double margin = 0.85;
+// This many standard errors from the known answer the result is wrong for certain, and more samples would not help.
+constexpr double far_off = 8;
+// Most growth of the samples from pilot to pilot, because a pilot whose error is rough plans badly.
+constexpr double most_growth = 16;
 
 double cube(double x) { return x * x * x; }
 

@@ -9,10 +9,11 @@
 namespace tyndall {
 
 struct MeasureOptions {
-  int threads = 0;                                             ///< 0: all cores
-  std::string isa;                                             ///< "": the best
-  double error = 0;                                            ///< standard error to reach, >= 0
-  double expected = std::numeric_limits<double>::quiet_NaN();  ///< if known: a clear failure ends early
+  int threads = 0;   ///< 0: all cores
+  std::string isa;   ///< "": the best
+  double error = 0;  ///< standard error to reach, >= 0
+  double expected =
+      std::numeric_limits<double>::quiet_NaN();  ///< the known answer, if any: ends early if clearly missed
 };
 
 struct Measured {
@@ -26,10 +27,10 @@ struct Measured {
 inline constexpr std::uint32_t most_rounds = 16;
 inline constexpr double most_samples_measured = 4e9;
 
-/// The mean over a picture's pixels and channels. First renders (pilots) find out how many samples the standard error
-/// takes. Then so many samples of another seed are the measurement: a mean of samples that also decide when to stop is
-/// biased. Uses the scene's seed and those that follow it. Stops at most_samples_measured even if the error is larger
-/// than asked for, so look at value.error.
+/// Measures the mean over a picture's pixels and channels. Short renders (pilots) find out how many samples the wanted
+/// standard error takes. Then as many samples with another seed are the measurement, because a mean of samples that
+/// also decide when to stop is biased. Uses the scene's seed and the seeds after it. Stops at most_samples_measured
+/// even if the error is larger than asked for, so look at value.error.
 Measured measure_mean(RenderScene scene, const MeasureOptions& options, const ProgressCallback& progress = {});
 
 /// Standard errors below this share of a value mean nothing, because the rounding of single precision is larger.

@@ -16,7 +16,7 @@ int chosen_tile(std::uint32_t samples, int step) {
   return std::clamp(static_cast<int>(std::sqrt(pixels)) / 8 * 8, least_tile, most_tile);
 }
 
-/// What a unit gathers.
+/// The memory in which a unit of work gathers its samples.
 struct UnitBuffer {
   std::vector<FilmPixel> pixels;
   std::vector<EmissionSums> emission;
@@ -34,7 +34,7 @@ UnitBuffer& buffer() {
   return unit;
 }
 
-/// How many samples pixels lack on average.
+/// How many samples the pixels lack on average of those that are wanted.
 std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& wanted) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) sum += wanted[i] - std::min(wanted[i], film.pixels[i].taken);
@@ -57,7 +57,7 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
     }
   if (lacking == 0) return false;
   const std::uint32_t most = std::max(static_cast<std::uint32_t>(unit_paths) / lacking, 1u);
-  if (deepest > most + most / 2)  // otherwise all that is lacking goes into this unit, so that no small rest is left
+  if (deepest > most + most / 2)  // otherwise this unit takes all that is lacking, so that no small rest is left over
     for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + most);
   return true;
 }

@@ -51,7 +51,7 @@ class Pass {
   int columns_, rows_;
   std::vector<std::uint8_t> done_;  ///< for each unit; written only by the thread that runs it
   std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
-  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< part of film.cut_throughput, not added to it yet
+  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< what is still to be added to film.cut_throughput
 };
 
 }  // namespace tyndall

@@ -50,9 +50,9 @@ void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
   for (int row = 0; row < rows; ++row) job(row);
 }
 
-/// The noise of some pixels: sums over those that have samples in both halves.
+/// The noise of a group of pixels, as sums over those that have samples in both halves.
 struct Variance {
-  double sum = 0;  ///< of squared relative error times count²
+  double sum = 0;  ///< sum of squared relative error times count²
   int pixels = 0;
 };
 
@@ -101,15 +101,16 @@ std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
   return needs;
 }
 
-/// A number in [0, 2^16) for each cell, evenly spread over any few neighbours in the list: part of the way through a
-/// round, cells with equal counts do not all get their next sample at once. Multiples of the golden ratio.
+/// A number in [0, 2^16) for each cell, by multiples of the golden ratio, which spreads the numbers of neighbours in
+/// the list evenly. By it, cells with equal counts get their next samples one after the other in the course of a round.
 std::uint64_t dither(std::size_t cell) { return (cell * 40503) & 0xffff; }
 
 /// The nearest power of two, because the points of a Sobol' sequence are spread most evenly then. With counts in
 /// between the error would be up to a third higher in smooth parts of a picture.
 std::uint32_t rounded(double count) { return std::bit_floor(static_cast<std::uint32_t>(std::numbers::sqrt2 * count)); }
 
-/// The count that each cell gets if a need of 1 gets `scale` samples, and the sum of the counts over all pixels.
+/// Gives each cell a count in proportion to its need: a need of 1 gets `scale` samples. Also sums the counts over all
+/// pixels.
 struct Shares {
   std::vector<std::uint64_t> areas;
   const std::vector<double>& needs;
@@ -140,8 +141,8 @@ double find_scale(const Shares& shares, double budget) {
   return low;
 }
 
-/// Spends what rounding has left of the budget on cells that were rounded down, so that the mean becomes what it is
-/// labelled with.
+/// Rounding leaves a part of the budget. Spends it on cells that were rounded down, so that the mean of the counts
+/// becomes the number of samples that the picture is labelled with.
 void spend(double left, const Shares& shares, double scale, std::vector<PlannedSamples>& planned) {
   for (std::size_t i = 0; i < planned.size(); ++i) {
     if (shares.wish(i, scale) <= planned[i].to) continue;
@@ -152,15 +153,15 @@ void spend(double left, const Shares& shares, double scale, std::vector<PlannedS
   }
 }
 
-/// How many times less squared error the best counts would have than even ones, if it falls as 1/count. The best ones
-/// are in proportion to the root of the variance.
+/// The factor by which the best counts would lower the squared error below that of even counts, if it falls as 1/count.
+/// The best counts are in proportion to the root of the variance.
 double best_gain(const std::vector<double>& needs) {
   double variances = 0, roots = 0;
   for (const double need : needs) variances += need * need * need, roots += need * std::sqrt(need);
   return variances * static_cast<double>(needs.size()) / (roots * roots);
 }
 
-/// How many times less squared error a plan has than even counts, if it falls as 1/count.
+/// The same factor for a plan.
 double expected_gain(const std::vector<double>& needs, const std::vector<PlannedSamples>& planned, double mean) {
   double even = 0, as_planned = 0;
   for (std::size_t i = 0; i < needs.size(); ++i) {

@@ -11,8 +11,8 @@
 /// A film starts with warm_up samples of every pixel. Then come rounds, each of which doubles the mean number of
 /// samples. In a round each cell of 4 x 4 pixels gets a count that follows from the relative error around it: the
 /// counts that make relMSE smallest if squared error falls as 1/count², as it does with Sobol' points where a picture
-/// is smooth. (Where it only falls as 1/count, hard cells would need still more samples for the least error in a given
-/// number of samples. But paths in hard cells take longer, so for the least error in a given time these counts do.)
+/// is smooth. (Where it only falls as 1/count, the least error for a given number of samples would need still more in
+/// hard cells. But paths in hard cells take longer, so these counts come close to the least error for a given time.)
 /// Counts are powers of two, because Sobol' points are spread most evenly then. They are at least a quarter of the
 /// mean, so that rare bright paths are looked for everywhere, and at most 16 times the mean. All cells keep the same
 /// count as long as uneven counts would gain less than a tenth of relMSE: the longer paths of the hard cells would

@@ -10,9 +10,9 @@ double picture_budget(bool only_camera, double since) { return only_camera ? 0.0
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before) {
   if (!(paths_per_second > 0)) return 8;
   const double wanted = std::sqrt(static_cast<double>(pixels) / (paths_per_second * budget));
-  // The step before fits if the ideal step lies between its half and itself. It is kept a little beyond both ends too,
-  // so that the sharpness does not flicker: by a factor of 1.1 where that makes the picture late, and of 1.4 where it
-  // only makes it coarser than need be.
+  // The last step fits if the ideal step lies between its half and itself. It is also kept a little beyond these
+  // limits, so that the sharpness does not flicker: up to a factor of 1.1 where keeping it makes the picture late, and
+  // up to 1.4 where it only makes the picture coarser than necessary.
   const bool fits = wanted <= 1.1 * before && (before == 1 || wanted > before / 2.0 / 1.4);
   if (before > 0 && fits) return before;
   int step = 1;

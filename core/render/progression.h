@@ -9,9 +9,9 @@
 #include <memory>
 #include <optional>
 
-/// A picture in the making. Blocking and interactive renders are both loops around Progression::run_pass(): which
-/// samples come next, how long that took, how far the picture is from the truth and when it is finished is decided here
-/// alone. No decision changes a sample, so pictures do not depend on speed or on interruptions.
+/// A picture in the making. Blocking and interactive renders are both loops around Progression::run_pass(). Here alone
+/// it is decided which samples come next and when the picture is finished, and measured how long it took and how far
+/// the picture is from the truth. No decision changes a sample, so pictures do not depend on speed or on interruptions.
 namespace tyndall {
 
 /// Where a picture is finished: at the first of these.
@@ -19,21 +19,22 @@ struct Limits {
   std::optional<std::uint32_t> spp;  ///< samples a pixel, with adaptive sampling their mean; absent: no limit
   double seconds =
       std::numeric_limits<double>::infinity();  ///< of rendering; looked at between passes, after the first
-  double error = 0;                             ///< estimated relative error, likewise; 0: no limit
+  double error = 0;                             ///< estimated relative error; looked at likewise; 0: no limit
 };
 
-/// How many samples a pixel the passes take. The first takes one.
+/// How many samples a pixel each pass takes. The first pass takes one.
 struct PassLength {
   double growth = 1;  ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
   std::uint32_t most = 32;
-  double seconds = std::numeric_limits<double>::infinity();  ///< at most about that long, at the last pass's speed
+  double seconds =
+      std::numeric_limits<double>::infinity();  ///< about how long a pass may take, by the last one's speed
 };
 
 /// Samples of the next pass, at least 1. taken: samples a pixel so far; paths_per_second: <= 0 if unknown.
 std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second);
 
-/// When the error of a film is estimated, which takes about as long as drawing it: where the number of samples or the
-/// error that was asked for is reached, and now and then before.
+/// When the error of a film is estimated, which takes about as long as drawing the picture. It always is when the
+/// wanted number of samples is reached; these members say how often before.
 struct EstimateTimes {
   /// The first estimate is due after this time of rendering. After one at t seconds, the next is due at
   /// t + seconds + growth · t.
@@ -47,20 +48,20 @@ struct ProgressionOptions {
   bool adaptive = false;      ///< see plan.h
   int tile = 0;               ///< edge of a tile in pixels; 0: chosen
   int coarse_step = 1;        ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
-  bool count_breaks = false;  ///< whether time between passes counts as rendering: a blocking render has wall time
+  bool count_breaks = false;  ///< the time between passes counts as rendering time, as in blocking renders
   PassLength length;
   EstimateTimes estimates;
 };
 
-/// The kernels with what they read and the threads they run on.
+/// What a pass needs to run: threads, kernels and the scene that these read.
 struct RenderEngine {
   Crew& crew;
   const Kernels& kernels;
   const SceneView& scene;
 };
 
-/// Which samples of a film come next: the rest of what an interrupted pass began, a coarse pass, the rest of the first
-/// sample, then growing passes, cut where a round of adaptive sampling ends.
+/// Decides which samples of a film come next. In this order: what an interrupted pass has left; a coarse pass; the
+/// pixels that it left out; then passes that grow, but never beyond the end of a round of adaptive sampling.
 class PassSchedule {
  public:
   /// For a film that has no samples, or whose samples are replaced by the first pass.
@@ -68,9 +69,10 @@ class PassSchedule {
   /// Goes on with a film's samples. Those that an interrupted pass left uneven are made even first.
   PassSchedule(const ProgressionOptions& options, const Film& film);
 
-  /// The pass that was interrupted, else a new one. limit, paths_per_second: see Limits and pass_samples.
+  /// Returns the pass that was interrupted, or else begins a new one. limit: see Limits::spp; paths_per_second: see
+  /// pass_samples().
   Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew);
-  /// The pass is whole.
+  /// To be called when all units of the pass are done.
   void finish();
 
   const Pass* pass() const { return pass_.get(); }  ///< null between passes
@@ -87,7 +89,7 @@ class PassSchedule {
   std::unique_ptr<Pass> pass_;
   bool coarse_ = false, coarse_done_ = false;
   std::uint32_t taken_ = 0, end_ = 0;
-  std::uint32_t level_to_ = 0;  ///< samples that some pixels have already and all get first; 0: all have the same
+  std::uint32_t level_to_ = 0;  ///< an interrupted pass left some pixels with so many: all get these first; 0: none did
 };
 
 /// What was counted since the start, and how long it took.
@@ -101,17 +103,18 @@ struct PassTally {
 /// A film and the passes that fill it.
 class Progression {
  public:
-  /// Begins a picture of the scene without samples. The film's memory is used again where the size allows it. Throws
-  /// std::bad_alloc, and is then what it was before.
+  /// Begins a picture of the scene, without samples. Uses the film's memory again if the size is the same. If it throws
+  /// std::bad_alloc, nothing has changed.
   void start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
              const ProgressionOptions& options);
-  /// Goes on with a film that was rendered of the same scene, with the same `adaptive`.
+  /// Goes on with a film that was rendered from the same scene with the same `adaptive`.
   void go_on(Film film, const ProgressionOptions& options);
 
   /// Whether the picture is finished.
   bool reached(const Limits& limits) const;
-  /// Takes samples until the next pass is whole (true) or `give_up` was set: then it returns within one unit of work,
-  /// about 2 ms, and the next call goes on. Estimates the error if that is due. poll: see Crew::for_each.
+  /// Takes samples until the next pass is complete, and returns true. If `give_up` is set meanwhile it returns false
+  /// within one unit of work, about 2 ms; the next call then goes on with that pass. Estimates the error if that is
+  /// due. poll: see Crew::for_each.
   bool run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
                 const std::function<void()>& poll = {});
 
@@ -121,13 +124,13 @@ class Progression {
   std::uint32_t taken() const { return schedule_.taken(); }
   /// Whether there is something to show.
   bool has_picture() const { return taken() > 0 || schedule_.coarse_done(); }
-  /// Every how many pixels there are samples.
+  /// 1, or larger after a coarse pass: then only every step-th pixel in x and y has samples.
   int step() const { return taken() == 0 ? schedule_.coarse_step() : 1; }
-  /// A pass was interrupted and waits to be gone on with.
+  /// Whether a pass was interrupted and is not complete.
   bool within_pass() const { return schedule_.pass() != nullptr; }
   /// May be called from run_pass()'s poll.
   PassTally tally() const;
-  /// Mean over all samples of what paths carried that were cut off at the longest length.
+  /// What was lost by cutting paths at the largest depth: see FilmTotals::cut_throughput.
   double cut_throughput() const;
   /// Estimated relative error; infinite before two samples.
   double error() const { return estimate_.relative_error; }
@@ -147,11 +150,11 @@ class Progression {
   PassSchedule schedule_;
   PassTally tally_;
   Clock::time_point last_write_;
-  std::optional<Clock::time_point> running_from_;  ///< while run_pass() runs: from when its seconds count
-  double pass_seconds_ = 0;                        ///< of the pass that is under way
+  std::optional<Clock::time_point> running_from_;  ///< set while run_pass() runs: its time counts from then on
+  double pass_seconds_ = 0;                        ///< seconds spent on the pass that is under way
   ErrorEstimate estimate_;
-  std::uint32_t estimate_of_ = 0;  ///< samples a pixel that it was made from
-  double next_estimate_ = 0;       ///< in seconds of rendering
+  std::uint32_t estimate_of_ = 0;  ///< samples a pixel that the estimate was made from
+  double next_estimate_ = 0;       ///< when the next one is due, in seconds of rendering
 };
 
 }  // namespace tyndall

@@ -17,8 +17,8 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   made.adaptive = options.adaptive;
   made.tile = options.tile;
   made.count_breaks = true;
-  // Where time or error decide, passes are short, so that a look between them comes in time. Else they double what is
-  // there, so that an interrupted render has covered the whole image.
+  // If time or error decide when to stop, passes are short, because both are looked at between passes only. Otherwise
+  // each pass doubles the samples.
   const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
   made.length.growth = looks ? 0.25 : 1;
   if (reports) made.estimates = {.seconds = 0.5, .growth = 0.5};
@@ -30,13 +30,14 @@ Kernels kernels_of(const RenderOptions& options) {
   throw std::invalid_argument("no kernel for instruction set \"" + options.isa + "\"");
 }
 
-/// The clean view of a render: of the finished film, and before that now and then where its error ends the render.
+/// The clean view of a render. It is made of the finished film; if its error decides when to stop, also now and then
+/// before.
 class CleanView {
  public:
   CleanView(const RenderOptions& options, const RenderEngine& engine)
       : wanted_(options.clean), target_(options.target_error), engine_(engine), cleaner_(engine.kernels) {}
 
-  /// Whether its error is small enough to stop. Looks so often that a quarter of the time goes into that at most.
+  /// Whether its error is small enough to stop. Filters only so often that this takes at most a quarter of the time.
   bool is_good(const Progression& picture) {
     if (!wanted_ || target_ <= 0 || picture.taken() < least_clean_spp) return false;
     if (cleaned_ != picture.taken() && seconds_ <= picture.tally().seconds / 4) make(picture.film(), picture.taken());
@@ -48,7 +49,7 @@ class CleanView {
     result.clean = std::move(clean_);
     result.seconds_clean = seconds_;
   }
-  /// Of the newest one; infinite before.
+  /// Estimated relative error of the newest clean view; infinite before the first.
   double error() const { return clean_.relative_error; }
 
  private:
@@ -64,7 +65,7 @@ class CleanView {
   RenderEngine engine_;
   FilmCleaner cleaner_;
   CleanPicture clean_;
-  std::uint32_t cleaned_ = 0;  ///< samples a pixel that the newest one was made from
+  std::uint32_t cleaned_ = 0;  ///< samples a pixel that the newest clean view was made from
   double seconds_ = 0;
 };
 

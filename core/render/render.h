@@ -23,7 +23,7 @@ struct RenderOptions {
   std::uint32_t first_sample = 0;  ///< index of the first sample
   /// Samples a pixel at which to stop, those of a continued film included (see also `adaptive`); absent: no limit.
   std::optional<std::uint32_t> spp;
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; looked at between passes
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds at which to stop; looked at between passes
   double target_error = 0;  ///< estimated relative error at which to stop, with `clean` that of the clean view; 0: none
   bool clean = false;       ///< make the clean view, too; needs 2 samples a pixel
   bool adaptive = false;    ///< more samples where the error is larger (see plan.h); spp is then their mean
@@ -43,7 +43,7 @@ struct RenderResult {
   std::uint64_t rays = 0, shadow_rays = 0;
   double seconds = 0;  ///< from the first sample started to the last film write, thread start included
   int threads = 0;
-  Kernels kernels{};                        ///< that made the film
+  Kernels kernels{};                        ///< those that made the film
   bool interrupted = false;                 ///< the callback said stop
   std::optional<ErrorEstimate> estimate{};  ///< of this film; absent if neither a limit nor the callback asked for it
   std::optional<CleanPicture> clean{};      ///< the clean view of the film as it is, if it was asked for

@@ -19,7 +19,7 @@ Kernels kernels_or_throw(const std::string& isa) {
 struct Renderer::State {
   Mailbox mail;
   Director director;
-  std::jthread thread;  // last: stopped and joined first
+  std::jthread thread;  // declared last, so that it has ended before what it uses goes
 
   State(const Options& options, std::function<void()> on_frame)
       : director(mail, kernels_or_throw(options.isa), options.threads, std::move(on_frame)),

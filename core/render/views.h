@@ -12,10 +12,10 @@ namespace tyndall {
 /// view first asks, and kept until the scene changes.
 class Views {
  public:
-  /// Other things are seen from now on. The costs are shown until new ones are found: edits that follow each other
-  /// closely interrupt the search, and the view would stay grey.
+  /// The scene has changed: what was found has to be found anew. Until then the old costs are shown, because edits that
+  /// follow each other closely interrupt the search, and the view would stay grey.
   void change_scene();
-  /// The view of the picture, in `rgba`. Where costs are searched, the search ends early when `give_up` is set.
+  /// Draws the view of the picture into `rgba`. If it first has to find costs, it stops early when `give_up` is set.
   void draw(View view, const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up,
             std::vector<float>& rgba);
 
@@ -23,7 +23,7 @@ class Views {
   void find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up);
 
   std::vector<FirstHit> first_hits_;  ///< empty: not found yet
-  std::vector<float> costs_;          ///< of an older scene while costs_due_
+  std::vector<float> costs_;          ///< those of an older scene while costs_due_ is set
   bool costs_due_ = true;
 };
 

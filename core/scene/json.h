@@ -18,7 +18,7 @@ struct Override {
 };
 
 /// Reads and checks a scene. name: what errors call it (usually the file's name). folder: where relative texture files
-/// are. Throws SceneError for everything that is wrong with it, IoError for nothing.
+/// are. Throws SceneError for everything that is wrong with it, also for textures that cannot be read.
 Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                  const std::vector<Override>& overrides = {});
 

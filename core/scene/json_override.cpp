@@ -9,7 +9,7 @@
 namespace tyndall {
 namespace {
 
-/// A pointer's steps with ~0 and ~1 undone; nothing if it is none.
+/// The steps of a JSON pointer, with ~0 and ~1 replaced by what they stand for; nothing if the text is no pointer.
 std::optional<std::vector<std::string>> pointer_steps(std::string_view pointer) {
   if (!pointer.starts_with('/')) return std::nullopt;
   std::vector<std::string> steps;
@@ -67,7 +67,7 @@ std::size_t depth_of(const JsonValue& json) {
   return deepest + 1;
 }
 
-/// The value as JSON; what is not JSON is a text.
+/// The value as JSON. Text that is not JSON stands for a string of that text.
 JsonValue override_value(const std::string& text, const std::string& where) {
   try {
     return parse_json(text);

@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-/// A real scene of 256 MiB holds fewer values; as a tree, so many take about 2 GB of memory.
+/// Most values of a document. A real scene of 256 MiB has fewer; as a tree, this many take about 2 GB of memory.
 constexpr std::size_t max_values = std::size_t(1) << 25;
 
 /// Receives the parser's events, builds the tree and refuses what the format refuses, before it is built.
@@ -31,7 +31,7 @@ class TreeBuilder {
   bool number_unsigned(Json::number_unsigned_t value) { return put(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) { return put(value); }
   bool string(std::string& value) { return put(std::move(value)); }
-  bool binary(Json::binary_t&) { return false; }  // not in text
+  bool binary(Json::binary_t&) { return false; }  // never called: JSON text has no binary values
   bool start_object(std::size_t) { return open(JsonObject()); }
   bool start_array(std::size_t) { return open(JsonArray()); }
   bool end_array() { return close(); }
@@ -61,7 +61,7 @@ class TreeBuilder {
 
  private:
   std::string_view text_;
-  std::vector<JsonValue*> open_;  ///< containers around the next value; each is the last of the one before
+  std::vector<JsonValue*> open_;  ///< arrays and objects around the next value, from the outermost to the innermost
   std::size_t values_ = 0;
 
   bool refuse(Broken why) {
@@ -103,7 +103,7 @@ class TreeBuilder {
     return true;
   }
 
-  /// Pointer of the value that is being read in the first `levels` open containers.
+  /// JSON pointer of the value that is being read, counting only the first `levels` open containers.
   std::string where(std::size_t levels) const {
     std::string out;
     for (std::size_t i = 0; i < std::min(levels, open_.size()); ++i) {

@@ -47,7 +47,8 @@ void print(const JsonValue& json, std::string& out, std::size_t indent, std::siz
   const auto* object = std::get_if<JsonObject>(&json.value);
   const bool is_leaf = !array && !object;
   std::string line;
-  const std::size_t limit = is_leaf ? line.max_size() : width - std::min(width, column + 1);  // 1: a comma may follow
+  // The 1 keeps a place for a comma after the value.
+  const std::size_t limit = is_leaf ? line.max_size() : width - std::min(width, column + 1);
   if ((is_leaf || !open) && print_line(json, line, limit)) {
     out += line;
     return;

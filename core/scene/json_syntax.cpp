@@ -28,7 +28,7 @@ struct Span {
 };
 Span token_at(std::string_view text, std::size_t last) {
   Span span{last, last + 1};
-  if (text[last] == '"' && last > 0) {  // the parser reads a whole text before it finds it misplaced
+  if (text[last] == '"' && last > 0) {  // the parser reads a whole string before it finds that it is misplaced
     const std::size_t opening = text.rfind('"', last - 1);
     if (opening != text.npos && text.substr(opening, last - opening).find('\n') == text.npos) span.begin = opening;
   } else if (is_word(text[last])) {

@@ -12,7 +12,7 @@
 /// command line use the same words.
 namespace tyndall {
 
-/// A rule between values that is broken, at a JSON pointer.
+/// What is wrong with a scene, and where: a JSON pointer, or a line and column.
 struct Broken {
   std::string where, found, expected;
 };

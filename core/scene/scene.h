@@ -56,7 +56,7 @@ inline constexpr auto fields(const Translate*) {
 /// Applied in the order of the list.
 using Transform = std::vector<std::variant<RotateY, Translate>>;
 
-/// A shape with a surface.
+/// A shape with a surface of some material.
 struct Solid3d {
   std::variant<Sphere<>, Quad<>, Box<>> shape;
   int material = 0;  ///< index into Scene::materials
