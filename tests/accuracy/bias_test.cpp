@@ -29,7 +29,7 @@ Film noisy_film(unsigned seed, float factor) {
 
 }  // namespace
 
-TEST_CASE("block scores: noise is noise, ten percent in half of the picture is not") {
+TEST_CASE("block scores: films that differ by noise alone pass, ten percent more in half of the picture fails") {
   const Film plain = noisy_film(1, 1);
   for (unsigned seed = 2; seed < 6; ++seed) {
     const BlockScores same = block_scores(plain, noisy_film(seed, 1));
@@ -42,7 +42,7 @@ TEST_CASE("block scores: noise is noise, ten percent in half of the picture is n
   CHECK(biased.mean_square > 2);
 }
 
-TEST_CASE("block scores: equal films, other regions, empty halves, differences without noise") {
+TEST_CASE("block scores: films that are equal, of other regions, with empty halves, or different without noise") {
   const Film film = noisy_film(1, 1);
   CHECK(block_scores(film, film).mean_square == 0);
   CHECK(block_scores(film, film).noise());

@@ -21,7 +21,7 @@ TEST_CASE("film mean: by hand for two pixels that show different things") {
         doctest::Approx(0.5 * std::sqrt(0.25)));  // halves 2 and 3 in one pixel, alike in the other
 }
 
-TEST_CASE("image error: numbers by hand") {
+TEST_CASE("image error: is what was computed by hand") {
   const ImageError error = image_error({0.2f, 0.5f, 1.0f}, {0.1f, 0.5f, 0.5f});
   CHECK(error.mse == doctest::Approx((0.01 + 0.25) / 3).epsilon(1e-6));
   CHECK(error.rmse == doctest::Approx(0.294392).epsilon(1e-5));
@@ -41,7 +41,7 @@ TEST_CASE("image error: means run over all pixels, channel by channel") {
   CHECK(image_error({-3, 0, 0}, {0, -1, 0}).psnr == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("image error: equal images, and what is not a number") {
+TEST_CASE("image error: of equal images it is 0, and what is not a number is not hidden") {
   const std::vector<float> image = {0.1f, 0.2f, 0.3f};
   CHECK(image_error(image, image).mse == 0);
   CHECK(image_error(image, image).psnr == std::numeric_limits<double>::infinity());

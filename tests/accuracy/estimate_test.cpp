@@ -139,7 +139,7 @@ TEST_CASE("estimated error: samples that are rare and bright do not hide how wro
 
 namespace {
 
-/// A 9 x 9 film of level 0.3 in both halves but for the pixel in the middle.
+/// A film of 9 x 9 pixels: both halves are 0.3 everywhere except in the middle pixel, where they are the given numbers.
 Film flat_film(float middle_a, float middle_b) {
   Film film = make_film(9, 9, {0, 0, 9, 9}, 0, 4);
   for (int i = 0; i < 81; ++i) {
@@ -181,7 +181,7 @@ TEST_CASE("estimated error: the same bits for any number of threads, and picture
     Film film = make_film(100, 100, {3, 2, 3 + columns, 2 + rows}, 0, 2);
     std::mt19937 engine(7);
     for (FilmPixel& pixel : film.pixels) {
-      pixel.taken = static_cast<std::uint32_t>(2 + engine() % 5);  // as a pass under way leaves them
+      pixel.taken = static_cast<std::uint32_t>(2 + engine() % 5);  // unequal, as in the middle of a pass
       for (std::uint32_t s = 0; s < pixel.taken; ++s) {
         const auto value = static_cast<float>(engine() % 100) * 0.01f;
         add_sample(pixel, s & 1, {value, 1 - value, 0.5f}, 1 / film.unit);
@@ -220,7 +220,7 @@ TEST_CASE("estimated error: the unit of a film does not matter, however bright o
   }
 }
 
-TEST_CASE("few pixels: noise of known size does not rest on them, one bright sample does") {
+TEST_CASE("few pixels: the error of even noise does not rest on a few of them, that of one bright sample does") {
   Film film = noisy_film(16, 1);
   CHECK_FALSE(estimate_error(film).rests_on_few_pixels);
   add_sample(film.at(100, 60), 0, {60 * 64, 60 * 64, 60 * 64}, 1 / film.unit);

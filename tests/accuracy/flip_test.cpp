@@ -161,7 +161,7 @@ TEST_CASE("FLIP: a difference that fills the picture is seen more than one that 
   CHECK(mean(flip_map(fine, grey, width, height)) < mean(flip_map(one_colour(0.6f, 0.6f, 0.6f), grey, width, height)));
 }
 
-TEST_CASE("FLIP looks at [0, 1] only; what is not a number is black") {
+TEST_CASE("FLIP clips values to [0, 1], and takes what is not a number for black") {
   const std::vector<float> white = one_colour(1, 1, 1), bright = one_colour(9, 2, 1e30f);
   CHECK(mean(flip_map(white, bright, width, height)) == 0);
   std::vector<float> nan = one_colour(0, 0, 0);
@@ -170,7 +170,7 @@ TEST_CASE("FLIP looks at [0, 1] only; what is not a number is black") {
   CHECK(mean(flip_map(nan, one_colour(0, 0, 0), width, height)) == 0);
 }
 
-TEST_CASE("FLIP of pictures smaller than its filters") {
+TEST_CASE("FLIP works on pictures that are smaller than its filters") {
   const std::vector<float> map = flip_map({1, 0, 0}, {0, 0, 1}, 1, 1);
   REQUIRE(map.size() == 1);
   CHECK(map[0] > 0.5f);

@@ -47,7 +47,7 @@ def refuse(name): raise ValueError(name + " is not JSON")
 print(json.dumps(json.load(open(sys.argv[1]), parse_constant=refuse)[sys.argv[2]]))' "$1" "$2"
 }
 
-# same NAME A B
+# same NAME A B: fails, and names what differs, unless A and B are equal.
 same() {
   [ "$2" = "$3" ] || fail "$1: '$2' and '$3' differ"
 }
@@ -71,7 +71,7 @@ wait_worked() {
   done
 }
 
-# no_leftovers: no half files.
+# no_leftovers: fails if a file is left that was only half written.
 no_leftovers() {
   local left
   left=$(find . -name '*.tmp-*')

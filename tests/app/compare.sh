@@ -37,7 +37,7 @@ cp out equal.json
 same 'psnr of equal images' "$(json equal.json psnr)" null
 same 'flip of equal images' "$(json equal.json flip)" 0.0
 
-# Checks: 1, and the table is there all the same.
+# A check that fails gives exit code 1, and the table is printed all the same.
 expect 0 "$tyndall" compare red.pfm grey.pfm --max-rmse 0.058
 expect 1 "$tyndall" compare red.pfm grey.pfm --max-rmse 0.057
 grep -q RMSE out || fail 'no table with a failed check'
@@ -49,7 +49,7 @@ expect 0 "$tyndall" compare broken.pfm grey.pfm --json
 cp out broken.json
 same 'mse with a NaN' "$(json broken.json mse)" null
 
-# Different sizes: 2. Files that are no images: 3.
+# Images of different sizes give exit code 2, files that are no images 3.
 expect 2 "$tyndall" compare large.pfm grey.pfm
 complains 'large.pfm' '16x9' '16x8'
 echo text >text.png

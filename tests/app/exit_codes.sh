@@ -11,7 +11,7 @@ for arguments in --help -h --version 'render --help' 'compare --help' 'view --he
   [ ! -s err ] || fail "$arguments complains: $(cat err)"
 done
 
-# Wrong usage: 2.
+# Wrong usage gives exit code 2.
 expect 2 "$tyndall" render
 complains 'SCENE is missing'
 expect 2 "$tyndall" render cornell-box
@@ -53,7 +53,7 @@ complains '"plaet"' 'did you mean "plate"?'
 expect 2 "$tyndall" verify plate fog-bal/
 complains '"fog-bal/"' 'fog-ball'
 
-# Scenes that cannot be read: 2.
+# Scenes that cannot be read give exit code 2.
 expect 2 "$tyndall" render missing.json -o a.png
 complains 'missing.json'
 expect 2 "$tyndall" render cornell-bxo -o a.png
@@ -70,7 +70,7 @@ complains '/materials/nobody'
 expect 2 "$tyndall" render cornell-box -o a.png --set /camera/vfov=fast
 complains '/camera/vfov' 'fast'
 
-# Input and output: 3.
+# Files that cannot be read or written give exit code 3.
 expect 3 "$tyndall" render cornell-box -o folder/a.png --spp 100000
 complains 'folder/a.png' 'folder'
 expect 3 "$tyndall" render cornell-box -o /proc/tyndall.png --spp 100000
@@ -89,7 +89,7 @@ expect 3 env TYNDALL_ASSETS=/nowhere "$tyndall" scenes
 complains 'TYNDALL_ASSETS'
 [ ! -e a.png ] || fail 'an image was written in spite of an error'
 
-# Standard output that is closed or full is an error for data, and no harm to an image.
+# If standard output is closed or full, commands that print data fail; a render that writes an image does not.
 expect 3 bash -c '"$0" scenes >&-' "$tyndall"
 complains 'standard output'
 if [ -w /dev/full ]; then

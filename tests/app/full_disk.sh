@@ -19,7 +19,7 @@ grep -q 'big.pfm: cannot write' err || fail "big.pfm is not named: $(cat err)"
 same 'spp' "$(json figures.json spp)" 1
 no_leftovers
 
-# What was there before stays.
+# A file that was there before stays as it was.
 echo precious >big.pfm
 (
   ulimit -f 200

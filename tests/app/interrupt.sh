@@ -5,7 +5,7 @@
 files=(long.png)
 if has_exr; then files+=(long.exr); fi
 
-# interrupted SIGNAL CODE: a long render that gets the signal after a while.
+# interrupted SIGNAL CODE: starts a long render, sends it the signal after a while, and expects the exit code.
 interrupted() {
   rm -f long.*
   "$tyndall" render cornell-box --size 64x64 --spp 10000000 "${files[@]/#/--output=}" --stats long.json -q &
@@ -23,7 +23,7 @@ interrupted() {
 interrupted TERM 143
 interrupted INT 130
 
-# Resumed to a round number, it is the picture of one render.
+# Continued to the number of samples of an uninterrupted render, it gives the same picture.
 if [ -s long.exr ]; then
   spp=$(($(json long.json spp) / 64 * 64 + 128))
   expect 0 "$tyndall" render cornell-box --size 64x64 --spp "$spp" --resume -o long.exr --stats long.json

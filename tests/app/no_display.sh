@@ -20,7 +20,7 @@ command=$(sed "s/.*: tyndall render/tyndall render/" err)
 (PATH=$PWD/bin:$PATH && eval "$command --size 8x8 --spp 1 -q") || fail "does not work: $command"
 [ -s 'my quads.png' ] || fail 'no image'
 
-# A scene that cannot be read is worse than no display.
+# If the scene cannot be read either, that is what is reported.
 expect 2 "$tyndall" missing.json
 complains 'missing.json'
 

@@ -6,7 +6,7 @@ small=(--size 40x30 --spp 4)
 reference=$(image_hash cornell-box "${small[@]}")
 [ "${#reference}" -eq 18 ] || fail "no hash of 16 digits: $reference" # with quotes
 
-# All formats; standard output stays empty, and so does standard error for a short render.
+# Every image format is written. Standard output stays empty, and so does standard error for a short render.
 files=(a.png a.pfm a.hdr)
 reopened=(again.png)
 if has_exr; then
@@ -24,7 +24,7 @@ if has_exr; then expect 0 "$tyndall" compare A.EXR a.pfm --max-rmse 0; fi
 expect 0 "$tyndall" compare a.hdr a.pfm --max-relmse 0.001
 expect 0 "$tyndall" compare a.png a.pfm --max-flip 0.1
 
-# The figures: exactly these, and true.
+# The figures that --stats writes have exactly these names, and they are true.
 python3 - a.json <<'CHECK' || fail 'stats'
 import json, sys
 stats = json.load(open(sys.argv[1]))
@@ -104,11 +104,11 @@ expect 0 "$tyndall" render metal-spheres --size 16x16 --target-error 0.05 -o lim
 python3 -c 'import sys; sys.exit(not float(sys.argv[1]) <= 0.05)' "$(json limit.json relative_error_estimate)" ||
   fail '--target-error'
 
-# What the error cannot say is said without progress too.
+# The warning that the error cannot be trusted is also given with -q.
 expect 0 "$tyndall" render stress-light-and-fuzz --size 16x16 --spp 4 -q -o rare.pfm
 complains 'not converged: rare bright paths'
 
-# Each instruction set that there is works.
+# Every available instruction set works.
 for isa in scalar sse4 avx2 avx512; do
   if "$tyndall" render cornell-box "${small[@]}" --isa "$isa" -q -o isa.pfm --stats isa.json 2>/dev/null; then
     same "--isa $isa" "$(json isa.json isa)" "\"$isa\""

@@ -35,7 +35,7 @@ grep -q '^    by chains   [0-9]' out || fail "no chains: $(cat out)"
 expect 0 "$tyndall" render stress-caustic-shell --size 32x24 --replay 10,20,1 --caustics scatter
 ! grep -q 'by chains' out || fail "chains by chance: $(cat out)"
 
-# Bad requests.
+# Requests that cannot be fulfilled are refused.
 expect 2 "$tyndall" render showroom --size 32x24 --replay 32,0,0
 complains '--replay' '32,0' '32x24'
 expect 2 "$tyndall" render showroom --replay 1,2

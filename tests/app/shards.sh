@@ -36,7 +36,7 @@ expect 2 "$tyndall" merge a.exr all.png -o png.png
 complains 'all.png' 'film'
 for file in gap.png twice.png other.png size.png png.png; do [ ! -e "$file" ] || fail "$file was written"; done
 
-# Going on.
+# A render that is continued.
 expect 0 "$tyndall" render "${scene[@]}" --spp 5 --resume -q -o going.exr # nothing there yet
 expect 0 "$tyndall" render "${scene[@]}" --spp 13 --resume -q -o going.exr --stats going.json
 same 'a render that goes on' "$(json going.json image_hash)" "$whole"
@@ -52,7 +52,7 @@ complains 'going.exr'
 expect 2 "$tyndall" render "${scene[@]}" --samples 4:20 --resume -q -o going.exr
 complains 'going.exr'
 
-# Films of chains and of scattering are of different samples where there are chains; what says so is in the film.
+# In scenes with chains, films made with and without chains must not be mixed: each film file says how it was made.
 balls=(stress-caustic-glass --size 16x12 -q)
 expect 0 "$tyndall" render "${balls[@]}" --samples 0:2 -o chains.exr
 expect 0 "$tyndall" render "${balls[@]}" --samples 2:4 --caustics scatter -o scatter.exr

@@ -10,7 +10,7 @@ for isa in scalar sse4 avx2 avx512; do
   grep -q '0 rejected' out || fail "$isa: $(cat out)"
 done
 
-# The table, and the same for machines.
+# The results as a table and as JSON.
 expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60
 grep -q '^  plate/reflected-n1.5-60deg  *0.1637675 ' out || fail "no row: $(cat out)"
 grep -q 'Born & Wolf' out || fail "no source: $(cat out)"

@@ -15,7 +15,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 }  // namespace
 
-TEST_CASE("lanes of float: min and max answer the second argument where either is not a number") {
+TEST_CASE("lanes of float: min and max return the second argument if either is not a number") {
   CHECK(tyndall::min(1.0f, 2.0f) == 1.0f);
   CHECK(tyndall::min(2.0f, 1.0f) == 1.0f);
   CHECK(tyndall::max(1.0f, 2.0f) == 2.0f);
@@ -24,13 +24,13 @@ TEST_CASE("lanes of float: min and max answer the second argument where either i
   CHECK(tyndall::max(not_a_number, 1.0f) == 1.0f);
   CHECK(std::isnan(tyndall::min(1.0f, not_a_number)));
   CHECK(std::isnan(tyndall::max(1.0f, not_a_number)));
-  // Of two zeros, too, the second.
+  // Of two zeros of different sign the second is answered, too.
   CHECK(std::signbit(tyndall::min(0.0f, -0.0f)));
   CHECK_FALSE(std::signbit(tyndall::min(-0.0f, 0.0f)));
   CHECK(std::signbit(tyndall::max(0.0f, -0.0f)));
 }
 
-TEST_CASE("lanes of float: floor is the largest whole number not above, for every magnitude") {
+TEST_CASE("lanes of float: floor gives the largest whole number not above its argument, at every magnitude") {
   std::mt19937 engine(1);
   std::uniform_real_distribution<float> exponent(-30, 40), sign(-1, 1);
   for (int i = 0; i < 200000; ++i) {
@@ -44,7 +44,7 @@ TEST_CASE("lanes of float: floor is the largest whole number not above, for ever
   CHECK(std::isnan(tyndall::floor(not_a_number)));
 }
 
-TEST_CASE("lanes of float: one lane, one bit") {
+TEST_CASE("lanes of float: there is one lane, and masks have one bit") {
   CHECK(lanes_of<float> == 1);
   CHECK(bits(true) == 1u);
   CHECK(bits(false) == 0u);
@@ -57,7 +57,7 @@ TEST_CASE("lanes of float: one lane, one bit") {
   CHECK_FALSE(all(false));
 }
 
-TEST_CASE("lanes of float: numbers, bits and tables") {
+TEST_CASE("lanes of float: conversions of numbers and bits, and reading from tables") {
   CHECK(float_bits(1.0f) == 0x3f800000u);
   CHECK(float_from_bits(0xbf800000u) == -1.0f);
   CHECK(to_int(2.9f) == 2);

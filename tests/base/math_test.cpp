@@ -40,7 +40,7 @@ TEST_CASE("sin_cos_turn: absolute error below 2.5e-7 over the whole turn") {
   CHECK(largest_error(sine, std_sine, 0, 1e-4, 10000) < 2.5e-7);
   CHECK(largest_error(sine, std_sine, 1 - 1e-4, last, 10000) < 2.5e-7);
   CHECK(tyndall::sin_cos_turn(0.0f).cos == doctest::Approx(1).epsilon(2.5e-7));
-  CHECK(std::abs(tyndall::sin_cos_turn(1.0f).sin) < 2.5e-7f);  // what turn - floor(turn) can round to
+  CHECK(std::abs(tyndall::sin_cos_turn(1.0f).sin) < 2.5e-7f);  // turn - floor(turn) can round to 1
 }
 
 TEST_CASE("sin_cos_turn: the point is on the unit circle to rounding") {
@@ -75,7 +75,7 @@ TEST_CASE("exp: relative error below 4e-7 for |x| below 10, and useful up to 80"
   for (float x = -90; x < 79; x += 0.37f) CHECK(tyndall::exp(x) <= tyndall::exp(x + 0.37f));
 }
 
-TEST_CASE("cube_root: on [0, 1]; 0 gives a number below 1e-12") {
+TEST_CASE("cube_root: is right on [0, 1]; for 0 the result is below 1e-12") {
   const auto f = [](float x) { return tyndall::cube_root(x); };
   CHECK(largest_error(
             f, [](double x) { return std::cbrt(x); }, 0x1p-24, 1, 1000000, true) < 2e-6);
@@ -97,7 +97,7 @@ TEST_CASE("atan2: absolute error below 3e-7 in all directions and magnitudes") {
   CHECK(most < 3e-7);
 }
 
-TEST_CASE("atan2: axes, signs and the origin") {
+TEST_CASE("atan2: is right on the axes, for zeros of both signs and at the origin") {
   CHECK(tyndall::atan2(0.0f, 0.0f) == 0.0f);
   CHECK(tyndall::atan2(0.0f, 5.0f) == 0.0f);
   CHECK(wide(tyndall::atan2(0.0f, -5.0f)) == doctest::Approx(pi));
@@ -124,7 +124,7 @@ TEST_CASE("in double the functions are the standard library's") {
   CHECK(tyndall::atan2(0.3, -0.7) == std::atan2(0.3, -0.7));
 }
 
-TEST_CASE("basis_around: unit, at right angles, right-handed; also about the poles") {
+TEST_CASE("basis_around: gives unit vectors at right angles, right-handed, also near the poles") {
   std::mt19937 engine(1);
   std::normal_distribution<float> normal;
   const auto check = [](Vec3f n) {

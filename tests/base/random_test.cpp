@@ -27,7 +27,7 @@ FloatDice dice_of(Key k, bool sobol = false) {
 constexpr std::uint32_t edge = 256;
 constexpr int dimensions = 8;
 
-/// What differs between two sets of samples that should not know of each other.
+/// By what one set of samples differs from another of which it should be independent.
 struct Shift {
   std::uint32_t seed = 0, sample = 0, dx = 0, dy = 0;
   int events = 0;
@@ -49,7 +49,8 @@ std::vector<std::array<double, dimensions>> numbers(const Shift& by, bool sobol)
   return all;
 }
 
-/// Largest correlation of any dimension of a with any of b; `same`: they are one set, whose diagonal is 1.
+/// Largest correlation of any dimension of a with any dimension of b. same: a and b are one set, so that a dimension is
+/// not compared with itself.
 double largest_correlation(const std::vector<std::array<double, dimensions>>& a,
                            const std::vector<std::array<double, dimensions>>& b, bool same = false) {
   double most = 0;
@@ -79,7 +80,7 @@ TEST_CASE("dice: dimensions, neighbouring pixels, samples, events and seeds are 
     const double limit = 4 / std::sqrt(static_cast<double>(base.size()));
     CAPTURE(sobol);
     CHECK(largest_correlation(base, base, true) < limit);
-    // Sample 1 is of the other half; of one half, points are stratified together.
+    // Sample 1 is in the other half of the film. Samples of the same half are stratified together, so not independent.
     const Shift shifts[] = {{.dx = 1},   {.dy = 1},     {.dx = 1, .dy = 1},   {.sample = 1},
                             {.seed = 1}, {.events = 1}, {.seed = 1, .dx = 1}, {.sample = 1, .dx = 1}};
     for (const Shift& by : shifts) CHECK(largest_correlation(base, numbers(by, sobol)) < limit);

@@ -120,7 +120,7 @@ TEST_CASE("around: unit, with the given cosine to the axis, for every axis") {
 
 TEST_CASE("around: all turns about the axis are equally likely") {
   const Vec3f axis = normalize(Vec3f{0.3f, -0.5f, -0.8f});
-  // Any pair of directions across the axis will do.
+  // Any two directions at right angles to the axis and to each other will do.
   const Vec3f s = normalize(cross(axis, Vec3f{0, 1, 0})), t = cross(axis, s);
   std::vector<int> bins(64);
   for (int i = 0; i < count; ++i) {

@@ -64,7 +64,7 @@ struct Crossing {
   bool found = false;
 };
 
-/// The first number of samples with an error of at most `target`: numbers are doubled until one has it, then halved in.
+/// The smallest number of samples with an error of at most `target`, found by doubling, and then by bisection.
 Crossing find_crossing(const Contest& contest, double target) {
   constexpr std::uint32_t most = 4096;
   std::uint32_t below = 0, spp = 1;
@@ -102,7 +102,7 @@ Json row_of(const NamedScene& named, const Effort& effort, double target, const 
   const Crossing crossing = find_crossing(contest, target);
   std::vector<double> seconds;
   for (int i = 0; crossing.found && i < effort.repeat; ++i) {
-    Film film;  // given back after the time is taken
+    Film film;  // outside of the measured call, so that freeing its memory is not measured
     seconds.push_back(seconds_of([&] { film = contest.film(crossing.spp); }));
   }
   Json row;

@@ -15,15 +15,15 @@ constexpr Embree::Width widths[] = {Embree::Width::one, Embree::Width::sixteen, 
 constexpr const char* width_keys[] = {"embree_1_mrays_per_s", "embree_16_mrays_per_s",
                                       "embree_16_coherent_mrays_per_s"};
 
-/// Both miss, or both hit at the same distance: to a thousandth, and to the rounding of single precision in a sphere of
-/// that radius, which is what both work in.
+/// Whether both miss, or both hit at the same distance, to a thousandth or to the rounding of single precision for a
+/// sphere of that radius, in which both compute.
 bool agree(const TraceHit& a, const TraceHit& b, const Elements& elements) {
   if (a.element < 0 || b.element < 0) return a.element < 0 && b.element < 0;
   const float radius = 1 / elements.inverse_radius[static_cast<std::size_t>(a.element)];
   return std::abs(a.t - b.t) <= 1e-3f * std::max(a.t, b.t) + 0x1p-22f * radius;
 }
 
-/// Throws unless nearly all of our hits are also theirs; the rest graze, or start where two spheres meet.
+/// Throws unless nearly all hits are the same in both. The rest are rays that graze a sphere or start where two meet.
 void check_agreement(const std::vector<TraceHit>& ours, const std::vector<TraceHit>& theirs, const RenderScene& scene) {
   constexpr double least = 0.999;
   std::size_t same = 0;

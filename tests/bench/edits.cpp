@@ -14,7 +14,7 @@ namespace tyndall::bench {
 namespace {
 
 constexpr int width = 1280, height = 720;
-constexpr auto pause_between = std::chrono::milliseconds(40);  // passes are running again when the next edit comes
+constexpr auto pause_between = std::chrono::milliseconds(40);  // so that passes run when the next edit comes
 constexpr auto patience = std::chrono::seconds(30);
 
 /// When the pictures of an edit came.
@@ -24,7 +24,7 @@ struct Arrivals {
   int step = 0;         ///< of the first frame
 };
 
-/// The interactive renderer with nobody looking, and a clock.
+/// The interactive renderer without a window, and a clock.
 class Viewer {
  public:
   Viewer() : renderer_(Renderer::Options{}, [this] { note_frame(); }) {}
@@ -61,7 +61,7 @@ class Viewer {
   std::optional<Clock::time_point> first_, full_;
   std::uint64_t shown_ = 0;  ///< newest edit of which a full frame came
   int step_ = 0;
-  Renderer renderer_;  // last: its threads end first
+  Renderer renderer_;  // declared last, so that its threads end first
 };
 
 /// The i-th scene of a series in which one thing moves a little each time.
@@ -140,7 +140,7 @@ Json measure_edits(const Settings& settings) {
                {"give_way_p95_ms", "p95", 2, 6}});
   for (const char* name : {"showroom", "cornell-smoke", "cover"}) {
     NamedScene named{name, built_in(name, width, height)};
-    named.scene.render.spp = 65536;  // never done
+    named.scene.render.spp = 65536;  // so many that the picture is never finished
     table.add(row_of(named, "material", drag_material, count));
     table.add(row_of(named, "camera", orbit, count));
   }

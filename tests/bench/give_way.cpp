@@ -9,8 +9,8 @@
 namespace tyndall::bench {
 namespace {
 
-/// How long a pass of that many samples goes on after it is asked, some time after its start, to give up; nothing if it
-/// was done before. The film's first sample must be there.
+/// Starts a pass of that many samples, asks it to give up after some time, and measures how long it goes on. The result
+/// is empty if the pass was done before. The film must have its first sample.
 std::vector<double> give_way(Crew& crew, const SceneView& view, Film& film, std::uint32_t samples,
                              std::chrono::microseconds after) {
   const Kernels kernels = *choose_kernels("");

@@ -23,8 +23,8 @@ class Walk {
     return {c.center, normalize(c.corner + x * c.du + y * c.dv), 0, from_nowhere};
   }
 
-  /// The ray that leaves what `ray` hit in a cosine-weighted direction. It starts a few roundings above the surface, so
-  /// that who is not told where it starts does not meet that surface again.
+  /// The ray that leaves the surface which `ray` hit, in a cosine-weighted direction. It starts a few roundings above
+  /// the surface, so that Embree, which does not know where rays start, does not meet that surface again.
   TraceRay bounce(const TraceRay& ray, const TraceHit& hit) {
     const Elements& e = scene_.elements;
     const auto i = static_cast<std::size_t>(hit.element);

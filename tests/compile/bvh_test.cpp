@@ -29,7 +29,7 @@ Bounds child_bounds(const BvhNode& node, int c) {
   return {{node.low[0][c], node.low[1][c], node.low[2][c]}, {node.high[0][c], node.high[1][c], node.high[2][c]}};
 }
 
-/// Walks a tree and counts everything that is not as it is promised.
+/// Walks a tree and counts every breach of what core/compile/bvh.h promises.
 struct Walk {
   const Bvh& bvh;
   std::vector<std::vector<std::int32_t>> slots;  ///< inputs of each kind, in the order of their slots
@@ -158,7 +158,7 @@ TEST_CASE("bvh: a huge sphere does not spoil the tree of the others") {
   }
 }
 
-TEST_CASE("bvh: flat and pointlike boxes") {
+TEST_CASE("bvh: primitives whose boxes are flat, or a single point, are found") {
   Engine engine(4);
   std::vector<BvhInput> flat, points, one_plane;
   for (int i = 0; i < 2000; ++i) {
@@ -175,7 +175,7 @@ TEST_CASE("bvh: flat and pointlike boxes") {
 TEST_CASE("bvh: of a hundred thousand equal spheres the first one is met, on every instruction set") {
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  for (int i = 0; i < 100000; ++i)  // no exact copies, which are left out, but the same in single precision
+  for (int i = 0; i < 100000; ++i)  // not exact copies, which would be left out, but equal in single precision
     scene.objects.push_back({"", Solid3d{Sphere<>{{0, 0, 0}, 1 + 1e-14 * i, {}}, 0}, {}});
   const RenderScene compiled = compile(scene);
   Engine engine(5);
@@ -188,7 +188,7 @@ TEST_CASE("bvh: of a hundred thousand equal spheres the first one is met, on eve
     for (const TraceHit& hit : traced(kernels, compiled, rays)) CHECK(hit.element == 0);
 }
 
-TEST_CASE("bvh: a thousand concentric spheres, and spheres from 1e-6 to 1e6: as without the tree") {
+TEST_CASE("bvh: a thousand spheres around one centre, and spheres from 1e-6 to 1e6, are met as without the tree") {
   for (const bool concentric : {true, false}) {
     Engine engine(6);
     Scene scene;
@@ -227,7 +227,7 @@ TEST_CASE("bvh: a sphere of radius 1e30 hides nothing") {
   scene.objects.push_back({"", Solid3d{Sphere<>{{0, -2e30, 0}, 1e30, {}}, 0}, {}});
   const RenderScene with = compile(scene);
   const auto rays = random_rays(engine, 20000, 8);
-  std::vector<TraceRay> moved = rays;  // the new sphere moves the origin
+  std::vector<TraceRay> moved = rays;  // the new sphere has moved the compiled scene's origin
   for (TraceRay& ray : moved) ray.origin = rounded(exact(ray.origin) + without.origin - with.origin);
   for (const Kernels& kernels : available_kernels()) {
     const auto before = traced(kernels, without, rays), after = traced(kernels, with, moved);
@@ -238,6 +238,6 @@ TEST_CASE("bvh: a sphere of radius 1e30 hides nothing") {
       lost += after[i].element == before[i].element ? 0 : 1;
     }
     CHECK(met > 1000);
-    CHECK(lost <= 1);  // the rays differ by a rounding
+    CHECK(lost <= 1);  // the moved rays are rounded, so one at an edge may miss
   }
 }

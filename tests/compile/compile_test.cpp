@@ -122,7 +122,7 @@ TEST_CASE("compile: the tree is kept when the geometry is equal, and built anew 
   CHECK(keeps([](Scene& s) { s.camera.look_from = {1, 2, 30}, s.camera.vfov = 20, s.camera.defocus_angle = 1; }));
   CHECK(keeps([](Scene& s) { s.render.seed = 7, s.background = Gradient{}, s.width = 10; }));
   CHECK(keeps([](Scene& s) { s.objects[0].name = "renamed"; }));
-  // A medium has no place in the tree, but moves the origin; here it stands in it.
+  // A medium is not in the tree, but it could move the origin. This one does not: it stands at the origin.
   CHECK(keeps([&](Scene& s) { s.objects.push_back(fog(Sphere<>{before.origin, 1, {}})); }));
   const auto sphere = [](Scene& s) -> Sphere<>& {
     return std::get<Sphere<>>(std::get<Solid3d>(s.objects[0].kind).shape);
@@ -139,7 +139,7 @@ TEST_CASE("compile: few primitives are tested one by one, more get a tree") {
   std::vector<Object> objects;
   for (int i = 0; i < 16; ++i) objects.push_back(ball({3.0 * i, 0, 0}));
   CHECK_FALSE(compile(one_material(objects)).bvh);
-  objects.push_back(fog(Box<>{}));  // no primitive
+  objects.push_back(fog(Box<>{}));  // a medium is not a primitive
   CHECK_FALSE(compile(one_material(objects)).bvh);
   objects.push_back(ball({0, 9, 0}));
   CHECK(compile(one_material(objects)).bvh);
@@ -165,7 +165,7 @@ TEST_CASE("compile: needs name what is in the scene, and nothing else") {
   CHECK(needs_of(scene) == "spheres dielectric background ");
   scene.objects.push_back({"", Solid3d{Quad<>{}, 2}, {}});
   CHECK(needs_of(scene) == "spheres quads dielectric lights textures background ");
-  scene.camera.shutter_close = 1;  // nothing moves
+  scene.camera.shutter_close = 1;  // the shutter is not needed, because nothing moves
   CHECK(needs_of(scene) == "spheres quads dielectric lights textures background ");
   scene.objects.push_back({"", Solid3d{Sphere<>{{}, 1, Vec3d{1, 0, 0}}, 1}, {}});
   CHECK(needs_of(scene) == "spheres moving_spheres quads lambertian dielectric lights textures background shutter ");
@@ -201,7 +201,7 @@ TEST_CASE("compile: a medium's elements are those of the shape it fills, else it
   CHECK((m[1].first == 0 && m[1].count == 1 && !m[1].box));
   CHECK((m[2].first >= 7 && m[2].count == 1));
   CHECK((m[3].first >= m[2].first + m[2].count && m[3].count == 6));
-  CHECK(same(m[0].map, compiled.boxes.map[0]));  // the same arithmetic for the surface and what is inside
+  CHECK(same(m[0].map, compiled.boxes.map[0]));  // so the surface and its interior are computed alike, bit for bit
   CHECK(m[1].center == Vec3f{compiled.spheres.x[0], compiled.spheres.y[0], compiled.spheres.z[0]});
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("hull: boxes, other quads, motion and media count") {
   CHECK(bounds_scene(square_and(tilted), 0, camera));
   tilted.corner.x = 0.5;
   CHECK_FALSE(bounds_scene(square_and(tilted), 0, camera));
-  Quad<> lamp;  // in its plane: which of the two is seen is decided by ties, for shadow rays too
+  Quad<> lamp;  // in the wall's plane: shadow rays need the wall, because ties decide which of the two is met
   lamp.corner = {0, 0, 0}, lamp.u = {0, 0.5, 0}, lamp.v = {0, 0, 0.5};
   CHECK_FALSE(bounds_scene(square_and(lamp), 0, camera));
   lamp.corner.x = 1e-3;

@@ -38,7 +38,7 @@ Scene textured_wall(const TextureKinds<double>& texture, Vec3d middle) {
   return scene;
 }
 
-/// Puts the origin elsewhere: most shapes are there, out of sight.
+/// Moves the compiled scene's origin elsewhere, by adding shapes there that are out of sight.
 void drag_origin(Scene& scene, Vec3d to) {
   for (int i = 0; i < 4; ++i) scene.objects.push_back({"", Solid3d{Sphere<>{to, 0.01 + 1e-3 * i, {}}, 1}, {}});
 }
@@ -108,7 +108,7 @@ TEST_CASE("textures in world space: as defined, wherever the scene and its origi
           CAPTURE(std::string(texture.name));
           CAPTURE(std::string(kernels.isa));
           CAPTURE(away.x);
-          CHECK(wrong <= edge * edge / 200);  // a checker's edge may be a rounding away
+          CHECK(wrong <= edge * edge / 200);  // points on a checker's edge may be rounded to its other side
           if (std::string(texture.name) != "turbulence") CHECK((bright > 500 && bright < edge * edge - 500));
         }
       }

@@ -185,7 +185,7 @@ TEST_CASE("film: resolve gives the means, row by row") {
   CHECK(resolve(film) == std::vector<float>{0, 0, 0, 0.5f, 0.25f, 2});
 }
 
-TEST_CASE("film: emission is a sum of its own, of what counts") {
+TEST_CASE("film: emission is summed apart, and rejected samples do not count in it") {
   Film film = make_film(1, 1, {0, 0, 1, 1}, 0, 4, true);
   CHECK(bytes_per_pixel(true) == bytes_per_pixel(false) + sizeof(EmissionSums));
   const float infinity = std::numeric_limits<float>::infinity();
@@ -193,7 +193,7 @@ TEST_CASE("film: emission is a sum of its own, of what counts") {
     add_sample(film.pixels[0], 1, radiance, 0.25);
     add_emission(film.emission[0], 1, radiance, 0.25);
   }
-  film.pixels[0].taken = 6;  // three of them of half 0, which met no lamp
+  film.pixels[0].taken = 6;  // three of them are in half 0 and met no lamp
   CHECK(half_emission(film, 0, 0) == Vec3f{});
   CHECK(half_emission(film, 0, 1).x == 2);
   CHECK(half_emission(film, 0, 1).y == 1);

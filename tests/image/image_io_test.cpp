@@ -56,7 +56,7 @@ TEST_CASE("png: carries the scene, byte for byte") {
   CHECK(read_embedded_scene(folder / "c.png") == large.scene);
 }
 
-// The chunk sRGB with intent 0 and its checksum AECE1CE9 stand in every second PNG of the world.
+// The checksum AECE1CE9 of the chunk sRGB with intent 0 is known from the many PNG files that have this chunk.
 TEST_CASE("png: chunks have length, type, data and checksum") {
   const fs::path file = scratch_folder("png_chunks") / "a.png";
   write_png(file, small_image(), 0, ToneMap::srgb, {"{}", ""});
@@ -152,10 +152,10 @@ TEST_CASE("hdr: keeps 8 bits of the brightest channel, rounded to nearest") {
   CHECK(read_sum / sum == doctest::Approx(1).epsilon(5e-4));
 }
 
-TEST_CASE("hdr: plain rows, and headers that are something else") {
+TEST_CASE("hdr: reads rows that are not compressed, and refuses headers that are something else") {
   const fs::path file = scratch_folder("hdr_kinds") / "a.hdr";
   const std::string start = "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\n\n";
-  // 4 pixels: the first looks like the start of a row in runs, but so short a row is plain.
+  // The first of 4 pixels looks like the start of a row in runs, but rows of fewer than 8 pixels are always plain.
   const std::string pixels(
       "\2\2\0\4"
       "\x80\0\0\x81"
@@ -189,7 +189,7 @@ TEST_CASE("hdr: what the format cannot hold becomes the nearest that it can") {
 }
 
 // A 2 x 1 BMP and a 2 x 1 TGA of red and (64, 128, 192), and a grey PGM, byte by byte.
-TEST_CASE("rgb8: other formats and channel counts") {
+TEST_CASE("rgb8: reads other formats and numbers of channels") {
   const fs::path folder = scratch_folder("rgb8");
   const std::vector<std::uint8_t> expected = {255, 0, 0, 64, 128, 192};
   std::string bmp("BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\1\0\0\0\1\0\x18\0", 30);

@@ -93,7 +93,8 @@ TEST_CASE("writing: only whole files appear, and nothing else") {
 
 TEST_CASE("writing: a full disk leaves the old file and no scraps") {
   const fs::path folder = scratch_folder("write_full");
-  const std::pair<rlim_t, int> cases[] = {{0, 4}, {0, 100}, {100, 100}, {6000, 100}};  // fails when closing, or before
+  // Some of these fail only when the file is closed, the others before.
+  const std::pair<rlim_t, int> cases[] = {{0, 4}, {0, 100}, {100, 100}, {6000, 100}};
   for (const auto& [room, size] : cases) {
     for (const auto& [name, write] : writers(size, size)) {
       CAPTURE(name);

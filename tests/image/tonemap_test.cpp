@@ -15,7 +15,7 @@ TEST_CASE("sRGB: values of the standard") {
   CHECK(srgb_decode(0.5f) == doctest::Approx(0.214041));
 }
 
-TEST_CASE("sRGB: there and back") {
+TEST_CASE("sRGB: decoding undoes encoding") {
   for (int i = 0; i <= 1000; ++i) {
     const float linear = static_cast<float>(i) / 1000;
     CHECK(std::abs(srgb_decode(srgb_encode(linear)) - linear) < 3e-7f);
@@ -29,7 +29,7 @@ TEST_CASE("sRGB: all 256 bytes come back as they were") {
   for (std::size_t i = 0; i < 256; ++i) CHECK(bytes[i] == i);
 }
 
-TEST_CASE("tone map: exposure in stops, clipping, and numbers that are none") {
+TEST_CASE("tone map: counts exposure in stops, clips to [0, 1], and makes what is not a number black") {
   const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   using Bytes = std::vector<std::uint8_t>;
   CHECK(tone_map({0.25f, 0.5f, 1}, 0, ToneMap::srgb) == Bytes{137, 188, 255});

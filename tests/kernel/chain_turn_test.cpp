@@ -7,7 +7,8 @@
 #include <random>
 #include <vector>
 
-/// Ways through concentric spheres: all of them are found, and the solid angle they fill is what rays find.
+/// Ways of light through spheres around one centre: all of them are found, and the solid angle that chains compute for
+/// a lamp is the one that traced rays find.
 using namespace tyndall;
 
 namespace {
@@ -35,7 +36,8 @@ double turn_there(const Turn<double>& turn, double s) {
   return sum;
 }
 
-/// How often the turn passes angle or -angle, full turns added, between many places.
+/// How many ways there are, found by a slow search: counts how often the turn passes `angle` or its negative, plus any
+/// number of full turns, from one of many places of s to the next.
 int roots_by_search(const Turn<double>& turn, double angle) {
   constexpr int places = 20000;
   const double first = static_cast<double>(least_parameter);
@@ -83,7 +85,7 @@ TEST_CASE("chains: as many ways are found as a search finds, and each turns as w
       CHECK(std::abs(off - std::round(off)) < 1e-3);
     }
   }
-  CHECK(differ <= 1);  // where two ways are about to merge, rounding decides
+  CHECK(differ <= 1);  // where two ways are about to merge, rounding decides whether there are two or none
   CHECK(count > 150);
 }
 

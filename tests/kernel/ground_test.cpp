@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-/// The books' ground: a ball so large that a float cannot tell where its surface is.
+/// The books' ground is a ball so large that single precision cannot tell exactly where its surface is.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -70,10 +70,10 @@ TEST_CASE("ground: of a million diffuse bounces none meets the ground again, at 
     bounces += static_cast<int>(leaving.size());
   }
   CHECK(bounces > 1000000);
-  CHECK(naive > bounces / 100);  // with a least distance of 0.0001 some percent do
+  CHECK(naive > bounces / 100);  // with the books' least distance of 0.0001 some percent do
 }
 
-TEST_CASE("ground: of radius 1000 lies below a plane by its curvature and no more than rounding beside") {
+TEST_CASE("ground: with radius 1000 it lies below a plane by its curvature, to rounding") {
   const Kernels kernels = available_kernels().back();
   for (const double radius : {1e3, 1e5}) {
     const RenderScene scene = ground(radius);

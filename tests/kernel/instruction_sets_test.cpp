@@ -47,7 +47,7 @@ constexpr const char* scenes[] = {"showroom", "cornell-box", "cornell-smoke", "b
 
 }  // namespace
 
-TEST_CASE("instruction sets: the same samples give the same pixels, but for a few flipped decisions") {
+TEST_CASE("instruction sets: the same samples give the same pixels, except where rounding changes a path's decision") {
   for (const std::string name : scenes) {
     const RenderScene scene = small(name, 0);
     const std::vector<float> plain = picture(scalar_kernels(), scene, 0, 1);
@@ -81,7 +81,7 @@ TEST_CASE("instruction sets: pictures of other seeds differ by their noise alone
         for (std::size_t b = 0; b < batches; ++b)
           differences.push_back(block(plain[b], index, 1) - block(other[b], index, 1));
         const test::Estimate e = test::estimate(differences);
-        if (e.error == 0) continue;  // a block of one colour
+        if (e.error == 0) continue;  // the block has no noise, because all its samples are equal
         const double z = e.mean / e.error;
         squares += z * z, sum += z, worst = std::max(worst, std::abs(z));
         ++count;
@@ -117,7 +117,7 @@ TEST_CASE("instruction sets: pixels see the same elements first") {
   }
 }
 
-TEST_CASE("instruction sets: the kernel over double follows the same paths, but for a few flipped decisions") {
+TEST_CASE("instruction sets: the kernel over double follows the same paths, except where rounding changes a decision") {
   CHECK(std::string(choose_kernels("double")->isa) == "double");
   for (const char* name : {"cornell-box", "showroom", "cornell-smoke"}) {
     const RenderScene scene = small(name, 0);
@@ -126,6 +126,6 @@ TEST_CASE("instruction sets: the kernel over double follows the same paths, but 
     for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) > 1e-3f * (0.01f + b[i]) ? 1 : 0;
     CAPTURE(name);
     CHECK(different < 0.03 * static_cast<double>(a.size()));
-    CHECK(a != b);  // it is another arithmetic
+    CHECK(a != b);  // or the kernel would not compute in double
   }
 }

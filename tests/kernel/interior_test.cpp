@@ -53,7 +53,7 @@ TEST_CASE("interior: smoke in matched glass of its very shape absorbs as smoke a
       const Transform move{RotateY{90}, Translate{middle}};
       Scene glass;
       glass.materials = {{"glass", Vec3d{1, 1, 1}, Dielectric<>{1}}};
-      const double density = 0.5 / size;  // twice its radius: one mean free path
+      const double density = 0.5 / size;  // the diameter is one mean free path
       for (int i = 0; i < 5; ++i) {
         Scene scene = glass;
         if (i == 0) scene.objects = {smoke(ball, density)};

@@ -14,7 +14,8 @@ namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-/// A matt wall on the left, a lamp on the right, seen straight on without perspective to speak of; black beyond.
+/// A matt wall on the left and a lamp on the right, seen straight on from so far that perspective does not matter;
+/// black beyond them.
 Scene wall_and_lamp() {
   Scene scene;
   scene.width = scene.height = 64;
@@ -30,7 +31,7 @@ Scene wall_and_lamp() {
 /// Glass, metal, fog, a lamp and a sky: every branch of the path loop.
 Scene busy_scene() {
   Scene scene;
-  scene.width = 61, scene.height = 47;  // no multiple of anything
+  scene.width = 61, scene.height = 47;  // not multiples of any tile or number of lanes
   scene.camera.look_from = {0, 1, 6};
   scene.camera.look_at = {0, 0.5, 0};
   scene.camera.vfov = 50;
@@ -182,7 +183,7 @@ TEST_CASE("render_unit: depth 0 shows lamps and counts every path that would hav
     film.pixels = result.pixels;
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 64; ++x) {
-        if (x == 31 || x == 32) continue;  // the seam
+        if (x == 31 || x == 32) continue;  // these pixels see both the wall and the lamp
         const bool lamp = x > 31;
         CHECK(mean(film, film.at(x, y)) == (lamp ? Vec3f{3, 2, 1} : Vec3f{0, 0, 0}));
         CHECK(film.at(x, y).truncated == (lamp ? 0 : 4));
@@ -225,7 +226,7 @@ TEST_CASE("render_unit: what is not a number is counted as rejected and leaves t
         CAPTURE(sky.x);
         int wrong = 0;
         for (int i = 0; i < 64 * 64; ++i) {
-          if (i % 64 == 31 || i % 64 == 32) continue;  // the seam
+          if (i % 64 == 31 || i % 64 == 32) continue;  // these pixels see both the wall and the lamp
           const FilmPixel& pixel = result.pixels[static_cast<std::size_t>(i)];
           const bool wall = i % 64 < 31;
           const std::uint32_t rejected = pixel.rejected[0] + pixel.rejected[1];
@@ -246,7 +247,7 @@ TEST_CASE("render_unit: what a lamp or the sky sends that is no number or out of
     for (const Kernels& kernels : available_kernels()) {
       const Result by_lamp = run(kernels, lamp, {{40, 0, 64, 64}, 1, 0, 0, 2});
       CHECK(totals_of(by_lamp.pixels).rejected == 24 * 64 * 2);
-      // Nothing else is lit by the sky than the wall.
+      // The sky lights nothing but the wall.
       const Result by_sky = run(kernels, sky, {{0, 0, 30, 64}, 1, 0, 0, 2});
       CHECK(totals_of(by_sky.pixels).rejected == 30 * 64 * 2);
       for (const FilmPixel& pixel : by_sky.pixels) CHECK(empty(pixel));

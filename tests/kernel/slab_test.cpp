@@ -30,7 +30,7 @@ float enter(const BvhNode& node, Vec3f origin, Vec3f direction, float limit = in
   return entry.meets ? entry.near : infinity;
 }
 
-/// The textbook's test, which rejects boxes of no thickness: entered and left at the same distance.
+/// The textbook's test. It rejects boxes without thickness, because a ray enters and leaves them at the same distance.
 bool textbook(Vec3f low, Vec3f high, Vec3f o, Vec3f d) {
   const float x0 = (low.x - o.x) / d.x, x1 = (high.x - o.x) / d.x, y0 = (low.y - o.y) / d.y, y1 = (high.y - o.y) / d.y;
   const float z0 = (low.z - o.z) / d.z, z1 = (high.z - o.z) / d.z;
@@ -92,7 +92,7 @@ TEST_CASE("slabs: no ray misses a flat box that it goes through") {
     lost_in_tree += enter(node_of(low - slack, high + slack), o, d) < infinity ? 0 : 1;
     textbook_lost += textbook(low, high, o, d) ? 0 : 1;
   }
-  CHECK(lost < 1e-4 * count);  // grazing its plane
+  CHECK(lost < 1e-4 * count);  // rays that graze the box's plane
   CHECK(lost_in_tree == 0);
   CHECK(textbook_lost > 0.99 * count);
 }
@@ -102,7 +102,7 @@ TEST_CASE("slabs: a box within another is never entered before it, nor left afte
   int wrong = 0;
   for (int i = 0; i < 300000; ++i) {
     const Vec3f a = rounded(in_cube(engine, 100)), size = rounded(in_cube(engine, 10) + Vec3d{10, 10, 10});
-    // Often they share a side, and sometimes all.
+    // Often the two boxes share a side, and sometimes all sides.
     const auto part = [&](float low, float extent) { return engine() % 2 ? low : low + extent * 0.3f; };
     const Vec3f b{part(a.x, size.x), part(a.y, size.y), part(a.z, size.z)};
     const auto end = [&](float high, float low) { return engine() % 2 ? high : low + (high - low) * 0.7f; };
@@ -121,7 +121,7 @@ TEST_CASE("slabs: a box beyond the limit, or behind, is not entered; one around 
   const BvhNode node = node_of({-1, -1, 4}, {1, 1, 6});
   CHECK(enter(node, {0, 0, 0}, {0, 0, 1}) == 4);
   CHECK(enter(node, {0, 0, 0}, {0, 0, 1}, 4.5f) == 4);
-  CHECK(enter(node, {0, 0, 0}, {0, 0, 1}, 4.0f) == 4);  // a tie may still win by its number
+  CHECK(enter(node, {0, 0, 0}, {0, 0, 1}, 4.0f) == 4);  // just at the limit: its element may win the tie
   CHECK(enter(node, {0, 0, 0}, {0, 0, 1}, 3.9f) == infinity);
   CHECK(enter(node, {0, 0, 0}, {0, 0, 1}, -1.0f) == infinity);  // a lane that is not in use
   CHECK(enter(node, {0, 0, 0}, {0, 0, -1}) == infinity);

@@ -74,7 +74,7 @@ TEST_CASE("trace: the tree loses nothing on small tilted flats far from the scen
   Engine engine(3);
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  constexpr double far = 1e5;  // along y alone: its rounding reaches the other axes through the tilt
+  constexpr double far = 1e5;  // along y alone; on tilted flats its rounding also shifts the other coordinates
   std::vector<Vec3d> targets;
   for (int i = 0; i < 40; ++i) scene.objects.push_back({"", Solid3d{Sphere<>{in_cube(engine, 1), 0.1, {}}, 0}, {}});
   for (int i = 0; i < 38; ++i) {
@@ -124,7 +124,7 @@ TEST_CASE("trace: seen from 1000 scene sizes away the tree loses nothing; from f
       const auto by_tree = traced(kernels, scene, rays);
       const int differ = differences(by_tree, traced(kernels, scene, rays, true));
       CAPTURE(distance);
-      CHECK(differ <= (distance > 1e4 ? 100 : 0));  // there a ray's own rounding is 0.01
+      CHECK(differ <= (distance > 1e4 ? 100 : 0));  // from so far the ray itself is rounded by 0.01
       CHECK(share_of_hits(by_tree) > 0.3);
     }
   }
@@ -132,13 +132,14 @@ TEST_CASE("trace: seen from 1000 scene sizes away the tree loses nothing; from f
 
 TEST_CASE("trace: each ray alone and in random company meets the same, to the last bit") {
   for (const Kernels& kernels : available_kernels()) {
-    if (kernels.lanes == 1) continue;  // always alone
+    if (kernels.lanes == 1) continue;  // with one lane each ray is always alone
     Engine engine(11);
     const RenderScene scene =
         compile(mixed_scene(engine, {.half_width = 1, .middle = {}, .smallest = 1e-3, .largest = 0.3}));
     const SceneViewOf view(scene);
     auto rays = all_kinds_of_rays(engine, scene, 1.6, 100000);
-    // Neighbours from so far away that some meet a primitive and yet, by rounding, miss its box, which others meet.
+    // Also rays from so far away that some meet a primitive but, by rounding, miss its box, which their neighbours
+    // meet.
     for (const TraceRay& ray : distant_rays(engine, 1e5, 100000, kernels.lanes)) rays.push_back(ray);
     std::vector<TraceHit> alone(rays.size()), in_company(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) kernels.trace(view.view(), &rays[i], &alone[i], 1, false);
@@ -181,7 +182,7 @@ TEST_CASE("trace: every instruction set meets what the scalar one meets, but for
 TEST_CASE("trace: of equal distances the lower element wins, in the tree and without it") {
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  // The same in single precision, yet no exact copies, which would be left out.
+  // Equal in single precision, but not exact copies, which would be left out.
   const auto left = [](int i) { return -1 - 1e-12 * i; };
   const auto quad = [&](int i) { return Object{"", Solid3d{Quad<>{{left(i), -1, 0}, {2, 0, 0}, {0, 2, 0}}, 0}, {}}; };
   const auto box = [&](int i) { return Object{"", Solid3d{Box<>{{left(i), -1, -2}, {1, 1, 0}}, 0}, {}}; };
@@ -235,7 +236,7 @@ TEST_CASE("trace: outward a shape is never met again, inward it is always left, 
   }
 }
 
-TEST_CASE("trace: no rays, no primitives") {
+TEST_CASE("trace: works without rays and without primitives") {
   const RenderScene empty = compile(Scene{});
   for (const Kernels& kernels : available_kernels()) {
     CHECK(traced(kernels, empty, {}).empty());

@@ -14,8 +14,8 @@ double length_error(Vec3f v) {
   return std::abs(length(w) - 1);
 }
 
-/// The books' refraction on leaving glass (Ray Tracing in One Weekend, section 11.2), without its fabs: whether a ray
-/// that their test lets through has a refracted direction that is no number.
+/// The books' refraction on leaving glass (Ray Tracing in One Weekend, section 11.2), without its fabs. Tells whether
+/// it takes the root of a negative number for a ray that passes the books' test for total reflection.
 bool root_of_negative(Vec3f way, Vec3f normal, float index) {
   const float cosine = std::min(dot(way, normal), 1.0f), sine = std::sqrt(1.0f - cosine * cosine);
   if (index * sine > 1.0f) return false;
@@ -63,7 +63,7 @@ TEST_CASE("dielectric: near critical angles and at normal incidence every direct
         const Dice<float> d = dice<float>(i);
         naive += root_of_negative(way, normal, index) ? 1 : 0;
         const Scattered<float> out = scatter(Dielectric<float>{index}, event(d, way, normal));
-        REQUIRE(length_error(out.direction) < 4e-7);  // false for NaN
+        REQUIRE(length_error(out.direction) < 4e-7);  // also fails for what is not a number
         if (out.transmitted) REQUIRE(dot(out.direction, normal) >= 0.0f);
         if (off > 1e-6 && index > 1.001f) REQUIRE_FALSE(out.transmitted);
       }

@@ -36,7 +36,7 @@ constexpr Row rows[] = {{1.1,
                           0.33050000312676975, 0.621708605456824, 0.899745971066883},
                          {0.17196883252315948, 0.19844016424771616, 1.0, 1.0, 1.0, 1.0, 1.0}}};
 
-/// How much a relative error in cosine or index is magnified in the reflectance.
+/// By how much a relative error of the cosine or the index grows in the reflectance.
 double condition(double cosine, double eta) {
   const double h = 1e-7, here = fresnel(cosine, eta);
   const auto slope = [&](double c, double e) { return std::abs(fresnel(std::min(c, 1.0), e) - here) / (h * here); };
@@ -110,7 +110,7 @@ TEST_CASE("fresnel: critical and Brewster's angles") {
     CHECK(fresnel(std::cos((critical + 1e-5) * degrees), 1 / index) == 1);
     const double below = fresnel(std::cos((critical - 1e-5) * degrees), 1 / index);
     CHECK(below < 1);
-    CHECK(below > 0.99 - (index < 1.001 ? 0.2 : 0.0));  // steep at an angle where both sides graze
+    CHECK(below > 0.99 - (index < 1.001 ? 0.2 : 0.0));  // with an index near 1 the reflectance falls steeply there
     // At Brewster's angle one polarisation is not reflected: half of the other's share is left.
     const double c = std::cos(brewster * degrees), s = (index * index - 1) / (index * index + 1);
     CHECK(fresnel(c, index) == doctest::Approx(0.5 * s * s).epsilon(1e-9));

@@ -64,7 +64,7 @@ TEST_CASE("lambertian: from one disc to a smaller one above it") {
   scores.add("discs", reached.estimate(), 0.04805898398896202, 5e-3);
 }
 
-TEST_CASE("lambertian: where the unit vector cancels the normal, the normal") {
+TEST_CASE("lambertian: where the unit vector cancels the normal, the direction is the normal") {
   const Dice<float> d = dice<float>(1);
   Incident<float> in = event(d, down_at<float>(0.3), up<float>);
   in.unit = {0, 0, -1};

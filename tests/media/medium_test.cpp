@@ -16,7 +16,7 @@ double cumulative_cosine(double g, double c) {
   return (1 - g * g) / (2 * g) * (1 / std::sqrt(1 + g * g - 2 * g * c) - 1 / (1 + g));
 }
 
-/// Cosines for evenly spaced u: moments of the inverse without noise.
+/// Means of the cosine's Legendre polynomials over evenly spaced u, which have no noise.
 struct CosineMoments {
   double mean = 0, legendre2 = 0, forward = 0, least = 2, most = -2;
 };

@@ -25,7 +25,7 @@ TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.01 %,
     }
     const Estimate bias = estimate(ratios);
     MESSAGE(name << ": " << bias.mean << " +- " << bias.error);
-    CHECK(bias.error < 4e-5);  // or it could not fail
+    CHECK(bias.error < 4e-5);  // or the measurement would be too rough to find a fault
     CHECK(std::abs(bias.mean) < 1e-4);
   }
 }

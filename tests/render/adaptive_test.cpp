@@ -10,13 +10,13 @@
 #include <cmath>
 #include <map>
 
-/// Adaptive sampling: the same picture everywhere, unbiased, and better where parts are hard.
+/// Adaptive sampling gives the same picture on every machine, is unbiased, and gives hard parts a smaller error.
 using namespace tyndall;
 using namespace tyndall::test;
 
 namespace {
 
-constexpr int width = 61, height = 43;  // neither a multiple of any tile
+constexpr int width = 61, height = 43;  // neither is a multiple of a tile's edge
 
 const RenderScene& scene_of(const std::string& name) {
   static std::map<std::string, RenderScene> all;
@@ -67,7 +67,7 @@ TEST_CASE("adaptive: by long and short passes, continued, and given up at any po
       film = render(scene, options_of(spp), {}, std::move(film)).film;
     CHECK(film == whole);
     RenderOptions looking = options_of(80);
-    looking.target_error = 1e-9;  // short passes
+    looking.target_error = 1e-9;  // never reached, but it makes passes short
     CHECK(render(scene, looking).film == whole);
     int calls = 0, stops = 0;
     for (film = {}; !(film == whole) && stops < 1000;) {
@@ -129,7 +129,7 @@ TEST_CASE("adaptive: a region has its own samples, no more than asked for") {
 }
 
 TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.1 %") {
-  // Glass, metal and a lamp in fog, where what decides on counts is rare and bright.
+  // In this scene, of glass, metal and a lamp in fog, the errors that decide on the counts come from rare bright paths.
   Scene scene = small_scene("showroom", 40, 30, 64);
   std::vector<double> ratios;
   for (std::uint32_t seed = 0; seed < 48; ++seed) {
@@ -145,6 +145,6 @@ TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.1 %")
   }
   const Estimate bias = estimate(ratios);
   CAPTURE(bias.mean);
-  CHECK(bias.error < 3e-4);  // or it could not fail
+  CHECK(bias.error < 3e-4);  // or the measurement would be too rough to find a fault
   CHECK(std::abs(bias.mean) < 1e-3);
 }

@@ -48,7 +48,7 @@ Scene lamp_before_lens(double focus, double angle, double depth, double radius, 
   return scene;
 }
 
-/// What is seen of the picture as sums over pixels: brightness, middle and mean square distance from it, in pixels.
+/// A bright spot in a picture: its brightness, its middle, and the mean square distance from that, in pixels.
 struct Spot {
   double light = 0, x = 0, y = 0, square = 0;
 };
@@ -92,7 +92,7 @@ TEST_CASE("camera: pixel (0, 0) of the rendered picture is the top left one") {
   const Film film = film_of(scene, 16);
   const Spot spot = spot_of(film);
   CHECK(spot.x < -10);
-  CHECK(spot.y < -10);  // y counts down
+  CHECK(spot.y < -10);  // y counts downward, so the upper half is negative
   CHECK(mean(film, film.at(2, 2)).x > 0.5f);
   CHECK(mean(film, film.at(29, 29)).x == 0.0f);
 }
@@ -164,7 +164,7 @@ TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right 
       squares.push_back(spot.square * pixel * pixel);
       xs.push_back(spot.x), ys.push_back(spot.y);
     }
-    // The picture of a ball is its own disc, blurred, and summed over pixels.
+    // Three things widen the spot: the disc of the ball itself, the blur of the lens, and the size of a pixel.
     const double seen = lamp_radius * c.focus / c.depth, disc = seen * seen / 2, box = pixel * pixel / 6;
     const Estimate square = estimate(squares);
     scores.add("mean square", {square.mean - box - disc, square.error}, c.rms * c.rms, 0.02);
@@ -176,7 +176,7 @@ TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right 
 TEST_CASE("lens: a lamp in focus is as sharp as without a lens") {
   const Spot spot = spot_of(film_of(lamp_before_lens(10, 5, 10, 0.01, 1), 64));
   CHECK(spot.light > 0);
-  CHECK(spot.square == doctest::Approx(0.5));  // all of it in the four pixels in the middle
+  CHECK(spot.square == doctest::Approx(0.5));  // all its light is in the four pixels in the middle
   CHECK(spot_of(film_of(lamp_before_lens(10, 5, 9, 0.01, 1), 64)).square > 0.6);
 }
 

@@ -29,7 +29,7 @@ Scene ball_under_lamp(double radius, double distance) {
 TEST_CASE("caustics: the chance is the lamp's share of all directions, seen from the glass") {
   CHECK(chance_of_caustics(ball_under_lamp(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
   CHECK(chance_of_caustics(ball_under_lamp(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
-  CHECK(chance_of_caustics(ball_under_lamp(4, 3)) == 1);  // around the ball
+  CHECK(chance_of_caustics(ball_under_lamp(4, 3)) == 1);  // the lamp is around the ball and fills all directions
 }
 
 TEST_CASE("caustics: a lamp within glass is seen from the floor below, or from the glass if that is farther") {
@@ -38,10 +38,10 @@ TEST_CASE("caustics: a lamp within glass is seen from the floor below, or from t
         doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 1.3, 2)))));
   CHECK(chance_of_caustics(ball_under_lamp(0.05, 0)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.05 * 0.05))));
   Scene scene = ball_under_lamp(0.05, 0.3);
-  scene.camera.look_from = {0.5, 0, 0};  // within the glass, which is a room then
+  scene.camera.look_from = {0.5, 0, 0};  // the camera is within the glass, too: a room, not a bulb
   CHECK(chance_of_caustics(scene) > 0.005);
   scene = ball_under_lamp(0.05, 0.3);
-  scene.materials[0].kind = Metal<>{0.5};  // nothing shows the light but fog, which begins 4 from the lamp
+  scene.materials[0].kind = Metal<>{0.5};  // now only the fog shows the light, and it begins 4 units from the lamp
   CHECK(chance_of_caustics(scene) == 1);
   scene.objects.push_back({"", Volume{Box<>{{4, -1, -1}, {6, 1, 1}}, {}, Medium<>{0.1, 0}, Vec3d{1, 1, 1}}, {}});
   CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 4, 2)))));
@@ -69,7 +69,7 @@ TEST_CASE("caustics: none without something smooth that catches light, or someth
   const double chance = chance_of_caustics(scene);
   scene.materials[1].kind = Metal<>{0};
   CHECK(chance_of_caustics(scene) == chance);
-  scene.materials[1].kind = Metal<>{0.1};  // lights are sampled from it
+  scene.materials[1].kind = Metal<>{0.1};  // metal of so much fuzz does not count as smooth
   CHECK(chance_of_caustics(scene) == 1);
   scene = ball_under_lamp(0.03, 3);
   scene.materials[0].kind = Metal<>{0.1};
@@ -78,12 +78,12 @@ TEST_CASE("caustics: none without something smooth that catches light, or someth
   CHECK(chance_of_caustics(load_scene("cornell-box").scene) == 1);
 }
 
-TEST_CASE("caustics: what chains find is not left to chance, but is where they are switched off") {
+TEST_CASE("caustics: pairs that chains find are left out, unless chains are switched off") {
   Scene scene = ball_under_lamp(0.03, 3);
   CHECK(chance_of_caustics(scene, compile(scene)) == 1);
   scene.render.caustics = Caustics::scatter;
   CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
   scene.render.caustics = Caustics::chains;
-  scene.materials[1].kind = Metal<>{0.01};  // no mirror
+  scene.materials[1].kind = Metal<>{0.01};  // chains need a perfect mirror
   CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
 }

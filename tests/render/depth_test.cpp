@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-/// max_depth, and paths that end by chance.
+/// Paths that end because of max_depth, and paths that roulette ends at random.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -27,7 +27,7 @@ FilmTotals totals_of(const Scene& scene, int spp) { return totals(film_of(scene,
 
 }  // namespace
 
-TEST_CASE("roulette: takes from paths what it gives to others") {
+TEST_CASE("roulette: changes no mean, because survivors carry what ended paths would have") {
   ZScores scores;
   std::uint32_t seed = 0;
   for (const double rho : {0.1, 0.3, 0.5, 0.8, 0.95})
@@ -41,7 +41,7 @@ TEST_CASE("roulette: takes from paths what it gives to others") {
     }
 }
 
-TEST_CASE("roulette: coloured paths live by their brightest channel") {
+TEST_CASE("roulette: a path's brightest channel decides how likely it ends") {
   Scene scene = integrating_sphere(0.5, 0.5);
   scene.materials[0].colour = Vec3d{0.9, 0.2, 0.02};
   const Film film = film_of(scene, 4096);
@@ -130,7 +130,7 @@ TEST_CASE("depth 0: lamps and background alone") {
   CHECK(bright + black + sky == 32 * 32);
 }
 
-TEST_CASE("depth 1: a matt plane under the sky; what would go on is cut") {
+TEST_CASE("depth 1: a matt plane shows the sky, and paths that would go on are cut") {
   // The sky is linear in y, so one bounce sees it at the mean cosine, 2/3 for density cos/π.
   Scene scene = white_room();
   scene.background = Gradient{};

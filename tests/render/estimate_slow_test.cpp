@@ -12,13 +12,13 @@
 #include <cmath>
 #include <cstdio>
 
-/// The estimated error over the true one, and what is flagged where they differ.
+/// How close the estimated error is to the true one, and whether pictures are flagged where it is not.
 using namespace tyndall;
 using namespace tyndall::test;
 
 namespace {
 
-constexpr double pixels = 9216;  // of a built-in scene's picture, as 128 x 72 has; rooms have more
+constexpr double pixels = 9216;  // pixels of a built-in scene's picture, such as 128 x 72; random rooms have more
 constexpr std::array<std::uint32_t, 6> counts{4, 8, 16, 30, 64, 256};
 
 struct Case {
@@ -74,7 +74,7 @@ void print_table(const std::vector<Case>& cases) {
   }
 }
 
-/// The share of the cases of at least so many samples that are outside.
+/// Among the cases with at least least_spp samples, the share whose estimate is too far from the true error.
 double share_outside(const std::vector<Case>& cases, std::uint32_t least_spp) {
   double outside = 0, all = 0;
   for (const Case& one : cases)

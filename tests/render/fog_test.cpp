@@ -24,7 +24,7 @@ Scene ball_in_square() {
   return scene;
 }
 
-/// Mean over the disc from the mean over the square around it, beyond which all is 1.
+/// Mean over the disc, computed from the mean over the square around it; outside of the disc every pixel is 1.
 Estimate over_disc(Estimate square) { return {1 - (1 - square.mean) * 4 / pi, square.error * 4 / pi}; }
 
 /// Mean radiance over the picture from `runs` seeds: pixels differ, so they are no batches of one another.

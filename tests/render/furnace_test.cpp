@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-/// In a white room nothing that absorbs nothing can be seen, and what absorbs a fifth is seen as 0.8: exactly, in every
-/// sample.
+/// White furnaces: in a white room things that absorb nothing are invisible, and things that absorb a fifth of the
+/// light have a radiance of 0.8. This holds exactly and in every sample.
 using namespace tyndall;
 using namespace tyndall::test;
 

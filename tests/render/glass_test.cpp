@@ -48,7 +48,7 @@ TEST_CASE("glass plate: reflects and transmits what all internal reflections add
         const Estimate reflected = radiance(plate, *isa ? 128 : 1024, isa);
         const double expected = fresnel == FresnelKind::exact ? c.reflected : c.with_schlick;
         scores.add("reflected", reflected, expected, *isa ? 0.02 : 5e-3);
-        // The same random numbers: what is not reflected is transmitted, to the last path.
+        // Both pictures have the same random numbers, so that each path is either reflected or transmitted.
         CHECK(radiance(below, *isa ? 128 : 1024, isa).mean == doctest::Approx(1 - reflected.mean).epsilon(1e-7));
       }
 }
@@ -99,7 +99,7 @@ TEST_CASE("hollow glass: by negative radius and by relative index the same pictu
   }
 }
 
-TEST_CASE("glass of index 1 changes no mean; it takes the numbers of its events, so single samples differ") {
+TEST_CASE("glass of index 1 changes no mean; single samples differ, because its events use up random numbers") {
   Scene scene = white_room();
   scene.background = Gradient{{0.1, 0.2, 0.3}, {1, 0.5, 0.2}};
   add(scene, sphere({0, -101, 0}, 100), lambertian(0.5));

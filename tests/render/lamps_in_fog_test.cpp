@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-/// Small lamps in fog: distances sampled by angle. What they gather by one scattering: render/light_in_fog.
+/// Small lamps in fog, where distances are sampled by angle. That no light is lost is tested in light_in_fog_test.cpp.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -21,7 +21,7 @@ Scene lamp_in_fog(Medium<> medium) {
 
 Estimate measure(Scene scene, Integrator integrator, int spp) {
   scene.render.integrator = integrator;
-  // Paths that the depth ends are part of the question, so not radiance().
+  // Not by radiance(), which refuses paths that max_depth cuts: here they are expected.
   const Film film = film_of(scene, spp);
   CHECK(totals(film).rejected == 0);
   std::vector<double> pixels;
@@ -52,9 +52,9 @@ TEST_CASE("lamps in fog: what light sampling alone finds, with far less noise") 
   add(scene, Quad<>{{-3, -1, -3}, {6, 0, 0}, {0, 0, 6}}, lambertian(0.5));
   add(scene, Quad<>{{0.5, 0.3, 0}, {0.1, 0, 0}, {0, 0.05, 0.1}}, lamp(50));
   add_medium(scene, Box<>{{-1, -0.9, -1}, {1, 1, 1}}, {0.3, -0.3}, 0.9, {RotateY{30}});
-  add_medium(scene, sphere({0, 0, 0}, 2), {0.1, 0}, 0.5);  // as large as the first
+  add_medium(scene, sphere({0, 0, 0}, 2), {0.1, 0}, 0.5);  // a second medium, as large as the first
   scene.camera.look_from = {0, 0.5, 5};
-  scene.camera.look_at = {0.8, 0, 0};  // beside the lamps: seen themselves they would be all the noise
+  scene.camera.look_at = {0.8, 0, 0};  // beside the lamps, whose edges would otherwise make most of the noise
   scene.camera.vfov = 4;
   CHECK(compile(scene).near.light.size() == 0);
   scene.render.integrator = Integrator::mis;
@@ -75,7 +75,7 @@ TEST_CASE("lamps in fog: what light sampling alone finds, with far less noise") 
   CAPTURE(nee.error);
   CHECK(std::abs(mis.mean - nee.mean) < 4 * std::hypot(mis.error, nee.error));
   CHECK(mis.error < 0.004 * mis.mean);
-  CHECK(mis.error < 2 * nee.error);  // of as many samples
+  CHECK(mis.error < 2 * nee.error);  // with equal numbers of samples
 }
 
 TEST_CASE("lamps in fog: sought only where it pays") {

@@ -4,7 +4,8 @@
 
 #include <doctest/doctest.h>
 
-/// A tiny lamp in fog: light sampling has no bound near it, and a clamp would lose it.
+/// A tiny lamp in fog. Samples that scatter next to it have no upper bound; renderers that clamp samples lose that
+/// light.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -41,7 +42,7 @@ double scattered_once(double b) {
   return sum;
 }
 
-/// What clamping each sample would leave.
+/// The mean that would be left if each sample were clamped to `most`.
 double clamped_mean(Scene scene, double most) {
   scene.width = scene.height = 256;
   const Film film = film_of(scene, 1);
@@ -79,14 +80,15 @@ TEST_CASE("light in fog: light scattered once, next to a lamp of radius 0.01 and
       CHECK(totals(film).rejected == 0);
       std::vector<double> batches;
       for (const FilmPixel& pixel : film.pixels) batches.push_back(static_cast<double>(mean(film, pixel).x));
-      // Distances by angle leave mis next to no noise; what a clamp would take away is what nee has in its tail.
+      // With mis, distances by angle leave next to no noise. With nee, the rare bright samples that a clamp would cut
+      // carry a good part of the light.
       const bool by_angle = integrator == Integrator::mis;
       scores.add("radiance", estimate(batches), scattered_once(impact), by_angle ? 1e-3 : 0.01);
       if (impact < 0.1 && !by_angle) CHECK(clamped_mean(scene, 0.1) < 0.7 * scattered_once(impact));
     }
 }
 
-TEST_CASE("light in fog: the halves differ by the error that is there") {
+TEST_CASE("light in fog: the estimated error, from the two halves, is close to the true one") {
   Scene scene = small_scene("stress-light-in-fog", 64, 48, 4096);
   const auto render_with = [&](std::uint32_t seed, int spp) {
     scene.render.seed = seed;

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-/// Light sampling finds what chance finds, and the closed forms.
+/// Light sampling gives the same light as paths that meet lamps by chance, and as closed formulas.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -43,7 +43,7 @@ TEST_CASE("rectangular lights: Lambert's formula, by light sampling, with and wi
       }
 }
 
-TEST_CASE("a screen before a rectangular light: half of it hides half, all of it all, whatever bounds the scene") {
+TEST_CASE("a screen before a rectangular light hides half of it or all of it, also where walls bound the scene") {
   ZScores z;
   for (const Integrator integrator : all_integrators)
     for (const bool walled : {false, true}) {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-/// Every kind of chain against light tracing. Most rooms show a weight that is wrong by half a percent; solid glass,
-/// whose caustics have bright edges, one that is wrong by a few percent.
+/// Every kind of chain is compared with light tracing. In most rooms this would reveal a weight that is wrong by half a
+/// percent; with solid glass, whose caustics have bright edges, one that is wrong by a few percent.
 using namespace tyndall;
 using namespace tyndall::test;
 

@@ -12,7 +12,7 @@ using namespace tyndall::test;
 
 namespace {
 
-/// Agreement of renders and light tracing, with standard errors of at most `precision` of the mean.
+/// Checks that renders and light tracing agree. precision: largest standard error of each, as a share of the mean.
 void check_agreement(const Scene& scene, int spp, double particles, double precision) {
   LightTracing how;
   how.particles = static_cast<std::uint64_t>(particles);
@@ -32,7 +32,7 @@ void check_agreement(const Scene& scene, int spp, double particles, double preci
 TEST_CASE("light tracer: what one face of a cube sends to the opposite one, on any number of threads") {
   Scene scene = dark_room();
   scene.width = scene.height = 8;
-  scene.camera.look_from = {0.5, 0.5, 0.5};  // a plane seen straight on: the mean over pixels is that over the floor
+  scene.camera.look_from = {0.5, 0.5, 0.5};  // straight above the floor, so the mean over pixels is that over the floor
   scene.camera.look_at = {0.5, 0, 0.5};
   scene.camera.vup = {1, 0, 0};
   scene.camera.vfov = 90;

@@ -18,7 +18,7 @@ Scene floor_seen_from(Vec3d eye) {
   return scene;
 }
 
-/// Samples are drawn anew at every call.
+/// Gathers measured irradiances and compares them with expected ones. Each measurement has a seed of its own.
 class Irradiances {
  public:
   void check(Scene scene, double irradiance) {

@@ -9,7 +9,7 @@
 
 #include <limits>
 
-/// What a picture lacks is counted, located and left out: rejected samples, and what paths carried that were cut off.
+/// What a picture lacks: rejected samples are left out, counted and located, and what cut paths carried is summed.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -155,7 +155,7 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
     CHECK(upper.run(crew, kernels, view.view(), uneven, no));
     Progression picture;
     picture.go_on(std::move(uneven), {});
-    CHECK(picture.run_pass({crew, kernels, view.view()}, {}, no));  // makes it even
+    CHECK(picture.run_pass({crew, kernels, view.view()}, {}, no));  // gives all pixels the same number of samples
     CHECK(picture.film() == whole);
   }
 }

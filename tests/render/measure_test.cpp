@@ -66,13 +66,13 @@ TEST_CASE("measuring: stops when it is told to") {
   CHECK(measured.totals.samples < 256 * 64);
 }
 
-TEST_CASE("measuring: what is far off is not measured on and on") {
+TEST_CASE("measuring: ends early if the mean is clearly not the expected one") {
   const Measured measured = measure_mean(compile(fog_ball()), {1, "", 1e-7, 0.5});
   CHECK(measured.totals.samples == 256 * 64);
   CHECK(std::abs(z_score(measured.value, 0.5)) > 8);
 }
 
-TEST_CASE("measuring: what varies not at all takes no more samples than the pilot") {
+TEST_CASE("measuring: a picture without noise takes no more samples than the pilot") {
   Scene scene = fog_ball();
   scene.objects.clear();
   const Measured measured = measure(scene, 0);
@@ -91,7 +91,7 @@ TEST_CASE("z-scores: in standard errors, with room for the rounding of single pr
 }
 
 TEST_CASE("z-scores: the band of their mean square") {
-  // Of 100 of them: the 3.17e-5 and 1 - 3.17e-5 quantiles of chi-square with 100 degrees of freedom.
+  // With 100 scores: the 3.17e-5 and 1 - 3.17e-5 quantiles of chi-square with 100 degrees of freedom.
   CHECK(mean_square_band(100).low == doctest::Approx(0.5269).epsilon(0.01));
   CHECK(mean_square_band(100).high == doctest::Approx(1.6681).epsilon(0.01));
   CHECK(mean_square_band(1).low == 0);

@@ -59,10 +59,11 @@ TEST_CASE("motion: a mirror sees the ball where it is at the path's own time") {
   aim(scene, {0, 0.3, 5}, {0, 0.3, -5});  // past the ball, back from the mirror, past the ball again
   scene.camera.shutter_close = 1;
   ZScores scores;
-  scores.add("there and back", radiance(scene, 8192), 0.6, 1e-3);  // |2t - 0.3| < 0.5: across, not slanted as above
+  // The ball covers the ray while |2t - 0.3| < 0.5.
+  scores.add("there and back", radiance(scene, 8192), 0.6, 1e-3);
 }
 
-TEST_CASE("motion: a ball that is to move but does not is at rest") {
+TEST_CASE("motion: a ball whose two centres are equal is at rest") {
   Scene moving = white_room();
   moving.background = Gradient{};
   moving.camera.look_from = {0, 0.4, 3};

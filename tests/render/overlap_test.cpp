@@ -3,7 +3,8 @@
 
 #include <doctest/doctest.h>
 
-/// Where densities vanish, are infinite or have to be shared: mirrors, contacts, lamps in each other's way.
+/// Places where densities are zero or infinite, or where several lights share them: mirrors, shapes that touch, lamps
+/// that overlap.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -53,7 +54,7 @@ Scene room() {
 }  // namespace
 
 TEST_CASE("lights: behind mirrors, next to hardly blurred ones, by every integrator") {
-  // A mirror's direction has no density: weighed as if it had one, its light is lost or counted twice.
+  // A mirror's direction has no density. If it were weighed as if it had one, light would be lost or counted twice.
   for (const double fuzz : {0.0, 5e-4, 2e-3, 0.05}) {
     Scene scene = room();
     scene.materials[0] = metal(0.9, fuzz);
@@ -88,7 +89,8 @@ TEST_CASE("lights: two in exactly one place count as the first of them, by every
 }
 
 TEST_CASE("contact: the shadow of a black ball that rests on a plane, down to a twentieth of its radius") {
-  // 1 - (1 + x^2)^(-3/2) of the sky is seen at x radii from the contact: an epsilon lets light leak below the ball.
+  // At x radii from the contact, 1 - (1 + x^2)^(-3/2) of the sky is seen. If rays left surfaces by a least distance,
+  // light would leak in below the ball.
   ZScores scores;
   std::uint32_t seed = 0;
   for (const double scale : {1e-3, 1.0, 1e3})

@@ -10,9 +10,9 @@ using namespace tyndall;
 
 namespace {
 
-constexpr int width = 67, height = 41;  // cells at the right and at the bottom are cut
+constexpr int width = 67, height = 41;  // so the last cells of each row and column are smaller than the others
 
-/// `taken` samples of grey 0.5 a pixel, whose halves lie `spread(x, y)` above and below.
+/// A film with `taken` samples a pixel of grey 0.5; one half is above that by spread(x, y), the other below it.
 Film film_of(std::uint32_t taken, const std::function<double(int x, int y)>& spread) {
   Film film = make_film(width, height, {0, 0, width, height}, 0, 1);
   for (int y = 0; y < height; ++y)
@@ -27,7 +27,7 @@ Film film_of(std::uint32_t taken, const std::function<double(int x, int y)>& spr
   return film;
 }
 
-/// Noise in a disc, little of it elsewhere.
+/// A spread that is large within a disc and small elsewhere.
 double disc(int x, int y) { return (x - 20) * (x - 20) + (y - 20) * (y - 20) < 100 ? 0.2 : 0.01 + 1e-5 * (x + y); }
 
 std::uint64_t total(const std::vector<std::uint32_t>& counts) {
@@ -38,7 +38,7 @@ std::uint64_t total(const std::vector<std::uint32_t>& counts) {
 
 std::size_t index(int x, int y) { return static_cast<std::size_t>(y * width + x); }
 
-/// What the cell of a pixel is to get.
+/// The number of samples that the cell of a pixel is planned to get.
 std::uint32_t planned_at(const Film& film, int x, int y) {
   return film.planned[static_cast<std::size_t>(y / cell_edge * ((width + cell_edge - 1) / cell_edge) + x / cell_edge)]
       .to;
@@ -62,7 +62,7 @@ TEST_CASE("plan: more samples where the halves differ, their mean doubled and no
 
 TEST_CASE("plan: never less than a quarter of the mean, never more than 16 times") {
   Film film = film_of(1024, [](int x, int y) { return x == 30 && y == 20 ? 0.4 : 0; });
-  for (FilmPixel& pixel : film.pixels) pixel.taken = 16;  // so that the floor shows
+  for (FilmPixel& pixel : film.pixels) pixel.taken = 16;  // few, so that the lower limit decides for most cells
   film.planned.assign(17 * 11, {8, 16});
   for (std::uint32_t mean = 32; mean <= 256; mean *= 2) {
     plan_round(film);
@@ -78,7 +78,7 @@ TEST_CASE("plan: never less than a quarter of the mean, never more than 16 times
   CHECK(film.pixels[index(34, 20)].taken > 1000);  // beside the pixel that differs
 }
 
-TEST_CASE("plan: where little is to gain, all stay even") {
+TEST_CASE("plan: where little is to be gained, all cells keep the same count") {
   for (const double wave : {0.0, 0.02}) {
     Film film = film_of(warm_up, [wave](int x, int) { return 0.1 + wave * (x / 16 % 2); });
     plan_round(film);
@@ -127,7 +127,7 @@ TEST_CASE("plan: on the way through a round counts only grow, and fit into the m
     for (std::size_t i = 0; i < counts.size(); ++i) REQUIRE(counts[i] >= before[i]);
     before = counts;
   }
-  CHECK(counts_at(film, 1000) == before);  // what is planned, and no more
+  CHECK(counts_at(film, 1000) == before);  // beyond the round's end counts stay as planned
 }
 
 TEST_CASE("plan: a crew changes nothing; pixels without samples in a half have no say") {

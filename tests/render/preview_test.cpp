@@ -34,7 +34,7 @@ TEST_CASE("preview: the step that fits the time, coarse while nothing is known")
   CHECK(preview_step(1, 1e3, 0.016, 0) == 1);
 }
 
-TEST_CASE("preview: a step once chosen is kept while little speaks for another") {
+TEST_CASE("preview: a step that was chosen is kept until another one fits clearly better") {
   for (const int step : {1, 2, 4, 8}) {
     CHECK(preview_step(full_hd, speed_for(1.09 * step), 1, step) == step);
     if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.39), 1, step) == step);
@@ -63,11 +63,11 @@ TEST_CASE("preview: the next edit's step follows from the speed of the first pic
   CHECK(pictures.step_for(full_hd, 0.016) == 8);  // nothing is known yet
   pictures.note_pass(full_hd / 0.016);
   CHECK(pictures.step_for(full_hd, 0.016) == 1);
-  pictures.note_drawing(0.008);  // leaves half of the time for samples
+  pictures.note_drawing(0.008);  // drawing leaves half of the time for samples
   CHECK(pictures.step_for(full_hd, 0.016) == 2);
-  pictures.note_drawing(1);  // a quarter is left in any case
+  pictures.note_drawing(1);  // however long drawing takes, samples get a quarter of the time
   CHECK(pictures.step_for(full_hd, 0.016) == 2);
   pictures.note_drawing(0);
-  pictures.note_pass(full_hd / 0.016 / 256);  // a single slow pass counts by its root
+  pictures.note_pass(full_hd / 0.016 / 256);  // after a single slow pass the speed is the geometric mean of both
   CHECK(pictures.step_for(full_hd, 0.016) == 4);
 }

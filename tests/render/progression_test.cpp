@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-/// The passes of a picture: in which order its samples come, where they end, and what is told meanwhile.
+/// The passes of a picture: in which order its samples come, when it is finished, and what is reported meanwhile.
 using namespace tyndall;
 
 namespace {
@@ -113,7 +113,7 @@ TEST_CASE("progression: ends at the first of the limits, but not before a pass")
   CHECK_FALSE(picture.reached(rough));
   picture.run_pass(engine, rough, false);
   CHECK(picture.reached(no_time));
-  CHECK_FALSE(picture.reached(rough));  // one sample tells nothing of the error
+  CHECK_FALSE(picture.reached(rough));  // with one sample a pixel the error is not known
   CHECK_FALSE(picture.estimate_is_new());
   picture.run_pass(engine, rough, false);
   CHECK(picture.reached(rough));
@@ -142,7 +142,7 @@ TEST_CASE("progression: the error is estimated when it is due, not after each pa
   };
   using Counts = std::vector<std::uint32_t>;
   CHECK(estimated_at({}) == Counts{});
-  CHECK(estimated_at({.seconds = 1e6}) == Counts{32});  // what was asked for is reached
+  CHECK(estimated_at({.seconds = 1e6}) == Counts{32});  // only when the wanted number of samples is reached
   CHECK(estimated_at({.seconds = 1e6, .growth = 0, .each_below = 9}) == Counts{2, 4, 8, 32});
   CHECK(estimated_at({.seconds = 0}) == Counts{2, 4, 8, 16, 32});
 }
@@ -157,7 +157,7 @@ TEST_CASE("pass length: doubles or adds a part, within the time and the most sam
   CHECK(pass_samples(doubling, 1000, full_hd, 1e12) == 64);
   CHECK(pass_samples({.growth = 1, .most = 64, .seconds = 0.5}, 1000, full_hd, 10.0 * full_hd) == 5);
   CHECK(pass_samples(doubling, 1000, full_hd, 1.0 * full_hd) == 1);
-  CHECK(pass_samples(doubling, 1000, full_hd, 0) == 1);  // nothing is known of the speed
+  CHECK(pass_samples(doubling, 1000, full_hd, 0) == 1);  // one, while the speed is not known
   CHECK(pass_samples(doubling, 3, 0, 1e6) == 3);
   const PassLength quarter{.growth = 0.25, .most = 32};
   CHECK(pass_samples(quarter, 1, full_hd, 0) == 1);

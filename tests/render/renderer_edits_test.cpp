@@ -175,7 +175,7 @@ TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene
   CHECK_FALSE(renderer->paused());
   renderer->pause(true);
   CHECK(renderer->paused());
-  renderer.catch_up();  // the pass that is under way ends
+  renderer.catch_up();  // lets the pass that is under way end
   const std::uint64_t pass = renderer->latest()->pass;
   renderer.catch_up();
   CHECK(renderer->latest()->pass == pass);
@@ -187,7 +187,7 @@ TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene
   const double until_shown = wall_seconds() - submitted;
   renderer.catch_up();
   CHECK(renderer->latest()->spp == 1);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // a pause, however long
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the length of the pause does not matter
   const std::size_t before = renderer.frames().size();
   const double resumed = wall_seconds();
   renderer->pause(false);
@@ -226,7 +226,7 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
   CHECK(last->edit == first);
 }
 
-TEST_CASE("edits: the renderer may go while it renders, at once") {
+TEST_CASE("edits: a renderer that is destroyed while it renders ends at once") {
   double going = 0;  // seconds of processor time
   for (int round = 0; round < 20; ++round) {
     auto renderer = std::make_unique<WatchedRenderer>();

@@ -6,7 +6,7 @@
 
 #include <random>
 
-/// What is shown in the end is what a blocking render gives, whatever happened on the way.
+/// The finished picture is the one that a blocking render gives, whatever was done to the renderer before.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -181,5 +181,5 @@ TEST_CASE("renderer: the first picture's time counts from a restart, not from th
     renderer->restart();
     sum += renderer.wait_finished(edit, before)->first_picture_ms;
   }
-  CHECK(sum <= 1000 * (wall_seconds() - start));  // one after the other: together no longer than all of it
+  CHECK(sum <= 1000 * (wall_seconds() - start));  // they ran one after the other, so not longer than the whole test
 }

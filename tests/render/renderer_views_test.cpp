@@ -150,7 +150,7 @@ TEST_CASE("idle: a renderer that is finished, paused or unused takes no processo
   for (WatchedRenderer* renderer : {&unused, &finished, &paused}) renderer->catch_up();
   const std::size_t calls = unused.calls() + finished.calls() + paused.calls();
   const double before = cpu_seconds();
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // not to wait for anything: the time that is looked at
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the time over which processor time is measured
   CHECK(cpu_seconds() - before < 0.03);
   CHECK(unused.calls() + finished.calls() + paused.calls() == calls);
 }

@@ -14,7 +14,7 @@ using namespace tyndall::test;
 
 namespace {
 
-constexpr int width = 61, height = 43;  // neither a multiple of any tile
+constexpr int width = 61, height = 43;  // neither is a multiple of a tile's edge
 
 const std::vector<RenderScene>& scenes() {
   static const std::vector<RenderScene> all = [] {
@@ -92,7 +92,7 @@ TEST_CASE("same picture: by long and short passes, and continued from a film") {
     for (const std::uint32_t spp : {2u, 5u, 33u, 40u}) film = render(scene, options_of(best, spp), {}, film).film;
     CHECK(film == whole);
     RenderOptions timed = options_of(best, 40);
-    timed.target_error = 1e-9;  // looks between passes, which makes them short
+    timed.target_error = 1e-9;  // never reached, but it makes passes short
     CHECK(render(scene, timed).film == whole);
   }
 }

@@ -2,7 +2,8 @@
 
 #include <doctest/doctest.h>
 
-/// Each pixel of a probe is a randomisation of its own: 1024 of them say what a sampler's mean and variance are.
+/// All pixels of a probe show the same thing, each with random numbers of its own. So the means of 1024 pixels tell a
+/// sampler's mean and variance.
 using namespace tyndall;
 using namespace tyndall::test;
 

@@ -4,7 +4,8 @@
 
 #include <doctest/doctest.h>
 
-/// Nothing in here has a size of its own: a scene is the same picture in any unit of length, and anywhere.
+/// A scene gives the same picture in any unit of length and at any distance from the origin, because the renderer has
+/// no fixed lengths, such as a least distance.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -17,7 +18,7 @@ Film small_film(Scene scene, const std::string& isa = "") {
   return film_of(scene, 2, isa);
 }
 
-/// The books' marble has a length of its own: its turbulence is that of one unit, whatever its scale.
+/// Whether a scene has marble, whose pattern does not scale with the scene: its turbulence has cells of one unit.
 bool has_own_length(const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     const auto* noise = std::get_if<Noise<>>(&texture.kind);
@@ -92,7 +93,7 @@ TEST_CASE("scale: the same on every instruction set") {
   }
 }
 
-TEST_CASE("scale: in other units the numbers are rounded anew, and hardly a path takes another way") {
+TEST_CASE("scale: in units that are no powers of two numbers are rounded differently, which changes few paths") {
   for (const BuiltIn& built_in : built_in_scenes()) {
     const Scene scene = small_scene(built_in.name, width, height, 2);
     if (has_own_length(scene)) continue;
@@ -101,7 +102,8 @@ TEST_CASE("scale: in other units the numbers are rounded anew, and hardly a path
       CAPTURE(built_in.name);
       CAPTURE(scale);
       const Difference d = difference(film, small_film(scaled(scene, scale)));
-      CHECK(d.pixels < (built_in.name == "stress-solid-fog" ? 0.12 : 0.03));  // its walks have hundreds of events
+      // Paths in solid fog have hundreds of events, each of which rounding may change.
+      CHECK(d.pixels < (built_in.name == "stress-solid-fog" ? 0.12 : 0.03));
       CHECK(d.mean < 0.01);
     }
   }

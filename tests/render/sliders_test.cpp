@@ -6,8 +6,8 @@
 
 #include <functional>
 
-/// Whatever a slider is dragged to: a picture without rejected samples that is neither black nor white, and no energy
-/// out of nothing.
+/// Whatever a slider is dragged to, the picture has no rejected samples, is not of one colour, and shows no light that
+/// comes from nowhere.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -74,7 +74,7 @@ void drag_each(const Owner& owner, const Use& use) {
   std::apply([&](const auto&... field) { (drag(field), ...); }, fields_of<Owner>());
 }
 
-/// A floor, a lamp, and room for what is tried; light reaches every corner of it.
+/// A floor and a lamp, with room for the thing that is tested; light reaches every corner.
 Scene stage() {
   Scene scene = white_room();
   scene.width = 24, scene.height = 18;
@@ -117,7 +117,7 @@ void check_stage(const Scene& scene) {
   CHECK((same < static_cast<int>(film.pixels.size()) || mean_value == 3 || mean_value < 1));
 }
 
-/// The same things alone in a white room: no pixel above 1.
+/// Checks that no pixel is above 1 when the same things are alone in a white room.
 void check_furnace(Scene scene) {
   scene.background = Vec3d{1, 1, 1};
   scene.objects.erase(scene.objects.begin() + 1);  // the lamp

@@ -30,7 +30,7 @@ bool has_control_character(const std::string& text) {
 
 }  // namespace
 
-// Each file says in its first line, a comment, what is to be said about it; "…" at its end stands for anything.
+// The first line of each file is a comment with the message that is expected; "…" at its end stands for any text.
 TEST_CASE("bad scenes: each is refused with the line that it carries") {
   const auto files = json_files(folder);
   CHECK(files.size() > 150);
@@ -48,7 +48,7 @@ TEST_CASE("bad scenes: each is refused with the line that it carries") {
   }
 }
 
-TEST_CASE("bad scenes: what a file cannot show") {
+TEST_CASE("bad scenes: empty files, broken texts and odd bytes are refused, too") {
   CHECK(complaint("") == "/: found an empty file, expected a scene: { \"tyndall\": 1, … }");
   CHECK(complaint(" \n\t ") == "/: found an empty file, expected a scene: { \"tyndall\": 1, … }");
   CHECK(complaint(std::string(3, '\0')).starts_with("line 1, column 1: found '\\u0000', expected a value"));

@@ -40,7 +40,7 @@ Solid3d& in_group(Scene& scene) { return std::get<Solid3d>(std::get<Group>(scene
 
 }  // namespace
 
-TEST_CASE("check: a valid scene, and the empty one") {
+TEST_CASE("check: a valid scene and the empty one pass") {
   CHECK(where_after([](Scene&) {}) == "");
   CHECK_FALSE(check(Scene()));
 }
@@ -91,7 +91,7 @@ TEST_CASE("check: ranges hold for edits as they do for files") {
   CHECK(where_after([](Scene& s) { fog(s).medium.g = -1; }) == "/objects/1/g");
 }
 
-TEST_CASE("check: indices in range, names once, pictures there") {
+TEST_CASE("check: indices must be in range, names unique, and textures must have their pictures") {
   CHECK(where_after([](Scene& s) { solid(s).material = 2; }) == "/objects/0/material");
   CHECK(where_after([](Scene& s) { solid(s).material = -1; }) == "/objects/0/material");
   CHECK(where_after([](Scene& s) { s.materials[0].colour = TextureIndex{2}; }) == "/materials/white/albedo");
@@ -102,7 +102,7 @@ TEST_CASE("check: indices in range, names once, pictures there") {
   CHECK(where_after([](Scene& s) { s.textures[1].kind = Image{"planet.png", nullptr}; }) == "/textures/planet/file");
 }
 
-TEST_CASE("check: media") {
+TEST_CASE("check: what a medium's boundary and colour may be") {
   CHECK(where_after([](Scene& s) { fog(s).boundary = Sphere<>{{}, -1, {}}; }) == "/objects/1/boundary/radius");
   CHECK(where_after([](Scene& s) { fog(s).boundary = Sphere<>{{}, 1, Vec3d{}}; }) == "/objects/1/boundary/center_end");
   CHECK(where_after([](Scene& s) { fog(s).boundary = Box<>{{0, 0, 0}, {1, 0, 1}}; }) == "/objects/1/boundary/max/1");
@@ -110,7 +110,7 @@ TEST_CASE("check: media") {
   CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{0}; }) == "");
 }
 
-TEST_CASE("check: degenerate quads, relative to their size") {
+TEST_CASE("check: quads without area are refused, judged by their own size") {
   const auto where = [](Vec3d u, Vec3d v) { return where_after([&](Scene& s) { solid(s).shape = Quad<>{{}, u, v}; }); };
   for (const double size : {1e-30, 1e-6, 1.0, 1e6, 1e30}) {
     CAPTURE(size);
@@ -123,7 +123,7 @@ TEST_CASE("check: degenerate quads, relative to their size") {
   }
 }
 
-TEST_CASE("check: the camera has a direction, and one that is up") {
+TEST_CASE("check: the camera needs a direction, and an up vector that is not parallel to it") {
   const auto where = [](Vec3d from, Vec3d at, Vec3d up) {
     return where_after([&](Scene& s) { s.camera.look_from = from, s.camera.look_at = at, s.camera.vup = up; });
   };
@@ -136,7 +136,7 @@ TEST_CASE("check: the camera has a direction, and one that is up") {
   CHECK(where_after([](Scene& s) { s.camera.shutter_open = 1, s.camera.shutter_close = 1; }) == "");
 }
 
-TEST_CASE("check: values that single precision cannot hold") {
+TEST_CASE("check: values that single precision cannot hold are refused") {
   CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{1e39, 0, 0}, 1, {}}; }) == "/objects/0/center/0");
   CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{}, 1e-50, {}}; }) == "/objects/0/radius");
   CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-12; }) == "/objects/1/g");

@@ -52,7 +52,7 @@ TEST_CASE("load_scene: built-in scenes by name") {
   CHECK(complaint_about("cornel-smoke").ends_with("(did you mean \"cornell-smoke\"?)"));
 }
 
-TEST_CASE("load_scene: the assets that TYNDALL_ASSETS names, and none") {
+TEST_CASE("load_scene: finds the assets that TYNDALL_ASSETS names, and does without any") {
   fs::create_directories(scratch / "assets" / "scenes");
   write("assets/scenes/mine.json", "// about mine\n{ \"tyndall\": 1 }");
   write("assets/scenes/broken.json", "// about broken\n{");
@@ -89,7 +89,7 @@ TEST_CASE("load_scene: files, and textures beside them") {
   fs::current_path(before);
 }
 
-TEST_CASE("load_scene: what cannot be loaded") {
+TEST_CASE("load_scene: what cannot be loaded is refused with a reason") {
   const std::string missing = (scratch / "none.json").string();
   CHECK(complaint_about(missing).starts_with(missing + ": found no such file, expected a scene file, an image"));
   CHECK(complaint_about(scratch.string()).starts_with(scratch.string() + ": found a folder, expected"));

@@ -41,7 +41,7 @@ TEST_CASE("overrides: in order, the later on top of the earlier") {
   CHECK(read_text(text, overrides).render.spp == 6);
 }
 
-TEST_CASE("overrides: the parent must exist") {
+TEST_CASE("overrides: the object or array that holds the value must exist") {
   CHECK(complaint_with("/render/spp") == "--set /render/spp: found no /render, expected an existing parent");
   CHECK(complaint_with("/materials/gld/fuzz") ==
         "--set /materials/gld/fuzz: found no /materials/gld, expected an existing parent (did you mean \"gold\"?)");
@@ -55,7 +55,7 @@ TEST_CASE("overrides: the parent must exist") {
         "--set /tyndall/x: found 1 as the parent, expected an existing object or array as the parent");
 }
 
-TEST_CASE("overrides: pointers that are none") {
+TEST_CASE("overrides: texts that are no JSON pointers are refused") {
   for (const char* pointer : {"", "camera", "camera/vfov", "/camera/~2", "/camera/~"})
     CHECK(complaint_with(pointer).starts_with("--set " + std::string(pointer) + ": found no JSON pointer, expected"));
 }

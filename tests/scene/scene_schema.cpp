@@ -42,7 +42,7 @@ JsonValue json_of(E value) {
   return text(name_of(value));
 }
 
-/// Which of the shared definitions a vector is.
+/// The name of the shared definition that describes a vector with this range.
 std::string vector_name(const Valid& valid) {
   if (valid.low == 0) return valid.high == 1 ? "share" : "radiance";
   return "vector";
@@ -82,13 +82,13 @@ template <class Owner, class T>
 JsonValue property(const Field<Owner, T>& field) {
   JsonObject out;
   add_type(out, meaning_of(field), static_cast<const T*>(nullptr));
-  if constexpr (requires { json_of(Owner().*field.value); })  // what may be absent has no default
+  if constexpr (requires { json_of(Owner().*field.value); })  // a value that may be absent has no default
     if (!field.required) out.push_back({"default", json_of(Owner().*field.value)});
   out.push_back({"description", sentence(field.help + choices(static_cast<const T*>(nullptr)), field.unit)});
   return object(std::move(out));
 }
 
-/// An object with exactly these members.
+/// The schema of an object with these members and no others.
 JsonValue closed(const std::string& about, JsonArray required, JsonObject properties) {
   JsonObject out{{"type", text("object")}};
   if (!about.empty()) out.push_back({"description", text(about)});

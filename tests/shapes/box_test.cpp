@@ -18,10 +18,10 @@ namespace {
 using Three = std::array<double, 3>;
 Three three(Vec3f v) { return {v.x, v.y, v.z}; }
 
-/// What a line does to the box [-1, 1]³, in numbers that are exact for small whole coordinates and slopes of -1, 0, 1.
+/// Where a line meets the box [-1, 1]³, computed exactly: coordinates are small whole numbers, slopes are -1, 0 or 1.
 struct Reference {
-  bool touches = true;  ///< the closed box
-  bool enters = true;   ///< its interior
+  bool touches = true;  ///< it meets the box, borders included
+  bool enters = true;   ///< it meets the box's interior
   double near = -1e9, far = 1e9;
 };
 Reference reference(Vec3f origin, Vec3f direction) {
@@ -70,7 +70,7 @@ TEST_CASE("box: every origin on, in and around it and every direction of zeros a
       const BoxSlabs<float> slabs = box_slabs(map, o, d);
       const Interval<float> line = slabs.inside;
       if (expected.enters) {
-        // Neither loses a line through the interior, nor gets a digit wrong.
+        // A line through the interior must be met, at exactly the right distances.
         ++entered;
         wrong += line.hit && line.near == expected.near && line.far == expected.far ? 0 : 1;
         wrong += right_face(box_face(slabs, true), expected.near, o, d, true) ? 0 : 1;
@@ -78,7 +78,7 @@ TEST_CASE("box: every origin on, in and around it and every direction of zeros a
       } else if (!expected.touches) {
         wrong += line.hit ? 1 : 0;
       } else if (line.hit) {
-        // Along a face or through an edge alone: may count as met, and then is met where it touches.
+        // A line along a face or through an edge alone may count as a hit, but then only where it touches the box.
         wrong += line.near >= expected.near && line.far <= expected.far ? 0 : 1;
       }
       wrong += std::isnan(line.near) || std::isnan(line.far) ? 1 : 0;
@@ -124,7 +124,7 @@ TEST_CASE("box: turned and moved, hits are on its surface and the face's normal 
   }
 }
 
-TEST_CASE("box: left by identity: outward never met again, from inside always left, at every scale") {
+TEST_CASE("box: a ray that leaves outward never meets it again, one that starts inside always leaves, at every scale") {
   for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6}) {
     Engine engine(8);
     const Placement placement{33, scale * Vec3d{3, -1, 2}};
@@ -158,11 +158,11 @@ TEST_CASE("box: left by identity: outward never met again, from inside always le
     CHECK(tried > 19000);
     CHECK(self_hits == 0);
     CHECK(lost_exits == 0);
-    if (scale < 1e-3 || scale > 1e3) CHECK(naive_faults > 1000);  // a least distance of 0.001
+    if (scale < 1e-3 || scale > 1e3) CHECK(naive_faults > 1000);  // leaving by a least distance of 0.001 fails
   }
 }
 
-TEST_CASE("box: a component of the direction next to zero is a zero, of its sign") {
+TEST_CASE("box: a component of the direction that is nearly zero counts as a zero of the same sign") {
   CHECK(safe_reciprocal(0.5f) == 2.0f);
   CHECK(safe_reciprocal(-4.0f) == -0.25f);
   CHECK(safe_reciprocal(0.0f) == doctest::Approx(1e20f));

@@ -28,7 +28,7 @@ TEST_CASE("quad: rays from in front and behind meet it at the right distance") {
   CHECK(meet(quad, {0.5f, -0.5f, 7}, {0, 0, -1}).t == 5);
   CHECK_FALSE(meet(quad, {0, 0, 0}, {0, 0, -1}).hit);       // behind
   CHECK_FALSE(meet(quad, {0, 0, 0}, {0, 0, 1}, 1.9f).hit);  // beyond the limit
-  CHECK(meet(quad, {0, 0, 0}, {0, 0, 1}, 2.0f).hit);        // ties are for the caller to judge
+  CHECK(meet(quad, {0, 0, 0}, {0, 0, 1}, 2.0f).hit);        // just at the limit: the caller decides about ties
   CHECK_FALSE(meet(quad, {0, 0, 2}, {0, 0, 1}).hit);        // starts on it
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("quad: a ray in its plane misses, whatever its direction, and limits n
         CHECK_FALSE(meet({corner, {2, 0, 0}, {0, 2, 0}}, origin, direction).hit);
 }
 
-TEST_CASE("quad: of a parallelogram the right share is met, at every size and shape") {
+TEST_CASE("quad: a parallelogram is hit by the right share of rays, at every size and shape") {
   // Aimed at the bounding rectangle of corner, corner + u, corner + v, corner + u + v in the plane z = 0.
   struct Shape {
     Vec3d u, v;
@@ -75,7 +75,7 @@ TEST_CASE("quad: of a parallelogram the right share is met, at every size and sh
         const double a = (target.x * v.y - target.y * v.x) / (u.x * v.y - u.y * v.x);
         const double b = (u.x * target.y - u.y * target.x) / (u.x * v.y - u.y * v.x);
         const double inside = std::min({a, 1 - a, b, 1 - b});
-        if (std::abs(inside) > 1e-3) wrong += hit.hit == (inside > 0) ? 0 : 1;  // the edges have the size of a rounding
+        if (std::abs(inside) > 1e-3) wrong += hit.hit == (inside > 0) ? 0 : 1;  // closer to an edge rounding decides
       }
       CAPTURE(size);
       const double share = area / (wide * high);
@@ -85,7 +85,7 @@ TEST_CASE("quad: of a parallelogram the right share is met, at every size and sh
 }
 
 TEST_CASE("quad: a direction of any length meets it as the unit one does, and no length decides between hit and miss") {
-  // A test of |d·n| against 1e-8 misses with every short direction.
+  // The usual test, whether |d·n| is below 1e-8, would miss with every short direction.
   for (const double size : {1e-6, 1.0, 1e6}) {
     Engine engine(5);
     const Affine map = quad_map({{0, 0, 0}, size * Vec3d{1, 0.2, 0}, size * Vec3d{-0.3, 1, 0.1}}, {}, {});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<float>::epsilon();
 
-/// The nearer root by the textbook's quadratic: what loses its digits.
+/// The nearer root by the textbook's quadratic formula, which loses digits to cancellation.
 bool naive_hit(Vec3f to_center, float radius, Vec3f d, float& t) {
   const float a = dot(d, d), h = dot(d, to_center), c = dot(to_center, to_center) - radius * radius;
   const float discriminant = h * h - a * c;
@@ -27,7 +27,7 @@ struct Misses {
   double surface = 0;  ///< largest distance of a hit point from the surface
 };
 
-/// Rays from the origin through the disc of a sphere at the given distance; in double all of them hit.
+/// Shoots rays from the origin at the disc of a sphere at the given distance. Computed in double, all of them hit.
 Misses shoot(double distance, double radius, int count) {
   Engine engine(1);
   Misses result;
@@ -58,7 +58,7 @@ TEST_CASE("sphere: seen from 10,000 radii away, no ray misses and every hit is o
   const Misses far = shoot(1e4, 1, 100000);
   CHECK(far.robust == 0);
   CHECK(far.surface < 64 * epsilon * (1e4 + 1));
-  CHECK(far.naive > 10000);  // the textbook's form misses a tenth and more
+  CHECK(far.naive > 10000);  // the textbook's formula misses with more than a tenth of the rays
 }
 
 TEST_CASE("sphere: hits are on the surface to rounding at any distance and size") {
@@ -86,15 +86,15 @@ TEST_CASE("sphere: a line that passes it by has no interval, a tangent none or o
   CHECK(around.far == 2.5f);
 }
 
-TEST_CASE("sphere: what cannot be computed misses instead of poisoning") {
-  // A radius whose square is beyond float: neither endless loops nor hits that are no numbers.
+TEST_CASE("sphere: what cannot be computed is a miss, and never a distance that is not a number") {
+  // The square of this radius is beyond the range of float.
   const Interval<float> huge = sphere_interval<float>({0, -1e30f, 0}, 1e30f, normalize(Vec3f{1, -1, 0}));
   CHECK_FALSE((huge.hit && 0 < huge.near && huge.near < std::numeric_limits<float>::infinity()));
   const Interval<float> none = sphere_interval<float>({NAN, 0, 0}, 1.0f, {0, 0, 1});
   CHECK_FALSE(none.hit);
 }
 
-TEST_CASE("sphere: leaving by identity is right at every scale, leaving by a least distance is not") {
+TEST_CASE("sphere: rays that know where they start leave it rightly at every scale, unlike with a least distance") {
   struct Count {
     int self_hits = 0, lost_exits = 0;
   };
@@ -130,10 +130,10 @@ TEST_CASE("sphere: leaving by identity is right at every scale, leaving by a lea
     return least;
   };
   constexpr int count = 20000;
-  CHECK(leave(1e-4).lost_exits > 0.99 * count * 0.5);  // glass is never left
+  CHECK(leave(1e-4).lost_exits > 0.99 * count * 0.5);  // with a least distance rays would never leave the glass
   CHECK(leave(1).self_hits == 0);
   CHECK(leave(1e2).self_hits + leave(1e2).lost_exits > 0);
-  CHECK(leave(1e4).self_hits > 0.1 * count);  // acne
+  CHECK(leave(1e4).self_hits > 0.1 * count);  // with a least distance surfaces would shade themselves
   leave(1e-3), leave(1e-2), leave(1e3), leave(1e5);
   CHECK(leave(1e6).self_hits > 0.1 * count);
 }

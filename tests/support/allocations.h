@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
 
-/// How often something large is copied: seen by the memory that a copy has to ask for.
+/// Counts how often something large is copied, by the memory that each copy asks for.
 namespace tyndall::test {
 
 /// Counts, while it lives, how often `new` is asked for exactly so many bytes, by any thread. For example, a copy of a

@@ -21,7 +21,7 @@ Scene dim_room() {
   return scene;
 }
 
-/// A hood over the middle of the floor: from a lamp in it light leads only to a ball below.
+/// A room with a hood over the middle of the floor: a lamp in the hood shines only on a ball below it.
 Scene hooded_room() {
   Scene scene = dim_room();
   const Material black = lambertian(0);
@@ -34,8 +34,8 @@ Scene hooded_room() {
   return scene;
 }
 
-/// The lamp's power is the same for every radius. Solid balls gather the light of small lamps at bright edges, and then
-/// the noise is that of a few samples: they get a larger lamp.
+/// The hooded room with a lamp, whose power is the same for every radius. Rooms with solid balls get a larger lamp,
+/// because such balls gather the light of small lamps at bright edges, where few samples make most of the noise.
 Scene under_hood(double lamp_radius = 0.05) {
   Scene scene = hooded_room();
   add(scene, sphere(lamp_center, lamp_radius), lamp(1.75 / (lamp_radius * lamp_radius)));
@@ -43,7 +43,7 @@ Scene under_hood(double lamp_radius = 0.05) {
 }
 
 constexpr double large_lamp = 0.2;
-constexpr double edges = 0.02;  // precision where such edges, or fog within glass, leave light to chance
+constexpr double edges = 0.02;  // precision of rooms where such edges, or fog within glass, leave much noise
 
 void add_shell(Scene& scene, Vec3d center, double inner, Vec3d way = {}) {
   const auto moving = [&](double radius) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// Rooms whose light comes by chains: a small lamp hangs in a hood, or in glass, so that no point of the walls sees it.
-/// What is wrong with one kind of chain then is wrong with all of the picture.
+/// Rooms whose light comes by chains alone: a small lamp hangs in a hood, or in glass, so that no point of the walls
+/// sees it. If one kind of chain is wrong, all of that room's picture is wrong.
 namespace tyndall::test {
 
 struct ChainRoom {

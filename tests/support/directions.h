@@ -4,8 +4,8 @@
 
 #include <vector>
 
-/// Densities of directions, checked against directions that were drawn: equal cells of a cap, chi-square, and the
-/// integral by quadrature.
+/// Checks that directions are drawn with the density that they are said to have: counts the drawn ones in equal cells
+/// of a cap, compares the counts with the density's integral over each cell, and judges them by chi-square.
 namespace tyndall::test {
 
 /// Directions around a unit axis; width: 1 - cosine of the widest, 2 is the whole sphere.

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-/// Scenes made to break filters: what is sharp in them is not where albedo, normal and depth change.
+/// Scenes made to break filters: their pictures have sharp edges where albedo, normal and depth do not change.
 namespace tyndall::test {
 
 inline Scene hard_scene(const std::string& name, const std::string& look, const std::string& textures,

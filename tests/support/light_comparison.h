@@ -6,7 +6,7 @@
 
 #include <vector>
 
-/// Pictures of independent seeds held against each other, where the light tracer can see.
+/// Compares pictures of independent seeds, in the pixels that the light tracer can see.
 namespace tyndall::test {
 
 /// Independent pictures of one scene, 3 numbers a pixel.
@@ -26,7 +26,7 @@ inline Pictures rendered(Scene scene, int spp, int seeds) {
   return out;
 }
 
-/// Mean over the pixels that count, of a rectangle of them.
+/// Mean over those pixels of a rectangle that the light tracer can see.
 struct Patch {
   int x0, y0, x1, y1;
 };
@@ -42,7 +42,7 @@ inline double mean_of(const std::vector<double>& picture, const LightTraced& tra
   return count > 0 ? sum / count : 0;
 }
 
-/// Mean of all pixels that count, from independent pictures.
+/// Mean over all pixels that the light tracer can see, from independent pictures.
 inline Estimate mean_of(const Pictures& pictures, const LightTraced& traced) {
   std::vector<double> means;
   for (const auto& picture : pictures) means.push_back(mean_of(picture, traced, {0, 0, traced.width, traced.height}));

@@ -9,8 +9,8 @@
 namespace tyndall::test {
 namespace {
 
-constexpr double least_way = 1e-9;         // of a ray from a surface to another
-constexpr double least_way_to_own = 1e-7;  // of a ray within a sphere, back to it
+constexpr double least_way = 1e-9;         // shortest way of a ray from one surface to another
+constexpr double least_way_to_own = 1e-7;  // shortest way of a ray within a sphere from one point of it to another
 
 /// Where a line is within something: from t0 to t1, if t0 < t1.
 struct Stretch {

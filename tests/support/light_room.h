@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-/// A scene as a second, plain tracer sees it: in double, without any of the kernels' code, so that a fault of theirs is
-/// not repeated here. Made for scenes whose lengths are around 1; surfaces are found by looking at all of them.
+/// A scene as a second, simple tracer sees it. It computes in double and uses none of the kernels' code, so that it
+/// does not repeat their faults. Made for scenes whose lengths are around 1; it tests every surface, without a tree.
 namespace tyndall::test {
 
 /// A sphere, or a parallelogram: a box is six of them.

@@ -58,7 +58,8 @@ class Tracer {
   bool is_matt(int surface) const { return std::holds_alternative<Lambertian<>>(room_.kind(at(surface))); }
   const RoomSurface& at(int surface) const { return room_.surfaces[static_cast<std::size_t>(surface)]; }
 
-  /// Half of the particles go by the cosine, half to the balls that bend or mirror, so that their light is not rare.
+  /// Half of the particles are sent in all directions, by the cosine, and half to the balls of glass and metal, so that
+  /// light by way of these is not rare.
   Particle emit(int lamp, SplitMix& random) const {
     const RoomSurface& surface = at(lamp);
     Particle p;
@@ -156,8 +157,9 @@ class Tracer {
         room_.kind(surface));
   }
 
-  /// The lobe around the mirror direction is as dense for light that comes as for light that goes; what is reflected is
-  /// that density without the cosine of the side from where the camera's paths come. Hence the ratio of cosines.
+  /// Reflects a particle at metal. The lobe has the same density both ways, and for paths from the camera that density
+  /// includes the cosine on the lamp's side. A particle needs the cosine on the camera's side in its place: hence the
+  /// ratio of the two.
   static bool mirror(Particle& p, Vec3d normal, double fuzz, SplitMix& random) {
     const double cos_in = -dot(p.direction, normal);
     p.direction = p.direction + (2 * cos_in) * normal;
@@ -168,8 +170,9 @@ class Tracer {
     return cos_out > 0;
   }
 
-  /// index: of the far side over the near one. Paths from the camera carry radiance across glass as it is, so light
-  /// that comes to them through narrower or wider cones counts by the square of the index.
+  /// Reflects or refracts a particle. index: that of the far side over that of the near side. Paths from the camera
+  /// carry radiance across glass unchanged, although glass narrows or widens cones of light. So that both agree,
+  /// particles are divided by the square of the index.
   static void cross_glass(Particle& p, Vec3d normal, double index, SplitMix& random) {
     const double cos_in = std::min(-dot(p.direction, normal), 1.0);
     if (random() < reflected_share(cos_in, index)) {

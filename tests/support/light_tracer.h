@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-/// Light traced the other way: particles from the lamps, joined to the camera wherever they scatter at a matt surface
-/// or in fog. Light through glass and off mirrors, which paths from the camera find by chance or by chains, arrives
-/// here by itself. A second opinion that shares nothing with the kernels but the scene.
+/// Light traced the other way: particles start at the lamps and are joined to the camera wherever they scatter at a
+/// matt surface or in fog. So they show the light that comes through glass and off mirrors without any special effort,
+/// where paths from the camera need chance or chains. This shares nothing with the kernels but the scene.
 namespace tyndall::test {
 
 struct LightTracing {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-/// Rooms that nobody designed: what is said about every picture has to hold for them too.
+/// Random rooms, for statements that must hold for every picture and not only for the built-in scenes.
 namespace tyndall::test {
 
 /// A floor with 3 to 9 balls and boxes of all materials, one to three lamps, sometimes walls, a sky or fog. A pure
@@ -63,7 +63,7 @@ class RandomRoom {
     if (chance(0.6)) return add(Sphere<>{{x, size, z}, size, {}}, any_material());
     add(Box<>{{x - size, 0, z - size}, {x + size, between(0.3, 2), z + size}}, any_material());
   }
-  /// Of about the same power, however small.
+  /// Adds a lamp; all have about the same power, however small they are.
   void add_lamp() {
     const double size = std::exp(between(std::log(0.2), std::log(1.0))), radiance = between(1, 6) / (size * size);
     const Vec3d at{between(-3, 3), between(2.5, 5), between(-3, 3)};

@@ -36,10 +36,11 @@ struct Moments {
   }
 };
 
-/// Gathers z-scores. Each must lie within 4; together their squares must average about 1, or the standard errors lie.
+/// Gathers z-scores. Each must lie within 4, and their squares must average about 1: else the standard errors are
+/// wrong.
 class ZScores {
  public:
-  /// precision: largest standard error that still sees the faults the test is for, as a share of what is expected.
+  /// precision: the largest standard error with which the test still finds faults, as a share of the expected value.
   void add(const std::string& what, Estimate measured, double expected, double precision = 0.01) {
     CAPTURE(what);
     CAPTURE(measured.mean);

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-/// A unit of work that has the pass given up after some more.
+/// For tests of interrupted passes: lets a pass be given up after a chosen number of units of work.
 namespace tyndall::test {
 
 struct Stop {

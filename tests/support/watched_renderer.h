@@ -46,9 +46,9 @@ class WatchedRenderer {
     std::unique_lock lock(mutex_);
     if (!news_.wait_for(lock, std::chrono::seconds(60), condition)) FAIL("it did not come true within a minute");
   }
-  /// Waits until all that the renderer was told before has been done; a finished or paused one then stands still,
-  /// another one has made a whole pass meanwhile. A film is handed out between passes, after orders were taken and
-  /// before what they make of the same samples is shown: the second film comes after that.
+  /// Waits until the renderer has done all that it was told before. A finished or paused renderer then stands still;
+  /// another one has made a whole pass meanwhile. It works by asking for two films: the first comes after orders were
+  /// taken, but perhaps before their frame is shown; the second comes after that.
   void catch_up() {
     renderer_.film();
     renderer_.film();
@@ -76,7 +76,7 @@ class WatchedRenderer {
   std::condition_variable news_;
   std::vector<FramePointer> frames_;
   std::size_t calls_ = 0;
-  Renderer renderer_;  // last: stopped first
+  Renderer renderer_;  // declared last, so that it has stopped before what it uses goes
 };
 
 /// The red, green and blue of a frame, without alpha, which must be 1.

@@ -33,7 +33,7 @@ TEST_CASE("checker: the cell at the origin is even, its lower neighbours are odd
   CHECK(checker_odd(Vec3f{-0.5f, -0.5f, -0.5f}));
 }
 
-TEST_CASE("checker: numbers too large for a cell are some colour and never trouble") {
+TEST_CASE("checker: coordinates too large to tell cells apart give one of the two colours") {
   for (const float v : {1e10f, -1e10f, 3e38f, -3e38f, INFINITY, NAN}) {
     const Vec3f cell{v, 0.5f, 0.5f};
     const bool odd = checker_odd(cell);

@@ -17,7 +17,7 @@ const float* table() {
   return gradients->data();
 }
 
-/// Points with about 12 bits behind the point, so that shifting by whole periods is exact.
+/// Random points whose coordinates have about 12 binary places, so that adding whole periods to them is exact.
 class Points {
  public:
   Vec3f next() { return {one(), one(), one()}; }

@@ -69,7 +69,7 @@ SCENE
 # what came of it. This many seconds end a test that hangs, and do nothing else.
 patience=150
 
-# wait_until COMMAND...: until it succeeds.
+# wait_until COMMAND...: runs the command again and again until it succeeds.
 wait_until() {
   local end=$((SECONDS + patience)) alive
   while :; do

@@ -29,7 +29,7 @@ lines=$(here)
 point chart 60 55
 wait_for '^reading path · random.*: ' "$lines"
 
-# The error is a picture; nothing starts over for it.
+# The view of errors is shown as a picture, and switching to it starts nothing over.
 bright=$(brightness picture)
 lines=$(here)
 key 8
@@ -69,7 +69,7 @@ print(len(rows), "points, from", first, "to", last, "fallen to", found, "expecte
 sys.exit(not expected < 0.9 or not 0.75 < found / expected < 1.33)
 PY
 
-# An edit makes it a reference of another scene; undone, it fits again.
+# After an edit the reference belongs to another scene; after undo it fits again.
 lines=$(here)
 type_value gold.fuzz.value 0.5
 wait_for '^accuracy reference of another scene: reference.pfm' "$lines"
@@ -79,7 +79,7 @@ lines=$(here)
 chord ctrl z
 wait_for '^accuracy against reference.pfm' "$lines"
 
-# Dropped: estimated again, and no view of errors any more.
+# Without the reference the error is estimated again, and the view of errors is gone.
 lines=$(here)
 click chart.reference
 wait_for '^widget dialog.drop' "$lines"
@@ -88,7 +88,7 @@ wait_for '^widget image.view.beauty .* on' "$lines"
 wait_for '^accuracy $' "$lines"
 finish
 
-# The same from the command line.
+# The reference can also be given on the command line.
 start scene.json --reference reference.pfm
 wait_for '^accuracy against reference.pfm'
 finish

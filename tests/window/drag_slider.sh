@@ -19,7 +19,7 @@ grep -qE '^frame [0-9]+ 16 ' log || fail 'the edited picture is not finished'
 picture_changed() { [ "$(brightness picture)" != "$before" ]; }
 wait_until picture_changed
 
-# One drag is one step back.
+# Undo takes a whole drag back at once.
 lines=$(here)
 chord ctrl z
 wait_for '^widget gold.fuzz .* 0.05$' "$lines"

@@ -40,7 +40,7 @@ settle
 [ "$(submits)" = 1 ] || fail "$(submits) submits instead of 1"
 [ "$(value gold.fuzz)" = 0.3 ] || fail "fuzz is $(value gold.fuzz)"
 
-# The message goes; then nothing is drawn and nothing computed, for as long as one looks.
+# When the message has gone, nothing is drawn and nothing computed any more.
 key Escape
 move 6 6 # the key was released before
 settle_without_message

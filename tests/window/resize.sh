@@ -26,7 +26,7 @@ env -u DISPLAY -u WAYLAND_DISPLAY "$tyndall" view scene.json 2>errors || status=
 [ "$status" = 3 ] || fail "exit code $status without a display"
 [ "$(wc -l <errors)" = 1 ] || fail "not one line: $(cat errors)"
 
-# A server that goes away.
+# The display goes away while the window is open.
 exec 3> >(cat >server)
 Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 2>/dev/null &
 server=$!

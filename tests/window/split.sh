@@ -6,7 +6,7 @@
 write_scene scene.json 0.3 100000
 tasks() { find "/proc/$pid/task" -mindepth 1 -maxdepth 1 | wc -l; }
 
-# How often each half has gone on since line $1.
+# How often each half has got new samples since line $1 of the log.
 both_go_on() {
   awk '$1 == "halves" { a += $3 > last_a; b += $5 > last_b; last_a = $3; last_b = $5 } END { exit a < 4 || b < 4 }' \
     < <(tail -n "+$1" log)

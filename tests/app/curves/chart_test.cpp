@@ -49,7 +49,7 @@ TEST_CASE("chart: SVG and CSV hold every curve and every point") {
   CHECK(chart_table(chart).find("0.1 s") != std::string::npos);
   Chart many = chart;
   for (int i = 0; i < 8; ++i) many.curves.push_back(curve("further", 1, 0));
-  CHECK(count(chart_svg(many), "class=\"curve s1 again") == 1);  // the tenth has the second's colour, dashed
+  CHECK(count(chart_svg(many), "class=\"curve s1 again") == 1);  // the tenth curve has the second one's colour, dashed
 }
 
 TEST_CASE("chart: no points, and points at zero, make a chart all the same") {

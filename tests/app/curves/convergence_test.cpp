@@ -14,7 +14,7 @@ void run(Convergence& runs, std::uint64_t edit, const std::string& method, doubl
 
 }  // namespace
 
-TEST_CASE("runs that say something are kept, drags are not") {
+TEST_CASE("runs that lasted for a while are kept, the short ones of a drag are not") {
   Convergence runs;
   run(runs, 1, "path · random", 3);
   for (std::uint64_t edit = 2; edit < 50; ++edit) run(runs, edit, "mis · sobol", 0.3);
@@ -43,7 +43,7 @@ TEST_CASE("starting over is a run of its own though the edit is the same") {
   CHECK(runs.earlier().size() == 1);
 }
 
-TEST_CASE("many frames make few points, the last one is always there") {
+TEST_CASE("many frames make few points, and the last frame always has one") {
   Convergence runs;
   for (int k = 1; k <= 100000; ++k) runs.add(1, "a", {k * 0.001, 1.0 / k});
   CHECK(runs.current().points.size() < 300);
@@ -59,7 +59,7 @@ TEST_CASE("errors that are unknown leave no point") {
   CHECK(runs.current().method == "a");
 }
 
-TEST_CASE("an error that was not estimated anew is no point") {
+TEST_CASE("a frame whose error was not estimated anew makes no point") {
   Convergence runs;
   for (int k = 1; k < 100; ++k) runs.add(1, "a", {0.1 * k, k < 50 ? 0.5 : 0.25});
   REQUIRE(runs.current().points.size() == 2);

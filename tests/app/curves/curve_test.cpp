@@ -34,7 +34,7 @@ TEST_CASE("chart: times to an error are read between the points, on logarithmic 
   CHECK_FALSE(seconds_to(curve("biased", 1, 0.02), 0.01));
 }
 
-TEST_CASE("chart: an error of zero or less is reached when it was measured, not between") {
+TEST_CASE("chart: an error of zero or less is reached at the point where it was measured, never between points") {
   CHECK(seconds_to({"exact", {{1, 0.1}, {2, 0}}}, 0.01).value() == 2);
   CHECK(seconds_to({"below the reference's noise", {{1, 0.1}, {4, -1e-9}}}, 0.01).value() == 4);
 }
@@ -46,12 +46,12 @@ TEST_CASE("time to a target: four times as long for half the error, less what ha
   CHECK(seconds_left(0.01, {10, 0.00001}, 10) == 0);
 }
 
-TEST_CASE("chart: a floor is bias, noise and heavy tails are not") {
+TEST_CASE("chart: an error that stops falling is called bias, noise and rare bright samples are not") {
   CHECK_FALSE(bias_of(curve("plain", 1, 0), reference_noise));
   CHECK(bias_of(curve("biased", 1, 0.004), reference_noise).value() == doctest::Approx(0.004));
   CHECK_FALSE(bias_of(curve("hidden by noise", 1, 1e-5), reference_noise));
   ErrorCurve tail = curve("heavy tail", 1, 0);
-  for (ErrorPoint& p : tail.points) p.noise *= 0.6;  // the halves see too little, ever less of it
+  for (ErrorPoint& p : tail.points) p.noise *= 0.6;  // the noise that the halves show is too small
   CHECK_FALSE(bias_of(tail, reference_noise));
   ErrorCurve often{"heavy tail, measured often", {}};
   for (double spp = 16; spp < 4096; spp *= 1.05)
@@ -61,7 +61,7 @@ TEST_CASE("chart: a floor is bias, noise and heavy tails are not") {
   CHECK(bias_of(often, reference_noise).value() == doctest::Approx(0.004).epsilon(0.1));
 }
 
-TEST_CASE("chart: speed is that to the least error that both curves reach") {
+TEST_CASE("chart: speeds are compared at the smallest error that both curves reach") {
   const ErrorCurve slow{"slow", {{1, 0.1, 1, 0}, {10, 0.01, 2, 0}}};
   CHECK(speed_against(slow, slow) == doctest::Approx(1));
   CHECK(speed_against(slow, {"fast", {{0.01, 0.1, 1, 0}, {0.1, 0.01, 2, 0}, {1, 0.001, 4, 0}}}) ==

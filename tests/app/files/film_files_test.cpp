@@ -39,7 +39,7 @@ TEST_CASE("films with and without chains are told apart, where chains would be l
   CHECK_FALSE(same_samples(path, other));
 }
 
-TEST_CASE("a film says how caustics were found; one that does not is from before chains") {
+TEST_CASE("a film file says how caustics were found; files that do not are older than chains") {
   const auto folder = scratch_folder("caustics");
   const Film film = small_film();
   Scene scene = small_scene("stress-caustic-glass", 2, 1, 1);

@@ -7,8 +7,8 @@
 
 #include <string>
 
-/// What is said about the kernel that renders a scene: measured where there are two kernels to compare, and said where
-/// there is only one.
+/// What users are told about the kernel that renders their scene: how much faster it is than the full kernel, or that
+/// there is only the full kernel.
 using namespace tyndall;
 
 TEST_CASE("kernel gain: nothing is measured where the full kernel renders the scene") {

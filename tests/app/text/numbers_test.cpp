@@ -4,7 +4,7 @@
 
 using namespace tyndall;
 
-TEST_CASE("sliders and values go back and forth") {
+TEST_CASE("a slider's position gives a value, and the value gives the position back") {
   const Slider fuzz{0, 1}, density{0.001, 100, true};
   CHECK(slider_position(fuzz, 0.25) == doctest::Approx(0.25));
   CHECK(slider_value(fuzz, 0.25, 0.1) == 0.25);
@@ -15,7 +15,7 @@ TEST_CASE("sliders and values go back and forth") {
   CHECK(slider_value(density, 1, 1) == 100);
 }
 
-TEST_CASE("positions beyond the ends give the ends, values beyond stay at the ends") {
+TEST_CASE("positions beyond a slider's ends give the end values, and values beyond are shown at the ends") {
   const Slider ior{0.5, 3};
   CHECK(slider_value(ior, -1, 1) == 0.5);
   CHECK(slider_value(ior, 2, 1) == 3);
@@ -48,7 +48,7 @@ TEST_CASE("sliders make room for values beyond them, where those are valid") {
   CHECK(widened({0.5, 3}, above(0), 1.5).high == 3);
 }
 
-TEST_CASE("a drag of 400 crosses the slider, and no drag changes nothing") {
+TEST_CASE("a drag of 400 units crosses the whole slider, and a drag of 0 changes nothing") {
   CHECK(dragged({0, 1}, 0.2, 200) == doctest::Approx(0.7));
   CHECK(dragged({0.01, 10, true}, 0.1, 400.0 / 3) == doctest::Approx(1));
   CHECK(dragged({0.01, 10, true}, -0.1, 400.0 / 3) == doctest::Approx(-1));

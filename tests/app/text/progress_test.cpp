@@ -20,12 +20,12 @@ TEST_CASE("the part done is that of the limit which is nearest") {
   CHECK(progress_fraction({0, 0, 0, infinity}, {.spp = 64, .target_error = 0.1}) == 0);
 }
 
-TEST_CASE("samples that were there before are no progress") {
+TEST_CASE("samples that a continued film brings along do not count as progress") {
   CHECK(progress_fraction({32, 1, 1, 1}, {.spp_before = 32, .spp = 64}) == 0);
   CHECK(progress_fraction({48, 1, 1, 1}, {.spp_before = 32, .spp = 64}) == 0.5);
 }
 
-TEST_CASE("durations") {
+TEST_CASE("durations are shown in seconds, minutes or hours") {
   CHECK(duration(0) == "0.0 s");
   CHECK(duration(12.34) == "12.3 s");
   CHECK(duration(59.94) == "59.9 s");

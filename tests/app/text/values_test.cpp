@@ -20,7 +20,7 @@ std::string refusal(Read read) {
 
 }  // namespace
 
-TEST_CASE("whole numbers: the whole text, in range") {
+TEST_CASE("whole numbers: the whole text must be a number, and in range") {
   CHECK(read_whole("64", 1, 100) == 64);
   CHECK(read_whole("-3", -5, 5) == -3);
   for (const char* text : {"", "abc", "1.5", "12x", " 1", "0", "101", "99999999999999999999", "0x10", "1e3"})
@@ -28,7 +28,7 @@ TEST_CASE("whole numbers: the whole text, in range") {
   CHECK(refusal([] { read_whole("0", 1, 100); }) == R"(found "0", expected a whole number from 1 to 100)");
 }
 
-TEST_CASE("numbers: finite and in range") {
+TEST_CASE("numbers: must be finite and in range") {
   CHECK(read_number("0.25", at_least(0), "") == 0.25);
   CHECK(read_number("1e-3", above(0), "") == 1e-3);
   CHECK(read_number("-2", any_number(), "") == -2);
@@ -37,14 +37,14 @@ TEST_CASE("numbers: finite and in range") {
   CHECK(refusal([] { read_number("-1", at_least(0), "a number >= 0"); }) == R"(found "-1", expected a number >= 0)");
 }
 
-TEST_CASE("sizes") {
+TEST_CASE("sizes: two whole numbers with an x between them") {
   CHECK(read_size("640x480").width == 640);
   CHECK(read_size("640x480").height == 480);
   for (const char* text : {"640", "640x", "x480", "640x480x3", "0x10", "10x-1", "10X10", "640 x 480", "1.5x2", "x"})
     CHECK_THROWS_AS(read_size(text), UsageError);
 }
 
-TEST_CASE("sample ranges") {
+TEST_CASE("sample ranges: the first sample, and the one after the last") {
   CHECK(read_samples("16:32").first == 16);
   CHECK(read_samples("16:32").last == 32);
   CHECK(read_samples("4294967294:4294967295").first == 4294967294u);
@@ -52,7 +52,7 @@ TEST_CASE("sample ranges") {
     CHECK_THROWS_AS(read_samples(text), UsageError);
 }
 
-TEST_CASE("regions") {
+TEST_CASE("regions: left, top, right and bottom in pixels, within the picture and not empty") {
   CHECK(read_region("1,2,30,40") == Region{1, 2, 30, 40});
   for (const char* text : {"1,2,30", "1,2,30,40,50", "5,5,5,9", "5,5,9,5", "-1,0,5,5", "0,0,5,5.5", "0 0 5 5"})
     CHECK_THROWS_AS(read_region(text), UsageError);

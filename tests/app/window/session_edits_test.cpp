@@ -54,7 +54,7 @@ TEST_CASE("exposure, tone map and name start nothing over, but can be undone") {
   CHECK(opened.session->renderers().edit(Half::current) == 1);
 }
 
-TEST_CASE("while a picture is awaited the newest scene waits, and none between is begun") {
+TEST_CASE("while a picture is awaited only the newest scene waits, and those between are never rendered") {
   OpenedSession opened("waiting");
   {
     const std::lock_guard hold(opened.gate);
@@ -69,7 +69,7 @@ TEST_CASE("while a picture is awaited the newest scene waits, and none between i
     opened.set_fuzz(0.5, 7);
     CHECK_FALSE(opened.session->send(0));
     CHECK(opened.session->renderers().edit(Half::current) == 2);
-    CHECK(opened.session->send(1e9));  // out of patience
+    CHECK(opened.session->send(1e9));  // so late that the edit is sent although a picture is awaited
     CHECK(opened.session->renderers().edit(Half::current) == 3);
   }
   REQUIRE(opened.finishes());
@@ -78,7 +78,7 @@ TEST_CASE("while a picture is awaited the newest scene waits, and none between i
   CHECK(opened.fuzz() == 0.25);
 }
 
-TEST_CASE("what is broken is refused with a reason, and goes away with the next good edit") {
+TEST_CASE("an edit that breaks the scene is refused with a reason, which goes away with the next valid edit") {
   OpenedSession opened("broken");
   Scene scene = opened.session->editor().scene();
   scene.camera.look_at = scene.camera.look_from;

@@ -59,7 +59,7 @@ TEST_CASE("the status line tells the errors of the clean view and of the raw pic
     CHECK_MESSAGE(text.find(part) != std::string::npos, text);
 }
 
-TEST_CASE("what is not known yet is not made up") {
+TEST_CASE("the status line leaves out what is not known yet") {
   Frame frame;
   frame.step = 8;
   frame.relative_error = std::numeric_limits<double>::infinity();
@@ -95,13 +95,13 @@ TEST_CASE("against a reference the true error is told, and what is only estimate
   const ErrorCurve run{"", {{1, 4e-4}}, 3};
   std::string text = text_of(status_cells(&frame, run, document(), {false, true}));
   CHECK(text.find("true error=2 %;estimated=1.1 %;") != std::string::npos);
-  frame.edit = 4;  // not measured yet
+  frame.edit = 4;  // this edit's error has not been measured yet
   text = text_of(status_cells(&frame, run, document(), {false, true}));
   CHECK(text.find("true error=?;estimated=1.1 %;") != std::string::npos);
   CHECK(text_of(status_cells(&frame, run, document(), {false, false, true})).find("B=rendering;") == 0);
 }
 
-TEST_CASE("cells go by rank when there is no room, the state stays") {
+TEST_CASE("without room the least important cells go first, and the state always stays") {
   const std::vector<StatusCell> cells{{"", "state", 0}, {"", "a", 3}, {"", "b", 5}, {"", "c", 3}};
   const std::vector<float> widths{50, 50, 50, 50};
   CHECK(fitting_cells(cells, widths, 200) == std::vector<std::size_t>{0, 1, 2, 3});

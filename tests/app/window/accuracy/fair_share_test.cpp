@@ -15,7 +15,8 @@ using namespace tyndall;
 
 namespace {
 
-/// Renderers whose passes take so long; returns the greatest difference in seconds after the first two seconds.
+/// Simulates two renderers whose passes take the given seconds. Returns by how much one was ever ahead of the other, in
+/// seconds of rendering, after the first two seconds.
 double greatest_lead(double first_pass, double second_pass, bool together) {
   double first = 0, second = 0, greatest = 0;
   Turn turn = Turn::both;
@@ -41,7 +42,7 @@ class Sharing {
   ~Sharing() {
     {
       const std::lock_guard lock(mutex_);
-      ended_ = true;  // one renderer goes before the other
+      ended_ = true;  // the two are destroyed one after the other: neither must wait for the other any more
     }
     share_.share_with(nullptr);
   }
@@ -55,7 +56,7 @@ class Sharing {
       return passes_[0] >= passes && passes_[1] >= passes;
     });
   }
-  /// Seconds, of those passes that began after the other had begun too.
+  /// In seconds of rendering, over the passes that began after both renderers had begun.
   double greatest_lead() const {
     const std::lock_guard lock(mutex_);
     return greatest_;
@@ -84,7 +85,7 @@ class Sharing {
   test::News news_;
   FairShare share_{first_};
   Renderer first_{{1, ""}, [this] { on_frame(false); }};
-  std::unique_ptr<Renderer> second_;  // last: stopped first
+  std::unique_ptr<Renderer> second_;  // declared last, so that it stops first
 };
 
 }  // namespace
@@ -115,7 +116,7 @@ TEST_CASE("renderers that share threads begin no pass while they are well ahead,
   }
 }
 
-TEST_CASE("one that has finished keeps nobody waiting") {
+TEST_CASE("a renderer that has finished does not keep the other one waiting") {
   for (const bool together : {false, true})
     for (const Turn now : {Turn::both, Turn::first, Turn::second}) {
       CHECK(next_turn(now, {9, true}, {1, false}, together) == Turn::both);

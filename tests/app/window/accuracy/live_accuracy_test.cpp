@@ -69,7 +69,7 @@ struct Watched {
 
 }  // namespace
 
-TEST_CASE("without a reference the curve is the estimate") {
+TEST_CASE("without a reference the curve shows the estimated error") {
   Watched w;
   w.show(picture(1, 1, 1));
   w.show(picture(1, 1, 4));
@@ -80,7 +80,7 @@ TEST_CASE("without a reference the curve is the estimate") {
   CHECK(w.lines().empty());
 }
 
-TEST_CASE("with a reference the curve is the truth, and without it the estimate again") {
+TEST_CASE("with a reference the curve shows the true error, and without it the estimated one again") {
   Watched w;
   w.accuracy.set_reference(reference(1, scene_with(40, 9)));
   CHECK(w.accuracy.is_true());
@@ -96,7 +96,7 @@ TEST_CASE("with a reference the curve is the truth, and without it the estimate 
   CHECK(w.points()[0].rel_mse == doctest::Approx(0.04));
 }
 
-TEST_CASE("a reference of another scene stays, but is no truth; other methods are what it is for") {
+TEST_CASE("a reference of another scene stays but is not compared with; of the same scene by another method it is") {
   Watched w;
   w.accuracy.set_reference(reference(1, scene_with(40, 9)));
   w.accuracy.set_scene(Half::current, scene_with(50));
@@ -168,7 +168,7 @@ TEST_CASE("halves are measured against each other, and each against the referenc
   REQUIRE(w.comes_true([&] { return !w.points().empty() && !w.points(Half::kept).empty(); }));
   CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3));
   CHECK(w.points(Half::kept)[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3));
-  w.show(picture(1, 1, 2), Half::kept);  // the other half stands still
+  w.show(picture(1, 1, 2), Half::kept);  // the other half shows nothing new
   w.show(picture(1.5f, 1, 2));
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().rel_mse && *w.accuracy.pair().rel_mse > 0.2; }));
   w.accuracy.set_split(false);
@@ -185,8 +185,8 @@ TEST_CASE("while it renders, a new picture is not always measured at once") {
     return w.points().size();
   };
   CHECK(show_and_measure(1) == 1);
-  for (int k = 1; k < 250; ++k) CHECK(show_and_measure(1 + 0.001 * k) == 1);  // its share of this time is used up
-  CHECK(show_and_measure(1.3) == 2);  // a curve that begins has points close to each other
+  for (int k = 1; k < 250; ++k) CHECK(show_and_measure(1 + 0.001 * k) == 1);  // measuring has used up its share of time
+  CHECK(show_and_measure(1.3) == 2);  // a curve gets its first points early, whenever its time has grown by a quarter
   w.now += 1000;
   CHECK(show_and_measure(1.6) == 3);
   CHECK(show_and_measure(1.61) == 3);

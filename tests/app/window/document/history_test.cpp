@@ -31,7 +31,7 @@ TEST_CASE("undo goes back through single edits and redo forward again") {
   CHECK_FALSE(history.redo());
 }
 
-TEST_CASE("a drag is one step, the next drag another") {
+TEST_CASE("undo takes back a whole drag at once, and the next drag apart from it") {
   History history(numbered(1));
   for (int n = 2; n <= 9; ++n) history.record(numbered(n), 7);
   for (int n = 10; n <= 19; ++n) history.record(numbered(n), 8);
@@ -42,7 +42,7 @@ TEST_CASE("a drag is one step, the next drag another") {
   CHECK(number(history) == 1);
 }
 
-TEST_CASE("edits without a gesture are steps of their own") {
+TEST_CASE("edits that are not part of a gesture are undone one by one") {
   History history(numbered(1));
   history.record(numbered(2), 0);
   history.record(numbered(3), 0);
@@ -50,7 +50,7 @@ TEST_CASE("edits without a gesture are steps of their own") {
   CHECK(number(history) == 2);
 }
 
-TEST_CASE("setting what is there already is no step") {
+TEST_CASE("setting a value to what it is already adds no step to undo") {
   History history(numbered(1));
   CHECK_FALSE(history.record(numbered(1), 1));
   CHECK_FALSE(history.can_undo());

@@ -52,7 +52,7 @@ TEST_CASE("the sharp range: its ends blur to one pixel") {
   const SharpRange range = sharp_range(camera, 800);
   const double lens = 5 * std::tan(pi / 360), pixel = 2 * std::tan(15 * pi / 180) / 800;
   for (const double depth : {range.near, range.far}) {
-    const double angle = 2 * lens * std::abs(1 / depth - 1 / 5.0);  // of the blur disc, seen from the lens
+    const double angle = 2 * lens * std::abs(1 / depth - 1 / 5.0);  // size of the blur disc, seen from the lens
     CHECK(angle == doctest::Approx(pixel).epsilon(1e-9));
   }
   CHECK(range.near < 5);
@@ -67,7 +67,7 @@ TEST_CASE("a full-frame lens of 24 mm sees 53 degrees") {
   CHECK(meaning(camera, "vfov") == "as a 24 mm lens on 35 mm film");
 }
 
-TEST_CASE("labels") {
+TEST_CASE("labels name fields in plain words") {
   CHECK(label_of("refractive_index") == "Refractive index");
   CHECK(label_of("g") == "Asymmetry g");
   CHECK(label_of("vfov") == "Field of view");

@@ -211,7 +211,7 @@ TEST_CASE("choices change what they say, and only that") {
   CHECK(column.opened == "cover");
 }
 
-TEST_CASE("what the accuracy's controls ask for") {
+TEST_CASE("the controls of the section Accuracy ask for what they say") {
   Column column;
   column.click("chart.export");
   column.click("chart.reference");
@@ -236,7 +236,7 @@ TEST_CASE("errors are seen only where there is something to measure against") {
   CHECK(column.state.view == view_named("error"));
 }
 
-TEST_CASE("selecting in the list shows the object whole, and again nothing") {
+TEST_CASE("a click in the list of objects selects one and shows its values, a second click on it selects nothing") {
   Column column;
   column.click("objects.1");
   CHECK(column.state.selected == ObjectPath{1});
@@ -261,7 +261,7 @@ TEST_CASE("a negative radius stays negative on its slider") {
   CHECK(radius < -1);
 }
 
-TEST_CASE("sections fold") {
+TEST_CASE("a click on a section's heading folds it and unfolds it again") {
   Column column;
   column.click("section.Camera");
   column.draw();

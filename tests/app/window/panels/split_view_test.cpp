@@ -50,7 +50,7 @@ TEST_CASE("the divider follows the mouse that took it, also where its press is s
   CHECK(divider.follow(mouse, image, true, 6));
   CHECK(divider.x(image) == doctest::Approx(150));
   mouse.clicked[0] = mouse.down[0] = false;
-  CHECK(divider.follow(mouse, image, true, 6));  // the release is the divider's too
+  CHECK(divider.follow(mouse, image, true, 6));  // the release, too, belongs to the divider
   CHECK_FALSE(divider.follow(mouse, image, true, 6));
   mouse.clicked[0] = mouse.down[0] = true;
   CHECK_FALSE(divider.follow(mouse, image, false, 6));  // something else has the mouse

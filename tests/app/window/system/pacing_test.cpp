@@ -9,7 +9,7 @@
 
 using namespace tyndall;
 
-TEST_CASE("nothing happens, nothing is drawn") {
+TEST_CASE("as long as nothing happens nothing is drawn") {
   Pacing pacing;
   double now = 10;
   int drawn = 0;
@@ -22,14 +22,14 @@ TEST_CASE("nothing happens, nothing is drawn") {
   CHECK(std::isinf(pacing.wait(now + 1000)));
 }
 
-TEST_CASE("an event is answered at once, its echoes leave time for pictures") {
+TEST_CASE("an event is drawn at once, and the drawings that follow it leave time for new pictures") {
   Pacing pacing;
   pacing.on_drawn(1);
   pacing.on_event();
   CHECK(pacing.wait(1.02) == 0);
   pacing.on_drawn(1.02);
   CHECK(pacing.wait(1.02) == doctest::Approx(echo_interval));
-  pacing.wake_at(1.03);  // what goes by itself comes earlier
+  pacing.wake_at(1.03);  // something that moves by itself asks to be drawn earlier
   CHECK(pacing.wait(1.02) == doctest::Approx(least_frame_interval));
   pacing.on_drawing();
   pacing.on_drawn(1.06);
@@ -72,7 +72,7 @@ TEST_CASE("pictures: at once after an edit, then every 0.1 s, then ever slower")
   CHECK(pacing.picture_due() == doctest::Approx(119.3));
 }
 
-TEST_CASE("what goes by itself wakes the window, once for each drawing that asks for it") {
+TEST_CASE("something that moves by itself wakes the window, once for each drawing that asks for it") {
   Pacing pacing;
   for (double now = 0; now < 0.2; now += 0.02) pacing.on_drawn(now);
   pacing.wake_at(6);

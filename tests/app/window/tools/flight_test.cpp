@@ -31,7 +31,7 @@ TEST_CASE("the camera flies while a key is held, by the time between drawings") 
   CHECK_FALSE(flight.update({}, false, 1.2, camera));
 }
 
-TEST_CASE("opposite keys and other keys do not fly, and a long drawing makes no leap") {
+TEST_CASE("opposite keys and other keys do not move the camera, and a slow drawing does not make it leap") {
   Flight flight;
   Camera camera;
   CHECK_FALSE(flight.update({'W', 'S'}, false, 1, camera));
@@ -43,7 +43,7 @@ TEST_CASE("opposite keys and other keys do not fly, and a long drawing makes no 
   CHECK(camera.look_from.x == doctest::Approx(0.1 * 0.75 * target_distance(camera)));
 }
 
-TEST_CASE("what is held is one gesture, what is not is one each") {
+TEST_CASE("edits while a key or button is held are undone as one, all others one by one") {
   Gestures gestures;
   gestures.update(true);
   const std::uint64_t first = gestures.current();

@@ -9,7 +9,7 @@ using namespace tyndall;
 
 namespace {
 
-/// A picture of 400x300 units in a window, a camera, and a hand.
+/// A picture of 400 x 300 units in a window, a camera, and a mouse to press and move.
 struct Hand {
   PointerTool tool;
   Mouse mouse;
@@ -31,7 +31,7 @@ struct Hand {
 
 }  // namespace
 
-TEST_CASE("a press that does not move is a click, one that trembles too") {
+TEST_CASE("a press without movement is a click, also if the hand trembles a little") {
   Hand hand;
   const Camera before = hand.camera;
   hand.press(0, 100, 100);
@@ -75,7 +75,7 @@ TEST_CASE("a drag goes on outside the picture, but does not begin there or while
   hand.press(0, 100, 100);
   hand.update(false);
   CHECK_FALSE(hand.tool.is_pressed());
-  hand.press(0, 100, 320);  // the status line
+  hand.press(0, 100, 320);  // on the status line, below the picture
   hand.update();
   CHECK_FALSE(hand.tool.is_pressed());
   hand.mouse.taken = true;
@@ -90,7 +90,7 @@ TEST_CASE("a drag goes on outside the picture, but does not begin there or while
   CHECK_FALSE(hand.camera == before);
 }
 
-TEST_CASE("the wheel dollies, with Ctrl it opens the field of view, and counts as one turn for a while") {
+TEST_CASE("the wheel dollies, with Ctrl it changes the field of view; quick steps are undone as one") {
   Hand hand;
   hand.mouse.x = hand.mouse.y = 100;
   const double distance = target_distance(hand.camera);

@@ -68,7 +68,7 @@ TEST_CASE("a ball around an object is where its transforms put it") {
   CHECK_FALSE(ball_around(scene, {9}).has_value());
 }
 
-TEST_CASE("what is interesting: metal, glass and fog, else lamp and matt") {
+TEST_CASE("at first the most interesting object is selected: metal, glass or fog, otherwise a lamp or a matt one") {
   Scene scene = example();
   CHECK(interesting(scene) == std::vector<ObjectPath>{{1, 0}, {1, 1}});
   scene.objects.resize(1);
@@ -79,7 +79,8 @@ TEST_CASE("what is interesting: metal, glass and fog, else lamp and matt") {
 
 TEST_CASE("a sphere's outline is the circle of its tangents") {
   const Span e = extent(outline(example(), {0}));
-  const double half = std::tan(std::asin(0.1)) / std::tan(std::acos(-1) / 6) / 2;  // in heights of the picture
+  // Half of the outline's width, in heights of the picture.
+  const double half = std::tan(std::asin(0.1)) / std::tan(std::acos(-1) / 6) / 2;
   CHECK(e.y1 - 0.5 == doctest::Approx(half).epsilon(1e-3));
   CHECK(0.5 - e.y0 == doctest::Approx(half).epsilon(1e-3));
   CHECK(e.x1 - 0.5 == doctest::Approx(half / 2).epsilon(1e-3));
