@@ -14,7 +14,7 @@ struct Accuracy {
   Shift schlick;                   ///< the books' Fresnel rule
   Shift depth5, depth10, depth50;  ///< max_depth
   Shift single;                    ///< lanes of float instead of double, on the same compiled scene
-  Shift bytes;                     ///< 8-bit sRGB, of what lies within [0, 1]
+  Shift bytes;                     ///< 8-bit sRGB instead of floats, in channels within [0, 1]
 };
 
 /// Renders the scene small, each way with the same random numbers: where both ways take the same path, noise cancels.

@@ -1,9 +1,9 @@
 #pragma once
 #include "app/cli/requests.h"
 
-/// The commands. Each returns the program's exit code (0: done, 1: a check failed, output_failed, 130 and 143:
-/// interrupted) and throws for everything else: UsageError, SceneError, MergeError (the user's fault), or what input
-/// and output throw.
+/// The commands. Each returns the program's exit code: 0 when done, 1 if a check failed, output_failed, or 130 and 143
+/// if interrupted. For everything else they throw: UsageError, SceneError and MergeError where the user is at fault,
+/// IoError and ImageFileError where input or output fails.
 namespace tyndall {
 
 /// The exit code of a command that computed a picture and could not write all of it.

@@ -22,7 +22,7 @@ struct Comparison {
   std::optional<BlockScores> blocks;  ///< if both files hold films of one region
 };
 
-/// Both are EXR files with films: is the difference more than their noise?
+/// If both are EXR files with films: scores that tell whether they differ by more than their noise.
 std::optional<BlockScores> compare_films(const CompareCommand& command) {
   if (!is_exr(command.image) || !is_exr(command.reference)) return std::nullopt;
   const auto image = read_film(command.image), reference = read_film(command.reference);
@@ -88,7 +88,7 @@ std::string table(const Comparison& c) {
          row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (c.blocks ? blocks_text(*c.blocks) : "") + means;
 }
 
-/// Says which errors are too large; what is not a number always is.
+/// Whether all checks pass; prints which errors are too large. An error that is not a number always is.
 bool passes(const CompareCommand& command, const Comparison& c) {
   bool good = true;
   const auto check = [&good](const char* name, double value, const std::optional<double>& limit) {

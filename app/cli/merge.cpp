@@ -8,7 +8,7 @@
 namespace tyndall {
 namespace {
 
-/// The exit code.
+/// Writes the films' files and returns the exit code.
 int write(const Film& film, const Scene& scene, const std::vector<std::filesystem::path>& files,
           const std::optional<CleanOfFilm>& clean) {
   const std::vector<std::string> problems = write_film(film, scene, files, clean);

@@ -21,13 +21,13 @@ Command read_compare(Words words) {
                   "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
                   "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
-                  "Two EXR files that Tyndall made hold their noise too: then z-scores of blocks of 8x8 pixels say\n"
-                  "whether the difference is more than that.",
+                  "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 8x8 pixels say\n"
+                  "whether the difference is more than noise.",
                   "Exit code 1: an error is above its --max-..., or not a number.");
   std::string image, reference;
   add_argument(*app, "IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
-  add_argument(*app, "REFERENCE", "what it should be; of the same size", reference);
-  add_value(*app, "--heatmap", "FILE.png", "write FLIP of each pixel, in colours whose scale is beneath",
+  add_argument(*app, "REFERENCE", "image that it should look like, of the same size", reference);
+  add_value(*app, "--heatmap", "FILE.png", "write FLIP of each pixel, in colours, with their scale beneath",
             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
   app->add_flag("--json", command.json, "print JSON");
   app->option_defaults()->group("Checks");
@@ -49,8 +49,8 @@ Command read_merge(Words words) {
   MergeCommand command;
   const auto app =
       new_command("merge PART... -o FILE [options]",
-                  "Adds films of neighbouring sample ranges (see 'tyndall render --samples'): the result is, bit for\n"
-                  "bit, the film of one render of all the samples.",
+                  "Adds films whose sample ranges follow each other (see 'tyndall render --samples'). The result is,\n"
+                  "bit for bit, the film of one render of all the samples.",
                   "Example:\n"
                   "  tyndall render fog.json --samples 0:64 -o a.exr\n"
                   "  tyndall render fog.json --samples 64:128 -o b.exr\n"
@@ -59,7 +59,7 @@ Command read_merge(Words words) {
   add_arguments(*app, "PART", "EXR files that hold films of the same scene, in any order", parts);
   add_values(*app, "-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
              [&](Text t) { command.outputs.push_back(t); });
-  app->add_flag("--denoise", command.denoise, "files hold the filtered picture, as of 'tyndall render --denoise'");
+  app->add_flag("--denoise", command.denoise, "files hold the filtered picture, as with 'tyndall render --denoise'");
   if (auto help = parse(*app, words)) return PrintCommand{*help};
   require(*app, !parts.empty(), "PART");
   require(*app, !command.outputs.empty(), "an output (-o FILE)");
@@ -71,9 +71,10 @@ Command read_denoise(Words words) {
   DenoiseCommand command;
   const auto app = new_command(
       "denoise FILM.exr -o FILE [options]",
-      "Filters the picture of a finished film and says how wrong the result still is. The film stays as it is.\n\n"
-      "Each half of the samples is filtered from itself alone; what the halves say of each other decides\n"
-      "where the filtered and where the raw picture is shown, and tells the error.",
+      "Filters the picture of a finished film, and says how wrong the result still is. The film itself\n"
+      "stays as it is.\n\n"
+      "The samples are two independent halves, and each is filtered by itself. By comparing the halves the\n"
+      "filter decides where to show the filtered and where the raw picture, and estimates the error.",
       "Example:\n  tyndall denoise fog.exr -o fog-clean.png");
   std::string film;
   add_argument(*app, "FILM.exr", "an EXR that 'tyndall render' or 'tyndall merge' wrote", film);
@@ -99,15 +100,15 @@ Command read_inspect(Words words) {
   add_scene(*app, command.scene);
   app->add_flag("--json", command.json, "print JSON");
   app->add_flag("--measure", command.measure,
-                "measure what the kernel gains over the full one,\nand chains over chance (4 s)");
+                "measure how much faster the kernel is than the full one,\nand what chains gain over chance (4 s)");
   app->add_flag("--accuracy", command.accuracy,
-                "print what each approximation costs: the books' Fresnel rule,\n"
-                "limits of depth, float lanes, 8 bits; without SCENE: in all\n"
-                "built-in scenes");
+                "print how far each approximation moves the picture: the books'\n"
+                "Fresnel rule, limits of depth, float lanes, 8 bits; without\n"
+                "SCENE: in all built-in scenes");
   add_isa(*app, command.isa);
   if (auto help = parse(*app, words)) return PrintCommand{*help};
   require(*app, command.accuracy || !command.scene.what.empty(), "SCENE");
-  if (!command.isa.empty() && !command.measure) throw UsageError("--isa is of use with --measure only");
+  if (!command.isa.empty() && !command.measure) throw UsageError("--isa can only be given with --measure");
   if (command.accuracy && (command.json || command.measure))
     throw UsageError(std::string("--accuracy and ") + (command.json ? "--json" : "--measure") + " exclude each other");
   return command;
@@ -129,7 +130,7 @@ Command read_convert(Words words) {
                   "without comments. Also gets the scene out of an image that Tyndall made.",
                   "Example:\n  tyndall convert snapshot.png -o snapshot.json");
   add_scene(*app, command.scene);
-  add_value(*app, "-o,--output", "FILE.json", "where to; - for standard output; required",
+  add_value(*app, "-o,--output", "FILE.json", "file to write, or - for standard output; required",
             [&](Text t) { command.output = t == "-" ? std::filesystem::path(t) : read_file_name(t, ".json"); });
   if (auto help = parse(*app, words)) return PrintCommand{*help};
   require(*app, !command.scene.what.empty(), "SCENE");
@@ -146,12 +147,12 @@ struct Entry {
 constexpr Entry entries[] = {
     {"view", "open a scene in the window (also without this word; default: the showroom)", read_view},
     {"render", "render without a window and write images", read_render},
-    {"compare", "how far an image is from a reference", read_compare},
-    {"chart", "speed against accuracy: error over time of several methods", read_chart},
+    {"compare", "measure how far an image is from a reference", read_compare},
+    {"chart", "chart speed against accuracy: error over time of several methods", read_chart},
     {"verify", "check the renderer against known answers", read_verify},
-    {"merge", "add films of neighbouring sample ranges", read_merge},
+    {"merge", "add films whose sample ranges follow each other", read_merge},
     {"denoise", "filter the picture of a finished film", read_denoise},
-    {"inspect", "what a scene contains and which models it needs", read_inspect},
+    {"inspect", "say what a scene contains and which models it needs", read_inspect},
     {"scenes", "list the built-in scenes", read_scenes},
     {"convert", "write a scene in normal form, also from an image", read_convert},
 };

@@ -43,9 +43,9 @@ void add_output(CLI::App& app, RenderCommand& command) {
             [&](Text t) { command.region = read_region(t); });
   app.add_flag("--denoise", command.denoise,
                "files hold the filtered picture: noise is taken away where the\n"
-               "samples tell what is noise, and the error of the result is\n"
-               "told; EXR files get it in denoised.R/G/B and denoised.error\n"
-               "beside the untouched picture; not with --samples");
+               "samples show that it is noise, and the error that is left is\n"
+               "estimated; EXR files get both in denoised.R/G/B and\n"
+               "denoised.error beside the raw picture; not with --samples");
   add_value(app, "--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
   add_value(app, "--replay", "X,Y,SAMPLE",
             "write no image; print the path of this sample of this pixel,\n"
@@ -68,7 +68,7 @@ void refuse_conflicts(const RenderCommand& c) {
                                              : nullptr;
   if (other)
     throw UsageError("--samples and " + std::string(other) +
-                     " exclude each other: --samples names exactly what to take");
+                     " exclude each other: --samples says which samples to take");
 }
 
 }  // namespace
@@ -157,16 +157,16 @@ Command read_render(const std::vector<std::string>& words) {
 
 Command read_verify(const std::vector<std::string>& words) {
   VerifyCommand command;
-  const auto app =
-      new_command("verify [NAME...] [options]",
-                  "Measures pictures whose mean radiance is known, with the kernels that draw, and prints a table:\n"
-                  "expected and from where, measured, standard error, deviation in standard errors (z), verdict.\n\n"
-                  "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
-                  "errors that are too good are errors too. Exit code 1 if anything fails.",
-                  "Examples:\n"
-                  "  tyndall verify\n"
-                  "  tyndall verify plate fog-ball/ --isa scalar\n"
-                  "  tyndall verify plate --fresnel schlick      # the books' rule fails");
+  const auto app = new_command(
+      "verify [NAME...] [options]",
+      "Renders pictures whose mean radiance is known, and prints a table: the expected mean, where it is\n"
+      "from, the measured one, its standard error, the deviation in standard errors (z), the verdict.\n\n"
+      "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
+      "otherwise the standard errors are wrong. Exit code 1 if anything fails.",
+      "Examples:\n"
+      "  tyndall verify\n"
+      "  tyndall verify plate fog-ball/ --isa scalar\n"
+      "  tyndall verify plate --fresnel schlick      # the books' rule fails");
   bool quiet = false;
   add_arguments(*app, "NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
   app->add_flag("--thorough", command.thorough, "standard errors of at most 1e-4 of the value instead of 1e-3");

@@ -5,7 +5,7 @@
 /// The options of the commands that render, and the groups of options that several commands share.
 namespace tyndall {
 
-/// Words after "view", "render", "verify" and "chart" as commands.
+/// Read the words after "view", "render", "verify" or "chart".
 Command read_view(const std::vector<std::string>& words);
 Command read_render(const std::vector<std::string>& words);
 Command read_verify(const std::vector<std::string>& words);
@@ -17,7 +17,7 @@ void add_machine_options(CLI::App& app, int& threads, std::string& isa);
 void add_isa(CLI::App& app, std::string& isa);
 void add_progress(CLI::App& app, ProgressStyle& style);
 
-/// SCENE and --set. note: added to the help of SCENE.
+/// Adds SCENE and --set. note: text that is added to the help of SCENE.
 void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note = "");
 
 }  // namespace tyndall

@@ -44,7 +44,7 @@ void refuse_extras(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& word : app.remaining()) {
-    if (word == "--") continue;  // ends the options
+    if (word == "--") continue;  // words after this are no options
     if (word.size() < 2 || word[0] != '-') throw UsageError("unexpected argument " + in_quotes(word) + see_help(app));
     const std::string name = word.substr(0, word.find('='));
     throw UsageError("unknown option " + in_quotes(name) + suggestion(name, names) + see_help(app));

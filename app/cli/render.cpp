@@ -40,7 +40,7 @@ struct Job {
   bool rare_bright_paths = false;
 };
 
-/// Says so if there is nothing left to do: the film is written as it is.
+/// Tells the user if the film has more samples than asked for already, so that it is written as it is.
 void check_if_complete(const Job& job) {
   if (job.film.pixels.empty() || !job.options.spp) return;
   const std::uint32_t taken = labelled_spp(job.film);
@@ -49,7 +49,7 @@ void check_if_complete(const Job& job) {
              std::to_string(*job.options.spp) + " asked for; it is written as it is");
 }
 
-/// Says so if chains are asked for by option where none are looked for.
+/// Tells the user if an option asks for chains where the integrator does not look for any.
 void check_if_ignored(const RenderCommand& command, const RenderSettings& settings) {
   if (!command.scene.render.given.contains("caustics") || settings.caustics != Caustics::chains) return;
   if (settings.integrator != Integrator::mis)
@@ -146,7 +146,7 @@ bool write(const Job& job) {
   return problems.empty();
 }
 
-/// Also without progress: a warning is none.
+/// Prints warnings, also with -q, which only turns progress off.
 void warn(const Job& job) {
   if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   if (job.options.clean && !job.result.clean)

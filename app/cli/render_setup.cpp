@@ -37,13 +37,14 @@ Kernels find_kernels(const std::string& isa) {
   std::vector<std::string_view> names;
   for (const Kernels& kernels : available_kernels()) names.emplace_back(kernels.isa);
   throw UsageError("--isa: found " + in_quotes(isa) + ", expected " + one_of(names) +
-                   ": what this build has and this CPU runs");
+                   ", which this build has and this CPU can run");
 }
 
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded) {
   const bool adaptive = loaded.scene.render.adaptive;
-  if (adaptive && command.samples) refuse_adaptive("--samples", "it names exactly what every pixel takes");
-  if (adaptive && command.resume) refuse_adaptive("--resume", "a file does not hold how a round was to go on");
+  if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
+  if (adaptive && command.resume)
+    refuse_adaptive("--resume", "a film file does not say how many each pixel was to get");
   if (command.region) check_region(*command.region, loaded.scene);
   RenderOptions options;
   options.threads = command.threads;

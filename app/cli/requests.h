@@ -89,9 +89,9 @@ struct DenoiseCommand {
 struct InspectCommand {
   SceneRequest scene;  ///< with `accuracy`, no name: all built-in scenes
   bool json = false;
-  bool measure = false;   ///< what the chosen kernel gains
+  bool measure = false;   ///< measure how much faster the chosen kernel and chains are
   std::string isa;        ///< "": the best; with measure
-  bool accuracy = false;  ///< what each approximation costs
+  bool accuracy = false;  ///< measure how far each approximation moves the picture
 };
 
 struct ScenesCommand {};
@@ -101,7 +101,7 @@ struct ConvertCommand {
   std::filesystem::path output;  ///< "-": standard output
 };
 
-/// Only this text is asked for: help or the version.
+/// A text to be printed and nothing else: help or the version.
 struct PrintCommand {
   std::string text;
 };

@@ -52,7 +52,7 @@ std::string placeholder(const Meaning& meaning, const T&) {
   return "N";
 }
 
-/// "mis: light sampling, weighted; ..." where there are choices; "" elsewhere.
+/// The choices with their helps, such as ": random (independent numbers); sobol (...)"; "" where there are none.
 template <class T>
 std::string choices_text(const T&) {
   std::string text;

@@ -17,7 +17,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Tells cases apart, whatever else is in the table. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
+/// A seed from a case's name, so that it stays the same when other cases are added. Fowler, Noll, Vo: The FNV
+/// Non-Cryptographic Hash Algorithm.
 std::uint32_t seed_of(const std::string& name) {
   std::uint32_t hash = 0x811c9dc5u;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
@@ -33,7 +34,7 @@ Scene scene_of(const VerifyCommand& command, const VerifyCase& what) {
   return open_scene(request).scene;
 }
 
-/// Whether a method cannot find the light of a case but by a rare chance.
+/// Whether a method finds the light of a case only by rare chance.
 bool is_out_of_reach(const VerifyCase& what, const RenderSettings& method) {
   if (what.needs_light_sampling && method.integrator == Integrator::path) return true;
   const bool chains = method.integrator == Integrator::mis && method.caustics == Caustics::chains &&

@@ -55,7 +55,8 @@ struct ZStatistic {
 };
 ZStatistic z_statistic(const std::vector<VerifyRow>& rows);
 
-/// Nothing failed, nothing stayed vague, and the z-scores are as large as they should be.
+/// Whether every case passed, every standard error became small enough, and the z-scores are as large as chance makes
+/// them.
 bool passed(const VerifyRun& run);
 
 std::string verify_table(const VerifyRun& run);

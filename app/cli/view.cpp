@@ -30,7 +30,8 @@ std::string headless_command(const ViewCommand& command) {
     const std::string& word = command.words[i];
     const bool of_window = word.starts_with("--reference") || word.starts_with("--ui-log");
     if (!of_window) text += " " + shell_word(word);
-    if (of_window && word.find('=') == std::string::npos) ++i;  // its value
+    if (of_window && word.find('=') == std::string::npos)
+      ++i;  // the next word is the option's value: leave it out, too
   }
   const std::string name = std::filesystem::path(command.scene.what).stem().string();
   return text + " -o " + shell_word((name == "-" ? "image" : name) + ".png");

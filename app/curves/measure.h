@@ -18,8 +18,9 @@ struct ChartMethod {
   bool clean = false;  ///< the filtered picture; its time includes the filter
 };
 
-/// First the method of the books, then each improvement switched on in addition to those before it, then approximations
-/// alone. What makes no difference to the scene is left out: without glass there is no choice of Fresnel's equations.
+/// The methods that `chart` compares by default: first that of the books, then each improvement switched on in addition
+/// to those before it, then each approximation by itself. Those that make no difference to the scene are left out, for
+/// example Fresnel's equations in a scene without glass.
 std::vector<ChartMethod> default_methods(const Scene& scene);
 
 /// The picture that errors are measured against.

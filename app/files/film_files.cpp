@@ -74,7 +74,7 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
                        const std::string& isa) {
   if (totals(film).least_taken < least_clean_spp)
     throw UsageError(file + ": found pixels with fewer than " + std::to_string(least_clean_spp) +
-                     " samples, expected as many in each: a filter compares their two halves");
+                     " samples, expected at least that many in each: the filter compares two halves of them");
   const RenderScene compiled = compile(scene);
   const auto start = std::chrono::steady_clock::now();
   CleanOfFilm clean{clean_film(film, compiled, threads, isa)};

@@ -26,8 +26,7 @@ StoredFilm read_stored_film(const std::filesystem::path& file);
 bool same_samples(Scene a, Scene b);
 
 /// The scene's text for an image of `film` at `image`: with the number of samples that the film has, and how caustics
-/// were found even where that is the default. textures: the
-/// folder that the scene's texture files are relative to.
+/// were found even where that is the default. textures: the folder that the scene's texture files are relative to.
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image);
 

@@ -8,9 +8,9 @@
 /// What an EXR file holds beside the picture.
 namespace tyndall {
 
-/// What goes with a picture into EXR. Seen first through the middle of each pixel: albedo, normal (towards the outside
-/// of the shape), and depth along the camera's axis; where nothing is seen 0, 0 and infinity. From the film's halves:
-/// variance of each pixel's mean, by channel; infinite before a sample in each half.
+/// The layers that an EXR gets beside a picture. Of what is seen first through the middle of each pixel: albedo, normal
+/// (towards the outside of the shape), and depth along the camera's axis; 0, 0 and infinity where nothing is seen. From
+/// the film's halves: the variance of each pixel's mean, by channel; infinite if a half has no sample.
 std::vector<Layer> layers_of(const RenderScene& scene, const Film& film, const Kernels& kernels);
 
 }  // namespace tyndall

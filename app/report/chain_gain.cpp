@@ -9,7 +9,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int widest = 160;  // pixels
+constexpr int widest = 160;  // most pixels in a row of the small picture
 constexpr int rounds = 5;
 constexpr double seconds_a_render = 0.2;
 

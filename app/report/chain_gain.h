@@ -8,12 +8,12 @@ namespace tyndall {
 
 struct ChainGain {
   bool measured = false;  ///< false: the scene has no chains
-  double time = 1;        ///< of a sample, over that of scattering: median of the pairs
-  double error = 1;       ///< squared, at equal time, over that of scattering: as the films estimate it
+  double time = 1;        ///< time of a sample over that without chains; median over pairs of renders
+  double error = 1;       ///< estimated squared error at equal time over that without chains
 };
 
-/// Renders the scene with and without chains in turns, in small and on one thread, for about two seconds. Where light
-/// is found by rare chance, scattering's error is estimated too small and the gain is larger than this says.
+/// Renders the scene with and without chains in turns, as a small picture on one thread, for about two seconds. Where
+/// chance seldom finds the light, the error without chains is estimated too small, and the true gain is larger.
 ChainGain measure_chain_gain(Scene scene, const std::string& isa);
 
 }  // namespace tyndall

@@ -19,7 +19,7 @@ RenderResult timed(const RenderScene& scene, const std::string& isa, std::uint32
   return render(scene, options);
 }
 
-/// The number of samples a pixel that renders in about `seconds_each`.
+/// How many samples a pixel take about `seconds_each` to render.
 std::uint32_t enough_samples(const RenderScene& scene, const std::string& isa) {
   std::uint32_t spp = 1;
   while (spp < 4096 && timed(scene, isa, spp).seconds < seconds_each / 2) spp *= 2;

@@ -45,7 +45,7 @@ const char* fate_text(Fate fate) {
     case Fate::cut:
       return "is cut at max_depth";
     case Fate::lost:
-      return "is no number any more: rejected";
+      return "is rejected, as a value is not a finite number";
   }
   return "";
 }
@@ -76,8 +76,8 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
     row("radiance    ", exact(v.radiance));
     if (!(v.by_chains == Vec3f{})) row("by chains   ", exact(v.by_chains));
     if (v.chance < 1)
-      text +=
-          fmt::format("    by chance   this lamp counts {:.3g}: chains find it, too\n", static_cast<double>(v.chance));
+      text += fmt::format("    by chance   this lamp counts {:.3g}, as chains find it, too\n",
+                          static_cast<double>(v.chance));
     text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
             std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
   }

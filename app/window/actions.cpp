@@ -5,7 +5,7 @@
 namespace tyndall {
 namespace {
 
-// GLFW's numbers for keys that are no characters.
+// GLFW's numbers for keys that do not type a character.
 constexpr int key_escape = 256, key_tab = 258, key_home = 268, key_f1 = 290, key_f11 = 300, key_space = 32;
 
 constexpr ActionEntry entries[] = {
@@ -34,8 +34,8 @@ const HelpLine mouse_lines[] = {{"Left drag", "orbit"},
                                 {"W A S D Q E", "fly; with Shift faster"},
                                 {"Click", "select the object under the cursor"},
                                 {"Shift + click", "focus on that point"},
-                                {"Ctrl + Shift + click", "focus, the blur keeps its look"},
-                                {"Drop a file", "open a scene or a snapshot; another image: the reference"},
+                                {"Ctrl + Shift + click", "focus there, but keep the far blur as it is"},
+                                {"Drop a file", "open a scene or snapshot; other images become the reference"},
                                 {"Numbers", "drag sideways, or click and type; Shift: finer"}};
 
 bool is_pressed(const Key& key, int code, Modifiers modifiers) {

@@ -19,8 +19,8 @@ class Commands {
 
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
-  /// Shows a view (index: see views.h). A view of errors needs something to measure against; without it
-  /// the user is told so and the view stays.
+  /// Shows a view (index: see views.h). A view of errors needs something to measure against; without it the view stays
+  /// and a message says why.
   void select_view(int index);
   /// Asks which picture errors are measured against.
   void ask_reference() { tyndall::ask_reference(dialog_); }

@@ -226,7 +226,7 @@ void MainWindow::keep_message(double now) {
   if (message.text.empty() || message.error) return;
   if (now < message.until) return pacing_.wake_at(message.until);
   session_.messages().dismiss();
-  pacing_.on_event();  // this drawing still has it
+  pacing_.on_event();  // draws once more, because this drawing still shows the message
 }
 
 void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {

@@ -16,7 +16,8 @@ class PictureView {
   /// Lives within the window's OpenGL context. Throws IoError if the shaders do not compile.
   explicit PictureView(Session& session);
 
-  /// A frame that is not on the screen yet, the last one of a render if there is one; null: there is none.
+  /// A frame that is not on the screen yet. If both halves have one: the right half's if it is finished, else the left
+  /// half's. Null: there is none.
   std::shared_ptr<const Frame> unseen() const;
   /// Puts the newest frames on the screen, with the next drawing, and tells the session.
   void take();

@@ -1,7 +1,7 @@
 #include "app/window/overlays.h"
 #include "app/window/system/imgui_compat.h"
 
-/// The question which picture errors are measured against.
+/// The dialog that asks which picture errors are measured against.
 namespace tyndall {
 
 void ask_reference(Dialog& dialog) { dialog = {Dialog::Kind::reference, {}, true}; }

@@ -143,7 +143,7 @@ void Session::keep_as_reference() {
 void Session::snapshot() {
   const auto frame = renderers_.latest(Half::current);
   if (!frame) return messages_.say("there is no picture yet");
-  if (timer_.waits()) submit(clock_seconds());  // what is saved is what is edited
+  if (timer_.waits()) submit(clock_seconds());  // so that the snapshot shows the newest edit
   const Document& document = editor_.document();
   Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), frame->isa, frame->threads};
   messages_.say("saving " + snapshot.base.filename().string() + " …");

@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-constexpr double notable_cut = 1e-3;  // share of the throughput that the depth limit may take without a word
+constexpr double notable_cut = 1e-3;  // share of the throughput above which the status line tells of cut paths
 
 std::string percent(double share) {
   if (!std::isfinite(share)) return "?";

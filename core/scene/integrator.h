@@ -16,7 +16,7 @@ constexpr Word word(Integrator integrator) {
     case Integrator::nee:
       return {"nee", "light sampling without weights, which may lose very bright samples in fog with g above 0.9998"};
     case Integrator::mis:
-      return {"mis", "light sampling and chance, weighted by how well each does"};
+      return {"mis", "light sampling and chance, weighted"};
   }
   return {};
 }

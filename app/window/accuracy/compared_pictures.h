@@ -27,7 +27,7 @@ enum class Kind { raw, clean };
 
 /// One half of the screen; without a split view all of it.
 struct ComparedHalf {
-  std::shared_ptr<const Scene> scene = std::make_shared<const Scene>();  ///< that is rendered now
+  std::shared_ptr<const Scene> scene = std::make_shared<const Scene>();  ///< the one that is rendered now
   std::optional<ReferenceFit> fit;                                       ///< absent: there is no reference
   Convergence estimated, truth, clean_estimated, clean_truth;
   std::shared_ptr<const Frame> frame;  ///< on the screen; null: none yet
@@ -35,7 +35,7 @@ struct ComparedHalf {
   bool newest = false;                 ///< the frame is of `scene`, not of an earlier one
 };
 
-/// Follows what is on the screen, and tells what can be measured there. It measures nothing itself and knows no time.
+/// Follows what is on the screen, and tells what can be measured there. It measures nothing itself and has no clock.
 class ComparedPictures {
  public:
   void set_reference(std::shared_ptr<const Reference> reference);

@@ -3,7 +3,7 @@
 namespace tyndall {
 namespace {
 
-constexpr double slice = 0.3, slack = 0.5;  // seconds
+constexpr double slice = 0.3, slack = 0.5;  // seconds of a turn; by which one may be ahead while both work
 
 RenderingTime time_of(const Renderer& renderer) {
   const auto frame = renderer.latest();
@@ -13,7 +13,7 @@ RenderingTime time_of(const Renderer& renderer) {
 }  // namespace
 
 Turn next_turn(Turn now, RenderingTime first, RenderingTime second, bool together) {
-  if (first.finished || second.finished) return Turn::both;  // who has finished takes nothing from the other
+  if (first.finished || second.finished) return Turn::both;  // one that has finished takes no time from the other
   const double lead = first.seconds - second.seconds;
   if (together) {
     if (now == Turn::second && lead > 0) return Turn::second;

@@ -15,8 +15,8 @@ struct RenderingTime {
 /// Which of two renderers may work.
 enum class Turn { both, first, second };
 
-/// Who works next so that both get equal seconds. together: both have threads of their own, and one waits only when it
-/// is well ahead; else they take turns.
+/// Which renderer works next, so that both get equal seconds. together: both have threads of their own, and one waits
+/// only when it is well ahead; otherwise they take turns.
 Turn next_turn(Turn now, RenderingTime first, RenderingTime second, bool together);
 
 /// Shares threads between the window's renderer and a second one, in equal core-seconds: half of the threads each where

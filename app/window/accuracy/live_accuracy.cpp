@@ -84,8 +84,8 @@ bool LiveAccuracy::due(Measurement what, double now) const {
   return measured(what).share.due(now) || is_early(what, order);
 }
 
-/// Whether a point is measured before its share of the processors allows it: at the start of a curve the error falls
-/// fast, so points are wanted close to each other. After a second, what they took is little again.
+/// Whether a point is measured although measuring has used up its share of the processors. At the start of a curve the
+/// error falls fast, so points are wanted close to each other; over the first second they take little time in all.
 bool LiveAccuracy::is_early(Measurement what, const ComparisonOrder& order) const {
   return is_truth(what) && has_grown(what, order, 1.25);
 }

@@ -109,7 +109,7 @@ class LiveAccuracy {
   PairErrors pair_;
   std::shared_ptr<const ErrorMap> map_;
   bool news_ = false;    ///< what collect() returns next
-  Worker quick_, slow_;  // last: their results use the others
+  Worker quick_, slow_;  // declared last, because their results use the others
 };
 
 }  // namespace tyndall

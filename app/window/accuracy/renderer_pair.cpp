@@ -16,7 +16,7 @@ RendererPair::RendererPair(int threads, std::string isa, std::function<void()> o
 }
 
 RendererPair::~RendererPair() {
-  share_.share_with(nullptr);  // the second renderer goes first
+  share_.share_with(nullptr);  // before the second renderer is destroyed
 }
 
 RendererPair::Begun RendererPair::submit(const std::shared_ptr<const Scene>& scene) {

@@ -13,8 +13,8 @@
 namespace tyndall {
 
 /// The window's renderer and, in a split view, a second one for the left half. The second one renders the same scene
-/// with the settings that were kept, and both get as many core-seconds. For the main thread but where said otherwise;
-/// nothing here waits for rendering.
+/// with the settings that were kept, and both get the same processor time. For the main thread unless it says
+/// otherwise; nothing here waits for rendering.
 class RendererPair {
  public:
   /// threads: of both together, > 0. on_frame: called from a thread of a renderer after each frame.

@@ -18,8 +18,8 @@ struct ViewEntry {
 };
 
 inline constexpr ViewEntry error_views[] = {
-    {"error", View::beauty, ErrorView::error, "white: wrong by 100 % and more"},
-    {"FLIP", View::beauty, ErrorView::flip, "what an eye sees; bright: much"},
+    {"error", View::beauty, ErrorView::error, "black: no error; white: 100 % or more"},
+    {"FLIP", View::beauty, ErrorView::flip, "differences that an eye sees; bright: large ones"},
 };
 
 /// A view is known by its number: first come the renderer's views, then those of errors. The buttons, the keys 1, 2, 3,

@@ -24,7 +24,7 @@ struct Document {
   bool operator==(const Document&) const = default;
 };
 
-/// The scene is not what its file holds.
+/// Whether the scene differs from what its file holds.
 inline bool edited(const Document& document) { return !(document.scene == document.origin->saved); }
 
 }  // namespace tyndall

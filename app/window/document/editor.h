@@ -73,7 +73,7 @@ class Editor {
   History history_;
   std::atomic<bool> file_changed_ = false;
   std::filesystem::path watched_;
-  std::unique_ptr<FileWatch> watch_;  // last: it uses the others
+  std::unique_ptr<FileWatch> watch_;  // declared last, because it uses the others
 };
 
 }  // namespace tyndall

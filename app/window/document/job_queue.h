@@ -38,7 +38,7 @@ class JobQueue {
   std::deque<Job> jobs_;
   std::vector<Result> results_;
   std::size_t open_ = 0;  ///< jobs whose results were not collected; the main thread's
-  std::jthread thread_;   // last: it uses the others
+  std::jthread thread_;   // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -26,7 +26,7 @@ class SendTimer {
   double latest() const { return waits() ? sent_at_ + patience : std::numeric_limits<double>::infinity(); }
 
  private:
-  static constexpr double patience = 0.4;  // seconds; a picture that is further behind the mouse is a nuisance
+  static constexpr double patience = 0.4;  // seconds; the picture must not lag behind the mouse by more
 
   double changed_at_ = -1, sent_at_ = 0;
 };

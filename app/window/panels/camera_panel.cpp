@@ -49,7 +49,7 @@ void camera_panel(Ui& ui, PanelState& state) {
 }
 
 void background_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Background", "what escaping light sees")) return;
+  if (!section(ui, "Background", "seen beyond all objects")) return;
   ui.scope = "background.";
   Background& background = state.scene.background;
   int kind = static_cast<int>(background.index());

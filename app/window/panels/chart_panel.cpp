@@ -8,7 +8,8 @@
 #include <cmath>
 #include <utility>
 
-/// The live chart: estimated relMSE over seconds of rendering, both logarithmic, drawn with the draw list only.
+/// The live chart: relMSE over seconds of rendering, both logarithmic. It is drawn line by line, without a chart
+/// library.
 namespace tyndall {
 namespace {
 

@@ -69,7 +69,7 @@ std::string label_of(std::string_view field) {
 double fuzz_loss(double fuzz) { return 0.1 * fuzz * fuzz; }
 
 double forward_share(double g) {
-  if (std::abs(g) < 1e-3) return 0.5 + 0.75 * g;  // the form below cancels; next term is of third order
+  if (std::abs(g) < 1e-3) return 0.5 + 0.75 * g;  // here the formula below cancels; the next term is of third order
   return (1 - g * g) / (2 * g) * (1 / (1 - g) - 1 / std::sqrt(1 + g * g));
 }
 

@@ -18,7 +18,7 @@ std::string share_cut_off(const Frame* frame) {
   const double paths = static_cast<double>(frame->spp) * frame->width * frame->height;
   const double share = static_cast<double>(frame->truncated) / paths;
   if (share == 0) return "no path was cut off";
-  return fmt::format("{:.2g} % of the paths cut off", 100 * share);
+  return fmt::format("cuts off {:.2g} % of the paths", 100 * share);
 }
 
 const char* view_meaning(const PanelState& state) {
@@ -31,7 +31,7 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
   const RenderSettings& render = state.scene.render;
   if (name == "integrator") return word(render.integrator).help;
   if (name == "adaptive")
-    return render.adaptive ? "more where the error is; spp is their mean" : "as many samples everywhere";
+    return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";
   if (name == "max_depth") return share_cut_off(state.facts.frame.get());
   if (name == "spp") return render.spp ? "samples a pixel at which it stops" : "0: goes on for ever";
   return "";
@@ -54,7 +54,7 @@ void split_row(Ui& ui, PanelState& state) {
                   {},
                   {},
                   "",
-                  "A keeps these settings, B takes what you change: side by side, as many core-seconds each",
+                  "A keeps these settings, B takes what you change; both get the same processor time",
                   meaning},
                  choices, chosen))
     state.wishes.split = chosen == 1;
@@ -64,13 +64,13 @@ std::string clean_meaning(const PanelState& state) {
   if (state.facts.clean == 0) return "";
   const CleanFrame* clean = state.facts.frame ? state.facts.frame->clean.get() : nullptr;
   if (!clean) return "from 2 samples a pixel on";
-  return fmt::format("filtered at {} spp; files are not", format_count(clean->spp));
+  return fmt::format("filtered at {} spp; saved files are not filtered", format_count(clean->spp));
 }
 
 void clean_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   int chosen = state.facts.clean;
-  const char* help = "noise is filtered away where the samples tell what is noise: key N";
+  const char* help = "filters noise away where the samples show that it is noise: key N";
   if (choice_row(ui, {"clean", "Clean", {}, {}, "", help, clean_meaning(state)}, choices, chosen))
     state.wishes.clean = chosen;
 }
@@ -95,7 +95,7 @@ std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × "
 }  // namespace
 
 void image_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Image", "never starts over")) return;
+  if (!section(ui, "Image", "rendering goes on")) return;
   ui.scope = "image.";
   field_rows(ui, state.scene.display);
   clean_row(ui, state);

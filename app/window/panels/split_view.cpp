@@ -13,7 +13,7 @@ bool Divider::is_at(const Rect& image, float mouse_x, float mouse_y, float reach
 
 bool Divider::follow(const Mouse& mouse, const Rect& image, bool free, float reach) {
   const bool at = free && is_at(image, mouse.x, mouse.y, reach);
-  // Where drawing is slow, the mouse may have left when its press is seen.
+  // If drawing is slow, the mouse may have left the divider by the time its press is seen.
   if ((at || hovered) && free && mouse.clicked[0]) dragged = true;
   hovered = at;
   if (dragged && mouse.down[0]) drag_to(image, mouse.x);

@@ -20,7 +20,7 @@ int on_lost(void*) {
 }  // namespace
 
 void end_when_display_is_lost() {
-  std::signal(SIGPIPE, SIG_IGN);  // the connection breaks with it first
+  std::signal(SIGPIPE, SIG_IGN);  // comes first when the connection breaks, and would end the program without a message
   // The window library loads X by itself; linking it here would tie the program to it.
   void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
   if (!library) return;

@@ -34,7 +34,7 @@ void write_preferences(const std::filesystem::path& file, const Preferences& pre
   try {
     write_text_file(file, std::string("clean ") + (preferences.clean ? "on" : "off") + "\n");
   } catch (const std::exception&) {
-    return;  // nothing depends on it
+    return;  // the window then starts with its defaults
   }
 }
 

@@ -6,7 +6,7 @@
 namespace tyndall {
 namespace {
 
-/// The first of the folders of Debian, Arch, Fedora and the user where a font file is, or "".
+/// A font file's path in the first folder that has it, of those of Debian, Arch, Fedora and the user; "" if none has.
 std::string find_font(const char* file) {
   static constexpr const char* folders[] = {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/",
                                             "/usr/share/fonts/truetype/jetbrains-mono/",

@@ -58,7 +58,7 @@ class UiLog {
   /// now: seconds, after the picture was put on the screen.
   void shown(const Frame& frame, double now);
   void drawn(double cpu_seconds, bool picture);
-  /// Where the mouse is (far below 0: nowhere), which of its buttons are down, and what its wheel did.
+  /// Writes where the mouse is (far below 0: outside), which of its buttons are down, and what its wheel did.
   void mouse(const Mouse& mouse);
   /// The window is at rest; written once until another line follows.
   void rest();
