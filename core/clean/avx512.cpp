@@ -1,4 +1,5 @@
-// 16 lanes. Compiled with the flags of this instruction set: nothing but the filter may be in here.
+// The filter for AVX-512: 16 lanes. This file is compiled with flags that older CPUs cannot run, so nothing but the
+// filter may be in it.
 #include "core/base/lanes_simd.h"
 #include "core/clean/filter_entry.h"
 

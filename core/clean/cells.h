@@ -2,7 +2,8 @@
 #include "core/base/lanes.h"
 #include "core/clean/filter_view.h"
 
-/// The cells of a picture: what the regression knows of their pixels, and the sums of products of that.
+/// The picture is cut into cells. This file collects the columns of numbers by which the regression describes a cell's
+/// pixels, and sums the products of each two columns.
 namespace tyndall::filter {
 
 /// The columns of one cell, pixel by pixel; 0 outside of the picture.
@@ -14,7 +15,8 @@ struct CellColumns {
 TYNDALL_INLINE int least(int a, int b) { return a < b ? a : b; }
 TYNDALL_INLINE int most(int a, int b) { return a > b ? a : b; }
 
-/// Copies a cell's pixels; inside: how many of its columns and rows lie in the picture.
+/// Copies a cell's pixels from a plane. inside_x, inside_y: how many of its columns and rows lie in the picture; the
+/// others become 0.
 TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int inside_x, int inside_y, float* to) {
   for (int y = 0; y < cell_edge; ++y, to += cell_edge) {
     const float* from = plane + (y < inside_y ? y : 0) * stride;
@@ -22,9 +24,10 @@ TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int ins
   }
 }
 
-/// All columns of a cell. Where lamps are seen the halves are without the emission, which would bleed: it is added to
-/// what the regression predicts of the rest. It stays a term, as pixels that a lamp covers in part hide the rest in
-/// part. Without `halves` those that a prediction needs.
+/// Fills the columns of a cell. halves: also those of the halves, which a fit needs and a prediction does not.
+/// Where lamps are seen, their emission is taken off the halves, because the regression would smear it over the pixels
+/// around; it is added again to what the regression predicts. It also stays one of the terms, because in a pixel that a
+/// lamp covers in part, it hides the rest in part.
 TYNDALL_INLINE void fill_columns(const FilterView& v, int cell_x, int cell_y, bool halves, CellColumns& cell) {
   const int x0 = cell_x * cell_edge, y0 = cell_y * cell_edge;
   const int inside_x = least(cell_edge, v.width - x0), inside_y = least(cell_edge, v.height - y0);

@@ -1,8 +1,9 @@
 #pragma once
 #include "core/clean/choice.h"
 
-/// The filter's entry points for one number type; each instruction set's file names its own and nothing else. Internal
-/// to each file: of an ordinary template the linker could keep the copy with wide instructions for all files.
+/// The filter's entry points as templates over the number type F. Each instruction set has a small .cpp file, which
+/// chooses F. They are static, so that each file has its own: of an ordinary template the linker keeps one copy for all
+/// files, and one with wide instructions would crash older CPUs.
 namespace tyndall::filter {
 
 template <class F>

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+/// Settings of the window that a small file keeps from one start to the next.
 namespace tyndall {
 
 /// What the window remembers from one start to the next.
