@@ -1,5 +1,6 @@
 #pragma once
 
+/// What the tests of the lanes report. They are compiled once for each instruction set, with its flags.
 namespace tyndall::test {
 
 /// In how many lanes the wide operations of an instruction set did something else than those on float.

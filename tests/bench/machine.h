@@ -1,9 +1,10 @@
 #pragma once
 #include "tests/bench/table.h"
 
+/// What is known of the machine on which the figures are measured.
 namespace tyndall::bench {
 
-/// Where and with what the figures were made: program, compiler, processor.
+/// The program, the compiler and the processor with which the figures are measured.
 Json machine();
 
 /// Threads that the machine runs at once, at most `most`.

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+/// The command line of the benchmarks.
 namespace tyndall::bench {
 
 /// Wrong usage of the command line. what(): one line.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+/// Tables of figures, on the screen and as JSON.
 namespace tyndall::bench {
 
 using Json = nlohmann::ordered_json;

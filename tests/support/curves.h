@@ -3,6 +3,7 @@
 
 #include <string>
 
+/// Curves of error over time whose noise and bias are known.
 namespace tyndall::test {
 
 /// A curve whose error is noise / spp + bias, at 1 ms a sample, for 1 to 4096 samples a pixel.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+/// Short names for long texts.
 namespace tyndall::test {
 
 /// 64-bit FNV-1a of a text, as 16 hexadecimal digits: names kept files after the scene that made them.

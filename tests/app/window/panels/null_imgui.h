@@ -3,6 +3,7 @@
 
 #include <utility>
 
+/// Dear ImGui for tests that draw panels where there is no display.
 namespace tyndall {
 
 /// Dear ImGui without a window: frames are built and thrown away.
