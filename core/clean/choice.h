@@ -1,5 +1,5 @@
 #pragma once
-#include "core/clean/regression.h"
+#include "core/clean/blur.h"
 
 /// What the two halves tell about filters that turn A into PA and B into PB without looking at the other half: how
 /// wrong a filtered picture is, and how far to go from one picture towards another. With I the truth, P = (PA + PB) / 2
@@ -11,43 +11,9 @@
 /// as A and B are independent and right on average. No model of the noise is needed, and no sampler assumed.
 namespace tyndall::filter {
 
-inline constexpr int chunk = 256;       ///< pixels of a row that are treated together
 inline constexpr int window_reach = 6;  ///< a choice is made from 13 x 13 pixels …
 inline constexpr int hole_reach = 1;  ///< … without the middle 3 x 3: with its own residuals, they would not tell the
                                       ///< error of what was chosen any more
-
-/// A piece of a row of both halves.
-struct ChunkOfHalves {
-  alignas(64) float of[outputs][chunk];
-};
-
-TYNDALL_INLINE int mirrored(int i, int count) {
-  const int j = i < 0 ? -i - 1 : i >= count ? 2 * count - 1 - i : i;
-  return most(0, least(j, count - 1));
-}
-
-/// Binomial filter of 5 x 5 taps, of `count` pixels from x0 on in row y; mirrored at the borders.
-template <class F>
-TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, ChunkOfHalves& to) {
-  constexpr int reach = 2;
-  alignas(64) float column[chunk + 64];  // from x0 - 16 on
-  for (int output = 0; output < outputs; ++output) {
-    const float* row[2 * reach + 1];
-    for (int k = -reach; k <= reach; ++k) row[k + reach] = v.half[output] + mirrored(y + k, v.height) * v.stride + x0;
-    for (int x = -row_margin; x < count + reach; x += lanes_of<F>) {
-      const F outer = load<F>(row[0] + x) + load<F>(row[4] + x), inner = load<F>(row[1] + x) + load<F>(row[3] + x);
-      const F sum = mul_add(F(0.25f), inner, mul_add(F(0.375f), load<F>(row[2] + x), F(0.0625f) * outer));
-      store(column + row_margin + x, sum);
-    }
-    float* at = column + row_margin;
-    for (int k = 1; k <= reach && x0 == 0; ++k) at[-k] = at[least(k - 1, v.width - 1)];
-    for (int k = 0; k < reach && x0 + count == v.width; ++k) at[count + k] = at[mirrored(v.width + k, v.width) - x0];
-    for (int x = 0; x < count; x += lanes_of<F>) {
-      const F outer = load<F>(at + x - 2) + load<F>(at + x + 2), inner = load<F>(at + x - 1) + load<F>(at + x + 1);
-      store(to.of[output] + x, mul_add(F(0.25f), inner, mul_add(F(0.375f), load<F>(at + x), F(0.0625f) * outer)));
-    }
-  }
-}
 
 template <class F>
 TYNDALL_INLINE void take_rival(const FilterView& v, Rival rival, int y, int x0, int count, ChunkOfHalves& to) {
@@ -93,6 +59,16 @@ TYNDALL_INLINE void clear_behind(float* row, int width) {
   for (int x = width; x < width + row_margin; ++x) row[x] = 0;
 }
 
+/// What errors are relative to: the mean around a pixel, where that is too dark for its own value to be by chance.
+/// Next to a lamp, that is the pixel itself: nothing else tells how dark it is there.
+template <class F>
+TYNDALL_INLINE F level_around(const FilterView& v, int y, int x) {
+  const std::ptrdiff_t at = y * v.stride + x;
+  const F around = sum_around<F>(v, v.level, y, x) / pixels_around<F>(v, y, x, 1);
+  const F darker = max(min(load<F>(v.level + at), around), F(0.0f));
+  return select(less(F(0.0f), load<F>(v.sharp + at)), darker, around);
+}
+
 template <class F>
 TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   ChunkOfHalves q;
@@ -110,7 +86,7 @@ TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
                mul_add(F(0.5f), mul_add(residual_a, to_b, residual_b * to_a), F(0.25f) * ((pa - pb) * (to_a - to_b)));
         distance = mul_add(F(0.25f) * (to_a + to_b), to_a + to_b, distance);
       }
-      const F level = sum_around<F>(v, v.level, y, x0 + x) / pixels_around<F>(v, y, x0 + x, 1);
+      const F level = level_around<F>(v, y, x0 + x);
       const F per = F(1.0f) / mul_add(level, level, splat<F>(v.floor));
       store(v.gain + at, gain * per);
       store(v.distance + at, distance * per);
@@ -120,10 +96,10 @@ TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   clear_behind(v.distance + y * v.stride, v.width);
 }
 
-/// Sums over the columns of a window: of its outer rows, and of the rows that the hole has a part of.
+/// Sums over the columns of a window: of all its rows, and of those that the hole has no part of.
 struct WindowColumns {
   static constexpr int gain = 0, squares = 1, distance = 2, sums = 3;
-  alignas(64) float outer[sums][chunk + 64], inner[sums][chunk + 64];  // from x0 - row_margin on
+  alignas(64) float all[sums][chunk + 64], outer[sums][chunk + 64];  // from x0 - row_margin on
 };
 
 template <class F>
@@ -138,8 +114,8 @@ TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, W
       to[2] = to[2] + load<F>(v.distance + k * v.stride + x0 + x);
     }
     for (int s = 0; s < 3; ++s) {
+      store(columns.all[s] + row_margin + x, outer[s] + inner[s]);
       store(columns.outer[s] + row_margin + x, outer[s]);
-      store(columns.inner[s] + row_margin + x, inner[s]);
     }
   }
 }
@@ -147,12 +123,10 @@ TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, W
 /// The sum over the window around x, nothing of which is subtracted: a bright pixel would leave its rounding behind.
 template <class F>
 TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
-  const float *outer = columns.outer[sum] + row_margin + x, *inner = columns.inner[sum] + row_margin + x;
+  const float *all = columns.all[sum] + row_margin + x, *outer = columns.outer[sum] + row_margin + x;
   F total = F(0.0f);
-  for (int k = -window_reach; k <= window_reach; ++k) {
-    total = total + load<F>(outer + k);
-    if (k < -hole_reach || k > hole_reach) total = total + load<F>(inner + k);
-  }
+  for (int k = -window_reach; k <= window_reach; ++k)
+    total = total + load<F>((k < -hole_reach || k > hole_reach ? all : outer) + k);
   return total;
 }
 
@@ -203,8 +177,17 @@ TYNDALL_INLINE void add_lanes(F values, int count, double& sum) {
   for (int i = 0; i < least(lanes_of<F>, count); ++i) sum += static_cast<double>(lane[i]);
 }
 
-/// Errors are relative to the lesser of the picture and the raw mean around: a bright speck would hide itself.
-/// What is not finite, because numbers were too large for single precision, becomes raw.
+/// What the true picture is like at a pixel, for errors to be relative to: the raw mean around, as a bright speck would
+/// hide itself; but as much of the pixel's own mean as its halves agree on, where that is brighter.
+template <class F>
+TYNDALL_INLINE F known_level(F a, F b, F around) {
+  const F both = a + b, apart = F(2.0f) * (a - b);
+  const F agreed = max(neg_mul_add(apart, apart, both * both) / max(both * both, F(1e-30f)), F(0.0f));
+  return mul_add(agreed, max(neg_mul_add(F(1.0f), around, F(0.5f) * both), F(0.0f)), around);
+}
+
+/// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because
+/// numbers were too large for single precision, becomes raw.
 template <class F>
 TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
   double bias_sum = 0, noise_sum = 0;
@@ -219,7 +202,7 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
       pa = select(finite, pa, a), pb = select(finite, pb, b);
       picture[c] = F(0.5f) * (pa + pb);
       const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x);
-      const F level = max(min(picture[c], F(0.5f) * raw / around), F(0.0f));
+      const F level = max(min(picture[c], known_level(a, b, F(0.5f) * raw / around)), F(0.0f));
       const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
       bias = mul_add((pa - a) * (pb - b), per, bias);
       noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);

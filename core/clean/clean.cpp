@@ -129,6 +129,7 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
     v.emission[k] = input.emission.count() > 0 ? input.emission.plane(k) : nullptr;
   }
   for (int k = 0; k < seen_features; ++k) v.seen[k] = input.seen.plane(k);
+  v.sharp = input.seen.plane(seen_features);
   v.level = m.work.plane(outputs), v.gain = m.work.plane(outputs + 1), v.distance = m.work.plane(outputs + 2);
   v.error = v.gain;
   v.pairs = m.pairs.data(), v.sums = m.sums.data(), v.shines = m.shines.data(), v.cell_stride = m.cell_stride;

@@ -18,7 +18,8 @@ namespace tyndall {
 /// What is seen first through the middle of a pixel, free of noise.
 struct FirstSeen {
   Vec3f albedo, normal;
-  float depth = 0;  ///< > 0, in any unit; 0: nothing is seen
+  float depth = 0;    ///< > 0, in any unit; 0: nothing is seen
+  bool sharp = true;  ///< lamps and sky are not seen by chance there, as they are in glass and in brushed metal
 };
 
 /// Planes of numbers, all of one size. Rows have room to the left and right, so that whole groups of lanes can be read
@@ -47,7 +48,7 @@ struct CleanInput {
   float scale = 1;  ///< a power of two: radiance is that times the numbers in the planes
   Planes halves;    ///< 6: red, green, blue of A and B
   Planes emission;  ///< likewise, or none
-  Planes seen;      ///< 7: albedo, normal, 1 / (1 + depth over its harmonic mean)
+  Planes seen;      ///< 8: albedo, normal, 1 / (1 + depth over its harmonic mean), 1 where sharp
 };
 
 /// Fills `halves` and `emission` with a film's region. Where one half of a pixel is empty it gets what the other has.

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/clean/choice.h"
+#include "core/clean/predict.h"
 
 /// The filter's entry points as templates over the number type F. Each instruction set has a small .cpp file, which
 /// chooses F. They are static, so that each file has its own: of an ordinary template the linker keeps one copy for all

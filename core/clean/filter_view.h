@@ -18,6 +18,7 @@ inline constexpr int cell_edge = 8, cell_pixels = cell_edge * cell_edge;
 // halves share; then the emission of each half and the halves themselves.
 inline constexpr int seen_features = 7, plain_terms = 3 + seen_features, emission_terms = 3,
                      terms = plain_terms + emission_terms, outputs = 6;
+inline constexpr int depth_column = plain_terms - 1;  ///< > 0 where anything is seen
 inline constexpr int emission_column = plain_terms, half_column = emission_column + 2 * emission_terms,
                      cell_columns = half_column + outputs;
 
@@ -41,6 +42,7 @@ struct FilterView {
   const float* half[outputs];                 ///< A and B: red, green, blue
   const float* emission[2 * emission_terms];  ///< likewise; null: not recorded
   const float* seen[seen_features];
+  const float* sharp;        ///< 1 where lamps and sky are seen without chance in between, else 0
   float* filtered[outputs];  ///< A and B
   float* level;              ///< mean of the six
   float *gain, *distance;    ///< what going to another picture would bring, and its squared distance

@@ -69,7 +69,7 @@ void read_film(const Film& film, Crew& crew, CleanInput& input) {
 }
 
 void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, CleanInput& input) {
-  input.seen.resize(width, height, filter::seen_features);
+  input.seen.resize(width, height, filter::seen_features + 1);
   double near = 0;
   std::size_t met = 0;
   for (const FirstSeen& p : pixels)
@@ -84,6 +84,7 @@ void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height
           p.albedo.x, p.albedo.y, p.albedo.z, p.normal.x, p.normal.y, p.normal.z, 1 / (1 + p.depth * per_depth)};
       for (int k = 0; k < filter::seen_features; ++k)
         input.seen.plane(k)[y * input.seen.stride() + x] = seen ? values[k] : 0;
+      input.seen.plane(filter::seen_features)[y * input.seen.stride() + x] = seen && !p.sharp ? 0.0f : 1.0f;
     }
 }
 

@@ -1,12 +1,23 @@
 #include "core/render/clean_film.h"
 
 #include "core/base/seconds.h"
+#include "core/materials/materials.h"
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
 
 namespace tyndall {
+namespace {
+
+/// Whether a ray that meets the surface goes on, if at all, as one that a mirror reflects.
+bool is_sharp(const SceneView& scene, std::int32_t element) {
+  const std::int32_t material = scene.material[element], kind = scene.kind[material];
+  if (kind == place_in<Dielectric<double>, MaterialKinds<double>>) return false;
+  return kind != place_in<Metal<double>, MaterialKinds<double>> || scene.parameter[0][material] <= least_sampled_fuzz;
+}
+
+}  // namespace
 
 FilmCleaner::FilmCleaner(const Kernels& kernels) : cleaner_(find_target(kernels.isa).value_or(Target::scalar)) {}
 
@@ -19,9 +30,11 @@ bool FilmCleaner::find_first_seen(const Region& region, const RenderEngine& engi
     hits.resize(width);
     const int y = region.y0 + row;
     engine.kernels.first_hits(engine.scene, {region.x0, y, region.x1, y + 1}, hits.data());
-    for (std::size_t x = 0; x < width; ++x)
-      seen[static_cast<std::size_t>(row) * width + x] = {hits[x].albedo, hits[x].normal,
-                                                         hits[x].element < 0 ? 0 : hits[x].depth};
+    for (std::size_t x = 0; x < width; ++x) {
+      FirstSeen& to = seen[static_cast<std::size_t>(row) * width + x];
+      if (hits[x].element >= 0)
+        to = {hits[x].albedo, hits[x].normal, hits[x].depth, is_sharp(engine.scene, hits[x].element)};
+    }
   });
   if (give_up) return false;
   read_first_seen(seen, region.width(), region.height(), input_);
