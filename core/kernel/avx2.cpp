@@ -10,6 +10,6 @@ using F = Twice<HWY_NAMESPACE::Floats>;
 static_assert(lanes_of<F> == 16, "the SIMD library fell back to a narrower set: a flag is missing");
 }  // namespace
 
-Kernels avx2_kernels() { return kernels_of<F>("avx2", avx2_full_kernel(), avx2_chains_kernel()); }
+Kernels avx2_kernels() { return kernels_of<F>("avx2"); }
 
 }  // namespace tyndall

@@ -10,6 +10,6 @@ using F = Twice<HWY_NAMESPACE::Floats>;
 static_assert(lanes_of<F> == 32, "the SIMD library fell back to a narrower set: a flag is missing");
 }  // namespace
 
-Kernels avx512_kernels() { return kernels_of<F>("avx512", avx512_full_kernel(), avx512_chains_kernel()); }
+Kernels avx512_kernels() { return kernels_of<F>("avx512"); }
 
 }  // namespace tyndall

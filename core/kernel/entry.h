@@ -84,14 +84,13 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// A table with a kernel of its own for each KernelSet, for the instruction sets that most processors have. `full`,
-/// with every model, and `chains`, without fog and textures, are passed in, because they are compiled in another file:
-/// so two processors can compile the kernels side by side.
+/// A table with a kernel of its own for each KernelSet, for the instruction sets that most processors have.
 template <class F>
-static Kernels kernels_of(const char* isa, RenderUnit full, RenderUnit chains) {
+static Kernels kernels_of(const char* isa) {
   return {isa,
           lanes_of<F>,
-          {full, chains, render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
+          {render_unit_entry<F, KernelSet::everything>, render_unit_entry<F, KernelSet::chains_alone>,
+           render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
            render_unit_entry<F, KernelSet::no_fog_nor_textures>},
           trace_entry<F>,
           first_hits_entry<F>};

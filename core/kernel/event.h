@@ -17,11 +17,11 @@ struct Paths {
   Dice<F> dice;
   IntOf<F> depth;  ///< scattering events so far
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
-  FogFlight<F> flight;      ///< the flight to where the ray starts; only in scenes with lamps in fog
-  ChainTrail<F> trail;      ///< what it met since it scattered last; only in scenes with chains
-  MaskOf<F> straight;       ///< it has met nothing yet but smooth glass and mirrors; only in scenes with lamps
-  IntOf<F> slot;            ///< 2 · pixel within the tile + half
-  std::uint32_t alive = 0;  ///< bit i: lane i follows a path
+  FogFlight<F> flight;         ///< the flight to where the ray starts; only in scenes with lamps in fog
+  ChainTrail<F> trail;         ///< what it met since it scattered last; only in scenes with chains
+  IntOf<F> slot;               ///< 2 · pixel within the tile + half
+  std::uint32_t alive = 0;     ///< bit i: lane i follows a path
+  std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps
 };
 
 /// The places where a group of lanes is about to scatter: points of surfaces and points within media.

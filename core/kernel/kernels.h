@@ -76,10 +76,6 @@ Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
-RenderUnit avx2_full_kernel();
-RenderUnit avx512_full_kernel();
-RenderUnit avx2_chains_kernel();
-RenderUnit avx512_chains_kernel();
 /// The same source over double, to see what rounding costs the others. It reads the same columns of floats and draws
 /// the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
 Kernels double_kernels();

@@ -63,15 +63,16 @@ TYNDALL_INLINE FogFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray
   return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, density};
 }
 
-/// Adds to the radiance of `p` the light that lamps send to the places sampled by angle. Also sets p.flight to the
-/// free flight that ended at the event `found`. lengths: of the ray, to its event (x) and to the next surface (y).
+/// The light that lamps send to the places sampled by angle. It is a call, because it holds nearly all of the code with
+/// which surfaces look for light; a second copy of that would take seconds to compile in each kernel. Its arguments are
+/// copies, so that the path loop can keep its own values in registers.
 template <class F>
-TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, const MediumEvent<F>& found, MaskOf<F> active,
-                                     Pair<F> lengths, std::uint32_t& shadow_rays) {
-  p.flight = free_flight_to(s, p.ray, found, lengths);
-  const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
-  const NearEvent<F> near = fly_by_angle(s, p, lanes, lengths.y);
-  if (!any(near.happens)) return;
+[[gnu::noinline]] static Vec3<F> light_by_angle(const SceneView& s, Ray<F> ray, Vec3<F> throughput, Dice<F> dice,
+                                                MaskOf<F> lanes, F to_surface, std::uint32_t& shadow_rays) {
+  Paths<F> p{};
+  p.ray = ray, p.throughput = throughput, p.dice = dice;
+  const NearEvent<F> near = fly_by_angle(s, p, lanes, to_surface);
+  if (!any(near.happens)) return zero3<F>();
   Event<F> e{};
   e.surface = less(F(1.0f), F(0.0f));
   e.medium = near.happens;
@@ -82,7 +83,17 @@ TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, const MediumEve
                             p.dice.pair(dimension::near_point),
                             near.flight,
                             true};
-  p.radiance = p.radiance + direct_light(s, p, e, near.happens, asked, shadow_rays);
+  return direct_light(s, p, e, near.happens, asked, shadow_rays);
+}
+
+/// Adds to the radiance of `p` the light that lamps send to the places sampled by angle. Also sets p.flight to the
+/// free flight that ended at the event `found`. lengths: of the ray, to its event (x) and to the next surface (y).
+template <class F>
+TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, const MediumEvent<F>& found, MaskOf<F> active,
+                                     Pair<F> lengths, std::uint32_t& shadow_rays) {
+  p.flight = free_flight_to(s, p.ray, found, lengths);
+  const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
+  p.radiance = p.radiance + light_by_angle(s, p.ray, p.throughput, p.dice, lanes, lengths.y, shadow_rays);
 }
 
 }  // namespace tyndall

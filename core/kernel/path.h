@@ -39,7 +39,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     p.depth = select(m, IntOf<F>(0), p.depth);
     p.density = select(m, F(one_direction), p.density);
     if (s.has_chains()) p.trail.met = select(m, IntOf<F>(-1), p.trail.met);
-    if (s.has_lamps()) p.straight = mask_or(m, p.straight);
+    if (s.has_lamps()) p.straight |= fresh;
     p.alive |= fresh;
   }
 }
@@ -145,9 +145,9 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
       p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
   }
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
-  if (s.has_lamps()) {
+  if (p.straight) {
     const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));
-    p.straight = mask_and_not(p.straight, mask_and_not(scattering, mirrored));
+    p.straight &= ~bits(mask_and_not(scattering, mirrored));
   }
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
@@ -173,7 +173,7 @@ TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint3
   alignas(64) std::int32_t slot[lanes_of<F>];
   store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slot, p.slot);
   store(carried, max_component(p.throughput));
-  const std::uint32_t straight = film.emission ? bits(p.straight) : 0;
+  const std::uint32_t straight = film.emission ? p.straight : 0;
   for (; finished; finished &= finished - 1) {
     const int lane = __builtin_ctz(finished);
     FilmPixel& pixel = film.pixels[slot[lane] >> 1];

@@ -58,6 +58,13 @@ Fate fate_of(const Meeting& m, const Paths<float>& after, bool survives, bool cu
   return black || below ? Fate::absorbed : Fate::roulette;
 }
 
+/// Takes the path one step further; answers whether it goes on. `cut`: whether max_depth ended it.
+bool take_step(const SceneView& s, Paths<float>& p, bool& cut) {
+  std::uint32_t shadow_rays = 0;
+  ChainQueue<float> chains{};
+  return step(s, p, true, cut, chains, shadow_rays);
+}
+
 /// The scene without chains. What a step in the full scene adds beyond a step in this one was added by chains.
 SceneView without_chains(SceneView s) {
   s.chains.pairs = 0;
@@ -68,9 +75,7 @@ void tell_chains(const SceneView& s, Paths<float> before, const Paths<float>& af
   if (!s.has_chains()) return;
   const Vec3f start = before.radiance;
   bool cut = false;
-  std::uint32_t shadows = 0;
-  ChainQueue<float> chains{};
-  step(without_chains(s), before, true, cut, chains, shadows);
+  take_step(without_chains(s), before, cut);
   const float with = max_component(after.radiance - start), alone = max_component(before.radiance - start);
   if (with < alone)
     v.chance = with / alone;
@@ -92,10 +97,8 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
   while (p.alive) {
     Meeting meeting = meet(s, p);
     bool cut = false;
-    std::uint32_t shadows = 0;
-    ChainQueue<float> chains{};
     const Paths<float> before = p;
-    const bool survives = step(s, p, true, cut, chains, shadows);
+    const bool survives = take_step(s, p, cut);
     PathVertex& v = meeting.vertex;
     tell_chains(s, before, p, v);
     v.radiance = p.radiance;
