@@ -3,6 +3,7 @@
 #include "core/compile/columns.h"
 #include "core/compile/crowds.h"
 #include "core/compile/lights.h"
+#include "core/compile/mirrors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ void nest(std::vector<Candidate>& list) {
 }
 
 struct BallAndLight {
-  int ball;  // index into the candidates
+  int ball;  // index into the candidates, or behind them into the flat mirrors
   int light;
   double worth;
 };
@@ -83,15 +84,21 @@ bool is_filled_shell(const std::vector<Candidate>& list, const Candidate& outer)
   return std::abs(outer.index * list[static_cast<std::size_t>(outer.holds)].index - 1) > like_outside;
 }
 
-std::vector<BallAndLight> list_pairs(const std::vector<Candidate>& list, const RenderScene& compiled) {
+std::vector<BallAndLight> list_pairs(const std::vector<Candidate>& list, const std::vector<FlatMirror>& mirrors,
+                                     const std::vector<Receiver>& receivers, const RenderScene& compiled) {
   std::vector<BallAndLight> pairs;
-  for (std::size_t b = 0; b < list.size(); ++b) {
-    if (list[b].inside >= 0 || is_filled_shell(list, list[b])) continue;
+  const auto add = [&](std::size_t ball, const auto& worth_of_light) {
     for (std::size_t k = 0; k < compiled.lights.kind.size(); ++k) {
-      const double worth = worth_of(list[b].body, compiled.lights, k, compiled.origin);
-      if (worth > 0) pairs.push_back({static_cast<int>(b), static_cast<int>(k), worth});
+      const double worth = worth_of_light(k);
+      if (worth > 0) pairs.push_back({static_cast<int>(ball), static_cast<int>(k), worth});
     }
-  }
+  };
+  for (std::size_t b = 0; b < list.size(); ++b)
+    if (list[b].inside < 0 && !is_filled_shell(list, list[b]))
+      add(b, [&](std::size_t k) { return worth_of(list[b].body, compiled.lights, k, compiled.origin); });
+  for (std::size_t b = 0; b < mirrors.size(); ++b)
+    add(list.size() + b,
+        [&](std::size_t k) { return worth_of(mirrors[b], compiled.lights, k, compiled.origin, receivers); });
   if (pairs.size() > most_pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const BallAndLight& a, const BallAndLight& b) { return a.worth > b.worth; });
@@ -126,6 +133,20 @@ class Filler {
     out.inner.push_back(inner ? name(*inner, ball, 1) : out.outer.back());
     out.crowded.push_back(is_crowded(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape}) ? 1 : 0);
     out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
+    ++out.first_mirror;
+  }
+
+  /// After all balls.
+  void add_mirror(const FlatMirror& mirror) {
+    const int ball = static_cast<int>(out.radius.size());
+    push(out.center, mirror.middle - compiled_.origin);
+    push(out.move, {});
+    out.radius.push_back(0), out.index.push_back(0), out.inner_radius.push_back(0), out.inner_index.push_back(1);
+    const std::int32_t element = first_element_[mirror.shape] + mirror.face;
+    out.outer.push_back(element), out.inner.push_back(element), out.crowded.push_back(0);
+    out.ball_of[static_cast<std::size_t>(element)] = 2 * ball;
+    out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
+    append_numbers(mirror, compiled_.origin, out.mirrors);
   }
 
   void add_pair(const BallAndLight& pair) {
@@ -135,9 +156,13 @@ class Filler {
     out.ball.push_back(static_cast<std::int32_t>(ball));
     out.light.push_back(pair.light);
     out.choice.kind.push_back(Lights::sphere);
-    out.choice.power.push_back(static_cast<float>(pair.worth));
-    out.choice.reach2.push_back(out.radius[ball] * out.radius[ball]);
-    for (int i = 0; i < 3; ++i) out.choice.center[i].push_back(out.center[i][ball] + 0.5f * out.move[i][ball]);
+    const auto k = static_cast<std::size_t>(pair.light);
+    const bool by_mirror = static_cast<int>(ball) >= out.first_mirror;
+    out.choice.power.push_back(by_mirror ? compiled_.lights.power[k] : static_cast<float>(pair.worth));
+    out.choice.reach2.push_back(by_mirror ? compiled_.lights.reach2[k] : out.radius[ball] * out.radius[ball]);
+    for (int i = 0; i < 3; ++i)
+      out.choice.center[i].push_back(by_mirror ? compiled_.lights.center[i][k]
+                                               : out.center[i][ball] + 0.5f * out.move[i][ball]);
   }
 
   Chains out;
@@ -160,12 +185,16 @@ Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene&
   if (!has_material<Lambertian<>>(compiled.needs) && !compiled.needs.media) return {};
   std::vector<Candidate> list = list_candidates(flat, scene);
   nest(list);
-  const std::vector<BallAndLight> pairs = list_pairs(list, compiled);
+  const std::vector<FlatMirror> mirrors = list_flat_mirrors(flat, scene);
+  const std::vector<Receiver> receivers = mirrors.empty() ? std::vector<Receiver>{} : list_receivers(flat, scene);
+  const std::vector<BallAndLight> pairs = list_pairs(list, mirrors, receivers, compiled);
   if (pairs.empty()) return {};
   Filler filler(flat, compiled);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i == 0 || pairs[i].ball != pairs[i - 1].ball)
-      filler.add_ball(list, list[static_cast<std::size_t>(pairs[i].ball)]);
+    const auto ball = static_cast<std::size_t>(pairs[i].ball);
+    const bool fresh = i == 0 || pairs[i].ball != pairs[i - 1].ball;
+    if (fresh && ball < list.size()) filler.add_ball(list, list[ball]);
+    if (fresh && ball >= list.size()) filler.add_mirror(mirrors[ball - list.size()]);
     filler.add_pair(pairs[i]);
   }
   build_alias_table(filler.out.choice);

@@ -19,6 +19,12 @@ std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
 std::shared_ptr<const std::vector<float>> gradient_table();
 
+/// For a point corner + a u + b v: a and b are the dot products of a and b here with the point's way from the corner.
+struct Reciprocal {
+  Vec3d a, b;
+};
+Reciprocal reciprocal_edges(Vec3d u, Vec3d v);
+
 /// A quad or box as an affine map (see Affine).
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin);
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin);

@@ -27,15 +27,6 @@ double distance_to_segment(Vec3d point, Vec3d start, Vec3d way) {
   return length(point - start - t * way);
 }
 
-double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
-  const Vec3d n = cross(u, v), from = point - corner;
-  const double squared = dot(n, n);
-  const double a = dot(cross(from, v), n) / squared, b = dot(cross(u, from), n) / squared;
-  if (a >= 0 && a <= 1 && b >= 0 && b <= 1) return std::abs(dot(from, n)) / std::sqrt(squared);
-  return std::min({distance_to_segment(point, corner, u), distance_to_segment(point, corner, v),
-                   distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
-}
-
 /// Whether something comes closer to the body's centre than its radius. distance(center): how far the thing is from
 /// such a place of the centre. A moving body is compared at `moments` + 1 moments; what could come close between two of
 /// them counts as if it did.
@@ -94,6 +85,15 @@ bool reaches_into(const PlacedVolume& volume, const RoundBody& body) {
 }
 
 }  // namespace
+
+double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
+  const Vec3d n = cross(u, v), from = point - corner;
+  const double squared = dot(n, n);
+  const double a = dot(cross(from, v), n) / squared, b = dot(cross(u, from), n) / squared;
+  if (a >= 0 && a <= 1 && b >= 0 && b <= 1) return std::abs(dot(from, n)) / std::sqrt(squared);
+  return std::min({distance_to_segment(point, corner, u), distance_to_segment(point, corner, v),
+                   distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
+}
 
 RoundBody round_body(const Sphere<>& s, const Placement& placement) {
   const Vec3d way = s.center_end ? turn(placement, *s.center_end - s.center) : Vec3d{};

@@ -18,4 +18,7 @@ RoundBody round_body(const Sphere<>& sphere, const Placement& placement);
 /// the answer may be yes too often, never no.
 bool is_crowded(const Flattened& flat, const RoundBody& body, std::initializer_list<std::size_t> own);
 
+/// Distance from a point to the nearest point of the parallelogram with the edges u and v from `corner`.
+double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v);
+
 }  // namespace tyndall

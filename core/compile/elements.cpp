@@ -10,17 +10,6 @@ void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
   map.offset[i] = static_cast<float>(-dot(row, zero_at));
 }
 
-/// Writes a and b of a point corner + a u + b v as affine functions of the point: dot products with the reciprocal
-/// edges.
-struct Reciprocal {
-  Vec3d a, b;
-};
-Reciprocal reciprocal_edges(Vec3d u, Vec3d v) {
-  const Vec3d n = cross(u, v);
-  const double squared = dot(n, n);
-  return {(1 / squared) * cross(v, n), (1 / squared) * cross(n, u)};
-}
-
 void append(Elements& e, Vec3f xyz, float inverse_radius, Vec3f move, bool motion, const PlacedShape& shape) {
   e.x.push_back(xyz.x), e.y.push_back(xyz.y), e.z.push_back(xyz.z);
   e.inverse_radius.push_back(inverse_radius);
@@ -61,6 +50,12 @@ void append_shape(const Box<>& b, const PlacedShape& shape, Vec3d origin, bool u
 }
 
 }  // namespace
+
+Reciprocal reciprocal_edges(Vec3d u, Vec3d v) {
+  const Vec3d n = cross(u, v);
+  const double squared = dot(n, n);
+  return {(1 / squared) * cross(v, n), (1 / squared) * cross(n, u)};
+}
 
 /// Corners and edges are those of the box in The Next Week, section 8.1.
 BoxFace box_face_edges(const Box<>& b, std::int32_t face) {

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/compile/render_scene.h"
 
-/// Lamps in fog, whose bright glow needs a way of sampling of its own (see core/kernel/equiangular.h).
+/// Lamps in fog, whose bright glow needs a way of sampling of its own (see core/kernel/flight.h).
 namespace tyndall {
 
 /// The pairs of a medium and a light for which it pays to sample distances along a ray by the angle under which the

@@ -127,13 +127,22 @@ struct Lights {
 inline constexpr int most_lights_by_contribution = 16;
 
 /// Pairs of a medium and a small lamp in it or close to it. The light that scatters next to such a lamp has no upper
-/// bound (inverse square), so integrator mis samples distances with regard to the lamp (core/kernel/equiangular.h).
+/// bound (inverse square), so integrator mis samples distances with regard to the lamp (core/kernel/flight.h).
 struct NearLamps {
   std::vector<std::int32_t> medium, light;
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
-/// Balls of glass and mirror balls, and for each the lamps whose light integrator mis looks for through it or off it.
+/// A flat mirror as numbers.
+enum MirrorNumber {
+  mirror_rows = 0,     ///< as of an Affine: two that run from -1 to 1 across the face, and the unit normal
+  mirror_offsets = 9,  ///< added to these three
+  mirror_slopes = 12,  ///< lengths of the first two rows
+  numbers_of_mirror = 14
+};
+
+/// Balls of glass, mirror balls and flat mirrors, and for each the lamps whose light integrator mis looks for through
+/// it or off it. Flat mirrors have places behind the balls, as mirror balls of radius 0.
 struct Chains {
   // Columns by ball: one sphere, or two around one centre.
   std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
@@ -141,6 +150,8 @@ struct Chains {
   std::vector<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
   std::vector<std::int32_t> outer, inner;        ///< elements of the spheres
   std::vector<std::int32_t> crowded;             ///< 1: surfaces or media other than its own are or reach into it
+  int first_mirror = 0;                          ///< how many balls there are
+  std::vector<float> mirrors;                    ///< numbers_of_mirror for each flat mirror, see MirrorNumber
   // Pairs of a ball and a light.
   std::vector<std::int32_t> ball, light;
   Lights choice;                      ///< the pairs as what choose_light chooses from

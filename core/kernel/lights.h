@@ -42,9 +42,9 @@ TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
 }
 
 template <class F>
-TYNDALL_INLINE F total_worth(const LightView& l, Vec3<F> point) {
+TYNDALL_INLINE F total_worth(const LightView& l, const auto& worth_of) {
   F sum = F(0.0f);
-  for (int k = 0; k < l.count; ++k) sum = sum + light_worth(l, k, point);
+  for (int k = 0; k < l.count; ++k) sum = sum + worth_of(k);
   return sum;
 }
 
@@ -55,19 +55,19 @@ struct LightChoice {
   F probability;
 };
 
-/// Chooses a light for a point by u in [0, 1): in proportion to light_worth() if there are few lights, in proportion to
-/// their power (by Vose's alias table) if there are more than most_lights_by_contribution.
+/// Chooses a light by u in [0, 1): in proportion to worth_of(k) > 0 of light k if there are few lights, in proportion
+/// to their power (by Vose's alias table) if there are more than most_lights_by_contribution.
 template <class F>
-TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F u) {
+TYNDALL_INLINE LightChoice<F> choose_light_by(const LightView& l, F u, const auto& worth_of) {
   using I = IntOf<F>;
   if (l.count == 1) return {I(0), F(1.0f)};
   if (l.count <= most_lights_by_contribution) {
-    const F total = total_worth(l, point);
+    const F total = total_worth<F>(l, worth_of);
     LightChoice<F> choice{I(l.count - 1), F(0.0f)};
     F left = u * total, worth = F(0.0f);
     MaskOf<F> open = less(F(-1.0f), F(0.0f));
     for (int k = 0; k < l.count; ++k) {
-      worth = light_worth(l, k, point);
+      worth = worth_of(k);
       const auto here = k + 1 < l.count ? mask_and(open, less(left, worth)) : open;
       choice.light = select(here, I(k), choice.light);
       choice.probability = select(here, worth / total, choice.probability);
@@ -83,18 +83,32 @@ TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F 
   return {light, gather<F>(l.probability, light)};
 }
 
-/// Probability with which choose_light() takes `light` at a point.
+/// Probability with which choose_light_by() takes `light`.
 template <class F>
-TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> light) {
+TYNDALL_INLINE F choice_probability_by(const LightView& l, IntOf<F> light, const auto& worth_of) {
   if (l.count == 1) return F(1.0f);
   if (l.count > most_lights_by_contribution) return gather<F>(l.probability, light);
   F total = F(0.0f), own = F(0.0f);
   for (int k = 0; k < l.count; ++k) {
-    const F worth = light_worth(l, k, point);
+    const F worth = worth_of(k);
     own = select(equal(light, IntOf<F>(k)), worth, own);
     total = total + worth;
   }
   return own / total;
+}
+
+/// Chooses a light for a point by u in [0, 1): by light_worth() if there are few.
+template <class F>
+TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F u) {
+  return choose_light_by(
+      l, u, [&](int k) __attribute__((always_inline)) { return light_worth(l, k, point); });
+}
+
+/// Probability with which choose_light() takes `light` at a point.
+template <class F>
+TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> light) {
+  return choice_probability_by<F>(
+      l, light, [&](int k) __attribute__((always_inline)) { return light_worth(l, k, point); });
 }
 
 /// A rectangle as seen from a point: its edges in a frame along its sides with the point at the origin, and its solid

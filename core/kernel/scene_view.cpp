@@ -60,6 +60,7 @@ ChainView view_of(const Chains& c) {
   v.outer = c.outer.data(), v.inner = c.inner.data(), v.crowded = c.crowded.data(), v.ball = c.ball.data(),
   v.light = c.light.data();
   v.pair_of = c.pair_of.data(), v.ball_of = c.ball_of.data();
+  v.first_mirror = c.first_mirror, v.mirrors = c.mirrors.data();
   v.choice = view_of(c.choice);
   return v;
 }

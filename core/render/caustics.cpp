@@ -131,17 +131,20 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
 double chance_of_caustics(const Scene& scene, const RenderScene& compiled) {
   const Chains& chains = compiled.chains;
   if (chains.ball.empty()) return chance_of_caustics(scene);
-  std::vector<std::size_t> elements;  // the first of each shape
-  std::size_t count = 0;
-  for (const PlacedShape& shape : flatten(scene).shapes) {
-    elements.push_back(count);
-    count += std::holds_alternative<Box<>>(shape.shape) ? 6 : 1;
-  }
+  std::vector<std::size_t> elements{0};  // the first of each shape, and one behind the last
+  for (const PlacedShape& shape : flatten(scene).shapes)
+    elements.push_back(elements.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
   const std::size_t lights = compiled.lights.kind.size();
-  return chance_of_caustics(scene, [&](std::size_t lamp, std::size_t shape) {
-    const std::int32_t light = compiled.elements.light[elements[lamp]], ball = chains.ball_of[elements[shape]];
+  const auto is_pair = [&](std::size_t lamp, std::size_t thing) {
+    const std::int32_t light = compiled.elements.light[lamp], ball = chains.ball_of[thing];
     if (light < 0 || ball < 0) return false;
     return chains.pair_of[static_cast<std::size_t>(ball / 2) * lights + static_cast<std::size_t>(light)] >= 0;
+  };
+  return chance_of_caustics(scene, [&](std::size_t lamp, std::size_t shape) {
+    for (std::size_t i = elements[lamp]; i < elements[lamp + 1]; ++i)
+      for (std::size_t k = elements[shape]; k < elements[shape + 1]; ++k)
+        if (is_pair(i, k)) return true;
+    return false;
   });
 }
 

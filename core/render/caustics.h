@@ -26,7 +26,8 @@ using IsFound = std::function<bool(std::size_t lamp, std::size_t shape)>;
 /// is_found: pairs that are left out; empty: none are.
 double chance_of_caustics(const Scene& scene, const IsFound& is_found = {});
 
-/// The same, without the pairs of a ball and a lamp whose light chains compute. compiled: made from this scene.
+/// The same, without the pairs of a ball or mirror and a lamp whose light chains compute. compiled: made from this
+/// scene.
 double chance_of_caustics(const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

@@ -87,3 +87,19 @@ TEST_CASE("caustics: pairs that chains find are left out, unless chains are swit
   scene.materials[1].kind = Metal<>{0.01};  // chains need a perfect mirror
   CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
 }
+
+TEST_CASE("caustics: chains find light off flat mirrors, and none by quads and boxes of glass") {
+  const Material mirror{"", Vec3d{1, 1, 1}, Metal<>{0}}, clear{"", Vec3d{1, 1, 1}, Dielectric<>{1.5}};
+  const auto chance_with = [](auto shape, const Material& material) {
+    Scene scene = ball_under_lamp(0.03, 3);
+    scene.materials[1] = material;
+    std::get<Solid3d>(scene.objects[1].kind).shape = shape;
+    scene.objects.push_back(
+        {"", Solid3d{Quad<>{{-5, 5, -5}, {10, 0, 0}, {0, 0, 10}}, 0}, {}});  // for light sent upward
+    return chance_of_caustics(scene, compile(scene));
+  };
+  CHECK(chance_with(Quad<>{{-1, -0.5, -1}, {2, 0, 0}, {0, 0, 2}}, mirror) == 1);
+  CHECK(chance_with(Quad<>{{-1, -0.5, -1}, {2, 0, 0}, {0, 0, 2}}, clear) < 0.001);
+  CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, mirror) == 1);
+  CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, clear) < 0.001);
+}

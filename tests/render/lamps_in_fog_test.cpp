@@ -1,4 +1,4 @@
-#include "core/kernel/equiangular.h"
+#include "core/kernel/flight.h"
 #include "core/scene/load.h"
 #include "tests/support/probe.h"
 

@@ -19,8 +19,8 @@ constexpr int width = 61, height = 43;  // neither is a multiple of a tile's edg
 const std::vector<RenderScene>& scenes() {
   static const std::vector<RenderScene> all = [] {
     std::vector<RenderScene> list;
-    for (const char* name :
-         {"showroom", "cornell-smoke", "bouncing-spheres", "next-week", "stress-caustic-glass", "stress-caustic-shell"})
+    for (const char* name : {"showroom", "cornell-smoke", "bouncing-spheres", "next-week", "stress-caustic-glass",
+                             "stress-caustic-shell", "stress-mirror-wall"})
       list.push_back(compile(small_scene(name, width, height, 1)));
     return list;
   }();

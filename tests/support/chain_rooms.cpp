@@ -168,6 +168,27 @@ std::vector<ChainRoom> in_fog_and_moving() {
   };
 }
 
+std::vector<ChainRoom> mirrors() {
+  const Material silver = metal(0.9, 0);
+  const auto tilted = [&](Scene& s) { add(s, Quad<>{{-1.2, 0.88, -1.2}, {2.4, 1.2, 0}, {0, -0.36, 2.4}}, silver); };
+  return {
+      {"flat mirror", with(under_hood(), tilted)},
+      {"block of metal",
+       with(under_hood(),
+            [&](Scene& s) {
+              add(s, Box<>{{0.3, 0.02, -1.2}, {1.2, 2.6, 1.2}}, silver, {RotateY{45}});
+            }),
+       256},
+      {"flat mirror in fog",
+       with(under_hood(large_lamp),
+            [&](Scene& s) {
+              tilted(s);
+              add_fog(s);
+            }),
+       512, 0.006},
+  };
+}
+
 std::vector<ChainRoom> lamps() {
   const auto lit = [](auto add_lamps) {
     return with(hooded_room(), [&](Scene& s) {
@@ -205,7 +226,7 @@ std::vector<ChainRoom> lamps() {
 
 std::vector<ChainRoom> chain_rooms() {
   std::vector<ChainRoom> all;
-  for (const std::vector<ChainRoom>& some : {balls(), bulbs(), in_fog_and_moving(), lamps()})
+  for (const std::vector<ChainRoom>& some : {balls(), bulbs(), in_fog_and_moving(), mirrors(), lamps()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
