@@ -61,6 +61,7 @@ struct Cleaner::Memory {
   FilterSteps steps;
   std::vector<ColumnPair> pairs = column_pairs();
   Planes work;  ///< filtered 6, level, gain, distance
+  CleanPicture made;
   std::vector<float> sums, coefficients;
   std::vector<std::uint8_t> shines;
   std::vector<double> row_bias, row_noise;
@@ -111,9 +112,8 @@ double sum_of(const std::vector<double>& rows) {
 
 }  // namespace
 
-Cleaner::Cleaner(Target target) : memory_(std::make_unique<Memory>()) {
-  memory_->steps = filters[static_cast<int>(target)]();
-}
+Cleaner::Cleaner(Target target) : Cleaner(filters[static_cast<int>(target)]()) {}
+Cleaner::Cleaner(const FilterSteps& steps) : memory_(std::make_unique<Memory>()) { memory_->steps = steps; }
 Cleaner::~Cleaner() = default;
 Cleaner::Cleaner(Cleaner&&) noexcept = default;
 Cleaner& Cleaner::operator=(Cleaner&&) noexcept = default;
@@ -151,16 +151,18 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
                      mix(Rival::raw) && each(v.height, [&](int y) { m.steps.judge(v, y); });
   if (!whole) return false;
   const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
-  out.width = v.width, out.height = v.height;
-  out.rgb.resize(3 * width * height);
-  out.pixel_error.resize(width * height);
-  crew.for_each(v.height, [&](int y) {
+  m.made.width = v.width, m.made.height = v.height;
+  m.made.rgb.resize(3 * width * height);
+  m.made.pixel_error.resize(width * height);
+  const bool copied = each(v.height, [&](int y) {
     const std::size_t row = static_cast<std::size_t>(y) * width;
-    put_picture(v, input.scale, y, out.rgb.data() + 3 * row);
-    put_pixel_errors(v, y, out.pixel_error.data() + row);
+    put_picture(v, input.scale, y, m.made.rgb.data() + 3 * row);
+    put_pixel_errors(v, y, m.made.pixel_error.data() + row);
   });
+  if (!copied) return false;
   const double pixels = static_cast<double>(width * height);
-  out.relative_error = std::sqrt((std::max(sum_of(m.row_bias), 0.0) + sum_of(m.row_noise)) / pixels);
+  m.made.relative_error = std::sqrt((std::max(sum_of(m.row_bias), 0.0) + sum_of(m.row_noise)) / pixels);
+  std::swap(out, m.made);
   return true;
 }
 

@@ -55,37 +55,61 @@ void read_emission_row(const Film& film, int y, CleanInput& input) {
     }
 }
 
+/// Of the pixels of a row where anything is seen: how many there are, and the sum of 1 / depth.
+struct NearnessOfRow {
+  double sum = 0;
+  int pixels = 0;
+};
+
+NearnessOfRow nearness_of(const FirstSeen* row, int width) {
+  NearnessOfRow near;
+  for (int x = 0; x < width; ++x)
+    if (row[x].depth > 0) near.sum += 1 / static_cast<double>(row[x].depth), ++near.pixels;
+  return near;
+}
+
+void put_first_seen(const FirstSeen* row, int y, float per_depth, CleanInput& input) {
+  for (int x = 0; x < input.seen.width(); ++x) {
+    const FirstSeen& p = row[x];
+    const bool seen = p.depth > 0;
+    const float values[filter::seen_features] = {
+        p.albedo.x, p.albedo.y, p.albedo.z, p.normal.x, p.normal.y, p.normal.z, 1 / (1 + p.depth * per_depth)};
+    const std::ptrdiff_t at = y * input.seen.stride() + x;
+    for (int k = 0; k < filter::seen_features; ++k) input.seen.plane(k)[at] = seen ? values[k] : 0;
+    input.seen.plane(filter::seen_features)[at] = seen && !p.sharp ? 0.0f : 1.0f;
+  }
+}
+
 }  // namespace
 
-void read_film(const Film& film, Crew& crew, CleanInput& input) {
+bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, CleanInput& input) {
   input.width = film.region.width(), input.height = film.region.height();
   input.scale = scale_of(film);
   input.halves.resize(input.width, input.height, filter::outputs);
   input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms);
   crew.for_each(input.height, [&](int y) {
+    if (give_up.load(std::memory_order_relaxed)) return;
     read_row(film, y, input);
     if (!film.emission.empty()) read_emission_row(film, y, input);
   });
+  return !give_up;
 }
 
-void read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, CleanInput& input) {
+bool read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, Crew& crew,
+                     const std::atomic<bool>& give_up, CleanInput& input) {
   input.seen.resize(width, height, filter::seen_features + 1);
-  double near = 0;
-  std::size_t met = 0;
-  for (const FirstSeen& p : pixels)
-    if (p.depth > 0) near += 1 / static_cast<double>(p.depth), ++met;
-  const auto per_depth = static_cast<float>(met > 0 ? near / static_cast<double>(met) : 1);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const FirstSeen& p =
-          pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-      const bool seen = p.depth > 0;
-      const float values[filter::seen_features] = {
-          p.albedo.x, p.albedo.y, p.albedo.z, p.normal.x, p.normal.y, p.normal.z, 1 / (1 + p.depth * per_depth)};
-      for (int k = 0; k < filter::seen_features; ++k)
-        input.seen.plane(k)[y * input.seen.stride() + x] = seen ? values[k] : 0;
-      input.seen.plane(filter::seen_features)[y * input.seen.stride() + x] = seen && !p.sharp ? 0.0f : 1.0f;
-    }
+  std::vector<NearnessOfRow> rows(static_cast<std::size_t>(height));
+  const auto row = [&](int y) { return pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); };
+  crew.for_each(height, [&](int y) {
+    if (!give_up.load(std::memory_order_relaxed)) rows[static_cast<std::size_t>(y)] = nearness_of(row(y), width);
+  });
+  NearnessOfRow all;
+  for (const NearnessOfRow& of : rows) all.sum += of.sum, all.pixels += of.pixels;
+  const auto per_depth = static_cast<float>(all.pixels > 0 ? all.sum / all.pixels : 1);
+  crew.for_each(height, [&](int y) {
+    if (!give_up.load(std::memory_order_relaxed)) put_first_seen(row(y), y, per_depth, input);
+  });
+  return !give_up;
 }
 
 }  // namespace tyndall

@@ -36,8 +36,7 @@ bool FilmCleaner::find_first_seen(const Region& region, const RenderEngine& engi
         to = {hits[x].albedo, hits[x].normal, hits[x].depth, is_sharp(engine.scene, hits[x].element)};
     }
   });
-  if (give_up) return false;
-  read_first_seen(seen, region.width(), region.height(), input_);
+  if (!read_first_seen(seen, region.width(), region.height(), engine.crew, give_up, input_)) return false;
   seen_of_ = region;
   return true;
 }
@@ -45,8 +44,7 @@ bool FilmCleaner::find_first_seen(const Region& region, const RenderEngine& engi
 bool FilmCleaner::run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up,
                       CleanPicture& out) {
   if (seen_of_ != film.region && !find_first_seen(film.region, engine, give_up)) return false;
-  read_film(film, engine.crew, input_);
-  return !give_up && cleaner_.run(input_, engine.crew, give_up, out);
+  return read_film(film, engine.crew, give_up, input_) && cleaner_.run(input_, engine.crew, give_up, out);
 }
 
 CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa) {

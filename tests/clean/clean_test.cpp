@@ -1,8 +1,11 @@
 #include "core/clean/clean.h"
 
+#include "core/clean/filter_view.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -16,6 +19,11 @@ struct Known {
   CleanInput input;
   std::vector<float> truth;  ///< 3 floats a pixel
 };
+
+void see_first(const std::vector<FirstSeen>& seen, int width, int height, CleanInput& input) {
+  Crew crew(2);
+  REQUIRE(read_first_seen(seen, width, height, crew, false, input));
+}
 
 Known known_picture(int width, int height, float noise, unsigned seed = 1) {
   std::mt19937 engine(seed);
@@ -38,7 +46,7 @@ Known known_picture(int width, int height, float noise, unsigned seed = 1) {
           k.input.halves.plane(3 * half + c)[y * k.input.halves.stride() + x] = light * albedo[c] * factor;
       }
     }
-  read_first_seen(seen, width, height, k.input);
+  see_first(seen, width, height, k.input);
   return k;
 }
 
@@ -147,7 +155,7 @@ TEST_CASE("clean: pictures of any size, of nothing and of far too bright pixels"
       CleanInput black;
       black.width = size[0], black.height = size[1];
       black.halves.resize(size[0], size[1], 6);
-      read_first_seen(std::vector<FirstSeen>(k.truth.size() / 3), size[0], size[1], black);
+      see_first(std::vector<FirstSeen>(k.truth.size() / 3), size[0], size[1], black);
       picture = clean(black, 2, target);
       CHECK(std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float v) { return v == 0; }));
       CHECK(picture.relative_error == 0);
@@ -214,19 +222,67 @@ TEST_CASE("clean: nothing glows into the dark where nothing is seen") {
         seen[static_cast<std::size_t>(96 * y + x)] = {{0.5f, 0.5f, 0.5f}, {0, 0, 1}, 2};
       else
         for (int plane = 0; plane < 6; ++plane) k.input.halves.plane(plane)[y * k.input.halves.stride() + x] = 0;
-  read_first_seen(seen, 96, 64, k.input);
+  see_first(seen, 96, 64, k.input);
   const CleanPicture picture = clean(k.input);
   CHECK(std::all_of(picture.rgb.begin() + std::ptrdiff_t{3} * 96 * 37, picture.rgb.end(),
                     [](float v) { return v == 0; }));
 }
 
-TEST_CASE("clean: given up, it leaves what it was to fill alone") {
+namespace {
+
+/// The filter's steps, which count the rows that they take, and set `give_up` when a chosen number of them is done.
+struct CountedRows {
+  filter::FilterSteps real = filter::scalar_filter();
+  std::atomic<int> rows = 0, last = 0;
+  std::atomic<bool> give_up = false;
+};
+CountedRows row_count;
+
+template <auto step, class... Arguments>
+void counted_step(const filter::FilterView& view, Arguments... arguments) {
+  (row_count.real.*step)(view, arguments...);
+  if (++row_count.rows == row_count.last) row_count.give_up = true;
+}
+
+constexpr filter::FilterSteps counted_steps{counted_step<&filter::FilterSteps::sum_cells, int>,
+                                            counted_step<&filter::FilterSteps::fit_blocks, int>,
+                                            counted_step<&filter::FilterSteps::predict, int>,
+                                            counted_step<&filter::FilterSteps::compare, filter::Rival, int>,
+                                            counted_step<&filter::FilterSteps::mix, filter::Rival, int>,
+                                            counted_step<&filter::FilterSteps::judge, int>};
+
+}  // namespace
+
+TEST_CASE("clean: given up, it ends with the row that it is at, and leaves what it was to fill alone") {
   const Known k = known_picture(64, 64, 0.3f);
+  constexpr int rows = 8 + 9 + 8 + 5 * 64;  // of cells, of blocks, of cells, and five times of pixels
+  for (const int threads : {1, 3}) {
+    Crew crew(threads);
+    Cleaner cleaner(counted_steps);
+    for (int last : {1, 5, 8, 9, 20, 25, 26, 100, 200, rows - 1, rows}) {
+      CAPTURE(threads);
+      CAPTURE(last);
+      row_count.rows = 0, row_count.last = last, row_count.give_up = false;
+      CleanPicture picture;
+      picture.rgb = {1, 2, 3};
+      CHECK_FALSE(cleaner.run(k.input, crew, row_count.give_up, picture));
+      CHECK(row_count.rows - last <= threads - 1);  // those that other threads were at
+      CHECK(picture.rgb == std::vector<float>{1, 2, 3});
+    }
+    row_count.rows = 0, row_count.last = 0, row_count.give_up = false;
+    CleanPicture picture;
+    CHECK(cleaner.run(k.input, crew, row_count.give_up, picture));
+    CHECK(row_count.rows == rows);
+    CHECK(picture.rgb == clean(k.input, 1, Target::scalar).rgb);
+  }
+}
+
+TEST_CASE("clean: reading gives up, too") {
+  Film film = make_film(8, 8, {0, 0, 8, 8}, 0, 1);
   Crew crew(2);
-  CleanPicture picture;
-  picture.rgb = {1, 2, 3};
-  CHECK_FALSE(Cleaner(Target::scalar).run(k.input, crew, true, picture));
-  CHECK(picture.rgb == std::vector<float>{1, 2, 3});
+  CleanInput input;
+  CHECK_FALSE(read_film(film, crew, true, input));
+  CHECK_FALSE(read_first_seen(std::vector<FirstSeen>(64), 8, 8, crew, true, input));
 }
 
 TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from the other") {
@@ -242,7 +298,7 @@ TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from
   film.at(2, 0) = {};
   Crew crew(1);
   CleanInput input;
-  read_film(film, crew, input);
+  REQUIRE(read_film(film, crew, false, input));
   CHECK(input.width == 3);
   CHECK(input.height == 1);
   CHECK(input.scale == 0x1p15f);
