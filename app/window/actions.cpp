@@ -53,8 +53,9 @@ HelpLine views_line(bool of_errors) {
     names += (last < 0 ? "" : of_errors ? " and " : ", ") + std::string(view_entry(k).name);
     last = k;
   }
-  const char* to = last == first + 1 ? ", " : " … ";
-  const std::string input = std::to_string(first + 1) + to + std::to_string(last + 1);
+  last = std::min(last, keyed_views - 1);
+  std::string input = first < keyed_views ? std::to_string(first + 1) : "Button";
+  if (last > first) input += (last == first + 1 ? ", " : " … ") + std::to_string(last + 1);
   return {input, of_errors ? names + " against the reference or the other half" : "views: " + names};
 }
 
@@ -79,7 +80,7 @@ std::optional<KeyCommand> command_of_key(int key, Modifiers modifiers) {
   for (const ActionEntry& entry : entries)
     if (is_pressed(entry.key, key, modifiers) || is_pressed(entry.other_key, key, modifiers))
       return KeyCommand{entry.action};
-  for (int k = 0; k < view_count; ++k)
+  for (int k = 0; k < keyed_views; ++k)
     if (is_pressed({'1' + k}, key, modifiers)) return KeyCommand{Action::view, k};
   return {};
 }

@@ -2,6 +2,7 @@
 #include "app/window/accuracy/comparison.h"
 #include "core/render/frame.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <string_view>
@@ -26,7 +27,8 @@ inline constexpr ViewEntry error_views[] = {
 /// … and the help table are loops over these numbers. So a new view is named beside View in core/render/frame.h and
 /// drawn in core/render, or it is named above and compared in comparison.cpp; nothing else knows of it.
 inline constexpr int view_count = count_of<View>() + static_cast<int>(std::size(error_views));
-static_assert(view_count <= 9, "each view has a digit as its key");
+/// How many views have a key, the digits 1 to 9. Those after the ninth have only their button.
+inline constexpr int keyed_views = std::min(view_count, 9);
 
 inline ViewEntry view_entry(int number) {
   constexpr int drawn = count_of<View>();
