@@ -76,26 +76,36 @@ TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& 
   v = select(round, round_v, v);
 }
 
+/// Gives the uv coordinates of a surface to textures that want them.
+template <class F>
+struct SurfaceUv {
+  const SceneView* scene;
+  const SurfacePoint<F>* surface;  ///< null in a medium, whose textures want none
+  TYNDALL_INLINE Pair<F> operator()() const {
+    Pair<F> uv;
+    surface_uv(*scene, *surface, uv.x, uv.y);
+    return uv;
+  }
+};
+
+// The loops over the kinds of textures and materials below are recursions on purpose. Closures that refer to closures
+// would be simpler to read, but compilers then keep what they refer to, which is all of a path, in memory.
+
+/// Colour of a texture of kind `first` or a later one at a point.
+template <std::size_t first = 0, class F>
+TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F, SurfaceUv<F>>& at) {
+  using Kinds = TextureKinds<F>;
+  if constexpr (first + 1 < std::variant_size_v<Kinds>)
+    if (t.kind != static_cast<std::int32_t>(first)) return colour_of_kind<first + 1>(t, at);
+  return colour_at(static_cast<const std::variant_alternative_t<first, Kinds>*>(nullptr), t, at);
+}
+
 /// Colour of a texture at a point. surface: gives the uv coordinates for image textures; null in a medium.
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point,
                                       const SurfacePoint<F>* surface) {
-  const auto uv = [&]() __attribute__((always_inline)) {
-    Pair<F> out;
-    surface_uv(s, *surface, out.x, out.y);
-    return out;
-  };
-  const TexturePoint<F, decltype(uv)> at{point, along(splat<F>(t.offset), splat<F>(t.scale), point), s.gradients, uv};
-  Vec3<F> colour = zero3<F>();
-  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
-    (([&]() __attribute__((always_inline)) {
-       using Kind = std::variant_alternative_t<i, TextureKinds<F>>;
-       if (t.kind == static_cast<std::int32_t>(i)) colour = colour_at(static_cast<const Kind*>(nullptr), t, at);
-     }()),
-     ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<TextureKinds<F>>>{});
-  return colour;
+  return colour_of_kind<0, F>(t,
+                              {point, along(splat<F>(t.offset), splat<F>(t.scale), point), s.gradients, {&s, surface}});
 }
 
 /// `colour`, or the texture's colour in lanes whose `index` is not -1.
@@ -135,19 +145,21 @@ TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> p
   return surface_colour(s, p, lanes);
 }
 
+template <std::size_t first = 0, class M, class F>
+TYNDALL_INLINE void load_fields(const SceneView& s, IntOf<F> material, M& m) {
+  constexpr auto list = fields(static_cast<const M*>(nullptr));
+  if constexpr (first < std::tuple_size_v<decltype(list)>) {
+    constexpr auto member = std::get<first>(list).value;
+    m.*member = lookup<F>(s.parameter[first], s.material_count, material);
+    load_fields<first + 1, M, F>(s, material, m);
+  }
+}
+
 /// A material of kind M with its fields gathered.
 template <class M, class F>
 TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
   M m{};
-  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
-    [[maybe_unused]] constexpr auto list = fields(static_cast<const M*>(nullptr));
-    (([&]() __attribute__((always_inline)) {
-       constexpr auto member = std::get<i>(list).value;
-       m.*member = lookup<F>(s.parameter[i], s.material_count, material);
-     }()),
-     ...);
-  }
-  (std::make_index_sequence<std::tuple_size_v<decltype(fields(static_cast<const M*>(nullptr)))>>{});
+  load_fields<0, M, F>(s, material, m);
   return m;
 }
 
@@ -164,48 +176,50 @@ TYNDALL_INLINE bool asks_for_lights(const SceneView& s) {
          (M::light_sampling == LightSampling::weighted && s.integrator == Integrator::mis);
 }
 
+/// Scatters the lanes that are at a material of kind `first` or a later one.
+template <std::size_t first, class F>
+TYNDALL_INLINE void scatter_kinds(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                  const Incident<F>& in, Scattered<F>& out) {
+  if constexpr (first < std::variant_size_v<MaterialKinds<F>>) {
+    using M = std::variant_alternative_t<first, MaterialKinds<F>>;
+    const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
+    if (any(here)) {
+      const Scattered<F> one = scatter(load_material<M, F>(s, material), in);
+      out.direction = select(here, one.direction, out.direction);
+      out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
+      out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
+      const F density = asks_for_lights<M>(s) ? one.density : F(one_direction);
+      out.density = select(here, density, out.density);
+    }
+    scatter_kinds<first + 1>(s, material, kind, lanes, in, out);
+  }
+}
+
 /// Scattering by the material that each lane is at; lights absorb.
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                                         const Incident<F>& in) {
   const MaskOf<F> none = less(F(1.0f), F(0.0f));
   Scattered<F> out{in.facing, none, none, F(one_direction)};
-  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
-    (([&]() __attribute__((always_inline)) {
-       using M = std::variant_alternative_t<i, MaterialKinds<F>>;
-       const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(i))));
-       if (!any(here)) return;
-       const Scattered<F> one = scatter(load_material<M, F>(s, material), in);
-       out.direction = select(here, one.direction, out.direction);
-       out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
-       out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
-       const F density = asks_for_lights<M>(s) ? one.density : F(one_direction);
-       out.density = select(here, density, out.density);
-     }()),
-     ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
+  scatter_kinds<0>(s, material, kind, lanes, in, out);
   return out;
 }
 
 /// Density, per steradian, with which the material that each lane is at scatters into `direction`. 0 for materials for
-/// which lights are not sampled.
-template <class F>
+/// which lights are not sampled, and for kinds before `first`.
+template <std::size_t first = 0, class F>
 TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                              const Incident<F>& in, Vec3<F> direction) {
   F out = F(0.0f);
-  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
-    (([&]() __attribute__((always_inline)) {
-       using M = std::variant_alternative_t<i, MaterialKinds<F>>;
-       if constexpr (M::light_sampling != LightSampling::never) {
-         const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(i))));
-         if (asks_for_lights<M>(s) && any(here))
-           out = select(here, density(load_material<M, F>(s, material), in, direction), out);
-       }
-     }()),
-     ...);
+  if constexpr (first < std::variant_size_v<MaterialKinds<F>>) {
+    using M = std::variant_alternative_t<first, MaterialKinds<F>>;
+    out = density_any<first + 1>(s, material, kind, lanes, in, direction);
+    if constexpr (M::light_sampling != LightSampling::never) {
+      const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
+      if (asks_for_lights<M>(s) && any(here))
+        out = select(here, density(load_material<M, F>(s, material), in, direction), out);
+    }
   }
-  (std::make_index_sequence<std::variant_size_v<MaterialKinds<F>>>{});
   return out;
 }
 

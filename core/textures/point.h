@@ -11,7 +11,7 @@ struct TexturePoint {
   Vec3<F> point;           ///< in the compiled scene's coordinates
   Vec3<F> scaled;          ///< columns.scale · point + columns.offset
   const float* gradients;  ///< 3·256 floats for noise; null in scenes without it
-  const Uv& uv;
+  Uv uv;
 };
 
 }  // namespace tyndall
