@@ -64,7 +64,7 @@ struct Incident {
   MaskOf<F> along;    ///< the direction is on the normal's side: the ray leaves what the surface encloses
   Vec3<F> unit;       ///< uniform on the unit sphere, from the event's direction dimensions
   bool schlick;       ///< use the books' approximation of Fresnel's equations
-  const Dice<F>* dice;
+  Dice<F> dice;       ///< a copy, because compilers keep a path in memory whose members are pointed to
 };
 
 /// Whether shadow rays are sent to lights from where a material scatters. never: it sends light into single directions

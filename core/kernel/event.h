@@ -36,6 +36,24 @@ struct Event {
   F g;            ///< of the medium
 };
 
+/// An event of which no more is known than the ray that led to it.
+template <class F>
+TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Dice<F>& dice) {
+  const F zero = F(0.0f);
+  const auto none = less(F(1.0f), zero);
+  const Vec3<F> nowhere = zero3<F>();
+  const IntOf<F> first = IntOf<F>(0);
+  return {none,
+          none,
+          ray.origin,
+          nowhere,
+          ray.from,
+          {ray.direction, nowhere, nowhere, zero, none, nowhere, false, dice},
+          {nowhere, nowhere, none, first, first},
+          first,
+          zero};
+}
+
 /// Whether light that arrives after an event counts as seen by way of a mirror: the event sends it into one direction,
 /// or into a lobe with a density above 8 per steradian, about 20 degrees wide.
 template <class F>
@@ -131,7 +149,7 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, Paths<F>& p, const Hit<F>& hit,
   const auto along_normal = less(F(0.0f), towards);
   const Vec3<F> facing = select(along_normal, -e.at.normal, e.at.normal);
   e.incident = {p.ray.direction, e.at.normal, facing,    min(abs(towards), F(1.0f)),
-                along_normal,    unit,        s.schlick, &p.dice};
+                along_normal,    unit,        s.schlick, p.dice};
   const IntOf<F> one = IntOf<F>(1), zero = IntOf<F>(0);
   const IntOf<F> inside = select(along_normal, select(e.at.inverted, zero, one), select(e.at.inverted, one, zero));
   e.point = select(e.surface, e.at.point, e.point);

@@ -17,20 +17,27 @@ struct LightColumns {
   F length_u, length_v, area;
 };
 
+/// Values of a column of lights, one for each lane.
+template <class F>
+TYNDALL_INLINE F light_value(const LightView& l, const float* column, IntOf<F> k) {
+  return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> light_vector(const LightView& l, const float* const* columns, IntOf<F> k) {
+  return {light_value<F>(l, columns[0], k), light_value<F>(l, columns[1], k), light_value<F>(l, columns[2], k)};
+}
+
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
-  const auto value = [&](const float* column) {
-    return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
-  };
-  const auto vector = [&](const float* const* c) { return Vec3<F>{value(c[0]), value(c[1]), value(c[2])}; };
   return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count, k),
-          vector(l.corner),
-          vector(l.edge_u),
-          vector(l.edge_v),
-          vector(l.normal),
-          value(l.length_u),
-          value(l.length_v),
-          value(l.area)};
+          light_vector<F>(l, l.corner, k),
+          light_vector<F>(l, l.edge_u, k),
+          light_vector<F>(l, l.edge_v, k),
+          light_vector<F>(l, l.normal, k),
+          light_value<F>(l, l.length_u, k),
+          light_value<F>(l, l.length_v, k),
+          light_value<F>(l, l.area, k)};
 }
 
 /// How much light k roughly contributes at a point: its power over the squared distance, which counts as no smaller
@@ -136,6 +143,13 @@ TYNDALL_INLINE Complex<F> conjugate(Complex<F> a) {
   return {a.re, -a.im};
 }
 
+/// A corner (x, y) of a rectangle at distance z from the origin, as the complex number z r + i x y: see
+/// SphericalRectangle.
+template <class F>
+TYNDALL_INLINE Complex<F> corner_at(F x, F y, F z) {
+  return {z * sqrt(mul_add(x, x, mul_add(y, y, z * z))), x * y};
+}
+
 template <class F>
 TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light, Vec3<F> point) {
   const Vec3<F> way = light.corner - point;
@@ -147,12 +161,8 @@ TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light
   const F down = F(1.0f) / largest;
   r.x0 = x * down, r.y0 = y * down, r.z = z * down;
   r.x1 = (x + light.length_u) * down, r.y1 = (y + light.length_v) * down;
-  const auto corner = [&](F a, F b) {
-    const F distance = sqrt(mul_add(a, a, mul_add(b, b, r.z * r.z)));
-    return Complex<F>{r.z * distance, a * b};
-  };
-  const Complex<F> q = times(conjugate(corner(r.x0, r.y1)), corner(r.x0, r.y0));
-  const Complex<F> all = times(times(corner(r.x1, r.y1), conjugate(corner(r.x1, r.y0))), q);
+  const Complex<F> q = times(conjugate(corner_at(r.x0, r.y1, r.z)), corner_at(r.x0, r.y0, r.z));
+  const Complex<F> all = times(times(corner_at(r.x1, r.y1, r.z), conjugate(corner_at(r.x1, r.y0, r.z))), q);
   const F angle = atan2(all.im, all.re);
   const F solid_angle = select(less(angle, F(0.0f)), angle + F(static_cast<float>(2 * pi)), angle);
   const auto good = mask_and(mask_and(less(F(2e-3f), solid_angle), less(solid_angle, F(6.28f))), less(F(1e-4f), r.z));

@@ -109,7 +109,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   MediumEvent<F> found = no_event(p.ray);
   const F to_surface = hit.t;
   if (s.has_media()) found = fly_through_media(s, p.ray, p.dice, active, hit.t);
-  Event<F> e{};
+  Event<F> e = event_on(p.ray, p.dice);
   e.medium = found.happens;
   e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
   e.point = p.ray.origin, e.colour = zero3<F>(), e.from = p.ray.from;

@@ -72,7 +72,7 @@ TYNDALL_INLINE Scattered<F> scatter(const Dielectric<F>& glass, const Incident<F
   const F eta = select(in.along, F(1.0f) / glass.refractive_index, glass.refractive_index);
   const F g = refracted_cosine(in.cosine, eta);
   const F share = in.schlick ? schlick(in.cosine, eta) : fresnel(in.cosine, eta, g);
-  const auto reflects = less(in.dice->one(dimension::lobe), share);
+  const auto reflects = less(in.dice.one(dimension::lobe), share);
   const Vec3<F> bent = along(in.direction, in.cosine - g, in.facing);
   const F scale = select(equal(eta, F(1.0f)), F(1.0f), F(1.0f) / sqrt(max(dot(bent, bent), F(1e-30f))));
   return {select(reflects, reflect(in.direction, in.normal), scale * bent), less(F(1.0f), F(0.0f)), mask_not(reflects),

@@ -57,7 +57,7 @@ TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> d
 template <class F>
 TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
-  const F radius = metal.fuzz * cube_root(in.dice->one(dimension::radius));
+  const F radius = metal.fuzz * cube_root(in.dice.one(dimension::radius));
   const Vec3<F> sum = along(mirror, radius, in.unit);
   const F squared = dot(sum, sum);
   const auto cancelled = less(squared, F(1e-12f));

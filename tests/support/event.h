@@ -19,7 +19,7 @@ Incident<F> event(const Dice<F>& dice, Vec3<F> direction, Vec3<F> normal) {
           along_normal,
           on_sphere(dice.pair(dimension::direction)),
           false,
-          &dice};
+          dice};
 }
 
 template <class F>
