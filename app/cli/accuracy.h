@@ -15,6 +15,7 @@ struct Accuracy {
   Shift depth5, depth10, depth50;  ///< max_depth
   Shift single;                    ///< lanes of float instead of double, on the same compiled scene
   Shift bytes;                     ///< 8-bit sRGB instead of floats, in channels within [0, 1]
+  Shift clean;                     ///< the clean view of 16 samples a pixel, without the noise that it leaves
 };
 
 /// Renders the scene small, each way with the same random numbers: where both ways take the same path, noise cancels.
