@@ -1,14 +1,14 @@
 #pragma once
 #include "core/clean/blur.h"
 
-/// What the two halves tell about filters that turn A into PA and B into PB without looking at the other half: how
-/// wrong a filtered picture is, and how far to go from one picture towards another. With I the truth, P = (PA + PB) / 2
-/// and Q likewise,
+/// How wrong a filtered picture is, and how much another picture should be mixed in, told by the two halves A and B of
+/// the samples. A filter turns A into PA and B into PB, without looking at the other half. If I is the truth, P is
+/// (PA + PB) / 2, and Q is the other picture, made from halves in the same way, then
 ///
 ///     E[(P-I)²]      = E[(PA-A)(PB-B)] + E[(PA-PB)²] / 4
 ///     E[(P-I)(P-Q)]  = E[(PA-A)(PB-QB) + (PB-B)(PA-QA)] / 2 + E[(PA-PB)((PA-PB) - (QA-QB))] / 4
 ///
-/// as A and B are independent and right on average. No model of the noise is needed, and no sampler assumed.
+/// because A and B are independent and right on average. This needs no model of the noise and holds for any sampler.
 namespace tyndall::filter {
 
 inline constexpr int window_reach = 6;  ///< a choice is made from 13 x 13 pixels …
@@ -23,7 +23,7 @@ TYNDALL_INLINE void take_rival(const FilterView& v, Rival rival, int y, int x0, 
       store(to.of[output] + x, load<F>(v.half[output] + y * v.stride + x0 + x));
 }
 
-/// The columns of pixels from x on.
+/// The x of each lane's pixel, from `x` on.
 template <class F>
 TYNDALL_INLINE F places(int x) {
   alignas(64) float place[lanes_of<F>];
@@ -31,20 +31,20 @@ TYNDALL_INLINE F places(int x) {
   return load<F>(place);
 }
 
-/// Pixels of the picture that a window of this reach has in one direction, around `at`.
+/// How many pixels a window around `at` covers in one direction, without those outside of the picture.
 template <class F>
 TYNDALL_INLINE F covered(F at, int reach, int size) {
   const F last = splat<F>(static_cast<float>(size - 1)), half = splat<F>(static_cast<float>(reach));
   return max(min(at + half, last) - max(at - half, F(0.0f)) + F(1.0f), F(1.0f));
 }
 
-/// How many of the square of pixels around x … in row y are in the picture.
+/// How many pixels of the square window around (x, y) are in the picture; lane i is for x + i.
 template <class F>
 TYNDALL_INLINE F pixels_around(const FilterView& v, int y, int x, int reach) {
   return covered(places<F>(x), reach, v.width) * covered(splat<F>(static_cast<float>(y)), reach, v.height);
 }
 
-/// The sum of a plane's 3 x 3 pixels around.
+/// The sum of a plane over the 3 x 3 pixels around each lane's pixel.
 template <class F>
 TYNDALL_INLINE F sum_around(const FilterView& v, const float* plane, int y, int x) {
   F sum = F(0.0f);
@@ -120,7 +120,8 @@ TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, W
   }
 }
 
-/// The sum over the window around x, nothing of which is subtracted: a bright pixel would leave its rounding behind.
+/// The sum over the window around x. It is added up anew for each x, because a running sum, from which a bright pixel
+/// is subtracted, would keep that pixel's rounding.
 template <class F>
 TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
   const float *all = columns.all[sum] + row_margin + x, *outer = columns.outer[sum] + row_margin + x;
@@ -130,8 +131,8 @@ TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
   return total;
 }
 
-/// The share of the rival that makes the error least, in [0, 1].
-/// doubt: standard errors by which the gain must be known; 0 for the raw picture: it alone is right for any scene.
+/// The share of the rival with which the mixture has the least error, in [0, 1]. doubt: the gain counts only beyond so
+/// many of its standard errors; 0 for the raw picture, which is right on average in any scene.
 template <class F>
 TYNDALL_INLINE F share_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0, int x) {
   const F pixels =

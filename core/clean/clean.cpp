@@ -84,7 +84,8 @@ struct Cleaner::Memory {
 
 namespace {
 
-/// The mean of a plane over the 13 x 13 pixels around each pixel, and its root: what is negative by chance counts as 0.
+/// The relative error of each pixel of a row: the root of the mean of view.error over the 13 x 13 pixels around it. A
+/// mean that is negative by chance counts as 0.
 void put_pixel_errors(const FilterView& view, int y, float* to) {
   constexpr int reach = 6;
   const int top = std::max(y - reach, 0), bottom = std::min(y + reach, view.height - 1);

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The filter's numbers as plain pointers. The code of the instruction sets uses nothing else: of a container's member
-/// function the linker could keep the copy with wide instructions for all files, which would crash older CPUs.
+/// The filter's numbers as plain pointers, which is all that the code of the instruction sets reads. It must not call a
+/// container's member functions: the linker keeps one copy of each for all files, and one with wide instructions would
+/// crash older CPUs.
 namespace tyndall::filter {
 
 /// Planes have room to the left and right of each row, so that whole groups of lanes can be read everywhere.
@@ -14,21 +15,22 @@ inline constexpr int row_margin = 16;
 /// The picture is cut into cells of cell_edge x cell_edge pixels. A block is 2 x 2 cells: blocks overlap by half.
 inline constexpr int cell_edge = 8, cell_pixels = cell_edge * cell_edge;
 
-// What the regression is made on. Columns of a cell: 1, x, y, what is first seen (albedo, normal, depth), which both
-// halves share; then the emission of each half and the halves themselves.
+// The columns of numbers that a cell has, one number a pixel: 1, x, y and what is seen first (albedo, normal, depth),
+// which both halves share; then the emission of each half, and the halves themselves.
 inline constexpr int seen_features = 7, plain_terms = 3 + seen_features, emission_terms = 3,
                      terms = plain_terms + emission_terms, outputs = 6;
 inline constexpr int depth_column = plain_terms - 1;  ///< > 0 where anything is seen
 inline constexpr int emission_column = plain_terms, half_column = emission_column + 2 * emission_terms,
                      cell_columns = half_column + outputs;
 
-/// The product of the columns i >= j, one of plain_sums or, in cells with emission, of all_sums that a cell has.
+/// A product of the columns i >= j that is summed for each cell. A cell has plain_sums of them, with emission all_sums.
 struct ColumnPair {
   std::uint8_t i, j;
 };
 inline constexpr int plain_products = plain_terms * (plain_terms + 1) / 2;
 inline constexpr int plain_sums = plain_products + outputs * plain_terms;
-/// For each half: its emission times the plain terms, times itself, and times the half's channels.
+/// The further sums of each half in cells with emission: emission times the plain terms, times itself, and times the
+/// half's channels.
 inline constexpr int emission_products = emission_terms * (emission_terms + 1) / 2;
 inline constexpr int emission_sums = emission_terms * plain_terms + emission_products + outputs / 2 * emission_terms;
 inline constexpr int emission_cross = plain_sums + 2 * emission_sums;  ///< one half's emission times the other's
@@ -44,8 +46,8 @@ struct FilterView {
   const float* seen[seen_features];
   const float* sharp;        ///< 1 where lamps and sky are seen without chance in between, else 0
   float* filtered[outputs];  ///< A and B
-  float* level;              ///< mean of the six
-  float *gain, *distance;    ///< what going to another picture would bring, and its squared distance
+  float* level;              ///< mean of the six planes of `filtered`
+  float *gain, *distance;    ///< by how much another picture would lower the error, and its squared distance
   const ColumnPair* pairs;   ///< all_sums of them
   // Of each cell, one row of cells after the other, sum by sum; a border of empty cells around.
   float* sums;
@@ -53,13 +55,13 @@ struct FilterView {
   std::ptrdiff_t cell_stride = 0;  ///< from a sum of a row of cells to the next
   float* coefficients;             ///< of each block, row by row: output by output, term by term
   float* error;                    ///< estimated squared relative error of each pixel
-  double* row_bias;                ///< of each row the sum of the squared relative bias, may be negative
-  double* row_noise;               ///< and of the variance
+  double* row_bias;                ///< for each row the sum of its pixels' squared relative bias; may be negative
+  double* row_noise;               ///< the same of their relative variance
 
   TYNDALL_INLINE bool has_emission() const { return emission[0] != nullptr; }
 };
 
-/// The pictures that the regression's result may be left for, in this order.
+/// The pictures that may be mixed into the regression's result where they lower the error, in this order.
 enum class Rival { blurred, raw };
 
 /// The filter's steps. Each takes one row of its kind and reads only what earlier steps wrote, so that the rows of a

@@ -16,11 +16,11 @@ void Planes::resize(int width, int height, int count) {
 
 namespace {
 
-/// Numbers are divided by this so that their squares, summed over windows, fit into single precision. 1 but for lamps
-/// brighter than 2^25.
+/// Numbers are divided by this so that their squares, summed over windows, fit into single precision. It is 1 unless a
+/// lamp is brighter than 2^25.
 float scale_of(const Film& film) { return static_cast<float>(std::max(film.unit * 0x1p-25, 1.0)); }
 
-/// What a half's sums are multiplied with to become means in the planes; of an empty half 0.
+/// The factor that turns a half's sums into the means that planes hold; 0 for an empty half.
 double per_sample(const Film& film, const FilmPixel& pixel, int half, double scale) {
   const std::uint32_t count = counted(film, pixel, half);
   return count > 0 ? film.unit / scale / count : 0;

@@ -22,7 +22,7 @@ TYNDALL_INLINE void take_blocks(const FilterView& v, int cell_x, int cell_row, C
   }
 }
 
-/// What a pixel takes of the four blocks: a tent.
+/// The weights with which each pixel of a cell mixes the predictions of the four blocks that it is in: bilinear tents.
 TYNDALL_INLINE void fill_tents(float (*tent)[cell_pixels]) {
   for (int y = 0; y < cell_edge; ++y)
     for (int x = 0; x < cell_edge; ++x) {

@@ -1,16 +1,18 @@
 #pragma once
 #include "core/clean/cells.h"
 
-/// Block regression: each half of the picture, in blocks of 16 x 16 pixels that overlap by half, as a linear function
-/// of the place and of what is seen there, with the ridge of the features' own noise. Every product of two columns is
-/// summed once for a cell of 8 x 8 pixels; a block adds up its four cells. Blocks are solved in lanes.
+/// Block regression. Within each block of 16 x 16 pixels a half of the picture is approximated by a linear function of
+/// the place and of what is seen there; blocks overlap by half. Noisy features count less (a ridge of their own noise).
+/// Every product of two columns is summed once for each cell of 8 x 8 pixels, and a block adds up the sums of its four
+/// cells. Each lane solves another block.
 ///
-/// Bitterli et al., Nonlinearly Weighted First-order Regression for Denoising Monte Carlo Renderings, Computer Graphics
-/// Forum 35 (2016), has the regression on noisy features; He, Sun, Tang, Guided Image Filtering, TPAMI 35 (2013),
-/// blocks with shared sums.
+/// The regression on noisy features is from Bitterli et al., Nonlinearly Weighted First-order Regression for Denoising
+/// Monte Carlo Renderings, Computer Graphics Forum 35 (2016); the blocks with shared sums from He, Sun, Tang, Guided
+/// Image Filtering, TPAMI 35 (2013).
 namespace tyndall::filter {
 
-/// Where the product of the terms i >= j of a half's system is among the sums, and that of a channel and a term.
+/// The index, among the sums of a cell, of the product of the terms i >= j for a half; below it that of the product of
+/// a channel and a term.
 TYNDALL_INLINE int product_sum(int half, int i, int j) {
   if (i < plain_terms) return i * (i + 1) / 2 + j;
   const int first = plain_sums + half * emission_sums, k = i - plain_terms;
@@ -24,17 +26,18 @@ TYNDALL_INLINE int channel_sum(int output, int i) {
          channel * emission_terms + i - plain_terms;
 }
 
-/// The four cells of a group of blocks that follow each other in x.
+/// The sums of four cells that make a block, for a group of blocks that follow each other in x.
 template <class F>
 struct BlockCells {
-  const float* part[4];  ///< the first cell's first sum: up left, up right, down left, down right
+  const float* part[4];  ///< first sums of the first block's cells: upper left, upper right, lower left, lower right
   std::ptrdiff_t stride;
 
   TYNDALL_INLINE F sum(int s) const {
     return (load<F>(part[0] + s * stride) + load<F>(part[1] + s * stride)) +
            (load<F>(part[2] + s * stride) + load<F>(part[3] + s * stride));
   }
-  /// Of a product with x or y: right less left cells, and lower less upper ones, a quarter of a block from the middle.
+  /// Moves the sum of a product with x from the cells' middles to the block's, which is a quarter of a block away: the
+  /// right cells' sums minus the left ones'. down(): the same for y.
   TYNDALL_INLINE F across(int s) const {
     return F(0.25f) * ((load<F>(part[1] + s * stride) - load<F>(part[0] + s * stride)) +
                        (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
@@ -43,7 +46,7 @@ struct BlockCells {
     return F(0.25f) * ((load<F>(part[2] + s * stride) - load<F>(part[0] + s * stride)) +
                        (load<F>(part[3] + s * stride) - load<F>(part[1] + s * stride)));
   }
-  /// across and down at once: the product of x and y of the cells' middles.
+  /// The same for the product of x and y.
   TYNDALL_INLINE F across_down(int s) const {
     return F(0.0625f) * ((load<F>(part[0] + s * stride) - load<F>(part[1] + s * stride)) +
                          (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
@@ -74,17 +77,17 @@ TYNDALL_INLINE F block_channel(const BlockCells<F>& cells, int output, int i) {
 
 TYNDALL_INLINE constexpr int triangle(int i, int j) { return i * (i + 1) / 2 + j; }
 
-/// The normal equations of the terms but the first, for a group of blocks, as the factor L of G = L Lᵀ (Cholesky) whose
-/// diagonal holds its inverse.
+/// The normal equations of all terms but the first, for a group of blocks: the factor L of their matrix G = L Lᵀ
+/// (Cholesky). Its diagonal is stored as 1 / L[i][i].
 template <class F>
 struct Normal {
-  int size;       ///< of terms but the first
-  F pixels;       ///< at least 1
-  F mean[terms];  ///< of each term
+  int size;       ///< number of terms, without the first
+  F pixels;       ///< number of pixels in the block, at least 1
+  F mean[terms];  ///< mean of each term
   F factor[terms * (terms + 1) / 2];
 };
 
-/// How far apart values of a feature have to be to tell things apart: what is less counts as noise.
+/// Differences of a feature below this count as its noise and do not tell things apart.
 TYNDALL_INLINE float feature_floor(int term) {
   return term < 3 ? 0.05f : term < 6 ? 0.02f : term < 9 ? 0.03f : term < 10 ? 0.01f : 0.02f;
 }
@@ -103,7 +106,7 @@ TYNDALL_INLINE void set_up(const BlockCells<F>& cells, int half, int size, Norma
     F& g = n.factor[triangle(i, i)];
     g = mul_add(g, F(1.001f), mul_add(n.pixels, F(0.1f * floor * floor), F(1e-9f)));
     if (i + 1 < plain_terms) continue;
-    const int k = i + 1 - plain_terms;  // the variance of the emission of a half
+    const int k = i + 1 - plain_terms;  // for emission, the ridge also holds the variance between the halves
     const F both = cells.sum(product_sum(0, i + 1, i + 1)) + cells.sum(product_sum(1, i + 1, i + 1));
     g = g + max(neg_mul_add(F(1.0f), cells.sum(emission_cross + k), F(0.5f) * both), F(0.0f));
   }
@@ -153,7 +156,7 @@ TYNDALL_INLINE void fit_blocks_of(const FilterView& v, int block_row) {
     const BlockCells<F> cells{{above + b, above + b + 1, below + b, below + b + 1}, v.cell_stride};
     bool lit = false;
     for (int i = 0; i <= lanes_of<F>; ++i) lit |= shines[b + i] || shines[b + i + v.cell_stride];
-    const int systems = lit ? 2 : 1;  // without emission both halves have the same
+    const int systems = lit ? 2 : 1;  // without emission both halves have the same equations
     for (int system = 0; system < systems; ++system) {
       set_up(cells, system, (lit ? terms : plain_terms) - 1, normal);
       factorise(normal);
