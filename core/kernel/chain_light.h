@@ -51,10 +51,7 @@ template <class F>
 TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, Vec3<F> point, F time, const Dice<F>& dice) {
   const ChainView& c = s.chains;
   ChainAsked<F> a{};
-  a.pair = choose_light_by(
-      c.choice, dice.one_alone(dimension::chain_pair), [&](int k) __attribute__((always_inline)) {
-        return pair_worth(c, k, point);
-      });
+  a.pair = choose_light(c, point, dice.one_alone(dimension::chain_pair));
   a.probability = chain_probability(s, point) * a.pair.probability;
   const IntOf<F> ball = lookup_int<F>(c.ball, c.pairs, a.pair.light), mirror = ball - IntOf<F>(c.first_mirror);
   a.ball = load_ball<F>(c, ball, time);

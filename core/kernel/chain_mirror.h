@@ -41,7 +41,7 @@ inline constexpr float least_mirror_worth = 1e-3f;
 /// What pair k of a ball or mirror and a lamp is worth at a point, > 0. See light_worth(); by a mirror the lamp is
 /// where its image is.
 template <class F>
-TYNDALL_INLINE F pair_worth(const ChainView& c, int k, Vec3<F> point) {
+TYNDALL_INLINE F light_worth(const ChainView& c, int k, Vec3<F> point) {
   const int mirror = c.ball[k] - c.first_mirror;
   if (mirror < 0) return light_worth(c.choice, k, point);
   const float* number = c.mirrors + numbers_of_mirror * mirror;
@@ -59,13 +59,6 @@ TYNDALL_INLINE F pair_worth(const ChainView& c, int k, Vec3<F> point) {
     seen = mask_and(seen, less_equal(place, mul_add(blur, value(mirror_slopes + i), F(1.0f))));
   }
   return splat<F>(c.choice.power[k]) / max(distance2, reach2) * select(seen, F(1.0f), F(least_mirror_worth));
-}
-
-/// Probability with which a pair is chosen at a point.
-template <class F>
-TYNDALL_INLINE F pair_probability(const ChainView& c, Vec3<F> point, IntOf<F> pair) {
-  return choice_probability_by<F>(
-      c.choice, pair, [&](int k) __attribute__((always_inline)) { return pair_worth(c, k, point); });
 }
 
 /// The way off a mirror between two points.

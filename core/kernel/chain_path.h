@@ -179,11 +179,7 @@ template <class F>
 [[gnu::noinline]] static F chain_probability(const SceneView& s, Vec3<F> point) {
   const LightView &pairs = s.chains.choice, &lamps = s.lights;
   if (pairs.count > most_lights_by_contribution || lamps.count > most_lights_by_contribution) return F(1.0f);
-  const F by_pairs = total_worth<F>(
-      pairs, [&](int k) __attribute__((always_inline)) { return pair_worth(s.chains, k, point); });
-  const F by_lamps = total_worth<F>(
-      lamps, [&](int k) __attribute__((always_inline)) { return light_worth(lamps, k, point); });
-  return min(max(by_pairs / by_lamps, F(0.25f)), F(1.0f));
+  return min(max(total_worth(s.chains, point) / total_worth(lamps, point), F(0.25f)), F(1.0f));
 }
 
 /// Brings the trail up to date after event `e`: it starts anew where light scattered at a Lambertian surface or in fog,
@@ -278,7 +274,7 @@ template <class F>
     chain.density = select(is_mirror, other.density, chain.density);
     chain.word = select(is_mirror, other.word, chain.word), chain.share = select(is_mirror, other.share, chain.share);
   }
-  const F probability = pair_probability(c, trail.start, select(could, pair, I(0)));
+  const F probability = choice_probability(c, trail.start, select(could, pair, I(0)));
   const F asked = chain.density * probability * chain.word;
   const F inverse = asked / max(trail.density * chain.share, F(1e-37f));
   const auto asks = mask_and(mask_and(could, chain.could), less(F(0.0f), asked));

@@ -48,10 +48,15 @@ TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
   return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
 }
 
+// The next functions choose among lights, or among pairs of a ball or mirror and a light: among what `view` has. (They
+// are not given closures, which would keep the path in memory.)
+TYNDALL_INLINE const LightView& choice_of(const LightView& view) { return view; }
+TYNDALL_INLINE const LightView& choice_of(const ChainView& view) { return view.choice; }
+
 template <class F>
-TYNDALL_INLINE F total_worth(const LightView& l, const auto& worth_of) {
+TYNDALL_INLINE F total_worth(const auto& view, Vec3<F> point) {
   F sum = F(0.0f);
-  for (int k = 0; k < l.count; ++k) sum = sum + worth_of(k);
+  for (int k = 0; k < choice_of(view).count; ++k) sum = sum + light_worth(view, k, point);
   return sum;
 }
 
@@ -62,19 +67,20 @@ struct LightChoice {
   F probability;
 };
 
-/// Chooses a light by u in [0, 1): in proportion to worth_of(k) > 0 of light k if there are few lights, in proportion
-/// to their power (by Vose's alias table) if there are more than most_lights_by_contribution.
+/// Chooses a light for a point by u in [0, 1): in proportion to light_worth() if there are few lights, in proportion to
+/// their power (by Vose's alias table) if there are more than most_lights_by_contribution.
 template <class F>
-TYNDALL_INLINE LightChoice<F> choose_light_by(const LightView& l, F u, const auto& worth_of) {
+TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u) {
   using I = IntOf<F>;
+  const LightView& l = choice_of(view);
   if (l.count == 1) return {I(0), F(1.0f)};
   if (l.count <= most_lights_by_contribution) {
-    const F total = total_worth<F>(l, worth_of);
+    const F total = total_worth(view, point);
     LightChoice<F> choice{I(l.count - 1), F(0.0f)};
     F left = u * total, worth = F(0.0f);
     MaskOf<F> open = less(F(-1.0f), F(0.0f));
     for (int k = 0; k < l.count; ++k) {
-      worth = worth_of(k);
+      worth = light_worth(view, k, point);
       const auto here = k + 1 < l.count ? mask_and(open, less(left, worth)) : open;
       choice.light = select(here, I(k), choice.light);
       choice.probability = select(here, worth / total, choice.probability);
@@ -90,32 +96,19 @@ TYNDALL_INLINE LightChoice<F> choose_light_by(const LightView& l, F u, const aut
   return {light, gather<F>(l.probability, light)};
 }
 
-/// Probability with which choose_light_by() takes `light`.
+/// Probability with which choose_light() takes `light` at a point.
 template <class F>
-TYNDALL_INLINE F choice_probability_by(const LightView& l, IntOf<F> light, const auto& worth_of) {
+TYNDALL_INLINE F choice_probability(const auto& view, Vec3<F> point, IntOf<F> light) {
+  const LightView& l = choice_of(view);
   if (l.count == 1) return F(1.0f);
   if (l.count > most_lights_by_contribution) return gather<F>(l.probability, light);
   F total = F(0.0f), own = F(0.0f);
   for (int k = 0; k < l.count; ++k) {
-    const F worth = worth_of(k);
+    const F worth = light_worth(view, k, point);
     own = select(equal(light, IntOf<F>(k)), worth, own);
     total = total + worth;
   }
   return own / total;
-}
-
-/// Chooses a light for a point by u in [0, 1): by light_worth() if there are few.
-template <class F>
-TYNDALL_INLINE LightChoice<F> choose_light(const LightView& l, Vec3<F> point, F u) {
-  return choose_light_by(
-      l, u, [&](int k) __attribute__((always_inline)) { return light_worth(l, k, point); });
-}
-
-/// Probability with which choose_light() takes `light` at a point.
-template <class F>
-TYNDALL_INLINE F choice_probability(const LightView& l, Vec3<F> point, IntOf<F> light) {
-  return choice_probability_by<F>(
-      l, light, [&](int k) __attribute__((always_inline)) { return light_worth(l, k, point); });
 }
 
 /// A rectangle as seen from a point: its edges in a frame along its sides with the point at the origin, and its solid

@@ -110,7 +110,7 @@ TEST_CASE("chains: a mirror is worth what its image of the lamp is, where that i
   int seen = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vec3d point = scene.middle() + random_point(engine, 4), way = mirrored(m, point) - lamp;
-    const double worth = pair_worth<double>(chains, 0, point), full = power / dot(way, way);
+    const double worth = light_worth<double>(chains, 0, point), full = power / dot(way, way);
     if (mirror_way(m, point, lamp).found) {
       CHECK(worth == doctest::Approx(full));
       ++seen;
