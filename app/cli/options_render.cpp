@@ -157,16 +157,16 @@ Command read_render(const std::vector<std::string>& words) {
 
 Command read_verify(const std::vector<std::string>& words) {
   VerifyCommand command;
-  const auto app = new_command(
-      "verify [NAME...] [options]",
-      "Renders pictures whose mean radiance is known, and prints a table: the expected mean, where it is\n"
-      "from, the measured one, its standard error, the deviation in standard errors (z), the verdict.\n\n"
-      "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
-      "otherwise the standard errors are wrong. Exit code 1 if anything fails.",
-      "Examples:\n"
-      "  tyndall verify\n"
-      "  tyndall verify plate fog-ball/ --isa scalar\n"
-      "  tyndall verify plate --fresnel schlick      # the books' rule fails");
+  const auto app =
+      new_command("verify [NAME...] [options]",
+                  "Renders pictures whose mean radiance is known, and prints a table: the expected mean, where it is\n"
+                  "from, the measured one, its standard error, the deviation in standard errors (z), the verdict.\n\n"
+                  "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
+                  "otherwise the standard errors are wrong. Exit code 1 if anything fails.",
+                  "Examples:\n"
+                  "  tyndall verify\n"
+                  "  tyndall verify plate fog-ball/ --isa scalar\n"
+                  "  tyndall verify plate --fresnel schlick      # the books' rule fails");
   bool quiet = false;
   add_arguments(*app, "NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
   app->add_flag("--thorough", command.thorough, "standard errors of at most 1e-4 of the value instead of 1e-3");

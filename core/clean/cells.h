@@ -76,7 +76,7 @@ TYNDALL_INLINE float column_product(const float* a, const float* b) {
 template <class F>
 TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
   const int cells = (v.width + cell_edge - 1) / cell_edge;
-  float* row = v.sums + (cell_row + 1) * all_sums * v.cell_stride;
+  float* row = v.sums + std::ptrdiff_t{cell_row + 1} * all_sums * v.cell_stride;
   CellColumns cell;
   for (int cx = 0; cx < cells; ++cx) {
     fill_columns(v, cx, cell_row, true, cell);

@@ -74,7 +74,7 @@ struct Cleaner::Memory {
     if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
     cells_x = cells_in(width), cells_y = cells_in(height);
     constexpr int lanes = 16;
-    cell_stride = (cells_x + 2 + 2 * lanes) / lanes * lanes;
+    cell_stride = std::ptrdiff_t{(cells_x + 2 + 2 * lanes) / lanes} * lanes;
     const auto rows = static_cast<std::size_t>(cells_y) + 2, row = static_cast<std::size_t>(cell_stride);
     sums.assign(rows * all_sums * row + row, 0.0f);
     shines.assign(rows * row + row, 0);

@@ -37,8 +37,8 @@ class Planes {
   std::ptrdiff_t stride() const { return stride_; }
   int count() const { return count_; }
   /// The first number of the first row.
-  float* plane(int i) { return data_.data() + margin + i * height_ * stride_; }
-  const float* plane(int i) const { return data_.data() + margin + i * height_ * stride_; }
+  float* plane(int i) { return data_.data() + margin + std::ptrdiff_t{i} * height_ * stride_; }
+  const float* plane(int i) const { return data_.data() + margin + std::ptrdiff_t{i} * height_ * stride_; }
 
  private:
   int width_ = 0, height_ = 0, count_ = 0;

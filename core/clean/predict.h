@@ -10,7 +10,7 @@ struct CellBlocks {
 };
 
 TYNDALL_INLINE void take_blocks(const FilterView& v, int cell_x, int cell_row, CellBlocks& blocks) {
-  const std::ptrdiff_t row = outputs * terms * v.cell_stride;
+  const std::ptrdiff_t row = std::ptrdiff_t{outputs} * terms * v.cell_stride;
   for (int k = 0; k < 4; ++k) {
     const float* from = v.coefficients + (cell_row + k / 2) * row + cell_x + k % 2;
     const float x = k % 2 ? -0.25f : 0.25f, y = k < 2 ? 0.25f : -0.25f;
@@ -118,7 +118,8 @@ TYNDALL_INLINE void predict_of(const FilterView& v, int cell_row) {
     keep_dark(v, cell, cx * cell_edge, cell_row * cell_edge, out);
     const int inside_x = least(cell_edge, v.width - cx * cell_edge);
     for (int output = 0; output <= outputs; ++output) {
-      float* to = (output < outputs ? v.filtered[output] : v.level) + cell_row * cell_edge * v.stride + cx * cell_edge;
+      float* to = (output < outputs ? v.filtered[output] : v.level) + std::ptrdiff_t{cell_row} * cell_edge * v.stride +
+                  std::ptrdiff_t{cx} * cell_edge;
       for (int y = 0; y < inside_y; ++y)
         for (int x = 0; x < inside_x; ++x) to[y * v.stride + x] = out[output][y * cell_edge + x];
     }

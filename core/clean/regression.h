@@ -147,10 +147,10 @@ TYNDALL_INLINE void solve_channel(const BlockCells<F>& cells, const Normal<F>& n
 template <class F>
 TYNDALL_INLINE void fit_blocks_of(const FilterView& v, int block_row) {
   const int blocks = (v.width + cell_edge - 1) / cell_edge + 1;
-  const float* above = v.sums + block_row * all_sums * v.cell_stride;
+  const float* above = v.sums + std::ptrdiff_t{block_row} * all_sums * v.cell_stride;
   const float* below = above + all_sums * v.cell_stride;
   const std::uint8_t* shines = v.shines + block_row * v.cell_stride;
-  float* row = v.coefficients + block_row * outputs * terms * v.cell_stride;
+  float* row = v.coefficients + std::ptrdiff_t{block_row} * outputs * terms * v.cell_stride;
   Normal<F> normal;
   for (int b = 0; b < blocks; b += lanes_of<F>) {
     const BlockCells<F> cells{{above + b, above + b + 1, below + b, below + b + 1}, v.cell_stride};
@@ -162,7 +162,7 @@ TYNDALL_INLINE void fit_blocks_of(const FilterView& v, int block_row) {
       factorise(normal);
       const int first = system * 3, last = lit ? first + 3 : outputs;
       for (int output = first; output < last; ++output)
-        solve_channel(cells, normal, output, row + output * terms * v.cell_stride + b, v.cell_stride);
+        solve_channel(cells, normal, output, row + std::ptrdiff_t{output} * terms * v.cell_stride + b, v.cell_stride);
     }
   }
 }

@@ -44,8 +44,10 @@ template <class F>
 TYNDALL_INLINE F light_worth(const ChainView& c, int k, Vec3<F> point) {
   const int mirror = c.ball[k] - c.first_mirror;
   if (mirror < 0) return light_worth(c.choice, k, point);
-  const float* number = c.mirrors + numbers_of_mirror * mirror;
-  const auto row = [&](int i) { return splat<F>(Vec3f{number[3 * i], number[3 * i + 1], number[3 * i + 2]}); };
+  const float* number = c.mirrors + std::ptrdiff_t{numbers_of_mirror} * mirror;
+  const auto row = [&](std::ptrdiff_t i) {
+    return splat<F>(Vec3f{number[3 * i], number[3 * i + 1], number[3 * i + 2]});
+  };
   const auto value = [&](int i) { return splat<F>(number[i]); };
   const Vec3<F> lamp = splat<F>(Vec3f{c.choice.center[0][k], c.choice.center[1][k], c.choice.center[2][k]});
   const F near = dot(row(2), point) + value(mirror_offsets + 2), far = dot(row(2), lamp) + value(mirror_offsets + 2);
