@@ -178,13 +178,14 @@ TYNDALL_INLINE void add_lanes(F values, int count, double& sum) {
   for (int i = 0; i < least(lanes_of<F>, count); ++i) sum += static_cast<double>(lane[i]);
 }
 
-/// What the true picture is like at a pixel, for errors to be relative to: the raw mean around, as a bright speck would
-/// hide itself; but as much of the pixel's own mean as its halves agree on, where that is brighter.
+/// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around, because a
+/// bright speck that is measured by itself would look like a small error. Where the pixel is brighter than those
+/// around, the level is raised towards its own mean, the more its two halves agree.
 template <class F>
 TYNDALL_INLINE F known_level(F a, F b, F around) {
   const F both = a + b, apart = F(2.0f) * (a - b);
   const F agreed = max(neg_mul_add(apart, apart, both * both) / max(both * both, F(1e-30f)), F(0.0f));
-  return mul_add(agreed, max(neg_mul_add(F(1.0f), around, F(0.5f) * both), F(0.0f)), around);
+  return mul_add(agreed, max(F(0.5f) * both - around, F(0.0f)), around);
 }
 
 /// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because

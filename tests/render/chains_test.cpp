@@ -1,6 +1,5 @@
 #include "core/scene/load.h"
-#include "tests/support/pictures.h"
-#include "tests/support/probe.h"
+#include "tests/support/lit_floor.h"
 
 #include <doctest/doctest.h>
 
@@ -12,31 +11,6 @@ using namespace tyndall;
 using namespace tyndall::test;
 
 namespace {
-
-/// A floor, and a lamp above it.
-Scene lit_floor(double lamp_radius, Vec3d lamp_center, double radiance) {
-  Scene scene = dark_room();
-  scene.render.integrator = Integrator::mis;
-  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(0.73));
-  add(scene, sphere(lamp_center, lamp_radius), lamp(radiance));
-  return scene;
-}
-
-/// The same point by chains and by scattering alone: equal, and with far less noise.
-void check_against_scattering(const char* name, Scene scene, double less_noise) {
-  CAPTURE(name);
-  REQUIRE(compile(scene).chains.ball.size() > 0);
-  const Estimate chains = radiance(scene, 64);
-  scene.render.caustics = Caustics::scatter;
-  REQUIRE(compile(scene).chains.ball.empty());
-  const Estimate chance = radiance(scene, 1024);
-  CAPTURE(chains.mean);
-  CAPTURE(chains.error);
-  CAPTURE(chance.mean);
-  CAPTURE(chance.error);
-  CHECK(std::abs(chains.mean - chance.mean) < 4 * std::hypot(chains.error, chance.error));
-  CHECK(chains.error < less_noise * chance.error * 4);  // sixteen times fewer samples
-}
 
 /// Where a ray from `point` in direction `d` off the unit ball around `center` meets the plane through `lamp` across
 /// `normal`.
