@@ -2,7 +2,7 @@
 
 #include "app/text/values.h"
 #include "core/base/text.h"
-#include "core/image/image_io_file.h"
+#include "core/image/whole_file.h"
 
 #include <algorithm>
 #include <cctype>

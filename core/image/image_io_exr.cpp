@@ -2,6 +2,7 @@
 #include "core/image/image_io.h"
 
 #include "core/image/image_io_file.h"
+#include "core/image/whole_file.h"
 
 #ifdef TYNDALL_OPENEXR
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 
 namespace tyndall {
 
@@ -15,7 +14,7 @@ namespace {
 
 std::string error_text(int number) { return std::generic_category().message(number); }
 
-/// Closes a file that was read at the end of a scope. (After writing, errors of closing would have to be told.)
+/// Closes a file that was read at the end of a scope.
 struct Closer {
   void operator()(std::FILE* stream) const { std::fclose(stream); }
 };
@@ -56,58 +55,6 @@ void check_writable(const std::filesystem::path& file, const LinearImage& image)
   check_writable(file, image.width, image.height);
   assert(image.rgb.size() ==
          std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-}
-
-WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), target_(file) {
-  std::error_code error;
-  for (int links = 0; links < 40 && std::filesystem::is_symlink(target_, error); ++links) {
-    target_ = target_.parent_path() / std::filesystem::read_symlink(target_, error);
-    if (error) cannot_write(file_, error.message());
-  }
-  const std::filesystem::file_status status = std::filesystem::status(target_, error);
-  if (std::filesystem::is_directory(status)) cannot_write(file_, error_text(EISDIR));
-  // Not renamed: that would replace a device, such as /dev/null, by a file.
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    cannot_write(file_, "not an ordinary file");
-  }
-  temporary_ = target_;
-  temporary_ += ".tmp-" + std::to_string(getpid());
-  std::filesystem::remove(temporary_, error);  // one that a killed process has left
-  stream_ = std::fopen(temporary_.c_str(), "wbx");
-  if (stream_ == nullptr) cannot_write(file_, error_text(errno));
-}
-
-WholeFile::~WholeFile() {
-  if (stream_ != nullptr) std::fclose(stream_);
-  std::error_code ignored;
-  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
-}
-
-void WholeFile::write(const void* data, std::size_t size) {
-  if (std::fwrite(data, 1, size, stream_) != size) cannot_write(file_, error_text(errno));
-}
-
-void WholeFile::write(std::span<const std::uint8_t> bytes) { write(bytes.data(), bytes.size()); }
-void WholeFile::write(std::span<const float> values) { write(values.data(), values.size_bytes()); }
-
-void WholeFile::seek(std::uint64_t position) {
-  if (fseeko(stream_, static_cast<off_t>(position), SEEK_SET) != 0) cannot_write(file_, error_text(errno));
-}
-
-std::uint64_t WholeFile::position() const {
-  const off_t position = ftello(stream_);
-  if (position < 0) cannot_write(file_, error_text(errno));
-  return static_cast<std::uint64_t>(position);
-}
-
-void WholeFile::commit() {
-  std::FILE* stream = stream_;
-  stream_ = nullptr;
-  if (std::fclose(stream) != 0) cannot_write(file_, error_text(errno));
-  std::error_code error;
-  std::filesystem::rename(temporary_, target_, error);
-  if (error) cannot_write(file_, error.message());
-  temporary_.clear();
 }
 
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::size_t limit) {

@@ -17,29 +17,6 @@ inline constexpr std::int64_t max_image_pixels = std::int64_t{1} << 28;
 [[noreturn]] void cannot_read(const std::filesystem::path& file, const std::string& why);
 [[noreturn]] void cannot_write(const std::filesystem::path& file, const std::string& why);
 
-/// A file that appears under its name, replacing what was there, only when it is whole: written beside it and renamed.
-/// A symbolic link is followed. Throws ImageFileError.
-class WholeFile {
- public:
-  explicit WholeFile(const std::filesystem::path& file);
-  ~WholeFile();  ///< removes what was written unless it was committed
-  WholeFile(const WholeFile&) = delete;
-  WholeFile& operator=(const WholeFile&) = delete;
-
-  void write(std::span<const std::uint8_t> bytes);
-  void write(std::span<const float> values);  ///< as they are in memory
-  void seek(std::uint64_t position);
-  std::uint64_t position() const;
-  /// Puts the file in its place.
-  void commit();
-
- private:
-  void write(const void* data, std::size_t size);
-
-  std::filesystem::path file_, target_, temporary_;
-  std::FILE* stream_ = nullptr;
-};
-
 /// The longest file that is read into memory: stb counts bytes in an int.
 inline constexpr std::size_t max_file_size = 0x7fffffff;
 /// The first `limit` bytes of a file, or all if it is shorter.

@@ -1,5 +1,6 @@
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
+#include "core/image/whole_file.h"
 
 #include <algorithm>
 #include <bit>

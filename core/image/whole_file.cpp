@@ -1,0 +1,221 @@
+#include "core/image/whole_file.h"
+
+#include "core/image/image_io_file.h"
+
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+namespace tyndall {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t buffer_size = std::size_t{1} << 20;
+constexpr const char* temporary_mark = ".tmp-";
+constexpr std::size_t digits_of_number = 16;
+
+std::string hexadecimal(std::uint64_t number) {
+  char text[digits_of_number + 1];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
+/// FNV-1a. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+/// A number that another writer of the same file hardly has, too. If it has, O_EXCL tells, and the next one is taken.
+std::uint64_t likely_unique() {
+  static std::atomic<std::uint64_t> count{0};
+  const auto now = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+  return hash_of(std::to_string(now) + ' ' + std::to_string(getpid()) + ' ' + std::to_string(++count));
+}
+
+/// What the names of all temporary files of a target begin with: its name, or if that would become too long, its
+/// beginning and the hash of all of it.
+std::string temporary_prefix(const fs::path& folder, const std::string& name) {
+  const long longest = pathconf(folder.c_str(), _PC_NAME_MAX);
+  const std::size_t limit = longest > 64 ? static_cast<std::size_t>(longest) : 255;
+  const std::size_t room = limit - std::string(temporary_mark).size() - digits_of_number;
+  if (name.size() <= room) return name + temporary_mark;
+  std::size_t cut = room - 1 - digits_of_number;
+  while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xc0) == 0x80) --cut;  // no half letters of UTF-8
+  return name.substr(0, cut) + '~' + hexadecimal(hash_of(name)) + temporary_mark;
+}
+
+/// Where a chain of symbolic links ends.
+fs::path end_of_links(const fs::path& file) {
+  fs::path target = file;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    if (links == 40) cannot_write(file, std::generic_category().message(ELOOP));
+    target = target.parent_path() / fs::read_symlink(target, error);
+    if (error) cannot_write(file, error.message());
+  }
+  return target;
+}
+
+/// Removes a temporary file if no living process holds its lock.
+void remove_if_dead(const fs::path& temporary) {
+  const int descriptor = open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(temporary.c_str());
+  close(descriptor);
+}
+
+/// Removes what killed writers of the same file have left. What cannot be read or removed is left to the next writer.
+void remove_dead(const fs::path& folder, const std::string& prefix) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool ours = name.size() == prefix.size() + digits_of_number && name.starts_with(prefix) &&
+                      name.find_first_not_of("0123456789abcdef", prefix.size()) == std::string::npos;
+    if (ours) remove_if_dead(folder / name);
+  }
+}
+
+/// 0, or what went wrong. Some file systems cannot synchronise folders, and say so in one of these ways.
+int sync_error(int descriptor, bool is_folder) {
+  while (fsync(descriptor) != 0) {
+    if (errno == EINTR) continue;
+    return is_folder && (errno == EINVAL || errno == ENOTSUP) ? 0 : errno;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void WholeFile::fail(int number) const { cannot_write(file_, std::generic_category().message(number)); }
+
+WholeFile::WholeFile(const fs::path& file) : file_(file), target_(file) {
+  replaced_ = owner_of_target();
+  target_ = end_of_links(file);
+  folder_ = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  if (!target_.has_filename()) fail(EISDIR);
+  buffer_.reserve(buffer_size);
+  const std::string prefix = temporary_prefix(folder_, target_.filename().string());
+  remove_dead(folder_, prefix);
+  for (int attempt = 0; attempt < 1000; ++attempt)
+    if (create(folder_ / (prefix + hexadecimal(likely_unique())))) return;
+  fail(EEXIST);
+}
+
+/// Refuses what must not be replaced: renaming would put a file in the place of a device such as /dev/null.
+WholeFile::Owner WholeFile::owner_of_target() const {
+  struct stat status {};
+  if (stat(target_.c_str(), &status) != 0) {
+    if (errno != ENOENT) fail(errno);
+    return {};
+  }
+  if (S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (!S_ISREG(status.st_mode)) cannot_write(file_, "not an ordinary file");
+  return {true, status.st_mode & 07777u, status.st_uid, status.st_gid};
+}
+
+/// Creates and locks a temporary file. False if there is one of that name, or if another writer took it for a dead one
+/// and removed it between the two steps.
+bool WholeFile::create(const fs::path& temporary) {
+  const mode_t mode = replaced_.exists ? 0600 : 0666;  // what replaces a private file is private while it is written
+  const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (descriptor < 0 && errno == EEXIST) return false;
+  if (descriptor < 0) fail(errno);
+  // Where files cannot be locked, nobody can lock them in order to remove them, either.
+  const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat status {};
+  if (taken || (fstat(descriptor, &status) == 0 && status.st_nlink == 0)) {
+    close(descriptor);
+    return false;
+  }
+  descriptor_ = descriptor;
+  temporary_ = temporary;
+  return true;
+}
+
+WholeFile::~WholeFile() {
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void WholeFile::put(const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  position_ += size;
+  while (size > 0) {
+    const std::size_t part = std::min(size, buffer_size - buffer_.size());
+    buffer_.insert(buffer_.end(), bytes, bytes + part);
+    bytes += part, size -= part;
+    if (buffer_.size() == buffer_size) flush();
+  }
+}
+
+void WholeFile::write(std::span<const std::uint8_t> bytes) { put(bytes.data(), bytes.size()); }
+void WholeFile::write(std::span<const float> values) { put(values.data(), values.size_bytes()); }
+
+void WholeFile::flush() {
+  std::size_t done = 0;
+  while (done < buffer_.size()) {
+    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail(written < 0 ? errno : EIO);
+    done += static_cast<std::size_t>(written);
+  }
+  buffer_.clear();
+}
+
+void WholeFile::seek(std::uint64_t position) {
+  flush();
+  if (lseek(descriptor_, static_cast<off_t>(position), SEEK_SET) < 0) fail(errno);
+  position_ = position;
+}
+
+/// Gives the new file the owner, group and mode of the one that it replaces, as far as that is permitted. What a group
+/// was allowed is not given to another group.
+void WholeFile::keep_owner() const {
+  struct stat now {};
+  if (!replaced_.exists) return;
+  if (fstat(descriptor_, &now) != 0) fail(errno);
+  unsigned mode = replaced_.mode;
+  const bool same_group = now.st_gid == replaced_.group || fchown(descriptor_, now.st_uid, replaced_.group) == 0;
+  if (!same_group) mode = (mode & ~070u) | ((mode & 7u) << 3);
+  const bool same_user =
+      now.st_uid == replaced_.user || fchown(descriptor_, replaced_.user, static_cast<gid_t>(-1)) == 0;
+  if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
+  if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return;
+  if (errno != EPERM && errno != ENOTSUP) fail(errno);  // these two: the file system has no modes
+}
+
+void WholeFile::sync_folder() const {
+  const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0 && errno == EACCES) return;  // a folder into which one may write, but not look
+  if (folder < 0) fail(errno);
+  const int error = sync_error(folder, true);
+  close(folder);
+  if (error != 0) fail(error);
+}
+
+void WholeFile::commit() {
+  flush();
+  keep_owner();
+  if (const int error = sync_error(descriptor_, false)) fail(error);
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  temporary_.clear();
+  sync_folder();
+  const int descriptor = descriptor_;  // closed last, as closing unlocks
+  descriptor_ = -1;
+  if (close(descriptor) != 0 && errno != EINTR) fail(errno);
+}
+
+}  // namespace tyndall

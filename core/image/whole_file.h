@@ -1,0 +1,57 @@
+#pragma once
+#include "core/image/image.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+/// The one way in which the program writes files that are to stay: images, films, scenes, figures and charts.
+namespace tyndall {
+
+/// A file that appears under its name, replacing what was there, only when it is whole and on the disk: whatever ends
+/// the program or the machine meanwhile, the old file or the new one is there. All functions throw ImageFileError
+/// "FILE: cannot write: WHY".
+///
+/// The bytes go into a temporary file in the same folder, FILE.tmp- and 16 hexadecimal digits. It is locked as long as
+/// its writer lives, so that the next writer of the same file knows which ones a killed process has left, and removes
+/// those. The mode of a file that is replaced is kept, and where that is permitted its owner and group. A symbolic link
+/// stays, and what it points to is replaced.
+class WholeFile {
+ public:
+  /// Creates the temporary file. Only ordinary files are replaced, not folders and devices.
+  explicit WholeFile(const std::filesystem::path& file);
+  ~WholeFile();  ///< removes what was written unless it was committed
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::span<const std::uint8_t> bytes);
+  void write(std::span<const float> values);  ///< as they are in memory
+  void seek(std::uint64_t position);
+  std::uint64_t position() const { return position_; }
+  /// Puts the file in its place. When it returns, a power cut can no longer take the file away.
+  void commit();
+
+ private:
+  /// Of the file that is replaced.
+  struct Owner {
+    bool exists = false;
+    unsigned mode = 0, user = 0, group = 0;
+  };
+
+  Owner owner_of_target() const;
+  bool create(const std::filesystem::path& temporary);
+  void put(const void* data, std::size_t size);
+  void flush();
+  void keep_owner() const;
+  void sync_folder() const;
+  [[noreturn]] void fail(int number) const;
+
+  std::filesystem::path file_, target_, folder_, temporary_;
+  Owner replaced_;
+  int descriptor_ = -1;
+  std::vector<std::uint8_t> buffer_;  ///< what is to be written next; it ends at position_
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace tyndall
