@@ -1,10 +1,12 @@
 # Where the libraries of the core and of the command line come from: the system's packages.
-# Required: threads, nlohmann_json, CLI11, {fmt}, stb. Optional: Highway (SIMD kernels), OpenEXR, doctest (tests).
+# Required: threads, nlohmann_json, CLI11, {fmt}, stb, libjpeg-turbo. Optional: Highway (SIMD kernels), OpenEXR,
+# doctest (tests).
 find_package(Threads REQUIRED)
 find_package(PkgConfig)
 find_package(nlohmann_json 3.9 CONFIG REQUIRED)
 find_package(CLI11 2 CONFIG REQUIRED)
 find_package(fmt 8 CONFIG REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(doctest 2.4 CONFIG QUIET)
 
 # stb: two headers, included as <stb_image.h>.

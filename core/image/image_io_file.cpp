@@ -14,12 +14,6 @@ namespace {
 
 std::string error_text(int number) { return std::generic_category().message(number); }
 
-/// Closes a file that was read at the end of a scope.
-struct Closer {
-  void operator()(std::FILE* stream) const { std::fclose(stream); }
-};
-using ReadStream = std::unique_ptr<std::FILE, Closer>;
-
 }  // namespace
 
 void cannot_read(const std::filesystem::path& file, const std::string& why) {
@@ -45,6 +39,12 @@ std::string size_problem(std::int64_t width, std::int64_t height) {
 
 void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
   if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
+}
+
+void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t least) {
+  if (size < least)
+    cannot_read(file, "damaged: found " + std::to_string(size) + " bytes, expected at least " + std::to_string(least) +
+                          " for the size that it says");
 }
 
 void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -16,6 +17,12 @@ inline constexpr std::int64_t max_image_pixels = std::int64_t{1} << 28;
 /// Throws ImageFileError "FILE: cannot read: WHY" or "FILE: cannot write: WHY".
 [[noreturn]] void cannot_read(const std::filesystem::path& file, const std::string& why);
 [[noreturn]] void cannot_write(const std::filesystem::path& file, const std::string& why);
+
+/// Closes a file that was read at the end of a scope.
+struct Closer {
+  void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using ReadStream = std::unique_ptr<std::FILE, Closer>;
 
 /// The longest file that is read into memory: stb counts bytes in an int.
 inline constexpr std::size_t max_file_size = 0x7fffffff;
@@ -33,6 +40,8 @@ LinearImage read_pfm(const std::filesystem::path& file, std::span<const std::uin
 LinearImage read_hdr(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 LinearImage read_exr(const std::filesystem::path& file);
 Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+/// JPEG: RGB or grey, also progressive. What is damaged is refused, not guessed.
+Rgb8Image read_jpeg(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 /// The number in the first 4 of these bytes, highest byte first.
 std::uint32_t get_u32(std::span<const std::uint8_t> from);
@@ -44,6 +53,9 @@ std::optional<std::string> exr_text(const std::filesystem::path& file, const std
 
 /// Throws for an image without pixels or with more than max_image_pixels.
 void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
+/// Throws if a file of `size` bytes is too short for what its header promises, which takes at least `least` bytes even
+/// if it is compressed as far as its format can. So a small file cannot ask for much memory.
+void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t least);
 void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
 void check_writable(const std::filesystem::path& file, const LinearImage& image);
 

@@ -93,6 +93,13 @@ struct HdrReader {
   }
 };
 
+/// The fewest bytes that rows of this width can have: 4 for each pixel where runs are not allowed, else a mark of 4 and
+/// 2 for each run of 127 pixels of each of 4 channels.
+std::uint64_t least_hdr_bytes(int width, int height) {
+  const auto columns = static_cast<std::uint64_t>(width), rows = static_cast<std::uint64_t>(height);
+  return rows * (width < 8 || width >= 32768 ? 4 * columns : 4 + 8 * (columns / 127));
+}
+
 void put_row(std::vector<float>& rgb, const std::vector<std::uint8_t>& row) {
   for (std::size_t x = 0; x < row.size(); x += 4) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -115,6 +122,7 @@ LinearImage read_hdr(const std::filesystem::path& file, std::span<const std::uin
     cannot_read(file, "expected an HDR from the top left, row by row (-Y height +X width)");
   }
   check_readable(file, image.width, image.height);
+  check_enough(file, reader.bytes.size(), least_hdr_bytes(image.width, image.height));
   std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
     reader.take_row(row, static_cast<std::size_t>(image.width));

@@ -1,6 +1,6 @@
 // The only file that compiles stb's functions. Only the formats that textures and references have are compiled in,
 // because each further decoder is one more way in for a hostile file. stb's HDR decoder is left out because it loops
-// forever on a file that is cut off.
+// forever on a file that is cut off, its JPEG decoder because a damaged Huffman table makes it write past its own.
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -10,7 +10,6 @@
 #endif
 
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO

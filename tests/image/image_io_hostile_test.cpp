@@ -1,4 +1,5 @@
 #include "core/image/image_io.h"
+#include "tests/support/peak_memory.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
@@ -83,4 +84,22 @@ TEST_CASE("hostile files: bytes changed anywhere") {
     }
   }
   CHECK(good > 0);
+}
+
+TEST_CASE("hostile files: a small one that says it is large takes no memory") {
+  const fs::path file = scratch_folder("hostile_large") / "a";
+  const auto refuses = [&](const std::string& bytes) {
+    write_text(file, bytes);
+    CHECK(test::peak_memory_of([&] { survives(file); }) < 8 << 20);
+    CHECK_THROWS_AS(read_rgb8(file), ImageFileError);
+  };
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 268435456\n");
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\n" + std::string(1000, 'x'));
+  refuses("PF 16384 16384 -1\n" + std::string(1000, 'x'));
+  // A BMP and a TGA of 16384 x 16384 pixels of 24 bits: what is missing is not taken for black.
+  refuses(std::string("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\0\x40\0\0\0\x40\0\0\1\0\x18\0", 30) +
+          std::string(1000, '\0'));
+  refuses(std::string("\0\0\2\0\0\0\0\0\0\0\0\0\0\x40\0\x40\x18\0", 18) + std::string(1000, '\0'));
+  refuses(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\2\0\0\0\0\0\0\0", 33) +
+          std::string(1000, 'x'));
 }
