@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct FilmChannel {
 std::vector<FilmChannel> film_channels();
 /// The channels of EmissionSums, for example film.A.R.emission0, in files of films that have it.
 std::vector<FilmChannel> emission_channels();
+
+/// Refuses an EXR whose header asks for more memory than a whole file of its size could need: OpenEXR itself believes
+/// what attributes, windows and tiles say, and takes the memory before it looks for the bytes. Throws ImageFileError.
+void check_exr(const std::filesystem::path& file);
 
 /// What users are told about EXR files if OpenEXR was not found when the build was configured.
 inline constexpr const char* without_openexr =
