@@ -45,8 +45,12 @@ class ChartJob {
   ChartJob(const ChartCommand& command, const SignalWatch& signals)
       : command_(command), signals_(signals), report_(command.progress) {}
 
-  Chart make(const SceneRequest& request) {
+  /// svg: the file that the chart is to be written to.
+  Chart make(const SceneRequest& request, const std::filesystem::path& svg) {
     LoadedScene loaded = open_scene(request);
+    std::vector<std::filesystem::path> inputs = loaded.files;
+    if (!command_.reference.empty()) inputs.push_back(command_.reference);
+    check_outputs({{"--output", svg}, {"--output", csv_beside(svg)}}, inputs);
     Scene& scene = loaded.scene;
     if (!request.size) make_small(scene);
     std::vector<ChartMethod> methods;
@@ -110,7 +114,7 @@ int chart_all(const ChartCommand& command, const SignalWatch& signals) {
     ChartJob job(command, signals);
     SceneRequest request = command.scene;
     request.what = name;
-    const Chart chart = job.make(request);
+    const Chart chart = job.make(request, file);
     if (chart.curves.empty()) break;
     job.finish(std::string("charted ") + name);
     write_chart(chart, file);
@@ -128,7 +132,7 @@ int run(const ChartCommand& command) {
   check_can_write(command.output);
   check_can_write(csv_beside(command.output));
   ChartJob job(command, signals);
-  const Chart chart = job.make(command.scene);
+  const Chart chart = job.make(command.scene, command.output);
   const int code = signals.received() ? 128 + signals.received() : 0;
   if (chart.curves.empty() || chart.curves.front().points.empty()) {
     complain("interrupted before the first point: nothing written");

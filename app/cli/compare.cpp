@@ -105,6 +105,7 @@ bool passes(const CompareCommand& command, const Comparison& c) {
 }  // namespace
 
 int run(const CompareCommand& command) {
+  check_outputs({{"--heatmap", command.heatmap}}, {command.image, command.reference});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
   const Comparison comparison = compare(command);
   if (!command.heatmap.empty())

@@ -13,6 +13,7 @@ int run(const ConvertCommand& command) {
   if (to_standard_output) {
     write_standard_output(text);
   } else {
+    check_outputs({{"--output", command.output}}, loaded.files);
     check_can_write(command.output);
     write_text_file(command.output, text);
   }

@@ -16,17 +16,11 @@ int write(const Film& film, const Scene& scene, const std::vector<std::filesyste
   return problems.empty() ? 0 : output_failed;
 }
 
-void refuse_own_film(const DenoiseCommand& command) {
-  std::error_code error;
-  for (const auto& file : command.outputs)
-    if (std::filesystem::equivalent(file, command.film, error))
-      throw UsageError("--output: found " + file.string() + ", the film that is read; expected another file");
-}
-
 }  // namespace
 
 int run(const MergeCommand& command) {
   check_image_names(command.outputs);
+  check_outputs(outputs_of("--output", command.outputs), command.parts);
   for (const auto& file : command.outputs) check_can_write(file);
   std::vector<FilmPart> parts;
   std::optional<Scene> scene;
@@ -49,7 +43,9 @@ int run(const MergeCommand& command) {
 int run(const DenoiseCommand& command) {
   check_image_names(command.outputs);
   find_kernels(command.isa);
-  refuse_own_film(command);
+  std::vector<Output> outputs = outputs_of("--output", command.outputs);
+  outputs.push_back({"--stats", command.stats});
+  check_outputs(outputs, {command.film});
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
   const StoredFilm stored = read_stored_film(command.film);

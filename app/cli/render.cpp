@@ -66,6 +66,9 @@ void prepare(Job& job) {
   find_kernels(command.isa);
   job.loaded = open_scene(command.scene);
   job.options = render_options(command, job.loaded);
+  std::vector<Output> outputs = outputs_of("--output", command.outputs);
+  outputs.push_back({"--stats", command.stats});
+  check_outputs(outputs, job.loaded.files);
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
   job.film = film_to_resume(command, job.loaded, job.options);

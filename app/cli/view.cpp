@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/files/open_scene.h"
+#include "app/files/outputs.h"
 #include "core/base/error.h"
 
 #ifdef TYNDALL_WINDOW
@@ -33,7 +34,8 @@ std::string headless_command(const ViewCommand& command) {
     if (of_window && word.find('=') == std::string::npos)
       ++i;  // the next word is the option's value: leave it out, too
   }
-  const std::string name = std::filesystem::path(command.scene.what).stem().string();
+  const std::filesystem::path scene(command.scene.what);
+  const std::string name = scene.extension() == ".png" ? scene.stem().string() + "-again" : scene.stem().string();
   return text + " -o " + shell_word((name == "-" ? "image" : name) + ".png");
 }
 
@@ -48,6 +50,9 @@ int run(const ViewCommand& command) {
   const auto open = [request = command.scene] { return open_scene(request); };
   const LoadedScene loaded = open();
   find_kernels(command.isa);
+  std::vector<std::filesystem::path> inputs = loaded.files;
+  if (!command.reference.empty()) inputs.push_back(command.reference);
+  check_outputs({{"--ui-log", command.ui_log}}, inputs);
   const std::string instead = "; the same picture without a window: " + headless_command(command);
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
 #ifdef TYNDALL_WINDOW

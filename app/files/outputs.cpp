@@ -27,9 +27,40 @@ void check_image_names(const std::vector<std::filesystem::path>& files) {
     if (!is_image_output(files[i])) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
     if (is_exr(files[i]) && !has_openexr())
       throw UsageError(name + ", expected .png, .pfm or .hdr: this build has no OpenEXR");
-    const auto same = [&](const auto& other) { return other.lexically_normal() == files[i].lexically_normal(); };
-    if (std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), same))
-      throw UsageError(name + " twice");
+  }
+  check_outputs(outputs_of("--output", files), {});
+}
+
+std::vector<Output> outputs_of(const std::string& option, const std::vector<std::filesystem::path>& files) {
+  std::vector<Output> outputs;
+  for (const std::filesystem::path& file : files) outputs.push_back({option, file});
+  return outputs;
+}
+
+namespace {
+
+/// Whether both names mean one file, which need not exist yet.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto full = [&error](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+  };
+  return full(a) == full(b);
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    const auto is_output = [&](const std::filesystem::path& file) { return is_same_file(file, output->file); };
+    if (output->file.empty() || output->file == "-") continue;
+    const std::string found = output->option + ": found " + in_quotes(output->file.string());
+    const auto input = std::find_if(inputs.begin(), inputs.end(), is_output);
+    if (input != inputs.end())
+      throw UsageError(found + ", which is the input " + in_quotes(input->string()) + "; expected another file");
+    const auto twin = std::find_if(outputs.begin(), output, [&](const Output& o) { return is_output(o.file); });
+    if (twin != output) throw UsageError(found + " twice");
   }
 }
 

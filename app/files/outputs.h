@@ -20,6 +20,17 @@ bool is_exr(const std::filesystem::path& file);
 /// Throws IoError unless the file could be written now: its folder exists and takes new files. Leaves nothing behind.
 void check_can_write(const std::filesystem::path& file);
 
+/// A file that a command is to write, and the option that names it.
+struct Output {
+  std::string option;
+  std::filesystem::path file;
+};
+/// The files of an option that may be repeated.
+std::vector<Output> outputs_of(const std::string& option, const std::vector<std::filesystem::path>& files);
+/// Throws UsageError if an output is one of the files that the command reads, or two outputs are one file, also under
+/// another name or through a link. "" and "-" are no files.
+void check_outputs(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs);
+
 /// What becomes image files.
 struct Picture {
   const Film& film;

@@ -129,6 +129,7 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     loaded.text = read_all(stdin, loaded.name);
   } else if (const fs::path built_in = built_in_file(what); !built_in.empty()) {
     loaded.folder = built_in.parent_path();
+    loaded.files = {built_in};
     loaded.text = read_file(built_in.string());
   } else {
     std::error_code error;
@@ -140,8 +141,11 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     const bool image = is_image(loaded.text);
     if (image) loaded.text = scene_in_image(what);
     if (!image) loaded.source = what;
+    loaded.files = {what};
   }
   loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
+  for (const Texture& texture : loaded.scene.textures)
+    if (const auto* image = std::get_if<Image>(&texture.kind)) loaded.files.push_back(loaded.folder / image->file);
   return loaded;
 }
 

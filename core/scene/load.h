@@ -15,6 +15,7 @@ struct LoadedScene {
                                  ///< standard input
   std::filesystem::path folder;  ///< where the scene's relative texture files are
   std::string text;              ///< the scene file's text, before overrides
+  std::vector<std::filesystem::path> files;  ///< all that was read: the scene's file or image, and its textures
 };
 
 /// Loads a scene. what: the name of a built-in scene, a scene file, an image that Tyndall wrote (PNG or EXR), or "-"

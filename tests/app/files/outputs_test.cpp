@@ -46,6 +46,27 @@ TEST_CASE("whether a file can be written is known beforehand, and asking leaves 
   CHECK(std::filesystem::file_size(folder / "c.png") == 3);
 }
 
+TEST_CASE("outputs over inputs are refused, under whatever name; so are two outputs that are one file") {
+  const auto folder = empty_folder("outputs_over_inputs");
+  const auto scene = folder / "scene.json";
+  std::ofstream(scene) << "scene";
+  std::ofstream(folder / "other.json") << "other";
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_symlink("scene.json", folder / "link.json");
+  std::filesystem::create_hard_link(scene, folder / "hard.json");
+  const std::vector<std::filesystem::path> inputs = {folder / "none.png", scene};
+  for (const char* name : {"scene.json", "./scene.json", "sub/../scene.json", "link.json", "hard.json"}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(check_outputs({{"--stats", folder / name}}, inputs), UsageError);
+  }
+  CHECK_NOTHROW(check_outputs({{"--stats", folder / "other.json"}, {"--output", folder / "new.png"}}, inputs));
+  CHECK_NOTHROW(check_outputs({{"--stats", ""}, {"--output", ""}, {"--stats", "-"}, {"--stats", "-"}}, inputs));
+  CHECK_THROWS_AS(check_outputs({{"--output", folder / "sub/../new.png"}, {"--stats", folder / "new.png"}}, {}),
+                  UsageError);
+  CHECK_THROWS_AS(check_outputs({{"--output", folder / "hard.json"}, {"--stats", folder / "link.json"}}, {}),
+                  UsageError);
+}
+
 TEST_CASE("what can be written is written, though something else cannot") {
   const auto folder = empty_folder("outputs_test");
   Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
