@@ -22,19 +22,19 @@ int run(const MergeCommand& command) {
   check_image_names(command.outputs);
   check_outputs(outputs_of("--output", command.outputs), command.parts);
   for (const auto& file : command.outputs) check_can_write(file);
-  std::vector<FilmPart> parts;
+  std::vector<FilmPart> frames;
   std::optional<Scene> scene;
   for (const auto& file : command.parts) {
-    StoredFilm stored = read_stored_film(file);
+    StoredFilm stored = read_stored_frame(file);
     if (stored.scene.render.adaptive)
       throw UsageError(file.string() + ": found an adaptive render, expected a range of samples that every pixel has");
     if (scene && !same_samples(*scene, stored.scene))
       throw UsageError(file.string() + ": found a film of another scene or other settings than in " +
                        command.parts.front().string());
     if (!scene) scene = stored.scene;
-    parts.push_back(std::move(stored.part));
+    frames.push_back(std::move(stored.part));
   }
-  const Film film = merge(std::move(parts));
+  const Film film = merge(frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
   std::optional<CleanOfFilm> clean;
   if (command.denoise) clean = clean_view(film, *scene, command.parts.front().string());
   return write(film, *scene, command.outputs, clean);

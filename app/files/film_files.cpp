@@ -44,13 +44,26 @@ bool could_have_chains(Scene scene) {
 
 }  // namespace
 
-StoredFilm read_stored_film(const std::filesystem::path& file) {
-  std::optional<Film> film = read_film(file);
+namespace {
+
+Film found_film(const std::filesystem::path& file, std::optional<Film> film) {
   if (!film) throw UsageError(file.string() + ": found no film, expected an EXR that 'tyndall render' wrote");
+  return std::move(*film);
+}
+
+StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   LoadedScene loaded = load_scene(file.string());
   Scene scene = move_textures(loaded.scene, loaded.folder, ".");
   if (!says_caustics(loaded.text)) scene.render.caustics = Caustics::scatter;
-  return {{file.string(), std::move(*film)}, scene};
+  return {{file.string(), std::move(film)}, scene};
+}
+
+}  // namespace
+
+Film read_film_alone(const std::filesystem::path& file) { return found_film(file, read_film(file)); }
+StoredFilm read_stored_film(const std::filesystem::path& file) { return with_scene(file, read_film_alone(file)); }
+StoredFilm read_stored_frame(const std::filesystem::path& file) {
+  return with_scene(file, found_film(file, read_film_frame(file)));
 }
 
 bool same_samples(Scene a, Scene b) {

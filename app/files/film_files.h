@@ -20,6 +20,10 @@ struct StoredFilm {
 /// Reads an EXR that render wrote. A film whose text does not say how caustics were found is of scattering: it is from
 /// before chains. Throws UsageError if it holds no film or no scene.
 StoredFilm read_stored_film(const std::filesystem::path& file);
+/// The same without the film's pixels and emission.
+StoredFilm read_stored_frame(const std::filesystem::path& file);
+/// The film alone.
+Film read_film_alone(const std::filesystem::path& file);
 
 /// Whether the samples of both scenes are the same: all but names, display and the number of samples is equal. How
 /// caustics are found may differ where no chains would be looked for.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 namespace tyndall {
@@ -29,37 +30,64 @@ void check_same_picture(const FilmPart& first, const FilmPart& part) {
   if (a.unit != b.unit) refuse(part, "another brightest light", "the same scene" + like);
 }
 
+std::string range_text(std::uint64_t from, std::uint64_t to) { return std::to_string(from) + ":" + std::to_string(to); }
+
+/// Says that samples of a part that are to follow those of the part called `before`, which end at `end`, do not.
+[[noreturn]] void refuse_range(const FilmPart& part, std::uint32_t taken, const std::string& before,
+                               std::uint64_t end) {
+  const std::uint64_t from = part.film.first_sample, to = from + taken;
+  const std::string why = from < end ? " (they overlap in " + range_text(from, std::min(to, end)) + ")"
+                                     : " (" + range_text(end, from) + " are missing)";
+  refuse(part, "samples " + range_text(from, to),
+         "them to begin at " + std::to_string(end) + ", where those of " + before + " end" + why);
+}
+
 /// Adds a part whose samples follow those of the film. Compared pixel by pixel, because the samples of an interrupted
-/// run end at different indices in different pixels.
-void append(Film& film, const FilmPart& part) {
+/// run end at different indices in different pixels. before: the part that was added last.
+void append(Film& film, const FilmPart& part, const std::string& before) {
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const std::uint64_t end = std::uint64_t{film.first_sample} + film.pixels[i].taken;
-    const std::uint64_t start = part.film.first_sample;
-    if (part.film.pixels[i].taken > 0 && start != end) {
-      refuse(part, "samples from " + std::to_string(start),
-             "from " + std::to_string(end) + (start < end ? " (they overlap another part)" : " (some are missing)"));
-    }
+    const std::uint32_t taken = part.film.pixels[i].taken;
+    if (taken > 0 && part.film.first_sample != end) refuse_range(part, taken, before, end);
     add_pixel(film.pixels[i], part.film.pixels[i]);
   }
-  if (totals(part.film).samples == 0) return;
   if (part.film.emission.empty()) film.emission.clear();
   for (std::size_t i = 0; i < film.emission.size(); ++i) add_emission(film.emission[i], part.film.emission[i]);
   film.cut_throughput.add(part.film.cut_throughput);
 }
 
+/// Reads the film that belongs to a frame, which may have been replaced since the frame was read.
+FilmPart read_part(const FilmPart& frame, Film film) {
+  const Film& before = frame.film;
+  if (film.first_sample != before.first_sample) refuse(frame, "other samples than a moment ago", "a file that stays");
+  FilmPart part{frame.name, std::move(film)};
+  check_same_picture(frame, part);
+  return part;
+}
+
 }  // namespace
 
-Film merge(std::vector<FilmPart> parts) {
-  assert(!parts.empty());
-  const auto earlier = [](const FilmPart& a, const FilmPart& b) { return a.film.first_sample < b.film.first_sample; };
-  for (const FilmPart& part : parts) check_same_picture(parts.front(), part);
-  std::stable_sort(parts.begin(), parts.end(), earlier);
-  const auto empty = [](const FilmPart& part) { return totals(part.film).most_taken == 0; };
-  const auto first = std::find_if_not(parts.begin(), parts.end(), empty);
-  if (first == parts.end()) return std::move(parts.front().film);
-  Film film = std::move(first->film);
-  for (auto part = first + 1; part != parts.end(); ++part) append(film, *part);
-  return film;
+Film merge(const std::vector<FilmPart>& frames, const std::function<Film(std::size_t)>& read) {
+  assert(!frames.empty());
+  for (const FilmPart& frame : frames) check_same_picture(frames.front(), frame);
+  std::vector<std::size_t> order(frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return frames[a].film.first_sample < frames[b].film.first_sample;
+  });
+  FilmPart sum = read_part(frames[order[0]], read(order[0]));
+  bool empty = totals(sum.film).samples == 0;
+  for (auto index = order.begin() + 1; index != order.end(); ++index) {
+    FilmPart part = read_part(frames[*index], read(*index));
+    if (totals(part.film).samples == 0) continue;
+    if (empty)
+      sum.film = std::move(part.film);
+    else
+      append(sum.film, part, sum.name);
+    empty = false;
+    sum.name = part.name;
+  }
+  return std::move(sum.film);
 }
 
 }  // namespace tyndall

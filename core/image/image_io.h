@@ -28,6 +28,8 @@ bool has_openexr();
 LinearImage read_image(const std::filesystem::path& file);
 /// The film in an EXR that Tyndall wrote; nothing if it holds none.
 std::optional<Film> read_film(const std::filesystem::path& file);
+/// The same without pixels and emission: its size, region, first sample and unit.
+std::optional<Film> read_film_frame(const std::filesystem::path& file);
 /// The scene text in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file);
 

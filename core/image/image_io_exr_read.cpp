@@ -130,10 +130,16 @@ void check_counts(const std::filesystem::path& file, const Film& film) {
   }
 }
 
+std::optional<Film> read_frame_of(const std::filesystem::path& file, Imf::InputFile& exr) {
+  if (!exr.header().channels().findChannel("film.taken")) return {};
+  return read_frame(file, exr.header());
+}
+
 std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFile& exr) {
   const Imf::ChannelList& present = exr.header().channels();
-  if (!present.findChannel("film.taken")) return {};
-  Film film = read_frame(file, exr.header());
+  std::optional<Film> frame = read_frame_of(file, exr);
+  if (!frame) return {};
+  Film& film = *frame;
   const auto count = static_cast<std::size_t>(film.region.width()) * static_cast<std::size_t>(film.region.height());
   film.pixels.resize(count);
   Target target{{}, exr.header().dataWindow()};
@@ -152,7 +158,7 @@ std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFi
   }
   target.read(exr);
   check_counts(file, film);
-  return film;
+  return frame;
 }
 
 }  // namespace
@@ -164,6 +170,11 @@ LinearImage read_exr(const std::filesystem::path& file) {
 std::optional<Film> read_film(const std::filesystem::path& file) {
   if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
   return with_exr(file, [&](Imf::InputFile& exr) { return read_film_of(file, exr); });
+}
+
+std::optional<Film> read_film_frame(const std::filesystem::path& file) {
+  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
+  return with_exr(file, [&](Imf::InputFile& exr) { return read_frame_of(file, exr); });
 }
 
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name) {
@@ -186,6 +197,8 @@ std::optional<Film> read_film(const std::filesystem::path& file) {
   if (image_kind(read_bytes(file, 16)) == ImageKind::exr) cannot_read(file, without_openexr);
   return {};
 }
+
+std::optional<Film> read_film_frame(const std::filesystem::path& file) { return read_film(file); }
 
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
   cannot_read(file, without_openexr);

@@ -22,11 +22,11 @@ namespace fs = std::filesystem;
 constexpr const char* expected_scene =
     "a scene file, an image that Tyndall wrote, or the name of a built-in scene (\"tyndall scenes\" lists them)";
 
-/// All bytes of a file or pipe, but not much more than max_scene_bytes: then it is refused anyway.
-std::string read_all(std::FILE* file, const std::string& name) {
+/// All bytes of a file or pipe, but not much more than `most`: then it is refused anyway.
+std::string read_all(std::FILE* file, const std::string& name, std::size_t most = max_scene_bytes) {
   std::string text;
   std::size_t got = 1;
-  while (got > 0 && text.size() <= max_scene_bytes) {
+  while (got > 0 && text.size() <= most) {
     const std::size_t old = text.size();
     text.resize(old + (std::size_t(1) << 16));
     got = std::fread(text.data() + old, 1, text.size() - old, file);
@@ -36,11 +36,11 @@ std::string read_all(std::FILE* file, const std::string& name) {
   return text;
 }
 
-std::string read_file(const std::string& name) {
+std::string read_file(const std::string& name, std::size_t most = max_scene_bytes) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), &std::fclose);
   if (!file)
     throw SceneError(name, std::string("a file that cannot be read (") + std::strerror(errno) + ")", expected_scene);
-  return read_all(file.get(), name);
+  return read_all(file.get(), name, most);
 }
 
 bool is_image(std::string_view bytes) {
@@ -137,9 +137,10 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     if (status.type() == fs::file_type::not_found) fail_missing(what);
     if (fs::is_directory(status)) throw SceneError(what, "a folder", expected_scene);
     loaded.folder = fs::path(what).has_parent_path() ? fs::path(what).parent_path() : fs::path(".");
-    loaded.text = read_file(what);
-    const bool image = is_image(loaded.text);
-    if (image) loaded.text = scene_in_image(what);
+    // Of an image, which may be large, only the header is read. A pipe can be read only once.
+    const bool image = fs::is_regular_file(status) && is_image(read_file(what, 16));
+    loaded.text = image ? scene_in_image(what) : read_file(what);
+    if (!image && is_image(loaded.text)) loaded.text = scene_in_image(what);
     if (!image) loaded.source = what;
     loaded.files = {what};
   }

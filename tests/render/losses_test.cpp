@@ -1,6 +1,6 @@
-#include "core/film/merge.h"
 #include "core/render/pass.h"
 #include "core/render/progression.h"
+#include "tests/support/merged.h"
 #include "tests/support/pictures.h"
 #include "tests/support/probe.h"
 #include "tests/support/watched_renderer.h"
@@ -140,8 +140,8 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
     CHECK(totals(whole).truncated > 1000);
     CHECK(totals(whole).cut_throughput > 0.01);
     CHECK(result_of(scene, kernels.isa, 7, 5, 0, 24).film == whole);
-    CHECK(merge({{"b", result_of(scene, kernels.isa, 2, 9, 11, 13).film},
-                 {"a", result_of(scene, kernels.isa, 3, 64, 0, 11).film}}) == whole);
+    CHECK(merged({{"b", result_of(scene, kernels.isa, 2, 9, 11, 13).film},
+                  {"a", result_of(scene, kernels.isa, 3, 64, 0, 11).film}}) == whole);
     Crew crew(2);
     const SceneViewOf view(scene);
     Film film = make_film(61, 43, whole.region, 0, scene.film_unit, !whole.emission.empty());

@@ -1,5 +1,5 @@
-#include "core/film/merge.h"
 #include "core/render/pass.h"
+#include "tests/support/merged.h"
 #include "tests/support/pictures.h"
 #include "tests/support/stopping.h"
 
@@ -79,7 +79,7 @@ TEST_CASE("same picture: shards added in any order, whatever their sizes and til
           first = last;
         }
         std::shuffle(parts.begin(), parts.end(), engine);
-        REQUIRE(merge(parts) == whole);
+        REQUIRE(merged(parts) == whole);
       }
     }
 }
