@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/film/merge.h"
 
+#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
@@ -24,6 +25,7 @@ int fail(const std::exception& error, int code) {
 
 int main(int argc, char** argv) {
   tyndall::keep_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit of file sizes then fails with a message
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
     return std::visit([](const auto& command) { return tyndall::run(command); }, tyndall::read_command(arguments));

@@ -168,7 +168,7 @@ std::string overview() {
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
          "  --version     show the version\n\n"
          "Exit codes: 0 done; 1 a check failed; 2 wrong usage or a scene that cannot be read;\n"
-         "3 input, output or display error; 130 Ctrl-C; 143 SIGTERM.\n";
+         "3 input, output or display error; 130 Ctrl-C; 128 and its number: another signal.\n";
 }
 
 /// Throws if a word that was not taken for a command must have been meant as one.

@@ -33,12 +33,23 @@ struct Job {
   RenderOptions options{};
   Film film{};  ///< to go on from; empty: none
   RenderScene compiled{};
-  RenderResult result{};
-  FinishedPicture picture{};
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
+};
+
+/// What a render has come to, at its end or when it is asked for in between.
+struct Outcome {
+  const RenderResult& result;
+  FinishedPicture picture;
   bool rare_bright_paths = false;
 };
+
+Outcome outcome_of(const Job& job, const RenderResult& result) {
+  Outcome outcome{result, finished_picture(result)};
+  outcome.rare_bright_paths = has_rare_bright_paths(outcome.picture.estimate, outcome.picture.totals.least_taken,
+                                                    chance_of_caustics(job.loaded.scene, job.compiled));
+  return outcome;
+}
 
 /// Tells the user if the film has more samples than asked for already, so that it is written as it is.
 void check_if_complete(const Job& job) {
@@ -85,63 +96,39 @@ std::string losses(const FilmTotals& sum) {
   return text + fmt::format(", {:.2g} % of the throughput cut at the longest path", 100 * sum.cut_throughput);
 }
 
-std::string outcome(const Job& job) {
-  const RenderResult& r = job.result;
-  const RenderProgress end{job.picture.spp, r.seconds,
+std::string summary(const Outcome& outcome) {
+  const RenderResult& r = outcome.result;
+  const RenderProgress end{outcome.picture.spp, r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
-                           job.picture.estimate.relative_error};
+                           outcome.picture.estimate.relative_error};
   const std::string clean =
       r.clean ? fmt::format(", filtered to {:.2g} in {:.2g} s", r.clean->relative_error, r.seconds_clean) : "";
-  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + clean + losses(job.picture.totals);
+  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + clean + losses(outcome.picture.totals);
 }
 
-void render(Job& job, const SignalWatch& signals) {
-  const Clock::time_point start = Clock::now();
-  job.compiled = compile(job.loaded.scene);
-  job.seconds_build = seconds_since(start);
-  const bool counted = *job.options.spp < most_samples;
-  ProgressReport report(job.command.progress, {totals(job.film).least_taken, counted ? *job.options.spp : 0,
-                                               job.command.time_limit, job.command.target_error});
-  const auto progress = [&](const RenderProgress& now) {
-    report.show(now);
-    return signals.received() == 0;
+RunFigures figures(const Job& job, const Outcome& outcome) {
+  return {job.loaded.name,   job.loaded.scene,         job.compiled,
+          outcome.result,    outcome.picture,          job.samples_before,
+          job.seconds_build, seconds_since(job.start), outcome.rare_bright_paths};
+}
+
+/// Writes all that can be written; false if something could not. at_end: also what goes to standard output.
+bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
+  const Film& film = outcome.result.film;
+  const auto embedded = [&](const std::filesystem::path& file) {
+    return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, film, file),
+                    embedded_stats_text(figures(job, outcome))};
   };
-  try {
-    job.result = render(job.compiled, job.options, progress, std::move(job.film));
-  } catch (const std::bad_alloc&) {
-    const Region& r = *job.options.region;
-    const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
-    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB", r.width(), r.height(),
-                              1e-9 * bytes * r.width() * r.height()));
-  }
-  job.picture = finished_picture(job.result);
-  job.rare_bright_paths = has_rare_bright_paths(job.picture.estimate, job.picture.totals.least_taken,
-                                                chance_of_caustics(job.loaded.scene, job.compiled));
-  report.finish(outcome(job));
-}
-
-RunFigures figures(const Job& job) {
-  return {job.loaded.name,      job.loaded.scene,   job.compiled,      job.result,
-          job.picture,          job.samples_before, job.seconds_build, seconds_since(job.start),
-          job.rare_bright_paths};
-}
-
-/// Writes all that can be written; false if something could not.
-bool write(const Job& job) {
-  const auto embedded = [&job](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, job.result.film, file),
-                    embedded_stats_text(figures(job))};
-  };
-  const auto layers = [&job] { return layers_of(job.compiled, job.result.film, job.result.kernels); };
-  const CleanPicture* clean = job.result.clean ? &*job.result.clean : nullptr;
-  auto problems = write_images({job.result.film, job.picture.image, job.loaded.scene.display, embedded, layers, clean},
+  const auto layers = [&] { return layers_of(job.compiled, film, outcome.result.kernels); };
+  const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
+  auto problems = write_images({film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean},
                                job.command.outputs);
   const std::filesystem::path& stats = job.command.stats;
   try {
-    if (stats == "-")
-      write_standard_output(stats_text(figures(job)));
-    else if (!stats.empty())
-      write_text_file(stats, stats_text(figures(job)));
+    if (stats == "-" && at_end)
+      write_standard_output(stats_text(figures(job, outcome)));
+    else if (stats != "-" && !stats.empty())
+      write_text_file(stats, stats_text(figures(job, outcome)));
   } catch (const std::exception& error) {
     problems.emplace_back(error.what());
   }
@@ -149,18 +136,54 @@ bool write(const Job& job) {
   return problems.empty();
 }
 
+/// Writes the picture so far in the middle of a render. What cannot be written is told, and the render goes on.
+void write_so_far(const Job& job, const RenderResult& result) {
+  try {
+    if (totals(result.film).most_taken > 0) write(job, outcome_of(job, result), false);
+  } catch (const std::exception& error) {
+    complain(std::string("SIGUSR1: the picture so far was not written: ") + error.what());
+  }
+}
+
+ProgressGoal goal_of(const Job& job) {
+  const bool counted = *job.options.spp < most_samples;
+  return {totals(job.film).least_taken, counted ? *job.options.spp : 0, job.command.time_limit,
+          job.command.target_error};
+}
+
+RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report) {
+  const Clock::time_point start = Clock::now();
+  job.compiled = compile(job.loaded.scene);
+  job.seconds_build = seconds_since(start);
+  const auto progress = [&](const RenderProgress& now) {
+    report.show(now);
+    return signals.received() == 0;
+  };
+  job.options.breaks.result_due = [&signals] { return signals.take_save_request(); };
+  job.options.breaks.take_result = [&job](const RenderResult& result) { write_so_far(job, result); };
+  try {
+    return render(job.compiled, job.options, progress, std::move(job.film));
+  } catch (const std::bad_alloc&) {
+    const Region& r = *job.options.region;
+    const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
+    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB", r.width(), r.height(),
+                              1e-9 * bytes * r.width() * r.height()));
+  }
+}
+
 /// Prints warnings, also with -q, which only turns progress off.
-void warn(const Job& job) {
-  if (job.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
-  if (job.options.clean && !job.result.clean)
+void warn(const Job& job, const Outcome& outcome) {
+  const RenderResult& result = outcome.result;
+  if (outcome.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
+  if (job.options.clean && !result.clean)
     complain("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
-  const FilmTotals& sum = job.picture.totals;
+  const FilmTotals& sum = outcome.picture.totals;
   if (sum.rejected == 0) return;
   std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
                      " samples were rejected: not finite, or brighter than any light of the scene explains";
-  for (const RejectedSample& r : job.result.first_rejected)
-    text += (&r == job.result.first_rejected.data() ? "; the first are (pixel and index) " : " ") +
-            std::to_string(r.x) + "," + std::to_string(r.y) + "," + std::to_string(r.sample);
+  for (const RejectedSample& r : result.first_rejected)
+    text += (&r == result.first_rejected.data() ? "; the first are (pixel and index) " : " ") + std::to_string(r.x) +
+            "," + std::to_string(r.y) + "," + std::to_string(r.sample);
   complain(text);
 }
 
@@ -185,14 +208,17 @@ int run(const RenderCommand& command) {
   Job job{command};
   prepare(job);
   const SignalWatch signals;
-  render(job, signals);
-  const int code = job.result.interrupted ? 128 + signals.received() : 0;
-  if (job.picture.totals.most_taken == 0) {
+  ProgressReport report(command.progress, goal_of(job));
+  const RenderResult result = render(job, signals, report);
+  const Outcome outcome = outcome_of(job, result);
+  report.finish(summary(outcome));
+  const int code = result.interrupted ? 128 + signals.received() : 0;
+  if (outcome.picture.totals.most_taken == 0) {
     complain("interrupted before the first samples: nothing written");
     return code;
   }
-  warn(job);
-  return write(job) ? code : output_failed;
+  warn(job, outcome);
+  return write(job, outcome) ? code : output_failed;
 }
 
 }  // namespace tyndall

@@ -1,10 +1,15 @@
 #pragma once
 
-/// Ctrl-C and SIGTERM while rendering: the first one asks for an end, a second one ends at once.
+/// Signals while rendering: those that ask for an end, and the one that asks for the picture so far.
 namespace tyndall {
 
-/// Watches SIGINT and SIGTERM while it lives, also where they were ignored (shells do that to background jobs), and
-/// ignores SIGPIPE so that a closed standard error ends no render.
+/// Watches signals while it lives. The first of SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is gone), SIGXCPU (the
+/// processor time is used up), SIGUSR2 and SIGALRM (batch systems send them before the end) asks for an end; a SIGINT
+/// or SIGTERM after that ends at once. SIGUSR1 asks for the picture so far. SIGPIPE is ignored, so that a closed
+/// standard error ends no render.
+///
+/// What was ignored when the program started stays ignored (nohup), but for SIGINT: shells ignore it for all jobs in
+/// the background, which "kill -INT" must still reach.
 class SignalWatch {
  public:
   SignalWatch();
@@ -12,8 +17,11 @@ class SignalWatch {
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
-  /// The signal that came, or 0.
+  /// The signal that asked for an end, or 0.
   int received() const;
+  /// Whether SIGUSR1 came since the last call of take_save_request().
+  bool save_requested() const;
+  bool take_save_request() const;
 };
 
 }  // namespace tyndall

@@ -120,6 +120,8 @@ class Progression {
 
   const Film& film() const { return film_; }
   Film take_film() { return std::move(film_); }
+  /// Gives back the film that take_film() returned, unchanged.
+  void put_back(Film film) { film_ = std::move(film); }
   /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass is there.
   std::uint32_t taken() const { return schedule_.taken(); }
   /// Whether there is something to show.

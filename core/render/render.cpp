@@ -5,7 +5,9 @@
 #include "core/render/plan.h"
 #include "core/render/progression.h"
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -43,11 +45,13 @@ class CleanView {
     if (cleaned_ != picture.taken() && seconds_ <= picture.tally().seconds / 4) make(picture.film(), picture.taken());
     return cleaned_ == picture.taken() && clean_.relative_error <= target_;
   }
+  /// Gives the clean view of the film to the result.
   void finish(const Film& film, std::uint32_t taken, bool whole, RenderResult& result) {
     if (!wanted_ || totals(film).least_taken < least_clean_spp) return;
     if (!whole || cleaned_ != taken) make(film, taken);
     result.clean = std::move(clean_);
     result.seconds_clean = seconds_;
+    cleaned_ = 0;
   }
   /// Estimated relative error of the newest clean view; infinite before the first.
   double error() const { return clean_.relative_error; }
@@ -69,47 +73,100 @@ class CleanView {
   double seconds_ = 0;
 };
 
+/// A render from its first pass to its result.
+class Rendering {
+ public:
+  Rendering(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film)
+      : options_(options),
+        progress_(progress),
+        kernels_(kernels_of(options)),
+        limits_{options.spp, options.time_limit, options.clean ? 0 : options.target_error},
+        view_(scene) {
+    const ProgressionOptions how = progression_options(options, progress != nullptr);
+    const Region whole{0, 0, scene.width, scene.height};
+    if (film.pixels.empty())
+      picture_.start(scene, options.region.value_or(whole), options.first_sample, how);
+    else
+      picture_.go_on(std::move(film), how);
+    crew_.emplace(options.threads);
+    engine_.emplace(RenderEngine{*crew_, kernels_, view_.view()});
+    clean_.emplace(options, *engine_);
+  }
+
+  RenderResult run() {
+    while (!finished()) {
+      give_up_ = false;
+      const bool whole = picture_.run_pass(*engine_, limits_, give_up_, [&] { look(); });
+      if (whole) look();
+      if (!finished()) take_breaks();
+    }
+    return result();
+  }
+
+ private:
+  /// Limits are looked at between passes only, also where a pass is interrupted for a break.
+  bool finished() {
+    return stopped_ || (!picture_.within_pass() && (picture_.reached(limits_) || clean_->is_good(picture_)));
+  }
+
+  /// Tells how far the picture is, and finds out what is to be done. Called while a pass runs, and after each.
+  void look() {
+    const RenderBreaks& breaks = options_.breaks;
+    film_due_ = film_due_ || (breaks.film_due && breaks.film_due());
+    result_due_ = result_due_ || (breaks.result_due && breaks.result_due());
+    if (progress_) report();
+    if (film_due_ || result_due_ || stopped_) give_up_ = true;
+  }
+  void report() {
+    const PassTally tally = picture_.tally();
+    const double rate = tally.seconds > 0 ? millions(tally.rays) / tally.seconds : 0;
+    const double error = options_.clean && options_.target_error > 0 ? clean_->error() : picture_.error();
+    if (!progress_({picture_.taken(), tally.seconds, rate, error})) stopped_ = true;
+  }
+
+  void take_breaks() {
+    if (std::exchange(film_due_, false)) options_.breaks.take_film(picture_.film());
+    if (!std::exchange(result_due_, false)) return;
+    RenderResult so_far = result();
+    options_.breaks.take_result(so_far);
+    picture_.put_back(std::move(so_far.film));
+  }
+
+  /// Takes the film away from the picture.
+  RenderResult result() {
+    RenderResult result;
+    const PassTally tally = picture_.tally();
+    result.rays = tally.rays, result.shadow_rays = tally.shadow_rays;
+    result.seconds = tally.seconds;
+    result.threads = crew_->size();
+    result.kernels = kernels_;
+    result.interrupted = stopped_;
+    if (picture_.estimate_is_new()) result.estimate = picture_.estimate();
+    const bool whole = !picture_.within_pass();
+    result.film = picture_.take_film();
+    clean_->finish(result.film, picture_.taken(), whole, result);
+    result.first_rejected = find_rejected(kernels_, view_.view(), result.film);
+    return result;
+  }
+
+  const RenderOptions& options_;
+  const ProgressCallback& progress_;
+  Kernels kernels_;
+  Limits limits_;
+  SceneViewOf view_;
+  Progression picture_;
+  std::optional<Crew> crew_;
+  std::optional<RenderEngine> engine_;
+  std::optional<CleanView> clean_;
+  std::atomic<bool> give_up_ = false;
+  bool stopped_ = false, film_due_ = false, result_due_ = false;
+};
+
 }  // namespace
 
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress,
                     Film film) {
-  RenderResult result;
-  result.kernels = kernels_of(options);
-  Progression picture;
-  const ProgressionOptions how = progression_options(options, progress != nullptr);
-  if (film.pixels.empty())
-    picture.start(scene, options.region.value_or(Region{0, 0, scene.width, scene.height}), options.first_sample, how);
-  else
-    picture.go_on(std::move(film), how);
-  Crew crew(options.threads);
-  const SceneViewOf view(scene);
-  const Limits limits{options.spp, options.time_limit, options.clean ? 0 : options.target_error};
-  const RenderEngine engine{crew, result.kernels, view.view()};
-  CleanView clean(options, engine);
-  std::atomic<bool> stop = false;
-  const auto report = [&] {
-    if (!progress) return;
-    const PassTally tally = picture.tally();
-    const double rate = tally.seconds > 0 ? millions(tally.rays) / tally.seconds : 0;
-    const double error = options.clean && options.target_error > 0 ? clean.error() : picture.error();
-    if (!progress({picture.taken(), tally.seconds, rate, error})) stop = true;
-  };
-  while (!stop && !picture.reached(limits) && !clean.is_good(picture)) {
-    const bool whole = picture.run_pass(engine, limits, stop, report);
-    if (whole) report();
-  }
-  const PassTally tally = picture.tally();
-  result.rays = tally.rays, result.shadow_rays = tally.shadow_rays;
-  result.seconds = tally.seconds;
-  result.threads = crew.size();
-  result.interrupted = stop;
-  if (picture.estimate_is_new()) result.estimate = picture.estimate();
-  const bool whole = !picture.within_pass();
-  const std::uint32_t taken = picture.taken();
-  result.film = picture.take_film();
-  clean.finish(result.film, taken, whole, result);
-  result.first_rejected = find_rejected(result.kernels, view.view(), result.film);
-  return result;
+  return Rendering(scene, options, progress, std::move(film)).run();
 }
 
 FinishedPicture finished_picture(const RenderResult& result) {

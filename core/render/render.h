@@ -16,6 +16,18 @@
 /// Blocking renders: for the command line, tests and charts.
 namespace tyndall {
 
+struct RenderResult;
+
+/// What a caller does with a picture while it is rendered. About every 50 ms it is asked whether that is due. If it is,
+/// the threads stop within one unit of work (2 ms), wait until it is done on the calling thread, and go on. That
+/// changes no sample. Each may be empty.
+struct RenderBreaks {
+  std::function<bool()> film_due;
+  std::function<void(const Film&)> take_film;
+  std::function<bool()> result_due;
+  std::function<void(const RenderResult&)> take_result;  ///< gets what render() would return now
+};
+
 struct RenderOptions {
   int threads = 0;                 ///< 0: all cores
   std::string isa;                 ///< "": the best
@@ -28,6 +40,7 @@ struct RenderOptions {
   bool clean = false;       ///< make the clean view, too; needs 2 samples a pixel
   bool adaptive = false;    ///< more samples where the error is larger (see plan.h); spp is then their mean
   int tile = 0;             ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
+  RenderBreaks breaks{};
 };
 
 struct RenderProgress {

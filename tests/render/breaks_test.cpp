@@ -1,0 +1,59 @@
+#include "core/render/render.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+RenderScene small_scene() {
+  Scene scene = load_scene("showroom").scene;
+  scene.width = 100, scene.height = 60;
+  return compile(scene);
+}
+
+}  // namespace
+
+TEST_CASE("breaks: films and results that are taken in between change no bit, also with adaptive sampling") {
+  const RenderScene scene = small_scene();
+  for (const bool adaptive : {false, true}) {
+    CAPTURE(adaptive);
+    RenderOptions options;
+    options.threads = 2;
+    options.spp = 200;
+    options.adaptive = adaptive;
+    const RenderResult plain = render(scene, options);
+    int films = 0, results = 0;
+    std::uint64_t last = 0;
+    options.breaks.film_due = options.breaks.result_due = [] { return true; };
+    options.breaks.take_film = [&](const Film& film) {
+      const FilmTotals sum = totals(film);
+      CHECK(sum.samples >= last);
+      last = sum.samples;
+      ++films;
+    };
+    options.breaks.take_result = [&](const RenderResult& result) {
+      CHECK(totals(result.film).samples == last);
+      CHECK_FALSE(result.interrupted);
+      ++results;
+    };
+    const RenderResult broken = render(scene, options);
+    CHECK(films > 3);
+    CHECK(results == films);
+    CHECK(broken.film == plain.film);
+    CHECK(broken.rays == plain.rays);
+  }
+}
+
+TEST_CASE("breaks: a time limit still ends a render between passes, so that all pixels have as many samples") {
+  const RenderScene scene = small_scene();
+  RenderOptions options;
+  options.threads = 2;
+  options.time_limit = 0.3;
+  options.breaks.film_due = [] { return true; };
+  options.breaks.take_film = [](const Film&) {};
+  const FilmTotals sum = totals(render(scene, options).film);
+  CHECK(sum.least_taken > 0);
+  CHECK(sum.least_taken == sum.most_taken);
+}
