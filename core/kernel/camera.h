@@ -17,15 +17,21 @@ TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens,
   return {splat<F>(c.center) + offset, normalize(target - offset), time, IntOf<F>(from_nowhere)};
 }
 
-/// The ray of one sample of a pixel.
+/// The ray of one sample through the point (x, y) of the picture.
 template <class F>
-TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& dice) {
-  const Pair<F> in_pixel = dice.pair(dimension::pixel);
+TYNDALL_INLINE Ray<F> ray_through(const SceneView& s, F x, F y, const Dice<F>& dice) {
   Pair<F> lens{F(0.0f), F(0.0f)};
   if (s.needs.lens) lens = in_disc(dice.pair(dimension::lens));
   F time = splat<F>(s.camera.shutter_open);
   if (s.needs.shutter) time = mul_add(dice.one(dimension::time), splat<F>(s.camera.shutter_length), time);
-  return camera_ray(s.camera, x + in_pixel.x, y + in_pixel.y, lens, time);
+  return camera_ray(s.camera, x, y, lens, time);
+}
+
+/// The ray of one sample of the pixel (x, y), if it has no glints.
+template <class F>
+TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& dice) {
+  const Pair<F> in_pixel = dice.pair(dimension::pixel);
+  return ray_through(s, x + in_pixel.x, y + in_pixel.y, dice);
 }
 
 inline constexpr int most_unit_pixels = 4096;
@@ -43,6 +49,7 @@ struct UnitSamples {
   std::uint32_t round;  ///< its next sample, counted from the pixel's first
   std::uint32_t rounds;
   std::uint32_t next_finish;  ///< the round before which no pixel has all its samples
+  Glints glints;              ///< those in the rows of the tile
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
@@ -70,7 +77,8 @@ struct UnitSamples {
   }
 };
 
-TYNDALL_INLINE void list_samples(const Unit& unit, UnitSamples& list) {
+TYNDALL_INLINE void list_samples(const SceneView& s, const Unit& unit, UnitSamples& list) {
+  list.glints = glints_in_rows({s.glints, s.glints + s.glint_count}, unit.tile.y0, unit.tile.y1);
   list.pixels = 0;
   for (int y = unit.tile.y0; y < unit.tile.y1; ++y)
     for (int x = unit.tile.x0; x < unit.tile.x1; ++x) {
@@ -97,7 +105,7 @@ template <class F>
 struct CameraQueue {
   static constexpr int lanes = lanes_of<F>;
   alignas(64) float ox[lanes + 1], oy[lanes + 1], oz[lanes + 1], dx[lanes + 1], dy[lanes + 1], dz[lanes + 1];
-  alignas(64) float time[lanes + 1];
+  alignas(64) float time[lanes + 1], weight[lanes + 1];
   alignas(64) std::int32_t low[lanes + 1], high[lanes + 1];
   std::int32_t slot[lanes + 1];  ///< 2 · pixel within the tile + half
   int next = 0, end = 0;
@@ -121,10 +129,14 @@ template <class F>
     queue.slot[k] = 2 * samples.place(samples.pixel) + static_cast<std::int32_t>(index[k] & 1u);
   }
   const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sampler);
-  const Ray<F> ray = sample_ray(s, load<F>(x), load<F>(y), dice);
+  Pair<F> in_pixel = dice.pair(dimension::pixel);
+  F weight = F(1.0f);
+  if (samples.glints.first != samples.glints.last)
+    weight = aim_at_glints(samples.glints, load<F>(x), load<F>(y), in_pixel);
+  const Ray<F> ray = ray_through(s, load<F>(x) + in_pixel.x, load<F>(y) + in_pixel.y, dice);
   store(queue.ox, ray.origin.x), store(queue.oy, ray.origin.y), store(queue.oz, ray.origin.z);
   store(queue.dx, ray.direction.x), store(queue.dy, ray.direction.y), store(queue.dz, ray.direction.z);
-  store(queue.time, ray.time);
+  store(queue.time, ray.time), store(queue.weight, weight);
   store(queue.low, as_int(dice.low)), store(queue.high, as_int(dice.high));
 }
 

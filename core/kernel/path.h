@@ -29,6 +29,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
                        take(queue.dz, p.ray.direction.z)};
     p.ray.time = take(queue.time, p.ray.time);
     p.slot = take(queue.slot, p.slot);
+    if (s.has_chains()) p.weight = take(queue.weight, p.weight);
     p.dice.low = as_uint(take(queue.low, as_int(p.dice.low)));
     p.dice.high = as_uint(take(queue.high, as_int(p.dice.high)));
     queue.next += __builtin_popcount(fresh);
@@ -85,7 +86,8 @@ template <class F>
 TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes) {
   using I = IntOf<F>;
   using Queue = ChainQueue<F>;
-  const Vec3<F> heading = select(e.medium, p.ray.direction, e.incident.facing), carried = p.throughput * e.colour;
+  const Vec3<F> heading = select(e.medium, p.ray.direction, e.incident.facing),
+                carried = p.weight * (p.throughput * e.colour);
   const F numbers[Queue::numbers] = {e.point.x, e.point.y, e.point.z, heading.x,  heading.y, heading.z,
                                      carried.x, carried.y, carried.z, p.ray.time, e.g};
   const I words[Queue::words] = {e.from,
@@ -167,12 +169,16 @@ struct UnitFilm {
 
 /// Adds the samples of finished lanes to the unit's pixels; max_depth ended the lanes in `cut`.
 template <class F>
-TYNDALL_INLINE void finish(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, const UnitFilm& film) {
+TYNDALL_INLINE void finish(const auto& s, const Paths<F>& p, std::uint32_t finished, std::uint32_t cut,
+                           const UnitFilm& film) {
   if (!finished) return;
   alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>], carried[lanes_of<F>];
   alignas(64) std::int32_t slot[lanes_of<F>];
-  store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slot, p.slot);
-  store(carried, max_component(p.throughput));
+  Vec3<F> sample = p.radiance;
+  F left = max_component(p.throughput);
+  if (s.has_chains()) sample = p.weight * sample, left = p.weight * left;
+  store(r, sample.x), store(g, sample.y), store(b, sample.z), store(slot, p.slot);
+  store(carried, left);
   const std::uint32_t straight = film.emission ? p.straight : 0;
   for (; finished; finished &= finished - 1) {
     const int lane = __builtin_ctz(finished);
@@ -224,7 +230,7 @@ template <class F>
 TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm& film) {
   UnitCounts& counts = film.counts;
   UnitSamples samples;
-  list_samples(unit, samples);
+  list_samples(s, unit, samples);
   CameraQueue<F> queue;
   ChainQueue<F> chains{};
   Paths<F> p{};
@@ -241,7 +247,7 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm&
       const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shadow_rays)) & p.alive;
       counts.rays += shadow_rays;
       counts.shadow_rays += shadow_rays;
-      finish(p, p.alive & ~survivors, bits(cut), film);
+      finish(s, p, p.alive & ~survivors, bits(cut), film);
       p.alive = survivors;
     }
     if constexpr (ChainQueue<F>::waits) {

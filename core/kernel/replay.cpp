@@ -88,12 +88,12 @@ void tell_chains(const SceneView& s, Paths<float> before, const Paths<float>& af
 PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
   const Unit unit{{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1};
   UnitSamples samples;
-  list_samples(unit, samples);
+  list_samples(s, unit, samples);
   CameraQueue<float> queue;
   Paths<float> p{};
   p.dice.sampler = s.sampler;
   take_samples(p, queue, samples, s, unit);
-  PathReplay path{p.ray.origin, p.ray.time, {}, {}};
+  PathReplay path{p.ray.origin, p.ray.time, {}, {}, s.has_chains() ? p.weight : 1.0f};
   while (p.alive) {
     Meeting meeting = meet(s, p);
     bool cut = false;
@@ -101,14 +101,14 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
     const bool survives = take_step(s, p, cut);
     PathVertex& v = meeting.vertex;
     tell_chains(s, before, p, v);
-    v.radiance = p.radiance;
+    v.radiance = path.weight * p.radiance, v.by_chains = path.weight * v.by_chains;
     v.fate = fate_of(meeting, p, survives, cut);
     v.inside = v.met == Met::surface && survives && p.ray.from >= 0 &&
                (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
     path.vertices.push_back(v);
     p.alive = survives ? 1 : 0;
   }
-  path.radiance = p.radiance;
+  path.radiance = path.weight * p.radiance;
   return path;
 }
 

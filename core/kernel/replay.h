@@ -20,7 +20,7 @@ struct PathVertex {
   float distance = 0;         ///< from the vertex before
   Vec3f direction;            ///< in which it came, unit
   Vec3f point;                ///< in RenderScene coordinates
-  Vec3f throughput;           ///< with which it came
+  Vec3f throughput;           ///< with which it came; 1 at the camera
   Vec3f radiance;             ///< gathered so far, this vertex included
   Vec3f by_chains;            ///< the part of it that exact chains from here have added
   float chance = 1;  ///< weight of a lamp's light that was found here; chains, which find it too, count for the rest
@@ -31,7 +31,8 @@ struct PathReplay {
   Vec3f origin;  ///< where the camera ray starts
   float time = 0;
   std::vector<PathVertex> vertices;
-  Vec3f radiance;  ///< the sample, bit for bit what the scalar kernel gives to the film
+  Vec3f radiance;    ///< the sample, bit for bit what the scalar kernel gives to the film
+  float weight = 1;  ///< of the sample, see glints.h; the radiances of all vertices include it
 };
 
 /// Follows sample number `sample` of pixel (x, y), in full-image coordinates. It takes the same steps as the kernels.

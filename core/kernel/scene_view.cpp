@@ -103,6 +103,9 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.light_sampling = s.light_sampling, v.integrator = s.integrator;
   v.needs = s.needs;
   v.kernel = s.kernel;
+  glints_ = find_glints(v);
+  v.glint_count = static_cast<int>(glints_.size());
+  v.glints = glints_.data();
 }
 
 }  // namespace tyndall

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/render_scene.h"
+#include "core/kernel/glints.h"
 
 /// A RenderScene as plain pointers, which is all that kernels read. They must not call a container's member functions:
 /// the linker keeps one copy of each for all files, and one with wide instructions would crash older CPUs.
@@ -71,6 +72,8 @@ struct SceneView {
   const std::int32_t *near_medium, *near_light;
   const float* near_probability;  ///< at medium · number of lights + light
   ChainView chains;
+  int glint_count;
+  const Glint* glints;
   const float* gradients;
   int max_depth;
   std::uint32_t seed;
@@ -111,6 +114,7 @@ class SceneViewOf {
 
  private:
   std::vector<TextureView> textures_;
+  std::vector<Glint> glints_;
   SceneView view_;
 };
 

@@ -36,8 +36,9 @@ FilmPixel replayed_pixel(const RenderScene& scene, const PathReplay& path, std::
 TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
   std::map<Fate, int> fates;
   std::map<Met, int> met;
-  for (const char* name : {"showroom", "next-week", "cornell-smoke", "bouncing-spheres", "hollow-glass", "earth",
-                           "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
+  for (const char* name :
+       {"showroom", "next-week", "cornell-smoke", "bouncing-spheres", "hollow-glass", "earth", "stress-caustic-mirror",
+        "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
     Scene settings = small_scene(name, 24, 18, 1);
     settings.render.max_depth = 12;
     const RenderScene scene = compile(settings);

@@ -1,8 +1,0 @@
-// The kernels in double precision, for any CPU. They are slow, and show how much rounding changes in the others.
-#include "core/kernel/entry.h"
-
-namespace tyndall {
-
-Kernels double_kernels() { return full_kernel_of<double>("double"); }
-
-}  // namespace tyndall
