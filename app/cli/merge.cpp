@@ -9,9 +9,9 @@ namespace tyndall {
 namespace {
 
 /// Writes the films' files and returns the exit code.
-int write(const Film& film, const Scene& scene, const std::vector<std::filesystem::path>& files,
+int write(const Film& film, const Scene& scene, const FilmLabel& label, const std::vector<std::filesystem::path>& files,
           const std::optional<CleanOfFilm>& clean) {
-  const std::vector<std::string> problems = write_film(film, scene, files, clean);
+  const std::vector<std::string> problems = write_film(film, scene, label, files, clean);
   for (const std::string& problem : problems) complain(problem);
   return problems.empty() ? 0 : output_failed;
 }
@@ -24,6 +24,7 @@ int run(const MergeCommand& command) {
   for (const auto& file : command.outputs) check_can_write(file);
   std::vector<FilmPart> frames;
   std::optional<Scene> scene;
+  FilmLabel label;
   for (const auto& file : command.parts) {
     StoredFilm stored = read_stored_frame(file);
     if (stored.scene.render.adaptive)
@@ -31,13 +32,14 @@ int run(const MergeCommand& command) {
     if (scene && !same_samples(*scene, stored.scene))
       throw UsageError(file.string() + ": found a film of another scene or other settings than in " +
                        command.parts.front().string());
+    label = scene ? merged_label(label, stored.label) : stored.label;
     if (!scene) scene = stored.scene;
     frames.push_back(std::move(stored.part));
   }
   const Film film = merge(frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
   std::optional<CleanOfFilm> clean;
   if (command.denoise) clean = clean_view(film, *scene, command.parts.front().string());
-  return write(film, *scene, command.outputs, clean);
+  return write(film, *scene, label, command.outputs, clean);
 }
 
 int run(const DenoiseCommand& command) {
@@ -51,7 +53,7 @@ int run(const DenoiseCommand& command) {
   const StoredFilm stored = read_stored_film(command.film);
   const Film& film = stored.part.film;
   const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
-  const int code = write(film, stored.scene, command.outputs, clean);
+  const int code = write(film, stored.scene, stored.label, command.outputs, clean);
   const std::string stats = clean_stats_text(film, clean.picture, clean.seconds);
   if (command.stats == "-")
     write_standard_output(stats);

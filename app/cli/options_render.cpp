@@ -1,5 +1,6 @@
 #include "app/cli/options_render.h"
 
+#include "app/cli/render_setup.h"
 #include "app/cli/setting_options.h"
 #include "core/base/crew.h"
 #include "core/render/clean_film.h"
@@ -51,7 +52,17 @@ void add_output(CLI::App& app, RenderCommand& command) {
             "write no image; print the path of this sample of this pixel,\n"
             "vertex by vertex, as --isa scalar follows it",
             [&](Text t) { command.replay = read_sample_key(t); });
-  app.add_flag("--resume", command.resume, "go on from the film in the .exr output, if there is one");
+  add_value(app, "--checkpoint", "SECONDS",
+            "how often the film of an .exr output is written meanwhile, so that\n"
+            "a render that was killed can go on; 0: never\n"
+            "[the longer of 30 s and 100 times what the last one took]",
+            [&](Text t) { command.checkpoint = read_number(t, at_least(0), "a number of seconds >= 0"); });
+  app.add_flag("--fresh", command.fresh,
+               "start over; without it the same command goes on from the\n"
+               "unfinished film in its .exr output");
+  app.add_flag("--resume", command.resume,
+               "insist on going on: fail where the .exr output holds no film, also\n"
+               "a finished one, of this scene and these settings");
   add_progress(app, command.progress);
 }
 
@@ -60,6 +71,8 @@ void refuse_conflicts(const RenderCommand& c) {
   if (c.denoise && c.spp && *c.spp < least_clean_spp)
     throw UsageError("--denoise: found --spp " + std::to_string(*c.spp) + ", expected at least " +
                      std::to_string(least_clean_spp) + " samples a pixel");
+  if (c.fresh && c.resume) throw UsageError("--fresh and --resume exclude each other: one starts over, one goes on");
+  if (c.checkpoint > 0 && kept_film(c).empty()) throw UsageError("--checkpoint needs an output that ends in .exr");
   if (!c.samples) return;
   if (c.denoise) throw UsageError("--samples and --denoise exclude each other: a part is filtered when it is merged");
   const char* other = c.spp                  ? "--spp"

@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/cli/signals.h"
+#include "app/files/checkpoint.h"
 #include "app/files/film_files.h"
 #include "app/files/layers.h"
 #include "app/files/open_scene.h"
@@ -31,7 +32,8 @@ struct Job {
   Clock::time_point start = Clock::now();
   LoadedScene loaded{};
   RenderOptions options{};
-  Film film{};  ///< to go on from; empty: none
+  Kernels kernels{};
+  RenderStart begin{};
   RenderScene compiled{};
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
@@ -41,23 +43,15 @@ struct Job {
 struct Outcome {
   const RenderResult& result;
   FinishedPicture picture;
+  bool unfinished = false;  ///< more samples are to come
   bool rare_bright_paths = false;
 };
 
-Outcome outcome_of(const Job& job, const RenderResult& result) {
-  Outcome outcome{result, finished_picture(result)};
+Outcome outcome_of(const Job& job, const RenderResult& result, bool unfinished) {
+  Outcome outcome{result, finished_picture(result), unfinished};
   outcome.rare_bright_paths = has_rare_bright_paths(outcome.picture.estimate, outcome.picture.totals.least_taken,
                                                     chance_of_caustics(job.loaded.scene, job.compiled));
   return outcome;
-}
-
-/// Tells the user if the film has more samples than asked for already, so that it is written as it is.
-void check_if_complete(const Job& job) {
-  if (job.film.pixels.empty() || !job.options.spp) return;
-  const std::uint32_t taken = labelled_spp(job.film);
-  if (taken > *job.options.spp)
-    complain("--resume: the film has " + std::to_string(taken) + " samples a pixel already, more than the " +
-             std::to_string(*job.options.spp) + " asked for; it is written as it is");
 }
 
 /// Tells the user if an option asks for chains where the integrator does not look for any.
@@ -74,7 +68,7 @@ void prepare(Job& job) {
   check_image_names(command.outputs);
   if (is_image_output(command.stats))
     throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
-  find_kernels(command.isa);
+  job.kernels = find_kernels(command.isa);
   job.loaded = open_scene(command.scene);
   job.options = render_options(command, job.loaded);
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
@@ -82,9 +76,9 @@ void prepare(Job& job) {
   check_outputs(outputs, job.loaded.files);
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
-  job.film = film_to_resume(command, job.loaded, job.options);
-  job.samples_before = totals(job.film).samples;
-  check_if_complete(job);
+  job.begin = find_start(command, job.loaded, job.options, job.kernels);
+  job.samples_before = totals(job.begin.film).samples;
+  if (!job.begin.note.empty()) complain(job.begin.note);
   check_if_ignored(command, job.loaded.scene.render);
 }
 
@@ -112,12 +106,19 @@ RunFigures figures(const Job& job, const Outcome& outcome) {
           job.seconds_build, seconds_since(job.start), outcome.rare_bright_paths};
 }
 
+/// What an image or film at that place carries beside the picture.
+Embedded embedded_in(const Job& job, const Film& film, const std::filesystem::path& file, std::string stats,
+                     bool unfinished) {
+  return {embedded_scene(job.loaded.scene, job.loaded.folder, film, file),
+          std::move(stats),
+          {TYNDALL_VERSION, job.kernels.isa, unfinished}};
+}
+
 /// Writes all that can be written; false if something could not. at_end: also what goes to standard output.
 bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
   const Film& film = outcome.result.film;
   const auto embedded = [&](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(job.loaded.scene, job.loaded.folder, film, file),
-                    embedded_stats_text(figures(job, outcome))};
+    return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), outcome.unfinished);
   };
   const auto layers = [&] { return layers_of(job.compiled, film, outcome.result.kernels); };
   const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
@@ -139,15 +140,36 @@ bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
 /// Writes the picture so far in the middle of a render. What cannot be written is told, and the render goes on.
 void write_so_far(const Job& job, const RenderResult& result) {
   try {
-    if (totals(result.film).most_taken > 0) write(job, outcome_of(job, result), false);
+    if (totals(result.film).most_taken > 0) write(job, outcome_of(job, result, true), false);
   } catch (const std::exception& error) {
     complain(std::string("SIGUSR1: the picture so far was not written: ") + error.what());
   }
 }
 
+/// What is done while the render goes on: checkpoints, or saying that there are none, and SIGUSR1.
+RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressReport& report, Checkpoints& checkpoints) {
+  RenderBreaks breaks;
+  breaks.result_due = [&signals] { return signals.take_save_request(); };
+  breaks.take_result = [&job, &checkpoints](const RenderResult& result) {
+    checkpoints.finish();
+    write_so_far(job, result);
+  };
+  if (job.command.checkpoint == 0) return breaks;
+  const bool kept = !kept_film(job.command).empty();
+  breaks.film_due = [&checkpoints, &report, kept, said = false]() mutable {
+    if (const auto problem = checkpoints.problem()) report.say(*problem);
+    if (kept || said || !checkpoints.due()) return kept && checkpoints.due();
+    said = true;
+    report.say("nothing is kept before the end; with an output that ends in .exr a killed render can go on");
+    return false;
+  };
+  breaks.take_film = [&checkpoints](const Film& film) { checkpoints.take(film); };
+  return breaks;
+}
+
 ProgressGoal goal_of(const Job& job) {
   const bool counted = *job.options.spp < most_samples;
-  return {totals(job.film).least_taken, counted ? *job.options.spp : 0, job.command.time_limit,
+  return {totals(job.begin.film).least_taken, counted ? *job.options.spp : 0, job.command.time_limit,
           job.command.target_error};
 }
 
@@ -159,10 +181,12 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
     report.show(now);
     return signals.received() == 0;
   };
-  job.options.breaks.result_due = [&signals] { return signals.take_save_request(); };
-  job.options.breaks.take_result = [&job](const RenderResult& result) { write_so_far(job, result); };
+  Checkpoints checkpoints(kept_film(job.command), job.command.checkpoint, [&job](const Film& film) {
+    return embedded_in(job, film, kept_film(job.command), "", true);
+  });
+  job.options.breaks = breaks_of(job, signals, report, checkpoints);
   try {
-    return render(job.compiled, job.options, progress, std::move(job.film));
+    return render(job.compiled, job.options, progress, std::move(job.begin.film));
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
     const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
@@ -207,10 +231,11 @@ int run(const RenderCommand& command) {
   if (command.replay) return print_replay(command);
   Job job{command};
   prepare(job);
+  if (job.begin.as_asked) return 0;
   const SignalWatch signals;
   ProgressReport report(command.progress, goal_of(job));
   const RenderResult result = render(job, signals, report);
-  const Outcome outcome = outcome_of(job, result);
+  const Outcome outcome = outcome_of(job, result, result.interrupted);
   report.finish(summary(outcome));
   const int code = result.interrupted ? 128 + signals.received() : 0;
   if (outcome.picture.totals.most_taken == 0) {

@@ -1,11 +1,14 @@
 #include "app/cli/render_setup.h"
 
+#include "app/cli/setting_options.h"
 #include "app/files/film_files.h"
 #include "app/files/outputs.h"
 #include "core/base/text.h"
+#include "core/render/plan.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tyndall {
 namespace {
@@ -43,8 +46,6 @@ Kernels find_kernels(const std::string& isa) {
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded) {
   const bool adaptive = loaded.scene.render.adaptive;
   if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
-  if (adaptive && command.resume)
-    refuse_adaptive("--resume", "a film file does not say how many each pixel was to get");
   if (command.region) check_region(*command.region, loaded.scene);
   RenderOptions options;
   options.threads = command.threads;
@@ -59,22 +60,128 @@ RenderOptions render_options(const RenderCommand& command, const LoadedScene& lo
   return options;
 }
 
-Film film_to_resume(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options) {
-  if (!command.resume) return {};
-  const auto file = std::find_if(command.outputs.begin(), command.outputs.end(), is_exr);
-  if (file == command.outputs.end()) throw UsageError("--resume needs an output that ends in .exr");
-  std::error_code error;
-  if (!std::filesystem::exists(*file, error)) return {};
-  StoredFilm stored = read_stored_film(*file);
+namespace {
+
+std::string differing(const std::string& what, const std::string& film, const std::string& asked) {
+  return film == asked ? "" : what + " " + film + ", expected " + asked;
+}
+
+/// The first setting that differs, such as "other settings (seed 0), expected seed 9"; "": none does.
+std::string differing_settings(const RenderSettings& film, const RenderSettings& asked) {
+  std::string text;
+  const auto one = [&](const auto& field) {
+    const std::string a = default_text(film.*field.value), b = default_text(asked.*field.value);
+    if (!text.empty() || a == b || std::string_view(field.name) == "spp") return;
+    text = std::string("a film of other settings (") + field.name + " " + a + "), expected " + field.name + " " + b;
+  };
+  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<RenderSettings>());
+  return text;
+}
+
+std::string differing_scene(const Scene& film, const Scene& asked) {
+  if (same_samples(film, asked)) return "";
+  const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
+  if (size(film) != size(asked)) return differing("a film of another image size,", size(film), size(asked));
+  const std::string settings = differing_settings(film.render, asked.render);
+  return settings.empty() ? "a film of another scene, expected the same scene" : settings;
+}
+
+std::string region_text(const Region& r) {
+  return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," + std::to_string(r.y1);
+}
+
+/// What keeps the render from going on with the film, as "found X, expected Y" without "found"; "": nothing does.
+std::string difference(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
+                       const RenderOptions& options, const Kernels& kernels) {
   const Film& film = stored.part.film;
-  const std::string advice = "; without --resume it is replaced";
-  const Scene scene = move_textures(loaded.scene, loaded.folder, ".");
-  if (!same_samples(stored.scene, scene) || film.region != *options.region)
-    throw UsageError(file->string() + ": found a film of another scene, other settings or another region" + advice);
-  if (film.first_sample != options.first_sample)
-    throw UsageError(file->string() + ": found samples from " + std::to_string(film.first_sample) + ", expected from " +
-                     std::to_string(options.first_sample) + advice);
-  return std::move(stored.part.film);
+  std::string text = differing_scene(stored.scene, move_textures(loaded.scene, loaded.folder, "."));
+  const auto look = [&text](const std::string& found) {
+    if (text.empty()) text = found;
+  };
+  if (!stored.label.version.empty()) look(differing("a film of version", stored.label.version, TYNDALL_VERSION));
+  if (!stored.label.isa.empty()) look(differing("a film of instruction set", stored.label.isa, kernels.isa));
+  look(differing("a film of another region,", region_text(film.region), region_text(*options.region)));
+  look(differing("samples from", std::to_string(film.first_sample), std::to_string(options.first_sample)));
+  const std::uint32_t most = totals(film).most_taken;
+  if (command.samples && most > *options.spp)
+    look(differing("samples up to", std::to_string(film.first_sample + most), std::to_string(command.samples->last)));
+  if (options.adaptive && film.planned.empty() && most > warm_up)
+    look("an adaptive film that does not say how many samples each pixel was to get, expected one that does");
+  return text;
+}
+
+std::string text_of_samples(std::uint32_t count) {
+  return std::to_string(count) + (count == 1 ? " sample" : " samples") + " a pixel";
+}
+
+/// Whether the film's label and scene say that it could be gone on with without --resume. Whatever cannot be read is
+/// replaced, like any other file.
+bool invites(const std::filesystem::path& file, const RenderOptions& options) {
+  try {
+    const auto label = read_film_label(file);
+    if (!label || label->unfinished) return label.has_value();
+    if (label->isa.empty()) return false;  // from before films said whether they are finished
+    const auto spp = read_stored_frame(file).scene.render.spp;
+    return spp && static_cast<std::uint32_t>(*spp) == *options.spp;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+RenderStart start_with(StoredFilm stored, const RenderCommand& command, const LoadedScene& loaded,
+                       const RenderOptions& options) {
+  RenderStart start;
+  const std::uint32_t taken = labelled_spp(stored.part.film), asked = *options.spp;
+  const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
+  if (taken > asked)
+    start.note = name + "the film has " + text_of_samples(taken) + " already, more than the " + std::to_string(asked) +
+                 " asked for; it is written as it is";
+  else if (taken == asked)
+    start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
+  else if (!command.resume)
+    start.note = name + "goes on from the film's " + text_of_samples(taken);
+  start.as_asked = taken == asked && !stored.label.unfinished && command.outputs.size() == 1 && command.stats.empty() &&
+                   !command.denoise && stored.scene.display == loaded.scene.display;
+  start.film = std::move(stored.part.film);
+  return start;
+}
+
+/// Reads the film. What cannot be read is told with the way out.
+StoredFilm read_invited(const std::filesystem::path& file, const std::string& advice) {
+  try {
+    return read_stored_film(file);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw UsageError(error.what() + advice);
+  }
+}
+
+}  // namespace
+
+std::filesystem::path kept_film(const RenderCommand& command) {
+  const auto file = std::find_if(command.outputs.begin(), command.outputs.end(), is_exr);
+  return file == command.outputs.end() ? std::filesystem::path() : *file;
+}
+
+RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
+                       const Kernels& kernels) {
+  const std::filesystem::path file = kept_film(command);
+  if (command.resume && file.empty()) throw UsageError("--resume needs an output that ends in .exr");
+  if (command.fresh || file.empty()) return {};
+  std::error_code error;
+  const bool exists = std::filesystem::exists(file, error);
+  if (command.resume && !exists)
+    throw UsageError("--resume: found no file " + in_quotes(file.string()) +
+                     ", expected a film to go on from; without --resume the render starts anew");
+  if (!exists || (!command.resume && !invites(file, options))) return {};
+  const std::string advice =
+      std::string("; --fresh") + (command.resume ? " in place of --resume" : "") + " starts over";
+  StoredFilm stored = read_invited(file, advice);
+  const std::string found = difference(stored, command, loaded, options, kernels);
+  if (!found.empty() && !command.resume && !stored.label.unfinished) return {};
+  if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);
+  return start_with(std::move(stored), command, loaded, options);
 }
 
 }  // namespace tyndall

@@ -4,6 +4,9 @@
 #include "core/render/render.h"
 #include "core/scene/load.h"
 
+#include <filesystem>
+#include <string>
+
 /// Turns what the user asked for into what render() is told.
 namespace tyndall {
 
@@ -11,11 +14,24 @@ namespace tyndall {
 Kernels find_kernels(const std::string& isa);
 
 /// Limits, region and threads of a render. spp is always set; where only time or error end the render, to most_samples.
-/// Throws UsageError for a region beyond the image and for adaptive sampling of a range or of a film that is resumed.
+/// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded);
 
-/// With --resume, the film in the .exr output if there is that file; else an empty film. Throws UsageError if it is not
-/// of this scene, these settings and this region.
-Film film_to_resume(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options);
+/// Where a render begins: anew, or with the film that its .exr output holds already.
+struct RenderStart {
+  Film film;  ///< to go on from; empty: the render starts anew
+  bool as_asked =
+      false;  ///< the film has all samples that are asked for, and the file holds what the command would write into it
+  std::string note;  ///< what to tell the user; "": nothing
+};
+
+/// The .exr output that films are kept in; empty if there is none.
+std::filesystem::path kept_film(const RenderCommand& command);
+
+/// Looks at the film in the .exr output. One that fits is gone on with if it is unfinished, has just the samples that
+/// are asked for, or --resume asks for it. Throws UsageError where --resume finds no film that fits, and for an
+/// unfinished one that does not fit: it says what differs. Any other file is replaced in the end.
+RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
+                       const Kernels& kernels);
 
 }  // namespace tyndall

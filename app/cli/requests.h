@@ -30,11 +30,12 @@ struct RenderCommand {
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
-  std::optional<SampleKey> replay;  ///< print this sample's path instead of rendering
-  int threads = 0;                  ///< 0: all cores
-  std::string isa;                  ///< "": the best
-  std::filesystem::path stats;      ///< empty: none
-  bool resume = false;
+  std::optional<SampleKey> replay;   ///< print this sample's path instead of rendering
+  int threads = 0;                   ///< 0: all cores
+  std::string isa;                   ///< "": the best
+  std::filesystem::path stats;       ///< empty: none
+  std::optional<double> checkpoint;  ///< seconds, 0: never; absent: see checkpoint.h
+  bool fresh = false, resume = false;
   bool denoise = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };

@@ -9,6 +9,7 @@
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/load.h"
+#include "core/scene/place.h"
 
 #include <algorithm>
 #include <variant>
@@ -51,11 +52,33 @@ Film found_film(const std::filesystem::path& file, std::optional<Film> film) {
   return std::move(*film);
 }
 
+/// The text under a key of a film's figures; "": there is none.
+std::string text_in(const JsonObject& figures, const char* key) {
+  const JsonValue* found = find(figures, key);
+  const auto* text = found ? std::get_if<std::string>(&found->value) : nullptr;
+  return text ? *text : "";
+}
+
+FilmLabel label_of(const std::filesystem::path& file) {
+  FilmLabel label = read_film_label(file).value_or(FilmLabel{});
+  if (!label.version.empty() || !label.isa.empty()) return label;
+  const std::string stats = read_embedded_stats(file).value_or("");
+  if (stats.empty()) return label;
+  try {
+    const JsonValue json = parse_json(stats);
+    if (const auto* figures = std::get_if<JsonObject>(&json.value))
+      label.version = text_in(*figures, "version"), label.isa = text_in(*figures, "isa");
+  } catch (const Broken&) {
+    return label;  // another program has changed the text
+  }
+  return label;
+}
+
 StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   LoadedScene loaded = load_scene(file.string());
   Scene scene = move_textures(loaded.scene, loaded.folder, ".");
   if (!says_caustics(loaded.text)) scene.render.caustics = Caustics::scatter;
-  return {{file.string(), std::move(film)}, scene};
+  return {{file.string(), std::move(film)}, scene, label_of(file)};
 }
 
 }  // namespace
@@ -83,6 +106,11 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
   return print_json(json);
 }
 
+FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
+  const auto both = [](const std::string& x, const std::string& y) { return x == y ? x : std::string("several"); };
+  return {both(a.version, b.version), both(a.isa, b.isa), a.unfinished || b.unfinished};
+}
+
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads,
                        const std::string& isa) {
   if (totals(film).least_taken < least_clean_spp)
@@ -95,11 +123,12 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
   return clean;
 }
 
-std::vector<std::string> write_film(const Film& film, const Scene& scene,
+std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
                                     const std::vector<std::filesystem::path>& files,
                                     const std::optional<CleanOfFilm>& clean) {
   const auto embedded = [&](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : ""};
+    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
+                    label};
   };
   const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
   return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr}, files);

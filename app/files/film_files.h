@@ -15,6 +15,7 @@ namespace tyndall {
 struct StoredFilm {
   FilmPart part;
   Scene scene;
+  FilmLabel label{};  ///< of films from before there were labels: what their figures say
 };
 
 /// Reads an EXR that render wrote. A film whose text does not say how caustics were found is of scattering: it is from
@@ -34,6 +35,9 @@ bool same_samples(Scene a, Scene b);
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image);
 
+/// The label of a film that is added from two others.
+FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b);
+
 /// The clean view of a film, and how long that took.
 struct CleanOfFilm {
   CleanPicture picture;
@@ -46,7 +50,7 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
 
 /// Writes all images of a film that can be written; returns what went wrong, a line each. textures: see embedded_scene.
 /// Layers (albedo, normal, depth) are not written: such an EXR has none.
-std::vector<std::string> write_film(const Film& film, const Scene& scene,
+std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
                                     const std::vector<std::filesystem::path>& files,
                                     const std::optional<CleanOfFilm>& clean);
 

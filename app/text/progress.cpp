@@ -110,6 +110,11 @@ void ProgressReport::clear_bar() {
   drawn_ = false;
 }
 
+void ProgressReport::say(const std::string& text) {
+  clear_bar();
+  std::fprintf(stderr, "tyndall: %s\n", text.c_str());
+}
+
 void ProgressReport::finish(const std::string& summary) {
   clear_bar();
   if (said_) std::fprintf(stderr, "tyndall: %s\n", summary.c_str());

@@ -53,6 +53,8 @@ class ProgressReport {
   void show(const RenderProgress& now);
   /// The same for work of other kinds (charts, verify). part: how much of it is done, in [0, 1].
   void show(double seconds, double part, const std::string& text);
+  /// Says something else in a line of its own, also where no progress is shown.
+  void say(const std::string& text);
   /// Takes the bar away, and says how it ended if anything was shown before.
   void finish(const std::string& summary);
 

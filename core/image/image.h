@@ -25,10 +25,20 @@ struct Layer {
   std::vector<float> values;  ///< channels interleaved
 };
 
+/// What a film's file says about how the film was made. Films may only be gone on with by the same version and
+/// instruction set: others would mix bits.
+struct FilmLabel {
+  std::string version;      ///< of the program; "": not known; "several": of merged parts that differ
+  std::string isa;          ///< instruction set of the kernels; likewise
+  bool unfinished = false;  ///< more samples were asked for than the film has: a checkpoint, or an interrupted render
+  bool operator==(const FilmLabel&) const = default;
+};
+
 /// What PNG and EXR carry so that the picture can be opened again as the scene that made it: the scene file's text.
 struct Embedded {
   std::string scene;  ///< JSON; empty: none
   std::string stats;  ///< JSON; empty: none
+  FilmLabel label{};  ///< for EXR
 };
 
 /// 8-bit RGB, top row first, as it stands in the file: for textures. channels: 3.

@@ -22,6 +22,8 @@ void write_hdr(const std::filesystem::path& file, const LinearImage& image);
 /// if built without OpenEXR. image: the film's means, if the caller has them; null: they are computed here.
 void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
                const Embedded& embedded, const LinearImage* image = nullptr);
+/// A checkpoint: the film alone, uncompressed, which is much faster. It can be gone on with, but shows no picture.
+void write_checkpoint(const std::filesystem::path& file, const Film& film, const Embedded& embedded);
 bool has_openexr();
 
 /// Reads a PNG or JPEG (8 bits, decoded from sRGB to linear), PFM, HDR or EXR; the content tells which, not the name.
@@ -30,6 +32,10 @@ LinearImage read_image(const std::filesystem::path& file);
 std::optional<Film> read_film(const std::filesystem::path& file);
 /// The same without pixels and emission: its size, region, first sample and unit.
 std::optional<Film> read_film_frame(const std::filesystem::path& file);
+/// How the film in an EXR was made; nothing if it holds none.
+std::optional<FilmLabel> read_film_label(const std::filesystem::path& file);
+/// The figures (JSON) in an EXR that Tyndall wrote; nothing if it holds none.
+std::optional<std::string> read_embedded_stats(const std::filesystem::path& file);
 /// The scene text in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file);
 

@@ -17,7 +17,9 @@
 
 #include <bit>
 #include <cassert>
+#include <cstring>
 #include <exception>
+#include <type_traits>
 
 namespace tyndall {
 
@@ -90,6 +92,13 @@ class Stream : public Imf::OStream {
   std::exception_ptr error_;
 };
 
+std::string planned_bytes(const Film& film) {
+  static_assert(std::is_trivially_copyable_v<PlannedSamples>);
+  std::string bytes(film.planned.size() * sizeof(PlannedSamples), '\0');
+  std::memcpy(bytes.data(), film.planned.data(), bytes.size());
+  return bytes;
+}
+
 Imf::Header make_header(const Film& film, const Embedded& embedded) {
   const Region& r = film.region;
   const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1}), data({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
@@ -103,6 +112,11 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   const ExactSum& cut = film.cut_throughput;
   header.insert(exr_name::cut_throughput,
                 Imf::StringAttribute(std::to_string(cut.high) + " " + std::to_string(cut.low)));
+  header.insert(exr_name::film_format, Imf::IntAttribute(film_format));
+  header.insert(exr_name::unfinished, Imf::IntAttribute(embedded.label.unfinished ? 1 : 0));
+  header.insert(exr_name::version, Imf::StringAttribute(embedded.label.version));
+  header.insert(exr_name::isa, Imf::StringAttribute(embedded.label.isa));
+  if (!film.planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned_bytes(film)));
   if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
   if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
   return header;
@@ -123,6 +137,29 @@ struct Picture {
       add(prefix + channels[i], Imf::FLOAT, values.data() + i, channels.size() * sizeof(float));
     }
   }
+  void add_film(const Film& film) {
+    const char* pixels = reinterpret_cast<const char*>(film.pixels.data());
+    for (const FilmChannel& channel : film_channels())
+      add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
+    const char* emission = reinterpret_cast<const char*>(film.emission.data());
+    if (film.emission.empty()) return;
+    for (const FilmChannel& channel : emission_channels())
+      add(channel.name, Imf::UINT, emission + channel.offset, sizeof(EmissionSums));
+  }
+  void write(const std::filesystem::path& file) const {
+    WholeFile out(file);
+    Stream stream(out, file.string());
+    try {
+      Imf::OutputFile exr(stream, header);
+      exr.setFrameBuffer(buffer);
+      exr.writePixels(header.dataWindow().max.y - header.dataWindow().min.y + 1);
+    } catch (const std::exception& error) {
+      stream.rethrow();
+      cannot_write(file, error.what());
+    }
+    stream.rethrow();
+    out.commit();
+  }
 };
 
 }  // namespace
@@ -139,26 +176,16 @@ void write_exr(const std::filesystem::path& file, const Film& film, const std::v
     assert(layer.values.size() == film.pixels.size() * layer.channels.size());
     picture.add_floats(layer.name + ".", layer.channels, layer.values);
   }
-  const char* pixels = reinterpret_cast<const char*>(film.pixels.data());
-  for (const FilmChannel& channel : film_channels()) {
-    picture.add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
-  }
-  const char* emission = reinterpret_cast<const char*>(film.emission.data());
-  if (!film.emission.empty())
-    for (const FilmChannel& channel : emission_channels())
-      picture.add(channel.name, Imf::UINT, emission + channel.offset, sizeof(EmissionSums));
-  WholeFile out(file);
-  Stream stream(out, file.string());
-  try {
-    Imf::OutputFile exr(stream, picture.header);
-    exr.setFrameBuffer(picture.buffer);
-    exr.writePixels(film.region.height());
-  } catch (const std::exception& error) {
-    stream.rethrow();
-    cannot_write(file, error.what());
-  }
-  stream.rethrow();
-  out.commit();
+  picture.add_film(film);
+  picture.write(file);
+}
+
+void write_checkpoint(const std::filesystem::path& file, const Film& film, const Embedded& embedded) {
+  check_writable(file, film.region.width(), film.region.height());
+  Picture picture{make_header(film, embedded), {}};
+  picture.header.compression() = Imf::NO_COMPRESSION;
+  picture.add_film(film);
+  picture.write(file);
 }
 
 }  // namespace tyndall
@@ -171,6 +198,10 @@ bool has_openexr() { return false; }
 
 void write_exr(const std::filesystem::path& file, const Film&, const std::vector<Layer>&, const Embedded&,
                const LinearImage*) {
+  cannot_write(file, without_openexr);
+}
+
+void write_checkpoint(const std::filesystem::path& file, const Film&, const Embedded&) {
   cannot_write(file, without_openexr);
 }
 

@@ -24,6 +24,10 @@ void check_exr(const std::filesystem::path& file);
 inline constexpr const char* without_openexr =
     "this build has no EXR images (OpenEXR was not found when it was configured)";
 
+/// The version of the form in which films are written. 0 had neither label nor planned rounds. All up to this one are
+/// read.
+inline constexpr int film_format = 1;
+
 // Names of the header's attributes.
 namespace exr_name {
 inline constexpr const char* scene = "tyndall:scene";
@@ -33,6 +37,11 @@ inline constexpr const char* height = "tyndall:height";              // of the f
 inline constexpr const char* first_sample = "tyndall:first_sample";  // a double, to hold all of 32 bits
 inline constexpr const char* unit = "tyndall:unit";
 inline constexpr const char* cut_throughput = "tyndall:cut_throughput";  // both limbs in decimal, high first
+inline constexpr const char* film_format = "tyndall:film_format";        // an int; absent: 0
+inline constexpr const char* unfinished = "tyndall:unfinished";          // an int, 0 or 1
+inline constexpr const char* version = "tyndall:version";
+inline constexpr const char* isa = "tyndall:isa";
+inline constexpr const char* planned = "tyndall:planned";  // Film::planned as it is in memory; absent: empty
 }  // namespace exr_name
 
 }  // namespace tyndall

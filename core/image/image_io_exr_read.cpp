@@ -1,3 +1,4 @@
+#include "core/film/rounds.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io_file.h"
@@ -13,6 +14,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -93,8 +95,34 @@ ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Heade
   return sum;
 }
 
+void check_format(const std::filesystem::path& file, const Imf::Header& header) {
+  const auto* format = header.findTypedAttribute<Imf::IntAttribute>(exr_name::film_format);
+  if (format != nullptr && format->value() > film_format)
+    cannot_read(file, "found a film in format " + std::to_string(format->value()) + ", expected at most " +
+                          std::to_string(film_format) + ": a newer version of Tyndall wrote it");
+}
+
+/// The rounds of adaptive sampling. Every pixel must be where the round of its cell can have brought it.
+void read_planned(const std::filesystem::path& file, const Imf::Header& header, Film& film) {
+  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(exr_name::planned);
+  if (attribute == nullptr) return;
+  const std::string& bytes = attribute->value();
+  film.planned.resize(planned_cells(film.region));
+  if (bytes.size() != film.planned.size() * sizeof(PlannedSamples))
+    damaged_film(file, std::string(exr_name::planned) + " does not fit the picture");
+  std::memcpy(film.planned.data(), bytes.data(), bytes.size());
+  const auto width = static_cast<std::size_t>(film.region.width());
+  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+    const std::size_t row = i / width / planned_cell_edge, column = i % width / planned_cell_edge;
+    const PlannedSamples& planned = film.planned[row * planned_columns(film.region) + column];
+    if (planned.from > film.pixels[i].taken || film.pixels[i].taken > planned.to || planned.to > (1u << 24u))
+      damaged_film(file, std::string(exr_name::planned) + " and its counts contradict each other");
+  }
+}
+
 /// The film's size, region and settings, without pixels.
 Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
+  check_format(file, header);
   const Imath::Box2i& window = header.dataWindow();
   const auto [region_width, region_height] = size_of(file, window);
   Film film;
@@ -158,6 +186,7 @@ std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFi
   }
   target.read(exr);
   check_counts(file, film);
+  read_planned(file, exr.header(), film);
   return frame;
 }
 
@@ -175,6 +204,25 @@ std::optional<Film> read_film(const std::filesystem::path& file) {
 std::optional<Film> read_film_frame(const std::filesystem::path& file) {
   if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
   return with_exr(file, [&](Imf::InputFile& exr) { return read_frame_of(file, exr); });
+}
+
+std::optional<FilmLabel> read_film_label(const std::filesystem::path& file) {
+  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
+  return with_exr(file, [&](Imf::InputFile& exr) -> std::optional<FilmLabel> {
+    const Imf::Header& header = exr.header();
+    if (!header.channels().findChannel("film.taken")) return {};
+    check_format(file, header);
+    const auto text = [&header](const char* name) {
+      const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
+      return found == nullptr ? std::string() : found->value();
+    };
+    const auto* unfinished = header.findTypedAttribute<Imf::IntAttribute>(exr_name::unfinished);
+    return FilmLabel{text(exr_name::version), text(exr_name::isa), unfinished != nullptr && unfinished->value() != 0};
+  });
+}
+
+std::optional<std::string> read_embedded_stats(const std::filesystem::path& file) {
+  return exr_text(file, exr_name::stats);
 }
 
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name) {
@@ -199,6 +247,10 @@ std::optional<Film> read_film(const std::filesystem::path& file) {
 }
 
 std::optional<Film> read_film_frame(const std::filesystem::path& file) { return read_film(file); }
+
+std::optional<FilmLabel> read_film_label(const std::filesystem::path&) { return {}; }
+
+std::optional<std::string> read_embedded_stats(const std::filesystem::path&) { return {}; }
 
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
   cannot_read(file, without_openexr);

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/crew.h"
 #include "core/film/film.h"
+#include "core/film/rounds.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,7 +27,7 @@
 /// 0.01 % in this way.
 namespace tyndall {
 
-inline constexpr int cell_edge = 4;            ///< pixels
+inline constexpr int cell_edge = planned_cell_edge;
 inline constexpr std::uint32_t warm_up = 16;   ///< samples that every pixel gets before the first round
 inline constexpr int window_reach = 2;         ///< cells to each side whose errors decide on a cell
 inline constexpr double least_of_mean = 0.25;  ///< a cell gets at least this share of the mean count

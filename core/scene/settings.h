@@ -93,7 +93,7 @@ inline constexpr auto fields(const RenderSettings*) {
       Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
       Field{"adaptive", &RenderSettings::adaptive,
             "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "
-            "not for shards, resumed or merged films"}};
+            "not for shards or merged films"}};
 }
 
 /// How linear light becomes a picture; never part of rendering.

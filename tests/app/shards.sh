@@ -37,7 +37,7 @@ complains 'all.png' 'film'
 for file in gap.png twice.png other.png size.png png.png; do [ ! -e "$file" ] || fail "$file was written"; done
 
 # A render that is continued.
-expect 0 "$tyndall" render "${scene[@]}" --spp 5 --resume -q -o going.exr # nothing there yet
+expect 0 "$tyndall" render "${scene[@]}" --spp 5 -q -o going.exr
 expect 0 "$tyndall" render "${scene[@]}" --spp 13 --resume -q -o going.exr --stats going.json
 same 'a render that goes on' "$(json going.json image_hash)" "$whole"
 same 'samples' "$(json going.json samples)" $((13 * 32 * 24))

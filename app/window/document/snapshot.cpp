@@ -24,12 +24,13 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   const FinishedPicture finished = finished_picture(result);
   const std::string stats =
       embedded_stats_text({snapshot.document.origin->title, scene, compiled, result, finished, 0, 0, 0});
-  const Picture picture{
-      result.film, finished.image, scene.display,
-      [&](const fs::path& file) {
-        return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file), stats};
-      },
-      [&] { return layers_of(compiled, result.film, result.kernels); }};
+  const Picture picture{result.film, finished.image, scene.display,
+                        [&](const fs::path& file) {
+                          return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file),
+                                          stats,
+                                          {TYNDALL_VERSION, result.kernels.isa, false}};
+                        },
+                        [&] { return layers_of(compiled, result.film, result.kernels); }};
   std::vector<fs::path> files{snapshot.base.string() + ".png"};
   if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
   const std::vector<std::string> problems = write_images(picture, files);

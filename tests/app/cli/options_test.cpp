@@ -46,11 +46,12 @@ TEST_CASE("without a command: the window") {
 
 TEST_CASE("render: every option arrives") {
   const RenderCommand c = render_command(
-      {"-o",         "b.exr",       "--size",     "64x32",          "--spp",      "16",           "--time",
-       "2.5",        "--max-depth", "7",          "--sampler",      "random",     "--integrator", "path",
-       "--fresnel",  "schlick",     "--exposure", "-1.5",           "--tone-map", "aces",         "--seed",
-       "4294967295", "--region",    "1,2,3,4",    "--isa",          "scalar",     "--stats",      "s.json",
-       "--resume",   "-t",          "3",          "--target-error", "0.01",       "--progress",   "plain"});
+      {"-o",           "b.exr",       "--size",     "64x32",          "--spp",      "16",           "--time",
+       "2.5",          "--max-depth", "7",          "--sampler",      "random",     "--integrator", "path",
+       "--fresnel",    "schlick",     "--exposure", "-1.5",           "--tone-map", "aces",         "--seed",
+       "4294967295",   "--region",    "1,2,3,4",    "--isa",          "scalar",     "--stats",      "s.json",
+       "--resume",     "-t",          "3",          "--target-error", "0.01",       "--progress",   "plain",
+       "--checkpoint", "90"});
   CHECK(c.scene.what == "box.json");
   CHECK(c.outputs == std::vector<std::filesystem::path>{"a.png", "b.exr"});
   CHECK(c.scene.size->width == 64);
@@ -69,6 +70,9 @@ TEST_CASE("render: every option arrives") {
   CHECK(c.isa == "scalar");
   CHECK(c.stats == "s.json");
   CHECK(c.resume);
+  CHECK_FALSE(c.fresh);
+  CHECK(c.checkpoint == 90.0);
+  CHECK(render_command({"--fresh"}).fresh);
   CHECK(c.threads == 3);
   CHECK(c.progress == ProgressStyle::plain);
 }
@@ -80,6 +84,7 @@ TEST_CASE("render: what is not given stays open") {
   CHECK_FALSE(c.scene.size);
   CHECK(c.scene.render.given.empty());
   CHECK_FALSE(c.resume);
+  CHECK_FALSE(c.checkpoint);
   CHECK(c.threads == 0);
   CHECK(c.progress == ProgressStyle::automatic);
   CHECK(render_command({"-q"}).progress == ProgressStyle::none);
@@ -190,12 +195,30 @@ TEST_CASE("help names every command and option, with units and defaults") {
   CHECK(printed({"-h"}) == overview);
   CHECK(has(printed({"--version"}), "tyndall "));
   const std::string render = printed({"render", "--help"});
-  for (const char* option :
-       {"--output FILE",    "--size WxH",     "--spp N",           "--samples A:B",       "--time SECONDS",
-        "--target-error E", "--max-depth N",  "--integrator NAME", "--sampler NAME",      "--fresnel NAME",
-        "--caustics NAME",  "--exposure EV",  "--tone-map NAME",   "--set POINTER=VALUE", "--region X0,Y0,X1,Y1",
-        "--seed N",         "--threads N",    "--isa NAME",        "--stats FILE.json",   "--resume",
-        "--quiet",          "--progress NAME"})
+  for (const char* option : {"--output FILE",
+                             "--size WxH",
+                             "--spp N",
+                             "--samples A:B",
+                             "--time SECONDS",
+                             "--target-error E",
+                             "--max-depth N",
+                             "--integrator NAME",
+                             "--sampler NAME",
+                             "--fresnel NAME",
+                             "--caustics NAME",
+                             "--exposure EV",
+                             "--tone-map NAME",
+                             "--set POINTER=VALUE",
+                             "--region X0,Y0,X1,Y1",
+                             "--seed N",
+                             "--threads N",
+                             "--isa NAME",
+                             "--stats FILE.json",
+                             "--resume",
+                             "--quiet",
+                             "--progress NAME",
+                             "--checkpoint SECONDS",
+                             "--fresh"})
     CHECK_MESSAGE(has(render, option), option);
   CHECK(has(render, "else 64"));
   CHECK(has(render, "else 1000"));

@@ -1,0 +1,126 @@
+#!/usr/bin/env bash
+# Checkpoints, and going on from them: a render that was killed goes on by the same command to the same bits.
+. "$(dirname "$0")/_common.sh"
+has_exr || finish
+
+# killed COMMAND...: starts it with checkpoints ten times a second, and kills it after the second of its checkpoints.
+killed() {
+  rm -f k.exr
+  "$tyndall" "$@" --checkpoint 0.1 -q -o k.exr 2>err &
+  local render=$! first=
+  for _ in $(seq 1200); do
+    local now
+    now=$(stat -c %z k.exr 2>/dev/null)
+    [ -n "$now" ] && [ -n "$first" ] && [ "$now" != "$first" ] && break
+    first=${first:-$now}
+    sleep 0.05
+  done
+  kill -KILL "$render" 2>/dev/null || fail "the command ended too early: $(cat err)"
+  wait "$render" 2>/dev/null
+  [ -s k.exr ] || fail "no checkpoint: $*"
+}
+
+box=(render cornell-box --size 64x64)
+whole=$(image_hash "${box[@]:1}" --spp 10000)
+killed "${box[@]}" --spp 10000
+grep -aq unfinished k.exr || fail 'a checkpoint does not say that it is unfinished'
+cp k.exr killed.exr
+
+# What does not fit is refused, with the difference and the way out, and left as it is.
+refused() {
+  local text=$1
+  shift
+  expect 2 "$tyndall" "$@" -q -o k.exr
+  complains k.exr "$text" --fresh
+  cmp -s k.exr killed.exr || fail "an unfinished film was replaced: $*"
+}
+refused 'seed 0' "${box[@]}" --spp 10000 --seed 3
+refused 'sampler sobol' "${box[@]}" --spp 10000 --sampler random
+refused '64x64' render cornell-box --size 64x63 --spp 10000
+refused 'another scene' "${box[@]}" --spp 10000 --set /camera/vfov=30
+refused 'region' "${box[@]}" --spp 10000 --region 0,0,64,63
+refused 'from 0' "${box[@]}" --samples 4:10000
+refused 'instruction set' "${box[@]}" --spp 10000 --isa scalar
+refused 'samples up to' "${box[@]}" --samples 0:1
+expect 2 "$tyndall" "${box[@]}" --spp 10000 --resume --isa scalar -q -o k.exr
+complains 'instruction set' '--fresh'
+
+# The same command goes on by itself, and says so; what fewer samples ask for is written as it is.
+expect 0 "$tyndall" "${box[@]}" --spp 1 -q -o k.exr --stats k.json
+complains 'more than the 1 asked for'
+cp killed.exr k.exr
+expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o k.exr -o k.pfm --stats k.json
+complains 'goes on from'
+same 'a killed render that went on' "$(json k.json image_hash)" "$whole"
+same 'its samples' "$(json k.json samples)" $((64 * 64 * 10000))
+
+# Complete: nothing is rendered. Without other outputs not even the file is touched.
+before=$(stat -c %z k.exr)
+expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o k.exr
+complains 'already complete: 10000 samples a pixel'
+same 'the complete file' "$(stat -c %z k.exr)" "$before"
+rm k.pfm
+expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o k.exr -o k.pfm --stats again.json
+complains 'already complete'
+[ -s k.pfm ] || fail 'an output that was missing is not written'
+same 'rays of a complete render' "$(json again.json rays)" 0
+same 'its hash' "$(json again.json image_hash)" "$whole"
+
+# Any other finished film is replaced, as any other file is; --resume goes on from it; --fresh starts over.
+expect 0 "$tyndall" "${box[@]}" --spp 3 -q -o k.exr --stats k.json
+grep -q k.exr err && fail "replacing a finished film says: $(cat err)"
+same 'samples of a new film' "$(json k.json spp) $(json k.json samples)" "3 $((64 * 64 * 3))"
+expect 0 "$tyndall" "${box[@]}" --spp 7 --resume -q -o k.exr --stats k.json
+same 'a finished film that went on' "$(json k.json image_hash)" "$(image_hash "${box[@]:1}" --spp 7)"
+expect 0 "$tyndall" "${box[@]}" --spp 7 --fresh -q -o k.exr --stats k.json
+[ "$(json k.json rays)" != 0 ] || fail '--fresh does not start over'
+cp killed.exr k.exr
+expect 0 "$tyndall" "${box[@]}" --spp 7 --seed 3 --fresh -q -o k.exr
+echo text >k.exr
+expect 0 "$tyndall" "${box[@]}" --spp 2 -q -o k.exr
+expect 2 "$tyndall" "${box[@]}" --spp 2 --fresh --resume -q -o k.exr
+complains --fresh --resume
+expect 2 "$tyndall" "${box[@]}" --spp 2 --resume -q -o missing.exr
+complains --resume missing.exr
+echo text >text.exr
+expect 2 "$tyndall" "${box[@]}" --spp 2 --resume -q -o text.exr
+complains text.exr 'no film'
+expect 2 "$tyndall" "${box[@]}" --checkpoint 1 -q -o no.png
+complains --checkpoint .exr
+expect 2 "$tyndall" "${box[@]}" --checkpoint -1 -q -o no.exr
+
+# Shards and adaptive renders go on in the same way.
+killed "${box[@]}" --samples 5:8000
+expect 0 "$tyndall" "${box[@]}" --samples 5:8000 -q -o k.exr --stats k.json
+complains 'goes on from'
+expect 0 "$tyndall" "${box[@]}" --samples 5:8000 -q -o one.exr
+expect 0 "$tyndall" compare k.exr one.exr --max-rmse 0
+room=(render showroom --size 64x48 --adaptive --spp 3000)
+killed "${room[@]}"
+expect 0 "$tyndall" "${room[@]}" -q -o k.exr --stats k.json
+complains 'goes on from'
+same 'an adaptive render that went on' "$(json k.json image_hash)" "$(image_hash "${room[@]:1}")"
+same 'its samples' "$(json k.json samples)" "$(json hashed.json samples)"
+
+# A film from before films had a format version.
+cp "$source_root/tests/image/film_of_format_0.exr" old.exr
+old=(render cornell-box --size 8x6 --isa scalar)
+expect 0 "$tyndall" "${old[@]}" --spp 2 -q -o old.exr
+grep -q old.exr err && fail "replacing an old film says: $(cat err)"
+for spp in 2 5; do
+  cp "$source_root/tests/image/film_of_format_0.exr" old.exr
+  expect 0 "$tyndall" "${old[@]}" --spp $spp --resume -q -o old.exr --stats old.json
+  same 'samples of an old film that went on' "$(json old.json spp)" "$spp"
+done
+cp "$source_root/tests/image/film_of_format_0.exr" old.exr
+expect 2 "$tyndall" render cornell-box --size 8x6 --isa sse4 --spp 5 --resume -q -o old.exr
+complains old.exr 'instruction set scalar'
+
+# Without checkpoints there is nothing before the end.
+"$tyndall" "${box[@]}" --spp 10000000 --checkpoint 0 -q -o none.exr &
+render=$!
+wait_worked "$render" 1
+[ ! -e none.exr ] || fail '--checkpoint 0 writes'
+kill -KILL "$render"
+wait "$render" 2>/dev/null
+finish
