@@ -4,7 +4,7 @@
 #include <array>
 #include <future>
 #include <limits>
-#include <numeric>
+#include <span>
 #include <utility>
 
 namespace tyndall {
@@ -13,7 +13,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Bounds nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 constexpr int bins = 16;
-constexpr int most_in_leaf = 8;
+constexpr std::size_t most_in_leaf = 8;
 constexpr float traversal_cost = 4.0f;  // time for a node over that for a primitive's test; 3 to 6 were found as good
 constexpr int deepest_heuristic = 48;   // below this depth ranges are halved, so that the traversal's stack is bounded
 
@@ -28,6 +28,18 @@ Vec3f centroid(const Bounds& b) {
   return {0.5f * b.low.x + 0.5f * b.high.x, 0.5f * b.low.y + 0.5f * b.high.y, 0.5f * b.low.z + 0.5f * b.high.z};
 }
 
+/// An input and its place in the list. The builder reorders these themselves, so that each range lies together in
+/// memory.
+struct Item {
+  BvhInput input;
+  int index;
+};
+
+/// The boxes around a range of items and around their centroids.
+struct Around {
+  Bounds bounds = nothing, centers = nothing;
+};
+
 /// A plane between two bins.
 struct Plane {
   int axis = -1, bin = 0;
@@ -36,18 +48,25 @@ struct Plane {
 
 class Builder {
  public:
-  explicit Builder(const std::vector<BvhInput>& input) : input_(input), order_(input.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    nodes_ = build({0, static_cast<int>(input.size()), 0});
+  explicit Builder(const std::vector<BvhInput>& input) {
+    items_.reserve(input.size());
+    for (const BvhInput& one : input) items_.push_back({one, static_cast<int>(items_.size())});
   }
-  BinaryTree take() { return {std::move(nodes_), std::move(order_)}; }
+  BinaryTree build() {
+    BinaryTree tree{build({0, static_cast<int>(items_.size()), 0}), {}};
+    tree.order.reserve(items_.size());
+    for (const Item& item : items_) tree.order.push_back(item.index);
+    return tree;
+  }
 
  private:
   struct Range {
     int begin, end, depth;
   };
 
-  const BvhInput& at(int k) const { return input_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]; }
+  std::span<Item> items(int begin, int end) {
+    return std::span(items_).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+  }
 
   /// The subtree over a range: its root, then the left and the right half. Halves of large ranges are built at once.
   std::vector<BinaryNode> build(Range range) {
@@ -104,49 +123,55 @@ class Builder {
     int middle;
   };
   Split split(Range range) {
+    const std::span<Item> list = items(range.begin, range.end);
+    const Around around = around_of(list);
     BinaryNode node;
-    node.bounds = nothing;
-    for (int k = range.begin; k < range.end; ++k) node.bounds = join(node.bounds, at(k).bounds);
-    const int middle = choose(range.begin, range.end, node.bounds, range.depth);
-    if (middle < 0) node.first = range.begin, node.count = range.end - range.begin;
-    return {node, middle};
+    node.bounds = around.bounds;
+    const int left = choose(list, around, range.depth);
+    if (left == 0) node.first = range.begin, node.count = range.end - range.begin;
+    return {node, left == 0 ? -1 : range.begin + left};
   }
 
-  bool one_kind(int begin, int end) const {
-    for (int k = begin + 1; k < end; ++k)
-      if (at(k).kind != at(begin).kind) return false;
-    return true;
-  }
-
-  /// Reorders the range for the best split and returns its middle; -1: make a leaf.
-  int choose(int begin, int end, const Bounds& bounds, int depth) {
-    const int count = end - begin;
-    if (count == 1) return -1;
-    Bounds centers = nothing;
-    for (int k = begin; k < end; ++k) {
-      const Vec3f c = centroid(at(k).bounds);
-      centers = join(centers, {c, c});
+  static Around around_of(std::span<const Item> list) {
+    Around around;
+    for (const Item& item : list) {
+      const Vec3f c = centroid(item.input.bounds);
+      around.bounds = join(around.bounds, item.input.bounds);
+      around.centers = join(around.centers, {c, c});
     }
-    const Plane plane = best_plane(begin, end, centers);
-    const bool fits = count <= most_in_leaf && one_kind(begin, end);
-    const float leaf_cost = static_cast<float>(count) * half_area(bounds);
-    if (fits && !(plane.cost + traversal_cost * half_area(bounds) < leaf_cost)) return -1;
-    if (plane.axis < 0 || depth > deepest_heuristic) return split_equals(begin, end);
-    const auto from = order_.begin() + begin, to = order_.begin() + end;
-    const auto middle = std::stable_partition(from, to, [&](int i) {
-      return bin_of(centroid(input_[static_cast<std::size_t>(i)].bounds), centers, plane.axis) < plane.bin;
+    return around;
+  }
+
+  static bool one_kind(std::span<const Item> list) {
+    return std::all_of(list.begin(), list.end(),
+                       [&](const Item& item) { return item.input.kind == list.front().input.kind; });
+  }
+
+  /// Reorders the list for the best split and returns how many items are in its first part; 0: make a leaf.
+  static int choose(std::span<Item> list, const Around& around, int depth) {
+    if (list.size() == 1) return 0;
+    const Plane plane = best_plane(list, around.centers);
+    const bool fits = list.size() <= most_in_leaf && one_kind(list);
+    const float leaf_cost = static_cast<float>(list.size()) * half_area(around.bounds);
+    if (fits && !(plane.cost + traversal_cost * half_area(around.bounds) < leaf_cost)) return 0;
+    if (plane.axis < 0 || depth > deepest_heuristic) return split_equals(list);
+    return part(list, [&](const BvhInput& one) {
+      return bin_of(centroid(one.bounds), around.centers, plane.axis) < plane.bin;
     });
-    return static_cast<int>(middle - order_.begin());
   }
 
   /// For primitives whose centroids are all the same: separates kinds first, then splits in the middle of the list.
-  int split_equals(int begin, int end) {
-    const auto from = order_.begin() + begin, to = order_.begin() + end;
-    const PrimitiveKind kind = at(begin).kind;
-    const auto middle =
-        std::stable_partition(from, to, [&](int i) { return input_[static_cast<std::size_t>(i)].kind == kind; });
-    const int by_kind = static_cast<int>(middle - order_.begin());
-    return by_kind < end ? by_kind : begin + (end - begin) / 2;
+  static int split_equals(std::span<Item> list) {
+    const PrimitiveKind kind = list.front().input.kind;
+    const int by_kind = part(list, [kind](const BvhInput& one) { return one.kind == kind; });
+    const int count = static_cast<int>(list.size());
+    return by_kind < count ? by_kind : count / 2;
+  }
+
+  /// Moves the items that `first` is true for to the front, in their order, and returns how many there are.
+  static int part(std::span<Item> list, auto first) {
+    const auto middle = std::stable_partition(list.begin(), list.end(), [&](const Item& i) { return first(i.input); });
+    return static_cast<int>(middle - list.begin());
   }
 
   static int bin_of(const Vec3f& c, const Bounds& centers, int axis) {
@@ -155,20 +180,28 @@ class Builder {
     return std::clamp(bin, 0, bins - 1);
   }
 
-  Plane best_plane(int begin, int end, const Bounds& centers) const {
-    Plane best;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(component(centers.high, axis) > component(centers.low, axis))) continue;
+  static Plane best_plane(std::span<const Item> list, const Bounds& centers) {
+    struct Bins {
       std::array<Bounds, bins> boxes;
-      boxes.fill(nothing);
       std::array<int, bins> counts{};
-      for (int k = begin; k < end; ++k) {
-        const auto b = static_cast<std::size_t>(bin_of(centroid(at(k).bounds), centers, axis));
-        boxes[b] = join(boxes[b], at(k).bounds);
-        ++counts[b];
+    };
+    std::array<Bins, 3> all;
+    for (Bins& one : all) one.boxes.fill(nothing);
+    std::array<bool, 3> wide;
+    for (int axis = 0; axis < 3; ++axis)
+      wide[static_cast<std::size_t>(axis)] = component(centers.high, axis) > component(centers.low, axis);
+    for (const Item& item : list) {
+      const Vec3f c = centroid(item.input.bounds);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!wide[axis]) continue;
+        const auto b = static_cast<std::size_t>(bin_of(c, centers, static_cast<int>(axis)));
+        all[axis].boxes[b] = join(all[axis].boxes[b], item.input.bounds);
+        ++all[axis].counts[b];
       }
-      sweep(boxes, counts, axis, best);
     }
+    Plane best;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (wide[axis]) sweep(all[axis].boxes, all[axis].counts, static_cast<int>(axis), best);
     return best;
   }
 
@@ -191,9 +224,7 @@ class Builder {
     }
   }
 
-  const std::vector<BvhInput>& input_;
-  std::vector<int> order_;
-  std::vector<BinaryNode> nodes_;
+  std::vector<Item> items_;
 };
 
 }  // namespace
@@ -204,6 +235,6 @@ float half_area(const Bounds& b) {
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-BinaryTree build_binary_tree(const std::vector<BvhInput>& input) { return Builder(input).take(); }
+BinaryTree build_binary_tree(const std::vector<BvhInput>& input) { return Builder(input).build(); }
 
 }  // namespace tyndall

@@ -15,6 +15,10 @@ namespace {
 /// Most values of a document. A real scene of 256 MiB has fewer; as a tree, this many take about 2 GB of memory.
 constexpr std::size_t max_values = std::size_t(1) << 25;
 
+/// Members of most objects, such as spheres, and values of most arrays, which are points and colours. Room for just so
+/// many is made at first, because scenes of a million objects consist of little else.
+constexpr std::size_t usual_members = 4, usual_values = 3;
+
 /// Receives the parser's events, builds the tree and refuses what the format refuses, before it is built.
 class TreeBuilder {
  public:
@@ -37,7 +41,9 @@ class TreeBuilder {
   bool end_array() { return close(); }
 
   bool key(std::string& value) {
-    std::get<JsonObject>(open_.back()->value).push_back({std::move(value), {}});
+    auto& object = std::get<JsonObject>(open_.back()->value);
+    if (object.empty()) object.reserve(usual_members);
+    object.push_back({std::move(value), {}});
     return true;
   }
 
@@ -72,7 +78,10 @@ class TreeBuilder {
   /// Where the next value goes.
   JsonValue& slot() {
     if (open_.empty()) return root;
-    if (auto* array = std::get_if<JsonArray>(&open_.back()->value)) return array->emplace_back();
+    if (auto* array = std::get_if<JsonArray>(&open_.back()->value)) {
+      if (array->empty()) array->reserve(usual_values);
+      return array->emplace_back();
+    }
     return std::get<JsonObject>(open_.back()->value).back().value;
   }
 
