@@ -51,6 +51,7 @@ class Builder {
   explicit Builder(const std::vector<BvhInput>& input) {
     items_.reserve(input.size());
     for (const BvhInput& one : input) items_.push_back({one, static_cast<int>(items_.size())});
+    scratch_ = items_;
   }
   BinaryTree build() {
     BinaryTree tree{build({0, static_cast<int>(items_.size()), 0}), {}};
@@ -148,7 +149,7 @@ class Builder {
   }
 
   /// Reorders the list for the best split and returns how many items are in its first part; 0: make a leaf.
-  static int choose(std::span<Item> list, const Around& around, int depth) {
+  int choose(std::span<Item> list, const Around& around, int depth) {
     if (list.size() == 1) return 0;
     const Plane plane = best_plane(list, around.centers);
     const bool fits = list.size() <= most_in_leaf && one_kind(list);
@@ -161,7 +162,7 @@ class Builder {
   }
 
   /// For primitives whose centroids are all the same: separates kinds first, then splits in the middle of the list.
-  static int split_equals(std::span<Item> list) {
+  int split_equals(std::span<Item> list) {
     const PrimitiveKind kind = list.front().input.kind;
     const int by_kind = part(list, [kind](const BvhInput& one) { return one.kind == kind; });
     const int count = static_cast<int>(list.size());
@@ -169,8 +170,16 @@ class Builder {
   }
 
   /// Moves the items that `first` is true for to the front, in their order, and returns how many there are.
-  static int part(std::span<Item> list, auto first) {
-    const auto middle = std::stable_partition(list.begin(), list.end(), [&](const Item& i) { return first(i.input); });
+  int part(std::span<Item> list, auto first) {
+    const auto others = scratch_.begin() + (list.data() - items_.data());
+    auto end_of_others = others;
+    auto middle = list.begin();
+    for (const Item& item : list)
+      if (first(item.input))
+        *middle++ = item;
+      else
+        *end_of_others++ = item;
+    std::copy(others, end_of_others, middle);
     return static_cast<int>(middle - list.begin());
   }
 
@@ -225,6 +234,7 @@ class Builder {
   }
 
   std::vector<Item> items_;
+  std::vector<Item> scratch_;  // as long; each range of items has its own part of it
 };
 
 }  // namespace

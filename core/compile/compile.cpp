@@ -101,6 +101,7 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
     return order;
   }
   std::vector<BvhInput> input;
+  input.reserve(flat.shapes.size());
   for (const PlacedShape& s : flat.shapes) input.push_back({bounds_of(extent_of(s, camera), out.origin), kind_of(s)});
   const bool kept = before && before->bvh && before->bvh->input == input;
   out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));

@@ -22,13 +22,18 @@ namespace fs = std::filesystem;
 constexpr const char* expected_scene =
     "a scene file, an image that Tyndall wrote, or the name of a built-in scene (\"tyndall scenes\" lists them)";
 
+constexpr std::size_t block = std::size_t(1) << 16;
+
 /// All bytes of a file or pipe, but not much more than `most`: then it is refused anyway.
 std::string read_all(std::FILE* file, const std::string& name, std::size_t most = max_scene_bytes) {
   std::string text;
+  std::error_code ignored;  // what has no size, such as a pipe, is read all the same
+  const std::uintmax_t size = fs::file_size(name, ignored);
+  if (!ignored && size <= most) text.reserve(static_cast<std::size_t>(size) + block);
   std::size_t got = 1;
   while (got > 0 && text.size() <= most) {
     const std::size_t old = text.size();
-    text.resize(old + (std::size_t(1) << 16));
+    text.resize(old + block);
     got = std::fread(text.data() + old, 1, text.size() - old, file);
     text.resize(old + got);
   }
