@@ -1,6 +1,7 @@
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io.h"
 
+#include "core/film/checksum.h"
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
 
@@ -18,12 +19,19 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <cstdio>
 #include <exception>
 #include <type_traits>
 
 namespace tyndall {
 
 bool has_openexr() { return true; }
+
+std::string checksum_text(const Film& film, const std::string& scene) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(film_checksum(film, scene)));
+  return text;
+}
 
 std::vector<FilmChannel> film_channels() {
   static_assert(std::endian::native == std::endian::little, "the low word of a limb comes first");
@@ -117,6 +125,7 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   header.insert(exr_name::version, Imf::StringAttribute(embedded.label.version));
   header.insert(exr_name::isa, Imf::StringAttribute(embedded.label.isa));
   if (!film.planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned_bytes(film)));
+  header.insert(exr_name::checksum, Imf::StringAttribute(checksum_text(film, embedded.scene)));
   if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
   if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
   return header;

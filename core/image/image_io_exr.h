@@ -1,4 +1,6 @@
 #pragma once
+#include "core/film/film.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -42,6 +44,10 @@ inline constexpr const char* unfinished = "tyndall:unfinished";          // an i
 inline constexpr const char* version = "tyndall:version";
 inline constexpr const char* isa = "tyndall:isa";
 inline constexpr const char* planned = "tyndall:planned";  // Film::planned as it is in memory; absent: empty
+inline constexpr const char* checksum = "tyndall:checksum";  // film_checksum() of film and scene, as 16 hex digits
 }  // namespace exr_name
+
+/// The attribute `checksum` for a film and its scene's text.
+std::string checksum_text(const Film& film, const std::string& scene);
 
 }  // namespace tyndall

@@ -158,6 +158,14 @@ void check_counts(const std::filesystem::path& file, const Film& film) {
   }
 }
 
+/// Refuses a film that is not bit for bit the one that was written. Files from before there was a checksum have none.
+void check_sum(const std::filesystem::path& file, const Imf::Header& header, const Film& film) {
+  const auto* checksum = header.findTypedAttribute<Imf::StringAttribute>(exr_name::checksum);
+  const auto* scene = header.findTypedAttribute<Imf::StringAttribute>(exr_name::scene);
+  if (checksum != nullptr && checksum->value() != checksum_text(film, scene != nullptr ? scene->value() : ""))
+    damaged_film(file, "film or scene are not what its checksum says");
+}
+
 std::optional<Film> read_frame_of(const std::filesystem::path& file, Imf::InputFile& exr) {
   if (!exr.header().channels().findChannel("film.taken")) return {};
   return read_frame(file, exr.header());
@@ -185,6 +193,7 @@ std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFi
     add(emission_channels(), film.emission.data(), sizeof(EmissionSums));
   }
   target.read(exr);
+  check_sum(file, exr.header(), film);
   check_counts(file, film);
   read_planned(file, exr.header(), film);
   return frame;

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cctype>
 #include <limits>
 #include <random>
 
@@ -168,6 +169,32 @@ TEST_SUITE("exr" * doctest::skip(!has_openexr())) {
     const std::string width("tyndall:width\0int\0\4\0\0\0", 22);
     CHECK(message(width + '\3', width + '\2') ==
           ": cannot read: its film is damaged: its data window is not within the image");
+  }
+
+  TEST_CASE("exr: a film with a bit that has flipped anywhere is refused, or still the same") {
+    const fs::path folder = scratch_folder("exr_bits");
+    const Film film = wild_film();
+    write_exr(folder / "a.exr", film, {}, notes);
+    const std::string good = read_text(folder / "a.exr");
+    const std::size_t names = good.find("channels"), header = good.find("tyndall:scene") + 60;
+    std::mt19937 engine(8);
+    int refused = 0;
+    for (int round = 0; round < 600; ++round) {
+      std::string bytes = good;
+      const std::size_t reach = round % 2 == 0 ? good.size() : header;
+      std::size_t at = engine() % reach;
+      // Without their names, film and checksum would be another program's business.
+      if (round % 2 == 1 && at < header && at >= names && std::isalpha(static_cast<unsigned char>(bytes[at]))) continue;
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << engine() % 8));
+      write_text(folder / "b.exr", bytes);
+      try {
+        const std::optional<Film> back = read_film(folder / "b.exr");
+        if (back) REQUIRE(*back == film);
+      } catch (const ImageFileError&) {
+        ++refused;
+      }
+    }
+    CHECK(refused > 200);
   }
 
   TEST_CASE("exr: a small file cannot ask for much memory") {
