@@ -2,6 +2,7 @@
 #include "app/cli/options.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
+#include "core/base/limits.h"
 #include "core/base/text.h"
 #include "core/film/merge.h"
 
@@ -36,7 +37,7 @@ int main(int argc, char** argv) {
   } catch (const tyndall::MergeError& error) {
     return fail(error, wrong_usage);
   } catch (const std::bad_alloc&) {
-    tyndall::complain("not enough memory");
+    tyndall::complain("not enough memory" + tyndall::memory_limit_text());
   } catch (const std::exception& error) {
     return fail(error, input_output_error);
   }

@@ -10,8 +10,8 @@ namespace {
 
 /// Writes the films' files and returns the exit code.
 int write(const Film& film, const Scene& scene, const FilmLabel& label, const std::vector<std::filesystem::path>& files,
-          const std::optional<CleanOfFilm>& clean) {
-  const std::vector<std::string> problems = write_film(film, scene, label, files, clean);
+          const ImageForm& form, const std::optional<CleanOfFilm>& clean) {
+  const std::vector<std::string> problems = write_film(film, scene, label, files, form, clean);
   for (const std::string& problem : problems) complain(problem);
   return problems.empty() ? 0 : output_failed;
 }
@@ -19,7 +19,7 @@ int write(const Film& film, const Scene& scene, const FilmLabel& label, const st
 }  // namespace
 
 int run(const MergeCommand& command) {
-  check_image_names(command.outputs);
+  check_image_names(command.outputs, command.form);
   check_outputs(outputs_of("--output", command.outputs), command.parts);
   for (const auto& file : command.outputs) check_can_write(file);
   std::vector<FilmPart> frames;
@@ -32,6 +32,10 @@ int run(const MergeCommand& command) {
     if (scene && !same_samples(*scene, stored.scene))
       throw UsageError(file.string() + ": found a film of another scene or other settings than in " +
                        command.parts.front().string());
+    const std::string &version = stored.label.version, &before = label.version;
+    if (scene && !version.empty() && !before.empty() && version != before)
+      throw UsageError(file.string() + ": found a film of version " + version + ", expected " + before + " as in " +
+                       command.parts.front().string());
     label = scene ? merged_label(label, stored.label) : stored.label;
     if (!scene) scene = stored.scene;
     frames.push_back(std::move(stored.part));
@@ -39,11 +43,11 @@ int run(const MergeCommand& command) {
   const Film film = merge(frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
   std::optional<CleanOfFilm> clean;
   if (command.denoise) clean = clean_view(film, *scene, command.parts.front().string());
-  return write(film, *scene, label, command.outputs, clean);
+  return write(film, *scene, label, command.outputs, command.form, clean);
 }
 
 int run(const DenoiseCommand& command) {
-  check_image_names(command.outputs);
+  check_image_names(command.outputs, command.form, command.stats);
   find_kernels(command.isa);
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
   outputs.push_back({"--stats", command.stats});
@@ -53,7 +57,7 @@ int run(const DenoiseCommand& command) {
   const StoredFilm stored = read_stored_film(command.film);
   const Film& film = stored.part.film;
   const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
-  const int code = write(film, stored.scene, stored.label, command.outputs, clean);
+  const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);
   const std::string stats = clean_stats_text(film, clean.picture, clean.seconds);
   if (command.stats == "-")
     write_standard_output(stats);

@@ -57,8 +57,7 @@ Command read_merge(Words words) {
                   "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
   std::vector<std::string> parts;
   add_arguments(*app, "PART", "EXR files that hold films of the same scene, in any order", parts);
-  add_values(*app, "-o,--output", "FILE", ".png .exr .pfm .hdr, as for render; repeatable; required",
-             [&](Text t) { command.outputs.push_back(t); });
+  add_outputs(*app, ".png .exr .pfm .hdr or -, as for render; repeatable; required", command.outputs, command.form);
   app->add_flag("--denoise", command.denoise, "files hold the filtered picture, as with 'tyndall render --denoise'");
   if (auto help = parse(*app, words)) return PrintCommand{*help};
   require(*app, !parts.empty(), "PART");
@@ -78,10 +77,11 @@ Command read_denoise(Words words) {
       "Example:\n  tyndall denoise fog.exr -o fog-clean.png");
   std::string film;
   add_argument(*app, "FILM.exr", "an EXR that 'tyndall render' or 'tyndall merge' wrote", film);
-  add_values(*app, "-o,--output", "FILE",
-             ".png .pfm .hdr: the filtered picture; .exr: the film, and beside\n"
-             "it denoised.R/G/B and denoised.error; repeatable; required",
-             [&](Text t) { command.outputs.push_back(t); });
+  add_outputs(*app,
+              ".png .pfm .hdr: the filtered picture; .exr: the film, and beside\n"
+              "it denoised.R/G/B and denoised.error; - for standard output;\n"
+              "repeatable; required",
+              command.outputs, command.form);
   add_value(*app, "--stats", "FILE.json", "write the filtered picture's estimated error, its hash and the time",
             [&](Text t) { command.stats = t; });
   add_machine_options(*app, command.threads, command.isa);
@@ -166,7 +166,7 @@ std::string overview() {
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
-         "  --version     show the version\n\n"
+         "  -V, --version show the version\n\n"
          "Exit codes: 0 done; 1 a check failed; 2 wrong usage or a scene that cannot be read;\n"
          "3 input, output or display error; 130 Ctrl-C; 128 and its number: another signal.\n";
 }
@@ -188,7 +188,7 @@ Command read_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return ViewCommand{};
   const std::string& first = arguments.front();
   if (first == "-h" || first == "--help" || first == "help") return PrintCommand{overview()};
-  if (first == "--version") return PrintCommand{"tyndall " TYNDALL_VERSION "\n"};
+  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{"tyndall " TYNDALL_VERSION "\n"};
   for (const Entry& entry : entries)
     if (first == entry.name) return entry.read({arguments.begin() + 1, arguments.end()});
   refuse_misspelt_command(first, arguments.size() == 1);

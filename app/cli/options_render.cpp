@@ -34,10 +34,11 @@ void add_limits(CLI::App& app, RenderCommand& command) {
 
 void add_output(CLI::App& app, RenderCommand& command) {
   app.option_defaults()->group("Output");
-  add_values(app, "-o,--output", "FILE",
-             ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
-             "itself; .pfm, .hdr: float, linear; repeatable; required",
-             [&](Text t) { command.outputs.push_back(t); });
+  add_outputs(app,
+              ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
+              "itself; .pfm, .hdr: float, linear; - for standard output;\n"
+              "repeatable; required",
+              command.outputs, command.form);
   add_value(app, "--region", "X0,Y0,X1,Y1",
             "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
             "PNG, PFM and HDR get the region's size, EXR a data window",
@@ -102,6 +103,14 @@ void add_isa(CLI::App& app, std::string& isa) {
   add_value(app, "--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
     read_name(t, {"scalar", "sse4", "avx2", "avx512"});
     isa = t;
+  });
+}
+
+void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form) {
+  add_values(app, "-o,--output", "FILE", help, [&](Text t) { files.push_back(t); });
+  add_value(app, "--format", "NAME", "png, exr, pfm or hdr: the format of what goes to standard output", [&](Text t) {
+    read_name(t, {"png", "exr", "pfm", "hdr"});
+    form.format = t;
   });
 }
 

@@ -10,6 +10,7 @@
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/rare.h"
+#include "core/base/limits.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
@@ -65,7 +66,7 @@ void check_if_ignored(const RenderCommand& command, const RenderSettings& settin
 /// Finds everything that can be wrong before the first sample.
 void prepare(Job& job) {
   const RenderCommand& command = job.command;
-  check_image_names(command.outputs);
+  check_image_names(command.outputs, command.form, command.stats);
   if (is_image_output(command.stats))
     throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
   job.kernels = find_kernels(command.isa);
@@ -114,7 +115,7 @@ Embedded embedded_in(const Job& job, const Film& film, const std::filesystem::pa
           {TYNDALL_VERSION, job.kernels.isa, unfinished}};
 }
 
-/// Writes all that can be written; false if something could not. at_end: also what goes to standard output.
+/// Writes all that can be written; false if something could not. at_end: also what goes to standard output or pipes.
 bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
   const Film& film = outcome.result.film;
   const auto embedded = [&](const std::filesystem::path& file) {
@@ -122,8 +123,10 @@ bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
   };
   const auto layers = [&] { return layers_of(job.compiled, film, outcome.result.kernels); };
   const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
-  auto problems = write_images({film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean},
-                               job.command.outputs);
+  std::vector<std::filesystem::path> files = job.command.outputs;
+  if (!at_end) std::erase_if(files, is_stream);
+  auto problems = write_images(
+      {film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean, job.command.form}, files);
   const std::filesystem::path& stats = job.command.stats;
   try {
     if (stats == "-" && at_end)
@@ -190,8 +193,8 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
     const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
-    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB", r.width(), r.height(),
-                              1e-9 * bytes * r.width() * r.height()));
+    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
+                              1e-9 * bytes * r.width() * r.height(), memory_limit_text()));
   }
 }
 

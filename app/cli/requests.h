@@ -1,4 +1,5 @@
 #pragma once
+#include "app/files/outputs.h"
 #include "app/files/scene_request.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
@@ -25,6 +26,7 @@ struct ViewCommand {
 struct RenderCommand {
   SceneRequest scene;
   std::vector<std::filesystem::path> outputs;
+  ImageForm form;
   std::optional<std::uint32_t> spp;
   std::optional<SampleRange> samples;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
@@ -76,12 +78,14 @@ struct ChartCommand {
 
 struct MergeCommand {
   std::vector<std::filesystem::path> parts, outputs;
+  ImageForm form;
   bool denoise = false;
 };
 
 struct DenoiseCommand {
   std::filesystem::path film;
   std::vector<std::filesystem::path> outputs;
+  ImageForm form;
   std::filesystem::path stats;  ///< empty: none
   int threads = 0;              ///< 0: all cores
   std::string isa;              ///< "": the best

@@ -124,14 +124,14 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
 }
 
 std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files,
+                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
                                     const std::optional<CleanOfFilm>& clean) {
   const auto embedded = [&](const std::filesystem::path& file) {
     return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
                     label};
   };
   const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr}, files);
+  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
 }
 
 }  // namespace tyndall

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/files/outputs.h"
 #include "core/clean/clean.h"
 #include "core/film/merge.h"
 #include "core/image/image_io.h"
@@ -51,7 +52,7 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
 /// Writes all images of a film that can be written; returns what went wrong, a line each. textures: see embedded_scene.
 /// Layers (albedo, normal, depth) are not written: such an EXR has none.
 std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files,
+                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
                                     const std::optional<CleanOfFilm>& clean);
 
 }  // namespace tyndall

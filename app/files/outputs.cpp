@@ -1,8 +1,11 @@
 #include "app/files/outputs.h"
 
 #include "app/text/values.h"
+#include "core/base/limits.h"
 #include "core/base/text.h"
 #include "core/image/whole_file.h"
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -21,11 +24,42 @@ std::string ending(const std::filesystem::path& file) {
 
 bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
 
-void check_image_names(const std::vector<std::filesystem::path>& files) {
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string name = "--output: found " + in_quotes(files[i].string());
-    if (!is_image_output(files[i])) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
-    if (is_exr(files[i]) && !has_openexr())
+bool is_stream(const std::filesystem::path& file) {
+  std::error_code error;
+  return file == "-" || std::filesystem::is_fifo(file, error);
+}
+
+namespace {
+
+/// The file's name, or for standard output one that ends in its format.
+std::filesystem::path name_with_ending(const std::filesystem::path& file, const ImageForm& form) {
+  return file == "-" ? std::filesystem::path("standard-output." + form.format) : file;
+}
+
+void check_standard_output(const std::vector<std::filesystem::path>& files, const ImageForm& form,
+                           const std::filesystem::path& stats) {
+  const auto streams = std::count(files.begin(), files.end(), "-");
+  if (streams > 0 && form.format.empty())
+    throw UsageError("--output: found -, standard output, expected --format as well, which says what goes there");
+  if (streams > 1) throw UsageError("--output: found - twice");
+  if (streams == 0 && !form.format.empty())
+    throw UsageError("--format: found " + form.format + ", expected -o - as well: of files the ending says the format");
+  if (streams > 0 && stats == "-")
+    throw UsageError("--stats - and -o - exclude each other: only one can go to standard output");
+  if (streams > 0 && isatty(STDOUT_FILENO) != 0)
+    throw UsageError("--output: found -, which is a terminal, expected a pipe or a file");
+}
+
+}  // namespace
+
+void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form,
+                       const std::filesystem::path& stats) {
+  check_standard_output(files, form, stats);
+  for (const std::filesystem::path& file : files) {
+    const std::string name = "--output: found " + in_quotes(file.string());
+    const std::filesystem::path full = name_with_ending(file, form);
+    if (!is_image_output(full)) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
+    if (is_exr(full) && !has_openexr())
       throw UsageError(name + ", expected .png, .pfm or .hdr: this build has no OpenEXR");
   }
   check_outputs(outputs_of("--output", files), {});
@@ -101,7 +135,7 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : files) {
     try {
-      const std::string kind = ending(file);
+      const std::string kind = ending(name_with_ending(file, picture.form));
       if (kind == ".exr")
         write_exr(file, picture.film, all_layers(picture), picture.embedded(file), &picture.image);
       else if (kind == ".png")
@@ -111,7 +145,7 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
       else
         write_hdr(file, shown(picture));
     } catch (const std::bad_alloc&) {
-      problems.push_back(file.string() + ": cannot write: not enough memory");
+      problems.push_back(file.string() + ": cannot write: not enough memory" + memory_limit_text());
     } catch (const std::exception& error) {
       problems.emplace_back(error.what());
     }

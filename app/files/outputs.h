@@ -11,11 +11,23 @@
 /// The files that a command writes.
 namespace tyndall {
 
-/// Throws UsageError for an ending that is no image's, EXR in a build without it, or a file named twice.
-void check_image_names(const std::vector<std::filesystem::path>& files);
+/// How image files are written, where their names do not say it.
+struct ImageForm {
+  std::string
+      format;  ///< of what goes to standard output, the file "-": png, exr, pfm or hdr; empty: nothing goes there
+};
+
+/// Throws UsageError for an ending that is no image's, EXR in a build without it, or a file named twice; and if a
+/// format for standard output is missing, or given though no image goes there, or if the figures (`stats`) go there,
+/// too.
+void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form = {},
+                       const std::filesystem::path& stats = {});
 
 /// True for names that end in .exr (any case).
 bool is_exr(const std::filesystem::path& file);
+
+/// True for standard output ("-") and named pipes, which can be written once.
+bool is_stream(const std::filesystem::path& file);
 
 /// Throws IoError unless the file could be written now: its folder exists and takes new files. Leaves nothing behind.
 void check_can_write(const std::filesystem::path& file);
@@ -39,6 +51,7 @@ struct Picture {
   std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
   std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty
   const CleanPicture* clean = nullptr;         ///< shown in place of the means, in EXR beside them; null: none
+  ImageForm form{};
 };
 
 /// Writes all files that can be written; returns what went wrong, a line each.

@@ -1,15 +1,25 @@
 #include "core/base/crew.h"
 
+#include "core/base/error.h"
+#include "core/base/limits.h"
+
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <string>
+#include <system_error>
 
 namespace tyndall {
 
 Crew::Crew(int size) {
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  for (int i = 0; i < (size > 0 ? size : machine); ++i)
-    threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  const int wanted = size > 0 ? size : machine;
+  try {
+    for (int i = 0; i < wanted; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  } catch (const std::system_error& error) {
+    throw IoError("cannot start thread " + std::to_string(threads_.size() + 1) + " of " + std::to_string(wanted) +
+                  ": " + error.code().message() + thread_limit_text() + "; --threads says how many to start");
+  }
 }
 
 Crew::~Crew() {

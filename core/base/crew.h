@@ -15,7 +15,8 @@ inline constexpr int most_threads = 4096;  ///< the largest number that options 
 /// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
 class Crew {
  public:
-  /// size >= 1 threads; 0: as many as the machine runs at once.
+  /// size >= 1 threads; 0: as many as the machine runs at once. Throws IoError, which names the limit, if the system
+  /// does not let so many start.
   explicit Crew(int size);
   ~Crew();
   Crew(const Crew&) = delete;

@@ -50,9 +50,11 @@ std::uint64_t film_checksum(const Film& film, std::string_view text) {
   sum.add_number(film.cut_throughput.high);
   sum.add_number(film.cut_throughput.low);
   sum.add_number(film.emission.size());
+  sum.add_number(film.planned.size());
   sum.add_number(text.size());
   sum.add(film.pixels.data(), film.pixels.size() * sizeof(FilmPixel));
   sum.add(film.emission.data(), film.emission.size() * sizeof(EmissionSums));
+  sum.add(film.planned.data(), film.planned.size() * sizeof(PlannedSamples));
   sum.add(text.data(), text.size());
   return sum.value();
 }

@@ -7,7 +7,8 @@
 namespace tyndall {
 
 /// A number that another film or text hardly shares, and none that differs in one bit alone: of size, region, first
-/// sample, unit, sums and counts, and of the text that goes with them. Not for films that an adversary made.
+/// sample, unit, sums, counts and planned rounds, and of the text that goes with them. Not for films that an adversary
+/// made.
 std::uint64_t film_checksum(const Film& film, std::string_view text);
 
 }  // namespace tyndall

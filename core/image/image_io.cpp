@@ -22,11 +22,16 @@ LinearImage to_linear(const Rgb8Image& image) {
 }  // namespace
 
 LinearImage read_image(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> start = read_bytes(file, 16);
-  const ImageKind kind = image_kind(start);
+  // A pipe can be read only once, so that it is not asked for its first bytes alone.
+  std::error_code error;
+  const bool whole = std::filesystem::is_fifo(file, error);
+  std::vector<std::uint8_t> bytes = whole ? read_bytes(file) : read_bytes(file, 16);
+  const ImageKind kind = image_kind(bytes);
+  if (kind == ImageKind::exr && whole)
+    cannot_read(file, "found an EXR in a pipe, expected a file: it is not read in order");
   if (kind == ImageKind::exr) return read_exr(file);
   if (kind == ImageKind::unknown) cannot_read(file, "found no image, expected PNG, JPEG, PFM, HDR or EXR");
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  if (!whole) bytes = read_bytes(file);
   if (kind == ImageKind::pfm) return read_pfm(file, bytes);
   if (kind == ImageKind::hdr) return read_hdr(file, bytes);
   return to_linear(decode_rgb8(file, bytes));

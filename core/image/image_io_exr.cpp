@@ -18,8 +18,8 @@
 
 #include <bit>
 #include <cassert>
-#include <cstring>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <type_traits>
 
@@ -27,9 +27,11 @@ namespace tyndall {
 
 bool has_openexr() { return true; }
 
-std::string checksum_text(const Film& film, const std::string& scene) {
+std::string checksum_text(const Film& film, const Embedded& embedded) {
+  const FilmLabel& label = embedded.label;
+  const std::string with = embedded.scene + '\0' + label.version + '\0' + label.isa + (label.unfinished ? "1" : "0");
   char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(film_checksum(film, scene)));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(film_checksum(film, with)));
   return text;
 }
 
@@ -125,7 +127,7 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   header.insert(exr_name::version, Imf::StringAttribute(embedded.label.version));
   header.insert(exr_name::isa, Imf::StringAttribute(embedded.label.isa));
   if (!film.planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned_bytes(film)));
-  header.insert(exr_name::checksum, Imf::StringAttribute(checksum_text(film, embedded.scene)));
+  header.insert(exr_name::checksum, Imf::StringAttribute(checksum_text(film, embedded)));
   if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
   if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
   return header;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/film/film.h"
+#include "core/image/image.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -43,11 +44,11 @@ inline constexpr const char* film_format = "tyndall:film_format";        // an i
 inline constexpr const char* unfinished = "tyndall:unfinished";          // an int, 0 or 1
 inline constexpr const char* version = "tyndall:version";
 inline constexpr const char* isa = "tyndall:isa";
-inline constexpr const char* planned = "tyndall:planned";  // Film::planned as it is in memory; absent: empty
-inline constexpr const char* checksum = "tyndall:checksum";  // film_checksum() of film and scene, as 16 hex digits
+inline constexpr const char* planned = "tyndall:planned";    // Film::planned as it is in memory; absent: empty
+inline constexpr const char* checksum = "tyndall:checksum";  // see checksum_text(): 16 hex digits
 }  // namespace exr_name
 
-/// The attribute `checksum` for a film and its scene's text.
-std::string checksum_text(const Film& film, const std::string& scene);
+/// The attribute `checksum` for a film, the scene's text and the label.
+std::string checksum_text(const Film& film, const Embedded& embedded);
 
 }  // namespace tyndall

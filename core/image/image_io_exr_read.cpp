@@ -1,3 +1,4 @@
+#include "core/base/limits.h"
 #include "core/film/rounds.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_exr.h"
@@ -32,7 +33,7 @@ auto with_exr(const std::filesystem::path& file, Read read) {
   } catch (const ImageFileError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    cannot_read(file, "not enough memory");
+    cannot_read(file, "not enough memory" + memory_limit_text());
   } catch (const std::exception& error) {
     cannot_read(file, error.what());
   }
@@ -158,12 +159,23 @@ void check_counts(const std::filesystem::path& file, const Film& film) {
   }
 }
 
+/// The text of an attribute; "": there is none.
+std::string text_in(const Imf::Header& header, const char* name) {
+  const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
+  return found == nullptr ? std::string() : found->value();
+}
+
+FilmLabel label_in(const Imf::Header& header) {
+  const auto* unfinished = header.findTypedAttribute<Imf::IntAttribute>(exr_name::unfinished);
+  return {text_in(header, exr_name::version), text_in(header, exr_name::isa),
+          unfinished != nullptr && unfinished->value() != 0};
+}
+
 /// Refuses a film that is not bit for bit the one that was written. Files from before there was a checksum have none.
 void check_sum(const std::filesystem::path& file, const Imf::Header& header, const Film& film) {
-  const auto* checksum = header.findTypedAttribute<Imf::StringAttribute>(exr_name::checksum);
-  const auto* scene = header.findTypedAttribute<Imf::StringAttribute>(exr_name::scene);
-  if (checksum != nullptr && checksum->value() != checksum_text(film, scene != nullptr ? scene->value() : ""))
-    damaged_film(file, "film or scene are not what its checksum says");
+  const std::string checksum = text_in(header, exr_name::checksum);
+  if (!checksum.empty() && checksum != checksum_text(film, {text_in(header, exr_name::scene), "", label_in(header)}))
+    damaged_film(file, "it is not what its checksum says");
 }
 
 std::optional<Film> read_frame_of(const std::filesystem::path& file, Imf::InputFile& exr) {
@@ -193,9 +205,9 @@ std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFi
     add(emission_channels(), film.emission.data(), sizeof(EmissionSums));
   }
   target.read(exr);
-  check_sum(file, exr.header(), film);
   check_counts(file, film);
   read_planned(file, exr.header(), film);
+  check_sum(file, exr.header(), film);
   return frame;
 }
 
@@ -218,15 +230,9 @@ std::optional<Film> read_film_frame(const std::filesystem::path& file) {
 std::optional<FilmLabel> read_film_label(const std::filesystem::path& file) {
   if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
   return with_exr(file, [&](Imf::InputFile& exr) -> std::optional<FilmLabel> {
-    const Imf::Header& header = exr.header();
-    if (!header.channels().findChannel("film.taken")) return {};
-    check_format(file, header);
-    const auto text = [&header](const char* name) {
-      const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
-      return found == nullptr ? std::string() : found->value();
-    };
-    const auto* unfinished = header.findTypedAttribute<Imf::IntAttribute>(exr_name::unfinished);
-    return FilmLabel{text(exr_name::version), text(exr_name::isa), unfinished != nullptr && unfinished->value() != 0};
+    if (!exr.header().channels().findChannel("film.taken")) return {};
+    check_format(file, exr.header());
+    return label_in(exr.header());
   });
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <new>
 
 namespace tyndall {
 
@@ -39,7 +40,7 @@ void write_hdr(const std::filesystem::path& file, const LinearImage& image) {
                                                         from + size);
   };
   if (stbi_write_hdr_to_func(append, &bytes, image.width, image.height, 3, rgb.data()) == 0) {
-    cannot_write(file, "not enough memory");
+    throw std::bad_alloc();
   }
   WholeFile out(file);
   out.write(bytes);

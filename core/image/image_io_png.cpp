@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <new>
 #include <string_view>
 
 namespace tyndall {
@@ -66,7 +67,7 @@ Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, co
   };
   const int good =
       stbi_write_png_to_func(append, &png, image.width, image.height, 3, rgb.data(), static_cast<int>(row));
-  if (good == 0 || png.size() < header_end) cannot_write(file, "not enough memory");
+  if (good == 0 || png.size() < header_end) throw std::bad_alloc();
   return png;
 }
 

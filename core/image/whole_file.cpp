@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <system_error>
 
@@ -88,6 +89,17 @@ void remove_dead(const fs::path& folder, const std::string& prefix) {
   }
 }
 
+/// 0, or what went wrong.
+int write_all(int descriptor, const std::uint8_t* bytes, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = write(descriptor, bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return written < 0 ? errno : EIO;
+    bytes += written, size -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
 /// 0, or what went wrong. Some file systems cannot synchronise folders, and say so in one of these ways.
 int sync_error(int descriptor, bool is_folder) {
   while (fsync(descriptor) != 0) {
@@ -102,11 +114,18 @@ int sync_error(int descriptor, bool is_folder) {
 void WholeFile::fail(int number) const { cannot_write(file_, std::generic_category().message(number)); }
 
 WholeFile::WholeFile(const fs::path& file) : file_(file), target_(file) {
-  replaced_ = owner_of_target();
-  target_ = end_of_links(file);
+  buffer_.reserve(buffer_size);
+  if (file != "-") replaced_ = owner_of_target();
+  if (file == "-" || replaced_.is_pipe)
+    open_unnamed();
+  else
+    open_beside();
+}
+
+void WholeFile::open_beside() {
+  target_ = end_of_links(file_);
   folder_ = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
   if (!target_.has_filename()) fail(EISDIR);
-  buffer_.reserve(buffer_size);
   const std::string prefix = temporary_prefix(folder_, target_.filename().string());
   remove_dead(folder_, prefix);
   for (int attempt = 0; attempt < 1000; ++attempt)
@@ -122,8 +141,9 @@ WholeFile::Owner WholeFile::owner_of_target() const {
     return {};
   }
   if (S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (S_ISFIFO(status.st_mode)) return {true, true, 0, 0, 0};
   if (!S_ISREG(status.st_mode)) cannot_write(file_, "not an ordinary file");
-  return {true, status.st_mode & 07777u, status.st_uid, status.st_gid};
+  return {true, false, status.st_mode & 07777u, status.st_uid, status.st_gid};
 }
 
 /// Creates and locks a temporary file. False if there is one of that name, or if another writer took it for a dead one
@@ -165,13 +185,7 @@ void WholeFile::write(std::span<const std::uint8_t> bytes) { put(bytes.data(), b
 void WholeFile::write(std::span<const float> values) { put(values.data(), values.size_bytes()); }
 
 void WholeFile::flush() {
-  std::size_t done = 0;
-  while (done < buffer_.size()) {
-    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail(written < 0 ? errno : EIO);
-    done += static_cast<std::size_t>(written);
-  }
+  if (const int error = write_all(descriptor_, buffer_.data(), buffer_.size())) fail(error);
   buffer_.clear();
 }
 
@@ -206,8 +220,32 @@ void WholeFile::sync_folder() const {
   if (error != 0) fail(error);
 }
 
+void WholeFile::open_unnamed() {
+  stream_ = true;
+  const std::unique_ptr<std::FILE, Closer> file(std::tmpfile());
+  descriptor_ = file ? fcntl(fileno(file.get()), F_DUPFD_CLOEXEC, 3) : -1;
+  if (descriptor_ < 0) fail(errno);
+}
+
+/// Copies what was written to standard output or into the pipe.
+void WholeFile::send() const {
+  const bool standard = file_ == "-";
+  const int to = standard ? STDOUT_FILENO : open(file_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (to < 0 || lseek(descriptor_, 0, SEEK_SET) < 0) fail(errno);
+  std::vector<std::uint8_t> bytes(std::size_t{1} << 16);
+  int problem = 0;
+  while (problem == 0) {
+    const ssize_t got = read(descriptor_, bytes.data(), bytes.size());
+    if (got == 0) break;
+    problem = got < 0 ? errno : write_all(to, bytes.data(), static_cast<std::size_t>(got));
+  }
+  if (!standard && close(to) != 0 && problem == 0) problem = errno;
+  if (problem != 0) fail(problem);
+}
+
 void WholeFile::commit() {
   flush();
+  if (stream_) return send();
   keep_owner();
   if (const int error = sync_error(descriptor_, false)) fail(error);
   if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);

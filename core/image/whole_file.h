@@ -17,9 +17,12 @@ namespace tyndall {
 /// its writer lives, so that the next writer of the same file knows which ones a killed process has left, and removes
 /// those. The mode of a file that is replaced is kept, and where that is permitted its owner and group. A symbolic link
 /// stays, and what it points to is replaced.
+///
+/// Standard output, whose name is "-", and named pipes get the bytes when all are there; until then they are in a
+/// temporary file without a name. A pipe is opened only then.
 class WholeFile {
  public:
-  /// Creates the temporary file. Only ordinary files are replaced, not folders and devices.
+  /// Creates the temporary file. Only ordinary files are replaced, not folders and devices; pipes are written to.
   explicit WholeFile(const std::filesystem::path& file);
   ~WholeFile();  ///< removes what was written unless it was committed
   WholeFile(const WholeFile&) = delete;
@@ -35,7 +38,7 @@ class WholeFile {
  private:
   /// Of the file that is replaced.
   struct Owner {
-    bool exists = false;
+    bool exists = false, is_pipe = false;
     unsigned mode = 0, user = 0, group = 0;
   };
 
@@ -45,10 +48,14 @@ class WholeFile {
   void flush();
   void keep_owner() const;
   void sync_folder() const;
+  void open_beside();
+  void open_unnamed();
+  void send() const;
   [[noreturn]] void fail(int number) const;
 
   std::filesystem::path file_, target_, folder_, temporary_;
   Owner replaced_;
+  bool stream_ = false;  ///< standard output or a pipe
   int descriptor_ = -1;
   std::vector<std::uint8_t> buffer_;  ///< what is to be written next; it ends at position_
   std::uint64_t position_ = 0;

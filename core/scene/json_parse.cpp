@@ -135,6 +135,8 @@ bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") 
 JsonValue parse_json(std::string_view text) {
   if (text.size() > max_scene_bytes) throw Broken{"/", "more than 256 MiB of text", "a scene of at most 256 MiB"};
   if (is_blank(text)) throw Broken{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
+  // The parser would take it for the end of the text, and what follows would not be looked at.
+  if (const std::size_t zero = text.find('\0'); zero != text.npos) throw syntax_error(text, zero + 1, "zero byte");
   TreeBuilder builder(text);
   if (!TreeBuilder::Json::sax_parse(text.begin(), text.end(), &builder, TreeBuilder::Json::input_format_t::json, true,
                                     true))

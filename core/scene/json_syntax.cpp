@@ -69,6 +69,7 @@ constexpr Fault faults[] = {
      "\\\\ for a backslash"},
     {"surrogate", "half of a \\u pair", "both halves of it"},
     {"'\\u' must be followed by 4 hex digits", "\\u without 4 hexadecimal digits", "\\u and 4 hexadecimal digits"},
+    {"zero byte", "a zero byte", "text in UTF-8"},
     {"UTF-8", "bytes that are not UTF-8", "text in UTF-8"},
     {"invalid BOM", "a broken byte order mark", "text in UTF-8"}};
 

@@ -193,7 +193,7 @@ TEST_CASE("help names every command and option, with units and defaults") {
   for (const char* name : {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
     CHECK(has(overview, std::string("\n  ") + name + " "));
   CHECK(printed({"-h"}) == overview);
-  CHECK(has(printed({"--version"}), "tyndall "));
+  for (const char* word : {"--version", "-V", "version"}) CHECK(has(printed({word}), "tyndall "));
   const std::string render = printed({"render", "--help"});
   for (const char* option : {"--output FILE",
                              "--size WxH",

@@ -34,6 +34,21 @@ TEST_CASE("names of images") {
   CHECK_FALSE(is_exr("a.png"));
 }
 
+TEST_CASE("standard output needs a format, and a format needs standard output") {
+  const auto refusal = [](const std::vector<std::filesystem::path>& files, const char* format, const char* stats) {
+    try {
+      check_image_names(files, {format}, stats);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal({"-"}, "", "").find("expected --format as well") != std::string::npos);
+  CHECK(refusal({"a.png"}, "png", "").find("expected -o - as well") != std::string::npos);
+  CHECK(refusal({"-", "-"}, "png", "").find("- twice") != std::string::npos);
+  CHECK(refusal({"-"}, "png", "-").find("only one can go to standard output") != std::string::npos);
+}
+
 TEST_CASE("whether a file can be written is known beforehand, and asking leaves nothing") {
   const auto folder = empty_folder("outputs_test");
   CHECK_NOTHROW(check_can_write(folder / "a.png"));

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Images through standard output and named pipes are those that files get.
+. "$(dirname "$0")/_common.sh"
+
+scene=(cornell-box --size 20x16 --spp 2 -q)
+formats=(png pfm hdr)
+has_exr && formats+=(exr)
+for format in "${formats[@]}"; do
+  expect 0 "$tyndall" render "${scene[@]}" -o file.$format
+  "$tyndall" render "${scene[@]}" -o - --format $format >stream 2>err || fail "rendering $format to standard output"
+  [ ! -s err ] || fail "it says: $(cat err)"
+  if [ $format = exr ] || [ $format = png ]; then # these carry how long the run took
+    expect 0 "$tyndall" compare stream file.$format --max-rmse 0
+  else
+    cmp -s stream file.$format || fail "standard output gets another $format than a file"
+  fi
+  "$tyndall" render "${scene[@]}" -o - --format $format | cat >piped
+  [ "$(wc -c <piped)" -gt 100 ] || fail "a pipe gets no $format"
+done
+
+# A named pipe is written to, not replaced, and opened only when the image is there.
+mkfifo pipe.pfm
+timeout 60 cat pipe.pfm >from_pipe &
+reader=$!
+expect 0 "$tyndall" render "${scene[@]}" -o pipe.pfm -o file2.pfm
+wait $reader
+[ -p pipe.pfm ] || fail 'the pipe was replaced'
+cmp -s from_pipe file.pfm || fail 'a named pipe gets another image than a file'
+
+# Images and scenes are read from pipes, too. EXR is not read in order, and says so.
+expect 0 bash -c '"$0" compare <(cat file.png) <(cat file.png) --max-rmse 0' "$tyndall"
+expect 0 bash -c '"$0" render <(echo "{ \"tyndall\": 1 }") --size 4x4 --spp 1 -q -o - --format png >none.png' "$tyndall"
+if has_exr; then
+  expect 3 bash -c '"$0" compare <(cat file.exr) file.png' "$tyndall"
+  complains 'an EXR in a pipe'
+  "$tyndall" merge file.exr -o - --format pfm >merged.pfm || fail 'merging to standard output'
+  cmp -s merged.pfm file.pfm || fail 'merge gives standard output another image'
+fi
+
+expect 2 "$tyndall" render "${scene[@]}" -o -
+complains '--format'
+expect 2 "$tyndall" render "${scene[@]}" -o a.png --format png
+complains '--format' '-o -'
+expect 2 "$tyndall" render "${scene[@]}" -o - --format jpg
+complains '--format' 'jpg'
+expect 2 "$tyndall" render "${scene[@]}" -o - --format png --stats -
+complains '--stats -'
+expect 3 bash -c '"$0" "$@" >&-' "$tyndall" render "${scene[@]}" -o - --format png
+complains '-: cannot write'
+[ ! -e ./- ] || fail 'a file called - was written'
+
+# Limits of the system are named. (A program with sanitizers does not start under this one.)
+if bash -c 'ulimit -v 600000; "$0" -V' "$tyndall" >probe 2>&1; then
+  expect 3 bash -c 'ulimit -v 600000; exec "$0" "$@"' "$tyndall" render cornell-box --size 4000x4000 --spp 1 -q -o a.pfm
+  grep -q 'ulimit -v' err || fail "the limit of the address space is not named: $(cat err)"
+  expect 3 bash -c 'ulimit -v 600000; exec "$0" "$@"' "$tyndall" render cornell-box --size 8x8 --spp 1 -t 400 -q -o a.pfm
+  complains 'cannot start thread' 'of 400' 'ulimit -v' '--threads'
+fi
+
+for word in -V version --version; do
+  expect 0 "$tyndall" $word
+  grep -q '^tyndall [0-9]' out || fail "$word prints: $(cat out)"
+done
+
+finish
