@@ -124,8 +124,9 @@ std::string chains_text(const Report& report) {
   if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
   if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
   if (render.fresnel != FresnelKind::exact) return "none: they need exact Fresnel";
-  if (chains.ball.empty()) return "none: no lamp that is small as seen from a ball of glass or a mirror";
-  const int flat = static_cast<int>(chains.index.size()) - chains.first_mirror;
+  if (chains.ball.empty()) return "none: no lamp that is small as seen from a ball of glass, a mirror or a pane";
+  const int flat = chains.first_pane - chains.first_mirror;
+  const int panes = static_cast<int>(chains.index.size()) - chains.first_pane;
   int mirrors = -flat, shells = 0;
   for (const float index : chains.index) mirrors += index == 0 ? 1 : 0;
   for (const float radius : chains.inner_radius) shells += radius > 0 ? 1 : 0;
@@ -138,10 +139,11 @@ std::string chains_text(const Report& report) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
   };
   add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell"), add(flat, "flat mirror");
+  add(panes, "pane");
   const std::string count = counted(static_cast<int>(lamps.size()), "lamp");
   for (std::int32_t& lamp : lamps) lamp = report.compiled.lights.element[static_cast<std::size_t>(lamp)];
   return text + " (" + named(report, chains.outer) + "), each alone, to " + count + " (" + named(report, lamps) + ")" +
-         "; by chance: ways over two of them, quads and boxes of glass, and fuzzy metal";
+         "; by chance: ways over two of them, quads of glass, other boxes of glass, and fuzzy metal";
 }
 
 std::string bytes_text(std::size_t bytes) {

@@ -4,6 +4,7 @@
 #include "core/compile/crowds.h"
 #include "core/compile/lights.h"
 #include "core/compile/mirrors.h"
+#include "core/compile/panes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ void nest(std::vector<Candidate>& list) {
 }
 
 struct BallAndLight {
-  int ball;  // index into the candidates, or behind them into the flat mirrors
+  int ball;  // index into the candidates, or behind them into the flat mirrors, or behind those into the panes
   int light;
   double worth;
 };
@@ -84,8 +85,24 @@ bool is_filled_shell(const std::vector<Candidate>& list, const Candidate& outer)
   return std::abs(outer.index * list[static_cast<std::size_t>(outer.holds)].index - 1) > like_outside;
 }
 
-std::vector<BallAndLight> list_pairs(const std::vector<Candidate>& list, const std::vector<FlatMirror>& mirrors,
-                                     const std::vector<Receiver>& receivers, const RenderScene& compiled) {
+/// All that chains may go by, and where their light shows.
+struct Found {
+  std::vector<Candidate> balls;
+  std::vector<FlatMirror> mirrors;
+  std::vector<Pane> panes;
+  std::vector<Receiver> receivers;
+};
+
+Found look_for_all(const Flattened& flat, const Scene& scene) {
+  Found found{list_candidates(flat, scene), list_flat_mirrors(flat, scene), list_panes(flat, scene), {}};
+  nest(found.balls);
+  if (!found.mirrors.empty()) found.receivers = list_receivers(flat, scene);
+  return found;
+}
+
+std::vector<BallAndLight> list_pairs(const Found& found, const RenderScene& compiled) {
+  const std::vector<Candidate>& list = found.balls;
+  const std::vector<FlatMirror>& mirrors = found.mirrors;
   std::vector<BallAndLight> pairs;
   const auto add = [&](std::size_t ball, const auto& worth_of_light) {
     for (std::size_t k = 0; k < compiled.lights.kind.size(); ++k) {
@@ -98,7 +115,10 @@ std::vector<BallAndLight> list_pairs(const std::vector<Candidate>& list, const s
       add(b, [&](std::size_t k) { return worth_of(list[b].body, compiled.lights, k, compiled.origin); });
   for (std::size_t b = 0; b < mirrors.size(); ++b)
     add(list.size() + b,
-        [&](std::size_t k) { return worth_of(mirrors[b], compiled.lights, k, compiled.origin, receivers); });
+        [&](std::size_t k) { return worth_of(mirrors[b], compiled.lights, k, compiled.origin, found.receivers); });
+  for (std::size_t b = 0; b < found.panes.size(); ++b)
+    add(list.size() + mirrors.size() + b,
+        [&](std::size_t k) { return worth_of(found.panes[b], compiled.lights, k, compiled.origin); });
   if (pairs.size() > most_pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const BallAndLight& a, const BallAndLight& b) { return a.worth > b.worth; });
@@ -133,20 +153,21 @@ class Filler {
     out.inner.push_back(inner ? name(*inner, ball, 1) : out.outer.back());
     out.crowded.push_back(is_crowded(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape}) ? 1 : 0);
     out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
-    ++out.first_mirror;
+    ++out.first_mirror, ++out.first_pane;
   }
 
   /// After all balls.
   void add_mirror(const FlatMirror& mirror) {
-    const int ball = static_cast<int>(out.radius.size());
-    push(out.center, mirror.middle - compiled_.origin);
-    push(out.move, {});
-    out.radius.push_back(0), out.index.push_back(0), out.inner_radius.push_back(0), out.inner_index.push_back(1);
-    const std::int32_t element = first_element_[mirror.shape] + mirror.face;
-    out.outer.push_back(element), out.inner.push_back(element), out.crowded.push_back(0);
-    out.ball_of[static_cast<std::size_t>(element)] = 2 * ball;
-    out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
+    add_flat(mirror.middle, 0, 0, first_element_[mirror.shape] + mirror.face, 1);
     append_numbers(mirror, compiled_.origin, out.mirrors);
+    ++out.first_pane;
+  }
+
+  /// After all mirrors.
+  void add_pane(const Pane& pane) {
+    const double radius = std::hypot(pane.half[0], pane.half[1], pane.half[2]);
+    add_flat(pane.middle, radius, pane.index, first_element_[pane.shape], 6);
+    append_numbers(pane, compiled_.origin, out.panes);
   }
 
   void add_pair(const BallAndLight& pair) {
@@ -157,17 +178,28 @@ class Filler {
     out.light.push_back(pair.light);
     out.choice.kind.push_back(Lights::sphere);
     const auto k = static_cast<std::size_t>(pair.light);
-    const bool by_mirror = static_cast<int>(ball) >= out.first_mirror;
-    out.choice.power.push_back(by_mirror ? compiled_.lights.power[k] : static_cast<float>(pair.worth));
-    out.choice.reach2.push_back(by_mirror ? compiled_.lights.reach2[k] : out.radius[ball] * out.radius[ball]);
+    const bool by_flat = static_cast<int>(ball) >= out.first_mirror;
+    out.choice.power.push_back(by_flat ? compiled_.lights.power[k] : static_cast<float>(pair.worth));
+    out.choice.reach2.push_back(by_flat ? compiled_.lights.reach2[k] : out.radius[ball] * out.radius[ball]);
     for (int i = 0; i < 3; ++i)
-      out.choice.center[i].push_back(by_mirror ? compiled_.lights.center[i][k]
-                                               : out.center[i][ball] + 0.5f * out.move[i][ball]);
+      out.choice.center[i].push_back(by_flat ? compiled_.lights.center[i][k]
+                                             : out.center[i][ball] + 0.5f * out.move[i][ball]);
   }
 
   Chains out;
 
  private:
+  void add_flat(Vec3d middle, double radius, double index, std::int32_t element, int faces) {
+    const int ball = static_cast<int>(out.radius.size());
+    push(out.center, middle - compiled_.origin);
+    push(out.move, {});
+    out.radius.push_back(static_cast<float>(radius)), out.index.push_back(static_cast<float>(index));
+    out.inner_radius.push_back(0), out.inner_index.push_back(1);
+    out.outer.push_back(element), out.inner.push_back(element), out.crowded.push_back(0);
+    for (int i = 0; i < faces; ++i) out.ball_of[static_cast<std::size_t>(element + i)] = 2 * ball;
+    out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
+  }
+
   std::int32_t name(const Candidate& sphere, int ball, int inner) {
     const std::int32_t element = first_element_[sphere.shape];
     out.ball_of[static_cast<std::size_t>(element)] = 2 * ball + inner;
@@ -183,18 +215,21 @@ class Filler {
 
 Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene& compiled) {
   if (!has_material<Lambertian<>>(compiled.needs) && !compiled.needs.media) return {};
-  std::vector<Candidate> list = list_candidates(flat, scene);
-  nest(list);
-  const std::vector<FlatMirror> mirrors = list_flat_mirrors(flat, scene);
-  const std::vector<Receiver> receivers = mirrors.empty() ? std::vector<Receiver>{} : list_receivers(flat, scene);
-  const std::vector<BallAndLight> pairs = list_pairs(list, mirrors, receivers, compiled);
+  const Found found = look_for_all(flat, scene);
+  const std::vector<BallAndLight> pairs = list_pairs(found, compiled);
   if (pairs.empty()) return {};
   Filler filler(flat, compiled);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto ball = static_cast<std::size_t>(pairs[i].ball);
-    const bool fresh = i == 0 || pairs[i].ball != pairs[i - 1].ball;
-    if (fresh && ball < list.size()) filler.add_ball(list, list[ball]);
-    if (fresh && ball >= list.size()) filler.add_mirror(mirrors[ball - list.size()]);
+    const std::size_t first_mirror = found.balls.size(), first_pane = first_mirror + found.mirrors.size();
+    if (i == 0 || pairs[i].ball != pairs[i - 1].ball) {
+      if (ball < first_mirror)
+        filler.add_ball(found.balls, found.balls[ball]);
+      else if (ball < first_pane)
+        filler.add_mirror(found.mirrors[ball - first_mirror]);
+      else
+        filler.add_pane(found.panes[ball - first_pane]);
+    }
     filler.add_pair(pairs[i]);
   }
   build_alias_table(filler.out.choice);

@@ -141,8 +141,20 @@ enum MirrorNumber {
   numbers_of_mirror = 14
 };
 
-/// Balls of glass, mirror balls and flat mirrors, and for each the lamps whose light integrator mis looks for through
-/// it or off it. Flat mirrors have places behind the balls, as mirror balls of radius 0.
+/// A pane as numbers.
+enum PaneNumber {
+  pane_rows = 0,     ///< the unit directions of its three edges
+  pane_offsets = 9,  ///< added to the products with these rows: places are measured from its middle
+  pane_halves = 12,  ///< half lengths of the edges
+  pane_index = 15,   ///< of refraction
+  pane_fog = 16,     ///< density of fog within
+  pane_closed = 17,  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
+  numbers_of_pane = 18
+};
+
+/// Balls of glass, mirror balls, flat mirrors and panes, and for each the lamps whose light integrator mis looks for
+/// through it or off it. Flat mirrors have places behind the balls, as mirror balls of radius 0. Panes have places
+/// behind the mirrors, as balls of glass that hold them; their element is that of their first face.
 struct Chains {
   // Columns by ball: one sphere, or two around one centre.
   std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
@@ -150,8 +162,9 @@ struct Chains {
   std::vector<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
   std::vector<std::int32_t> outer, inner;        ///< elements of the spheres
   std::vector<std::int32_t> crowded;             ///< 1: surfaces or media other than its own are or reach into it
-  int first_mirror = 0;                          ///< how many balls there are
+  int first_mirror = 0, first_pane = 0;          ///< how many balls there are; how many balls and flat mirrors
   std::vector<float> mirrors;                    ///< numbers_of_mirror for each flat mirror, see MirrorNumber
+  std::vector<float> panes;                      ///< numbers_of_pane for each pane, see PaneNumber
   // Pairs of a ball and a light.
   std::vector<std::int32_t> ball, light;
   Lights choice;                      ///< the pairs as what choose_light chooses from

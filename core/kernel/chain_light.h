@@ -1,22 +1,26 @@
 #pragma once
-#include "core/kernel/chain_path.h"
+#include "core/kernel/chain_trail.h"
 #include "core/kernel/event.h"
 
-/// Light that a lamp sends to a point through or off one ball or off one flat mirror, such as the bright spot under a
-/// glass ball: solved for, where scattering would have to find it by chance. First a ball or mirror and a lamp are
-/// chosen, then a point of the lamp, then which surfaces of the ball the light meets and how. All chains between the
-/// two points that do so are found; one of them, drawn at random, is tested for things in its way, and counts for all.
+/// Light that a lamp sends to a point through or off one ball, off one flat mirror or through one pane, such as the
+/// bright spot under a glass ball: solved for, where scattering would have to find it by chance. First a ball, mirror
+/// or pane and a lamp are chosen, then a point of the lamp, then which surfaces of the ball the light meets and how (of
+/// a pane before the point). All chains between the two points that do so are found; one of them, drawn at random, is
+/// tested for things in its way, and counts for all.
 /// As scattering finds the same paths, both are weighed by the power heuristic.
 namespace tyndall {
 
-/// What each lane asks for: light by one ball or mirror from one point of one lamp, and how these lie to each other.
+/// What each lane asks for: light by one ball, mirror or pane from one point of one lamp, and how these lie to each
+/// other.
 template <class F>
 struct ChainAsked {
   LightChoice<F> pair;
   F probability;  ///< that a chain is asked for, by this pair
   ChainBall<F> ball;
   ChainMirror<F> mirror;
-  MaskOf<F> by_mirror;
+  ChainPane<F> pane;
+  PaneDrawn<F> way;  ///< through the pane
+  MaskOf<F> by_mirror, by_pane;
   IntOf<F> light;
   LightColumns<F> lamp;
   LampPoint<F> at;
@@ -44,12 +48,28 @@ struct ChainRays {
   IntOf<F> from;              ///< Ray::from of the way to the lamp
   F share;                    ///< of light that the surfaces send this way
   F density;                  ///< of the direction at the near end, per steradian, with which it is asked for
-  F count;                    ///< how many like this there are
+  F count;                    ///< how many like this there are: the inverse of the probability to take this one
+  F fog;                      ///< within a pane: its density times the length of the way there
 };
 
+/// Draws a way through a pane, and gives the ball within which the lamp sees the asking point over it.
 template <class F>
-TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, Vec3<F> point, F time, const Dice<F>& dice) {
+TYNDALL_INLINE ChainBall<F> ask_pane(const auto& s, const Event<F>& e, F time, const Dice<F>& dice, MaskOf<F> lanes,
+                                     ChainAsked<F>& a) {
   const ChainView& c = s.chains;
+  a.pane = load_pane<F>(
+      c, select(a.by_pane, lookup_int<F>(c.ball, c.pairs, a.pair.light) - IntOf<F>(c.first_pane), IntOf<F>(0)));
+  const LampBall<F> around = ball_around(a.lamp, time);
+  const Vec3<F> normal = select(e.medium, zero3<F>(), e.incident.facing);
+  const Pair<F> u{dice.one_alone(dimension::chain_word), dice.one_alone(dimension::chain_root)};
+  a.way = draw_pane_word(a.pane, e.point, normal, around, u, mask_and(lanes, a.by_pane));
+  return seen_by_pane(a.pane, sight_of(a.pane, e.point, around.center, a.way.word.across), a.way.word);
+}
+
+template <class F>
+TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, const Event<F>& e, F time, const Dice<F>& dice, MaskOf<F> lanes) {
+  const ChainView& c = s.chains;
+  const Vec3<F> point = e.point;
   ChainAsked<F> a{};
   a.pair = choose_light(c, point, dice.one_alone(dimension::chain_pair));
   a.probability = chain_probability(s, point) * a.pair.probability;
@@ -57,12 +77,20 @@ TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, Vec3<F> point, F time, con
   a.ball = load_ball<F>(c, ball, time);
   a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
   a.lamp = load_light<F>(s.lights, a.light);
-  a.by_mirror = less_equal(IntOf<F>(0), mirror);
+  a.by_pane = less_equal(IntOf<F>(c.first_pane), ball);
+  a.by_mirror = mask_and_not(less_equal(IntOf<F>(0), mirror), a.by_pane);
   if (c.has_mirrors()) {
     a.mirror = load_mirror<F>(c, select(a.by_mirror, mirror, IntOf<F>(0)));
     a.ball.center = select(a.by_mirror, mirrored(a.mirror, point), a.ball.center);  // see seen_by_mirror()
   }
-  a.at = sample_lamp(a.lamp, a.ball, point, time, dice.pair(dimension::chain_point));
+  Vec3<F> asking = point;
+  if (c.has_panes() && any(mask_and(lanes, a.by_pane))) {
+    const ChainBall<F> seen = ask_pane(s, e, time, dice, lanes, a);
+    a.ball.center = select(a.by_pane, seen.center, a.ball.center);
+    a.ball.radius = select(a.by_pane, seen.radius, a.ball.radius);
+    asking = select(a.by_pane, seen.center, asking);
+  }
+  a.at = sample_lamp(a.lamp, a.ball, asking, time, dice.pair(dimension::chain_point));
   if (!c.has_balls()) return a;
   a.plane = plane_of(a.ball, point, a.at.point);
   a.ends = ends_of(a.ball, a.plane.near, a.plane.far);
@@ -76,17 +104,6 @@ TYNDALL_INLINE F scattered_density(const auto& s, const Paths<F>& p, const Event
   const F diffuse = density(Lambertian<F>{}, e.incident, direction);
   if (!s.has_media() || !any(e.medium)) return diffuse;
   return select(e.medium, phase_density(s, e.g, p.ray.direction, direction), diffuse);
-}
-
-/// Distance that light goes from an end to the surface of the ball that it meets first: from outside to the outer
-/// sphere, from within to the wall of the glass or of the hollow in which the end is.
-template <class F>
-TYNDALL_INLINE F way_to_ball(const ChainBall<F>& b, const Turn<F>& turn, F end, F reach, F sign, F s) {
-  const auto out = less(b.radius, end);
-  const F index = select(out, F(1.0f), select(b.hollow, b.inner_index, b.index));
-  const F wall = index * select(out, b.radius, select(b.hollow, b.inner_radius, b.radius));
-  const F from_end = depth_of(turn, reach, s), to_wall = depth_of(turn, wall, s);
-  return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
 }
 
 /// Finds all chains of a word between the two points, and takes one of them. For an end within the ball both signs are
@@ -130,7 +147,7 @@ TYNDALL_INLINE ChainRays<F> rays_of(const ChainAsked<F>& a, const ChainWord<F>& 
     return along((side * cosine) * out, c.sense * p * inverse, across);
   };
   ChainRays<F> r;
-  r.found = c.found, r.count = c.count;
+  r.found = c.found, r.count = c.count, r.fog = F(0.0f);
   r.direction = ray(a.ends.near_reach, -c.sign.near, a.plane.near_out, a.plane.near_side);
   r.arrive = ray(a.ends.far_reach, c.sign.far, a.plane.far_out, a.plane.far_side);
   r.near_way = way_to_ball(a.ball, turn, a.ends.near, a.ends.near_reach, c.sign.near, c.s);
@@ -161,6 +178,25 @@ TYNDALL_INLINE void add_mirrored(const ChainAsked<F>& a, Vec3<F> point, MaskOf<F
   r.share = select(lanes, F(1.0f), r.share), r.count = select(lanes, F(1.0f), r.count);
 }
 
+/// Puts the chains of `lanes`, which ask for a pane, among the others.
+template <class F>
+TYNDALL_INLINE void add_through_pane(const ChainAsked<F>& a, Vec3<F> point, MaskOf<F> lanes, ChainRays<F>& r) {
+  const PaneSight<F> s = sight_of(a.pane, point, a.at.point, a.way.word.across);
+  const PaneWay<F> way = pane_way(a.pane, s, a.way.word);
+  r.found = mask_or(mask_and(lanes, way.found), mask_and_not(r.found, lanes));
+  r.direction = select(lanes, way.direction, r.direction), r.arrive = select(lanes, way.arrive, r.arrive);
+  r.near_way = select(lanes, way.near_way, r.near_way), r.far_way = select(lanes, way.far_way, r.far_way);
+  const IntOf<F> lower = a.pane.element + a.way.word.across + a.way.word.across, one = IntOf<F>(1);
+  const IntOf<F> first = select(less(F(0.0f), s.near.height), lower + one, lower);
+  const IntOf<F> last = select(less(F(0.0f), s.far.height), lower + one, lower);
+  r.wall = select(lanes, first, r.wall), r.from = select(lanes, last * IntOf<F>(4), r.from);
+  const F cosine = lamp_cosine(a.lamp, a.at.normal, way.arrive);
+  const F density = way.spread / max(cosine, F(1e-30f)) * a.at.density * a.probability;
+  r.density = select(lanes, density, r.density), r.share = select(lanes, way.share, r.share);
+  r.count = select(lanes, F(1.0f) / max(a.way.probability, F(1e-30f)), r.count);
+  r.fog = select(lanes, a.pane.fog * way.within, r.fog);
+}
+
 /// A chain for each lane.
 template <class F>
 struct ChainLooked {
@@ -181,13 +217,19 @@ TYNDALL_INLINE ChainLooked<F> look_for_chain(const auto& s, const Paths<F>& p, c
     const auto valid = mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine));
     const DrawnWord<F> drawn = draw_word(a.ball, a.ends, out.digits);
     const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), events_left);
-    const auto here = mask_and(mask_and_not(mask_and(lanes, valid), a.by_mirror), mask_and(drawn.drawn, fits));
+    const auto by_ball = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_pane);
+    const auto here = mask_and(mask_and(by_ball, valid), mask_and(drawn.drawn, fits));
     if (any(here)) {
       out.chain = find_chain(s, a, drawn.word, p.dice.one_alone(dimension::chain_root), here);
       out.rays = rays_of(a, drawn.word, out.chain);
     }
   }
   if (s.chains.has_mirrors() && any(by_mirror)) add_mirrored(a, e.point, by_mirror, out.rays);
+  if (!s.chains.has_panes()) return out;
+  const PaneWord<F>& word = a.way.word;
+  const F events = word.crossings + F(1.0f) + abs(word.image[0]) + abs(word.image[1]);
+  const auto by_pane = mask_and(mask_and(mask_and(lanes, a.by_pane), a.way.drawn), less(to_int(events), events_left));
+  if (any(by_pane)) add_through_pane(a, e.point, by_pane, out.rays);
   return out;
 }
 
@@ -209,7 +251,7 @@ TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, 
 template <class F>
 [[gnu::noinline]] static Vec3<F> chain_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                              std::uint32_t& shadow_rays) {
-  const ChainAsked<F> a = ask_chain<F>(s, e.point, p.ray.time, p.dice);
+  const ChainAsked<F> a = ask_chain<F>(s, e, p.ray.time, p.dice, lanes);
   const ChainLooked<F> looked = look_for_chain(s, p, e, a, lanes);
   const ChainRays<F>& found = looked.rays;
   if (!any(found.found)) return zero3<F>();
@@ -227,6 +269,7 @@ template <class F>
     if (!any(arrives)) return zero3<F>();
     if (s.has_media()) weight = weight * pass_media(s, ray, way, arrives);
   }
+  if (s.has_media() && s.chains.has_panes()) weight = weight * transmittance(found.fog);
   const auto crowded = mask_and(arrives, a.ball.crowded);
   if (s.chains.crowds && any(crowded)) {
     const ChainFound<F>& c = looked.chain;

@@ -1,7 +1,7 @@
 #pragma once
-#include "core/kernel/chain_turn.h"
 #include "core/kernel/scene_view.h"
 #include "core/materials/dielectric.h"
+#include "core/shapes/chain_turn.h"
 
 /// The word of a chain: which surfaces of a ball it meets and what happens there. Words are drawn at random; this file
 /// tells with which probability, and which share of the light takes the way that a word describes. A ball is a mirror,

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/kernel/chain_path.h"
+#include "core/kernel/chain_trail.h"
 #include "core/kernel/flight.h"
 #include "core/kernel/lights.h"
 #include "core/kernel/shade.h"

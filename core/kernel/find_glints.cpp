@@ -72,7 +72,9 @@ class Finder {
       lamp_ = load_light<float>(s_.lights, light);
       points_ = points_of(lamp_);
       if (seen.insert(light).second) add([&](Vec3f point, int) { return point - s_.camera.center; }, 1);
-      if (ball >= s_.chains.first_mirror)
+      if (ball >= s_.chains.first_pane)
+        by_pane(ball - s_.chains.first_pane);
+      else if (ball >= s_.chains.first_mirror)
         by_mirror(ball - s_.chains.first_mirror);
       else
         by_ball(ball);
@@ -110,6 +112,22 @@ class Finder {
       return way.found ? way.direction : Vec3f{};
     };
     add(direction, 1);
+  }
+
+  /// Straight through, and reflected at the faces at the ends of each edge.
+  void by_pane(int number) {
+    const ChainPane<float> pane = load_pane<float>(s_.chains, number);
+    for (std::int32_t across = 0; across < 3; ++across)
+      for (const float crossings : {0.0f, 1.0f, 2.0f}) {
+        const auto direction = [&](Vec3f point, int) {
+          const PaneSight<float> sight = sight_of(pane, s_.camera.center, point, across);
+          const bool outside = sight.near_gap > 0 && sight.far_gap > 0;
+          if (!outside || sight.same != (crossings != 1)) return Vec3f{};
+          const PaneWay<float> way = pane_way(pane, sight, {across, crossings, {0, 0}});
+          return way.found ? way.direction : Vec3f{};
+        };
+        add(direction, 1);
+      }
   }
 
   void by_ball(std::int32_t ball) {

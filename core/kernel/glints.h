@@ -3,10 +3,10 @@
 
 #include <vector>
 
-/// Glints: what the camera sees of a small lamp, directly or by one ball or flat mirror. A glint may fill so little of
-/// its pixel that samples which are spread evenly over the pixel seldom hit it, and each that does is a bright speck.
-/// So half of the samples of such a pixel are drawn within boxes around its glints, and all of its samples are weighed
-/// by the density of their place. That is exact wherever the boxes lie: they only have to be there.
+/// Glints: what the camera sees of a small lamp, directly or by one ball, flat mirror or pane. A glint may fill so
+/// little of its pixel that samples which are spread evenly over the pixel seldom hit it, and each that does is a
+/// bright speck. So half of the samples of such a pixel are drawn within boxes around its glints, and all of its
+/// samples are weighed by the density of their place. That is exact wherever the boxes lie: they only have to be there.
 namespace tyndall {
 
 /// A box around a glint, or the part of it in one pixel.

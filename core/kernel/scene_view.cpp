@@ -61,6 +61,7 @@ ChainView view_of(const Chains& c) {
   v.light = c.light.data();
   v.pair_of = c.pair_of.data(), v.ball_of = c.ball_of.data();
   v.first_mirror = c.first_mirror, v.mirrors = c.mirrors.data();
+  v.first_pane = c.first_pane, v.panes = c.panes.data();
   v.choice = view_of(c.choice);
   return v;
 }

@@ -37,14 +37,15 @@ struct LightView {
 };
 
 struct ChainView {
-  int pairs = 0, balls = 0, first_mirror = 0;
+  int pairs = 0, balls = 0, first_mirror = 0, first_pane = 0;
   bool shells, crowds;  ///< whether some ball is a shell, or crowded
   const float *center[3], *move[3], *radius, *index, *inner_radius, *inner_index;
   const std::int32_t *outer, *inner, *crowded, *ball, *light, *pair_of, *ball_of;
-  const float* mirrors;
+  const float *mirrors, *panes;
   LightView choice;
   TYNDALL_INLINE bool has_balls() const { return first_mirror > 0; }
-  TYNDALL_INLINE bool has_mirrors() const { return first_mirror < balls; }
+  TYNDALL_INLINE bool has_mirrors() const { return first_mirror < first_pane; }
+  TYNDALL_INLINE bool has_panes() const { return first_pane < balls; }
 };
 
 struct SceneView {

@@ -52,7 +52,7 @@ constexpr Word word(FresnelKind fresnel) {
   return {};
 }
 
-/// How integrator mis finds lamps through glass balls and off mirrors.
+/// How integrator mis finds lamps through glass balls and panes and off mirrors.
 enum class Caustics { chains, scatter };
 
 constexpr Word word(Caustics caustics) {
@@ -89,7 +89,7 @@ inline constexpr auto fields(const RenderSettings*) {
       Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
       Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
       Field{"caustics", &RenderSettings::caustics,
-            "how integrator mis finds light through glass balls and off mirrors"},
+            "how integrator mis finds light through glass balls and panes and off mirrors"},
       Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
       Field{"adaptive", &RenderSettings::adaptive,
             "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "

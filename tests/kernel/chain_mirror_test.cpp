@@ -1,4 +1,4 @@
-#include "core/kernel/chain_mirror.h"
+#include "core/kernel/chain_flat.h"
 
 #include "core/kernel/scene_view.h"
 #include "tests/support/probe.h"
@@ -110,7 +110,7 @@ TEST_CASE("chains: a mirror is worth what its image of the lamp is, where that i
   int seen = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vec3d point = scene.middle() + random_point(engine, 4), way = mirrored(m, point) - lamp;
-    const double worth = light_worth<double>(chains, 0, point), full = power / dot(way, way);
+    const double worth = mirror_worth<double>(chains, 0, point), full = power / dot(way, way);
     if (mirror_way(m, point, lamp).found) {
       CHECK(worth == doctest::Approx(full));
       ++seen;

@@ -189,6 +189,34 @@ std::vector<ChainRoom> mirrors() {
   };
 }
 
+std::vector<ChainRoom> panes() {
+  const auto hanging = [](double index) {
+    return [index](Scene& s) { add(s, Box<>{{-0.9, 1.9, -0.7}, {1, 2.1, 0.8}}, glass(index), {RotateY{20}}); };
+  };
+  return {
+      {"pane", with(under_hood(), hanging(1.5))},
+      {"block of glass",
+       with(under_hood(large_lamp),
+            [](Scene& s) {
+              add(s, Box<>{{-0.5, 1, -0.4}, {0.4, 2, 0.5}}, glass(1.6), {RotateY{30}});
+            }),
+       1024, 0.006},
+      {"block of glass on the floor",
+       with(under_hood(large_lamp),
+            [](Scene& s) {
+              add(s, Box<>{{-0.9, 0, -0.8}, {0.9, 1.2, 0.8}}, glass(1.5), {RotateY{30}});
+            }),
+       1024, 0.006},
+      {"pane in fog",
+       with(under_hood(large_lamp),
+            [&](Scene& s) {
+              hanging(1.5)(s);
+              add_medium(s, Box<>{{-2.9, 0.1, -2.9}, {2.8, 2.9, 2.9}}, {0.3, 0.3}, 0.9);
+            }),
+       512, 0.006},
+  };
+}
+
 std::vector<ChainRoom> lamps() {
   const auto lit = [](auto add_lamps) {
     return with(hooded_room(), [&](Scene& s) {
@@ -226,7 +254,7 @@ std::vector<ChainRoom> lamps() {
 
 std::vector<ChainRoom> chain_rooms() {
   std::vector<ChainRoom> all;
-  for (const std::vector<ChainRoom>& some : {balls(), bulbs(), in_fog_and_moving(), mirrors(), lamps()})
+  for (const std::vector<ChainRoom>& some : {balls(), bulbs(), in_fog_and_moving(), mirrors(), panes(), lamps()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -19,7 +19,7 @@ struct ChainRoom {
 
 /// One room for each kind of chain: off metal and glass, through balls with inner reflections, through shells written
 /// both ways and off their inner spheres, out of bulbs, with moving balls and lamps, several lamps, quads, boxes and
-/// textures as lamps, in fog and with fog within; and off flat mirrors.
+/// textures as lamps, in fog and with fog within; off flat mirrors; through panes.
 std::vector<ChainRoom> chain_rooms();
 
 }  // namespace tyndall::test

@@ -1,0 +1,203 @@
+#pragma once
+#include "core/kernel/chain_pane.h"
+
+/// Paths that go the way of a chain by chance: a path that scatters into a ball, mirror or pane and then finds a lamp
+/// is weighed against the chain that would have found the same light. For that, paths remember where they scattered
+/// last and what they have met since (ChainTrail).
+namespace tyndall {
+
+/// What a path remembers, in scenes with chains, so that a lamp which it finds by chance can be weighed against them.
+template <class F>
+struct ChainTrail {
+  Vec3<F> start;  ///< where the path last scattered at a Lambertian surface or in fog
+  F density;      ///< of its direction from there, per steradian, over the probability that it asked for a chain there
+  /// What it has met since then. 0: nothing yet. -1: something that no chain meets. Else its bits are numbers: 0-3 of
+  /// events at the ball's outer sphere, 4-8 of events at the inner one, 9-12 of reflections there; bit 13 says whether
+  /// the path first went away from the ball's centre; from bit 14 on, the ball's index + 1. A flat mirror is a ball
+  /// here: see Chains. A pane is one, too, but its events are counted otherwise: see pane_word_of().
+  IntOf<F> met;
+};
+
+/// The new value of trail.met for lanes that leave the surface of `element`. reflected: those that leave it on the side
+/// from which they came.
+/// An event of a trail that does not name the ball: what is added to `met`, and by which bits a trail starts.
+template <class F>
+struct TrailEvent {
+  IntOf<F> start, count;
+  MaskOf<F> full;  ///< there is no room for another event
+};
+
+/// The same at a pane, whose event is at `element`. first: the element of its first face.
+template <class F>
+TYNDALL_INLINE TrailEvent<F> event_at_pane(IntOf<F> met, IntOf<F> element, IntOf<F> first) {
+  using I = IntOf<F>;
+  const I edge = as_int(shift_right<1>(as_uint(element - first)));
+  const I one = select(equal(edge, I(0)), I(1), select(equal(edge, I(1)), I(16), I(256)));
+  return {as_int(shift_left<12>(as_uint(edge))), one, equal(met & (one * I(15)), one * I(15))};
+}
+
+template <class F>
+TYNDALL_INLINE IntOf<F> meet_ball(const SceneView& s, const ChainTrail<F>& trail, const Ray<F>& ray, IntOf<F> element,
+                                  MaskOf<F> reflected) {
+  using I = IntOf<F>;
+  const I code = lookup_int<F>(s.chains.ball_of, s.element_count, element);
+  const auto none = mask_or(less(code, I(0)), less(trail.met, I(0)));
+  const I safe = select(none, I(0), code);
+  const I ball = as_int(shift_right<1>(as_uint(safe)));
+  const auto inner = equal(safe & I(1), I(1)), first = equal(trail.met, I(0));
+  const Vec3<F> center = load_ball<F>(s.chains, ball, ray.time).center;
+  const auto away = mask_and(first, less(F(0.0f), dot(ray.direction, trail.start - center)));
+  const I name = as_int(shift_left<14>(as_uint(ball + I(1)))), met = select(none, I(0), trail.met);
+  TrailEvent<F> event{select(away, I(1 << 13), I(0)), select(inner, select(reflected, I(16 + 512), I(16)), I(1)),
+                      mask_or(mask_or(equal(met & I(15), I(15)), equal(met & I(31 << 4), I(31 << 4))),
+                              equal(met & I(15 << 9), I(15 << 9)))};
+  if (s.chains.has_panes()) {
+    const auto by_pane = less_equal(I(s.chains.first_pane), ball);
+    const auto at = event_at_pane<F>(met, element, lookup_int<F>(s.chains.outer, s.chains.balls, ball));
+    event.start = select(by_pane, at.start, event.start), event.count = select(by_pane, at.count, event.count);
+    event.full = mask_or(mask_and(by_pane, at.full), mask_and_not(event.full, by_pane));
+  }
+  const I old = select(first, name + event.start, met);
+  const auto other = mask_not(equal(old & I(~((1 << 14) - 1)), name));
+  return select(mask_or(none, mask_or(other, event.full)), I(-1), old + event.count);
+}
+
+/// Probability with which an event asks for a chain: the light that it may get by chains over the light that it may get
+/// from lamps directly, both roughly estimated, and within [0.25, 1]. So little time is spent where chains bring
+/// little. 1 where there are too many lamps, or pairs of a ball and a lamp, to estimate.
+template <class F>
+[[gnu::noinline]] static F chain_probability(const SceneView& s, Vec3<F> point) {
+  const LightView &pairs = s.chains.choice, &lamps = s.lights;
+  if (pairs.count > most_lights_by_contribution || lamps.count > most_lights_by_contribution) return F(1.0f);
+  return min(max(total_worth(s.chains, point) / total_worth(lamps, point), F(0.25f)), F(1.0f));
+}
+
+/// Brings the trail up to date after event `e`: it starts anew where light scattered at a Lambertian surface or in fog,
+/// and grows by the surface that was met elsewhere. ray: by which the lanes came to the event. reflected: lanes that
+/// leave a surface on the side from which they came. density: of the direction in which they go on, per steradian.
+template <class F>
+TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const Ray<F>& ray, const auto& e,
+                                 MaskOf<F> reflected, F density) {
+  const auto spreads = mask_or(e.medium, mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>()))));
+  const auto goes_on = mask_and(mask_and_not(e.surface, spreads), less_equal(IntOf<F>(0), trail.met));
+  if (any(goes_on)) trail.met = select(goes_on, meet_ball(s, trail, ray, e.at.element, reflected), trail.met);
+  trail.met = select(spreads, IntOf<F>(0), trail.met);
+  trail.start = select(spreads, e.point, trail.start);
+  trail.density = select(spreads, density / chain_probability(s, e.point), trail.density);
+}
+
+/// Takes the events apart that ChainTrail::met counts.
+template <class F>
+TYNDALL_INLINE ChainWord<F> word_of(IntOf<F> met) {
+  using I = IntOf<F>;
+  return {from_int<F>(met & I(15)), from_int<F>(as_int(shift_right<4>(as_uint(met))) & I(31)),
+          from_int<F>(as_int(shift_right<9>(as_uint(met))) & I(15))};
+}
+
+/// The chain that would have found what a path found by chance.
+template <class F>
+struct ChainByChance {
+  MaskOf<F> could;  ///< there is one
+  F density;        ///< of its direction where it starts, per steradian, once its pair and its word are chosen
+  F word;           ///< probability of its word
+  F share;          ///< of light that the surfaces send this way
+};
+
+template <class F>
+TYNDALL_INLINE ChainByChance<F> ball_by_chance(const ChainView& c, const ChainTrail<F>& trail, const Ray<F>& ray,
+                                               IntOf<F> ball, const LightColumns<F>& lamp, Vec3<F> point) {
+  using I = IntOf<F>;
+  const ChainBall<F> b = load_ball<F>(c, ball, ray.time);
+  const LampPoint<F> at = lamp_point(lamp, b, trail.start, ray.time, point);
+  const ChainPlane<F> plane = plane_of(b, trail.start, point);
+  const ChainEnds<F> ends = ends_of(b, plane.near, plane.far);
+  const ChainWord<F> word = word_of<F>(trail.met);
+  const auto away = mask_not(equal(trail.met & I(1 << 13), I(0)));
+  const EndSigns<F> sign{select(mask_and_not(away, less(b.radius, plane.near)), F(-1.0f), F(1.0f)),
+                         select(less(dot(ray.direction, plane.far_out), F(0.0f)), F(-1.0f), F(1.0f))};
+  const ChainTurn<F> chain = turn_of(c, b, ends, word, sign);
+  const F p = ends.far_reach * length(cross(plane.far_out, ray.direction));
+  const F s2 = F(1.0f) - p / chain.turn.most, parameter = sqrt(max(s2, F(1e-12f)));
+  const auto could = mask_and(
+      chain.possible, mask_and(less_equal(F(least_parameter), parameter), less_equal(parameter, chain.turn.last)));
+  const F cosine = lamp_cosine(lamp, at.normal, ray.direction);
+  const F spread = spread_of(chain, ends, plane.sine, parameter, turn_at(chain.turn, parameter).slope, cosine);
+  return {mask_and(could, less(F(0.0f), cosine)), spread * at.density, word_probability(b, ends, word),
+          share_of(b, ends, word, p)};
+}
+
+template <class F>
+TYNDALL_INLINE ChainByChance<F> mirror_by_chance(const ChainView& c, const ChainTrail<F>& trail, const Ray<F>& ray,
+                                                 IntOf<F> mirror, const LightColumns<F>& lamp, Vec3<F> point) {
+  const ChainMirror<F> m = load_mirror<F>(c, mirror);
+  const LampPoint<F> at = lamp_point(lamp, seen_by_mirror(m, trail.start), trail.start, ray.time, point);
+  const MirrorWay<F> way = mirror_way(m, trail.start, point);
+  const F cosine = lamp_cosine(lamp, at.normal, ray.direction);
+  return {mask_and(way.found, less(F(0.0f), cosine)), way.spread / max(cosine, F(1e-30f)) * at.density, F(1.0f),
+          F(1.0f)};
+}
+
+template <class F>
+TYNDALL_INLINE ChainByChance<F> pane_by_chance(const ChainView& c, const ChainTrail<F>& trail, const Ray<F>& ray,
+                                               IntOf<F> pane, const LightColumns<F>& lamp, Vec3<F> point) {
+  const ChainPane<F> p = load_pane<F>(c, pane);
+  const PaneWord<F> word = pane_word_of(p, trail.met, ray.direction);
+  const LampBall<F> around = ball_around(lamp, ray.time);
+  const PaneSight<F> to_lamp = sight_of(p, trail.start, around.center, word.across);
+  const auto could = is_looked_for(p, to_lamp, around, word);
+  const ChainBall<F> seen = seen_by_pane(p, to_lamp, word);
+  const LampPoint<F> at = lamp_point(lamp, seen, seen.center, ray.time, point);
+  const PaneSight<F> s = sight_of(p, trail.start, point, word.across);
+  const F rises[3] = {dot(p.row[0], ray.direction), dot(p.row[1], ray.direction), dot(p.row[2], ray.direction)};
+  const PanePlace<F> rise = framed<F>(rises, word.across);
+  const F slope =
+      sqrt(mul_add(rise.side[0], rise.side[0], rise.side[1] * rise.side[1])) / max(abs(rise.height), F(1e-6f));
+  PaneWay<F> way;
+  follow_slope(s, word, reach_of(p.index, s.near_gap + s.far_gap, F(2.0f) * word.crossings * s.half.height, slope),
+               way);
+  const F cosine = lamp_cosine(lamp, at.normal, ray.direction);
+  return {mask_and(could, less(F(0.0f), cosine)), way.spread / max(cosine, F(1e-30f)) * at.density, F(1.0f), way.share};
+}
+
+/// Puts what is true of the lanes `here` among the others.
+template <class F>
+TYNDALL_INLINE void put(MaskOf<F> here, const ChainByChance<F>& from, ChainByChance<F>& to) {
+  to.could = mask_or(mask_and(here, from.could), mask_and_not(to.could, here));
+  to.density = select(here, from.density, to.density), to.word = select(here, from.word, to.word);
+  to.share = select(here, from.share, to.share);
+}
+
+/// Weight of the light of a lamp that the lanes `lit` found by chance at `point`, after the events of their trail; 1
+/// where no chain could have found it. By the power heuristic it is r² / (1 + r²). r is the density with which the path
+/// scattered into its direction times the probability that the ball's surfaces sent it this way, over the density with
+/// which a chain would have been found there.
+template <class F>
+[[gnu::noinline]] static F found_by_chance_weight(const SceneView& s, ChainTrail<F> trail, Ray<F> ray, IntOf<F> light,
+                                                  Vec3<F> point, MaskOf<F> lit) {
+  using I = IntOf<F>;
+  auto could = mask_and(mask_and(lit, less_equal(I(0), light)), less(I((1 << 14) - 1), trail.met));
+  if (!any(could)) return F(1.0f);
+  const ChainView& c = s.chains;
+  const I ball = select(could, as_int(shift_right<14>(as_uint(trail.met))) - I(1), I(0));
+  const I lamp = select(could, light, I(0));
+  const I pair = gather_int<F>(c.pair_of, ball * I(s.lights.count) + lamp);
+  could = mask_and(could, less_equal(I(0), pair));
+  if (!any(could)) return F(1.0f);
+  const LightColumns<F> columns = load_light<F>(s.lights, lamp);
+  ChainByChance<F> chain{less(F(1.0f), F(0.0f)), F(0.0f), F(0.0f), F(0.0f)};
+  if (c.has_balls()) chain = ball_by_chance(c, trail, ray, ball, columns, point);
+  const I mirror = ball - I(c.first_mirror), pane = ball - I(c.first_pane);
+  const auto is_pane = mask_and(could, less_equal(I(0), pane));
+  const auto is_mirror = mask_and_not(mask_and(could, less_equal(I(0), mirror)), is_pane);
+  if (c.has_mirrors() && any(is_mirror))
+    put(is_mirror, mirror_by_chance(c, trail, ray, select(is_mirror, mirror, I(0)), columns, point), chain);
+  if (c.has_panes() && any(is_pane))
+    put(is_pane, pane_by_chance(c, trail, ray, select(is_pane, pane, I(0)), columns, point), chain);
+  const F probability = choice_probability(c, trail.start, select(could, pair, I(0)));
+  const F asked = chain.density * probability * chain.word;
+  const F inverse = asked / max(trail.density * chain.share, F(1e-37f));
+  const auto asks = mask_and(mask_and(could, chain.could), less(F(0.0f), asked));
+  return select(asks, F(1.0f) / mul_add(inverse, inverse, F(1.0f)), F(1.0f));
+}
+
+}  // namespace tyndall
