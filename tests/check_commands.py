@@ -33,7 +33,7 @@ PLACEHOLDERS = {
     "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
     "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
 }
-OTHER_OPTIONS = {"--all", "--preset", "--build", "--target"}  # of ./test and CMake
+OTHER_OPTIONS = {"--all", "--nightly", "--preset", "--build", "--target"}  # of ./test and CMake
 
 
 def commands_of(text):

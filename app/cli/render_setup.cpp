@@ -114,17 +114,28 @@ std::string text_of_samples(std::uint32_t count) {
   return std::to_string(count) + (count == 1 ? " sample" : " samples") + " a pixel";
 }
 
-/// Whether the film's label and scene say that it could be gone on with without --resume. Whatever cannot be read is
-/// replaced, like any other file.
-bool invites(const std::filesystem::path& file, const RenderOptions& options) {
+/// Reads what may be hours of work. If that fails, it is not replaced but told, with the way out.
+template <class Read>
+auto read_kept(Read read, const std::string& advice) {
   try {
-    const auto label = read_film_label(file);
-    if (!label || label->unfinished) return label.has_value();
-    if (label->isa.empty()) return false;  // from before films said whether they are finished
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw UsageError(error.what() + advice);
+  }
+}
+
+/// Whether the film in the file is to be gone on with without --resume.
+bool invites(const std::filesystem::path& file, const RenderOptions& options, const std::string& advice) {
+  const auto label = read_kept([&file] { return read_film_label(file); }, advice);
+  if (!label || label->unfinished) return label.has_value();
+  if (label->isa.empty()) return false;  // from before films said whether they are finished
+  try {
     const auto spp = read_stored_frame(file).scene.render.spp;
     return spp && static_cast<std::uint32_t>(*spp) == *options.spp;
   } catch (const std::exception&) {
-    return false;
+    return false;  // finished, but its scene cannot be read any more
   }
 }
 
@@ -146,17 +157,6 @@ RenderStart start_with(StoredFilm stored, const RenderCommand& command, const Lo
   return start;
 }
 
-/// Reads the film. What cannot be read is told with the way out.
-StoredFilm read_invited(const std::filesystem::path& file, const std::string& advice) {
-  try {
-    return read_stored_film(file);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw UsageError(error.what() + advice);
-  }
-}
-
 }  // namespace
 
 std::filesystem::path kept_film(const RenderCommand& command) {
@@ -174,10 +174,11 @@ RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, 
   if (command.resume && !exists)
     throw UsageError("--resume: found no file " + in_quotes(file.string()) +
                      ", expected a film to go on from; without --resume the render starts anew");
-  if (!exists || (!command.resume && !invites(file, options))) return {};
+  if (!exists) return {};
   const std::string advice =
       std::string("; --fresh") + (command.resume ? " in place of --resume" : "") + " starts over";
-  StoredFilm stored = read_invited(file, advice);
+  if (!command.resume && !invites(file, options, advice)) return {};
+  StoredFilm stored = read_kept([&file] { return read_stored_film(file); }, advice);
   const std::string found = difference(stored, command, loaded, options, kernels);
   if (!found.empty() && !command.resume && !stored.label.unfinished) return {};
   if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Fails when a crash, an error of the system or a kill leaves a file that is neither old nor new, loses more than one
+interval of a render, changes its bits, or leaves something behind after the next run.
+
+Usage: faults.py TYNDALL SHIM SCRATCH [--every N] [--kills N] [--only NAME...]
+
+SHIM: the library of shim.cpp, which numbers the calls that a command makes. First each command runs unharmed, which says
+what "new" is. Then it is killed before, after and in the middle of each call (--every N: of each Nth), and each call fails
+with one error and another, once and for good. After each of them the same command runs again, and must end as if nothing
+had been. --kills N: that many kills at random times, of a render with checkpoints.
+"""
+import argparse
+import errno
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+SMALL = ["--size", "16x16", "-t", "1", "-q"]
+ERRORS = ["EIO", "ENOSPC", "EACCES"]
+
+
+class Scenario:
+    """A command, the folder that it finds, and the files that it writes. images: compared bit by bit."""
+
+    def __init__(self, name, command, before, images, others=()):
+        self.name, self.command, self.before, self.images, self.others = name, command, before, images, others
+
+    def outputs(self):
+        return [*self.images, *self.others]
+
+
+def scenarios():
+    two, box = ["render", "cornell-box", *SMALL], "cornell-box"
+    files = ["-o", "a.exr", "-o", "a.png", "--stats", "a.json"]
+    yield Scenario("save", two + ["--spp", "2", *files], [two + ["--spp", "1", *files]], ["a.exr", "a.png"], ["a.json"])
+    yield Scenario("save-first", two + ["--spp", "2", "-o", "a.pfm", "-o", "a.hdr"], [], ["a.pfm", "a.hdr"])
+    long = two + ["--spp", "1500", "--checkpoint", "0.001", "-o", "a.exr"]
+    yield Scenario("checkpoint", long, [], ["a.exr"])
+    # The film that is gone on with is the one of a killed render.
+    yield Scenario("resume", two + ["--spp", "1500", "-o", "a.exr"], [("killed", long)], ["a.exr"])
+    parts = [["render", box, *SMALL, "--samples", f"{i}:{i + 1}", "-o", f"{i}.exr"] for i in range(3)]
+    yield Scenario("merge", ["merge", "2.exr", "0.exr", "1.exr", "-o", "m.exr", "-o", "m.png"], parts, ["m.exr", "m.png"])
+    yield Scenario("scene", ["convert", box, "-o", "a.json"], [["convert", "showroom", "-o", "a.json"]], ["a.json"])
+
+
+class Faults:
+    def __init__(self, tyndall, shim, scratch):
+        self.tyndall, self.shim, self.scratch = tyndall, shim, scratch
+        self.log = scratch / "calls.log"
+        self.folder = scratch / "work"
+        self.problems, self.cases, self.crashes, self.errors = [], 0, 0, 0
+
+    def fail(self, where, text):
+        self.problems.append(f"{where}: {text}")
+        print("FAIL:", self.problems[-1], flush=True)
+
+    def run(self, command, **fault):
+        self.log.unlink(missing_ok=True)
+        environment = {**os.environ, "LD_PRELOAD": str(self.shim), "FAULT_UNDER": str(self.folder),
+                       "FAULT_LOG": str(self.log)}
+        environment |= {"FAULT_" + key.upper(): str(value) for key, value in fault.items()}
+        done = subprocess.run([self.tyndall, *command], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return done.returncode, done.stderr.decode(errors="replace").strip()
+
+    def calls(self):
+        return self.log.read_text().split("\n")[:-1] if self.log.exists() else []
+
+    def start(self, kept):
+        """The folder as it is before the command."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if kept and kept.exists():
+            shutil.copytree(kept, self.folder)
+        else:
+            self.folder.mkdir()
+
+    def contents(self, names):
+        return {n: (self.folder / n).read_bytes() if (self.folder / n).exists() else None for n in names}
+
+    def strays(self):
+        return sorted(p.name for p in self.folder.iterdir() if ".tmp-" in p.name)
+
+    def prepare(self, scenario):
+        self.start(None)
+        for command in scenario.before:
+            if command[0] == "killed":
+                code, text = self.run(command[1], at=self.second_checkpoint(command[1]), mode="after")
+                assert code == -signal.SIGKILL, text
+            else:
+                code, text = self.run(command)
+                assert code == 0, text
+        kept = self.scratch / ("kept-" + scenario.name)
+        shutil.rmtree(kept, ignore_errors=True)
+        shutil.copytree(self.folder, kept)
+        old = self.contents(scenario.outputs())
+        code, text = self.run(scenario.command)
+        assert code == 0, text
+        self.check_order(scenario, self.calls())
+        return kept, old, self.contents(scenario.outputs()), self.calls()
+
+    def check_order(self, scenario, calls):
+        """What is renamed must be on the disk before, and its folder afterwards: no crash of a process shows that."""
+        for at, call in enumerate(calls):
+            if call != "rename":
+                continue
+            before = [c for c in calls[:at] if c in ("write", "fsync")]
+            after = [c for c in calls[at + 1:] if c in ("write", "rename", "fsync")]
+            if before[-1:] != ["fsync"] or after[:1] != ["fsync"]:
+                self.fail(scenario.name, "a file is renamed that is not on the disk, or its folder is not put there")
+        if "rename" not in calls:
+            self.fail(scenario.name, "no file is renamed")
+
+    def second_checkpoint(self, command):
+        code, text = self.run(command)
+        assert code == 0, text
+        renames = [i for i, call in enumerate(self.calls(), 1) if call == "rename"]
+        shutil.rmtree(self.folder)
+        self.folder.mkdir()
+        return renames[1]
+
+    def check_files(self, where, scenario, old, new, exact):
+        now = self.contents(scenario.outputs())
+        for name in scenario.outputs():
+            known = now[name] in (old[name], new[name])
+            if name in scenario.others and now[name] not in (None, old[name]):
+                known = self.is_json(now[name])
+            if not known and exact:
+                self.fail(where, f"{name} is neither old nor new")
+        return now
+
+    @staticmethod
+    def is_json(text):
+        try:
+            json.loads(text)
+            return True
+        except ValueError:
+            return False
+
+    def check_next(self, where, scenario, new):
+        """The same command runs again, and everything is as if nothing had been."""
+        code, text = self.run(scenario.command)
+        if code != 0:
+            self.fail(where, f"the next run ends with {code}: {text}")
+        now = self.contents(scenario.outputs())
+        for name in scenario.images:
+            if now[name] != new[name]:
+                self.fail(where, f"after the next run {name} has other bits")
+        if self.strays():
+            self.fail(where, f"after the next run there is {self.strays()}")
+
+    def one(self, scenario, kept, old, new, where, **fault):
+        self.cases += 1
+        self.start(kept)
+        code, text = self.run(scenario.command, **fault)
+        calls = self.calls()
+        exact = scenario.name not in ("checkpoint", "resume")
+        now = self.check_files(where, scenario, old, new, exact)
+        if not exact and "rename" in calls and now["a.exr"] is None:
+            self.fail(where, "a checkpoint was written, and is not there")
+        if fault["mode"] == "error":
+            self.errors += 1
+            if code < 0 or (code != 0 and not text):
+                self.fail(where, f"ends with {code}: {text or 'without a word'}")
+            new_files = all(now[name] == new[name] for name in scenario.images)
+            if code == 0 and not new_files:
+                self.fail(where, f"ends with 0, and not all files are new: {text}")
+        else:
+            self.crashes += code == -signal.SIGKILL
+            if code not in (0, -signal.SIGKILL):
+                self.fail(where, f"ends with {code}: {text}")
+        self.check_next(where, scenario, new)
+
+    def go_through(self, scenario, every):
+        kept, old, new, calls = self.prepare(scenario)
+        last = min(len(calls), 150) if scenario.name == "checkpoint" else len(calls)
+        offset = random.randrange(every)
+        for at in range(1 + offset, last + 1, every):
+            name = calls[at - 1]
+            modes = ["before", "after"] + (["half"] if name == "write" else [])
+            for mode in modes:
+                self.one(scenario, kept, old, new, f"{scenario.name}: {mode} call {at} ({name})", at=at, mode=mode)
+            number = ERRORS[at // every % len(ERRORS)]
+            for forever in (0, 1):
+                self.one(scenario, kept, old, new, f"{scenario.name}: {number} in call {at} ({name}), forever {forever}",
+                         at=at, mode="error", errno=getattr(errno, number), forever=forever)
+        print(f"{scenario.name}: {last} calls, {self.cases} cases so far", flush=True)
+
+    def kill_at_random(self, kills):
+        """Kills renders with checkpoints at random times until they are whole; then their bits must be those of one go."""
+        command = ["render", "cornell-box", "--size", "24x16", "--spp", "6000", "-t", "1", "-q", "--checkpoint", "0.02",
+                   "-o", "a.exr", "--stats", "a.json"]
+        self.start(None)
+        begin = time.monotonic()
+        assert self.run(command)[0] == 0
+        whole, seconds = self.contents(["a.exr"]), time.monotonic() - begin
+        killed = finished = 0
+        lost = []
+        self.start(None)
+        while killed < kills:
+            process = subprocess.Popen([self.tyndall, *command], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            try:
+                text = process.communicate(timeout=random.uniform(0, 0.6 * seconds))[1]
+                if process.returncode != 0:
+                    self.fail("kills", f"ends with {process.returncode}: {text.decode()}")
+                    return
+                if self.contents(["a.exr"]) != whole:
+                    self.fail("kills", f"after {killed} kills the film has other bits")
+                if self.strays():
+                    self.fail("kills", f"after {killed} kills there is {self.strays()}")
+                finished += 1
+                self.start(None)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                killed += 1
+                if (self.folder / "a.exr").exists():
+                    lost.append(time.time() - (self.folder / "a.exr").stat().st_mtime)
+        lost.sort()
+        if lost:
+            print(f"since the last checkpoint: median {lost[len(lost) // 2]:.3f} s, at most {lost[-1]:.3f} s")
+        print(f"{killed} random kills; {finished} times the render was whole in between, bit for bit", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("tyndall", type=pathlib.Path)
+    parser.add_argument("shim", type=pathlib.Path)
+    parser.add_argument("scratch", type=pathlib.Path)
+    parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--kills", type=int, default=0)
+    parser.add_argument("--only", nargs="*")
+    arguments = parser.parse_args()
+    seed = random.randrange(1 << 32)
+    random.seed(seed)
+    print("seed", seed)
+    scratch = arguments.scratch.resolve()
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    faults = Faults(arguments.tyndall.resolve(), arguments.shim.resolve(), scratch)
+    for scenario in scenarios():
+        if not arguments.only or scenario.name in arguments.only:
+            faults.go_through(scenario, arguments.every)
+    faults.kill_at_random(arguments.kills)
+    print(f"{faults.crashes} crash points, {faults.errors} errors: {len(faults.problems)} problems")
+    return 1 if faults.problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
