@@ -13,6 +13,7 @@ namespace tyndall {
 namespace {
 
 constexpr double smallness = 0.25;  // most that a lamp's reach may be over its distance, or over the ball around it
+constexpr double smallness_for_glass = 0.15;  // the same for light through solid glass from outside
 constexpr std::size_t most_pairs = 256;
 constexpr double like_outside = 1e-3;  // an index counts as that of the outside if it is this close to 1
 
@@ -69,11 +70,12 @@ struct BallAndLight {
 
 /// How much light a lamp sends to a ball, roughly, by which pairs are chosen. 0: the lamp is so large as seen from the
 /// ball that paths find it by chance well enough.
-double worth_of(const RoundBody& body, const Lights& lights, std::size_t k, Vec3d origin) {
+double worth_of(const RoundBody& body, bool solid_glass, const Lights& lights, std::size_t k, Vec3d origin) {
   const Vec3d lamp = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
   const double reach = std::sqrt(static_cast<double>(lights.reach2[k])) + 0.5 * length(body.way);
-  const double distance = std::max(length(lamp - (body.center + 0.5 * body.way)), body.radius);
-  if (reach > smallness * distance) return 0;
+  const double apart = length(lamp - (body.center + 0.5 * body.way)), distance = std::max(apart, body.radius);
+  const bool through_glass = solid_glass && apart > body.radius;
+  if (reach > (through_glass ? smallness_for_glass : smallness) * distance) return 0;
   const double share = body.radius / distance;
   return static_cast<double>(lights.power[k]) * share * share;
 }
@@ -112,7 +114,9 @@ std::vector<BallAndLight> list_pairs(const Found& found, const RenderScene& comp
   };
   for (std::size_t b = 0; b < list.size(); ++b)
     if (list[b].inside < 0 && !is_filled_shell(list, list[b]))
-      add(b, [&](std::size_t k) { return worth_of(list[b].body, compiled.lights, k, compiled.origin); });
+      add(b, [&](std::size_t k) {
+        return worth_of(list[b].body, list[b].index != 0 && list[b].holds < 0, compiled.lights, k, compiled.origin);
+      });
   for (std::size_t b = 0; b < mirrors.size(); ++b)
     add(list.size() + b,
         [&](std::size_t k) { return worth_of(mirrors[b], compiled.lights, k, compiled.origin, found.receivers); });

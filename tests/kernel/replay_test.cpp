@@ -108,7 +108,7 @@ TEST_CASE("replay: says what chains add, and how much a lamp counts that they fi
   Scene scene = dark_room();
   scene.render.integrator = Integrator::mis;
   add(scene, Quad<>{{-6, 0, -6}, {0, 0, 12}, {12, 0, 0}}, lambertian(0.7));
-  add(scene, sphere({0, 5.2, 0}, 0.9), lamp(5));
+  add(scene, sphere({0, 5.2, 0}, 0.59), lamp(12));
   add(scene, sphere({0, 1.2, 0}, 1), glass(1.5));
   aim(scene, {0, 0.1, 5}, {0, 0, 0.1});
   const auto tell = [](const Scene& told) {

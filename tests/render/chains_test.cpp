@@ -135,8 +135,11 @@ TEST_CASE("chains: they pay for lamps that are small as seen from the ball, and 
   };
   const auto nothing = [](Scene&) {};
   CHECK(pairs(0.1, nothing) == 1);
-  CHECK(pairs(0.99, nothing) == 1);
-  CHECK(pairs(1.01, nothing) == 0);
+  CHECK(pairs(0.59, nothing) == 1);
+  CHECK(pairs(0.61, nothing) == 0);
+  const auto mirror = [](Scene& s) { s.materials.back() = metal(0.8, 0); };
+  CHECK(pairs(0.99, mirror) == 1);
+  CHECK(pairs(1.01, mirror) == 0);
   CHECK(pairs(0.1, [](Scene& s) { s.render.integrator = Integrator::nee; }) == 0);
   CHECK(pairs(0.1, [](Scene& s) { s.render.caustics = Caustics::scatter; }) == 0);
   CHECK(pairs(0.1, [](Scene& s) { s.render.fresnel = FresnelKind::schlick; }) == 0);
