@@ -160,7 +160,13 @@ RenderStart start_with(StoredFilm stored, const RenderCommand& command, const Lo
 }  // namespace
 
 std::filesystem::path kept_film(const RenderCommand& command) {
-  const auto file = std::find_if(command.outputs.begin(), command.outputs.end(), is_exr);
+  const auto keeps = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const auto type = std::filesystem::status(file, error).type();
+    return is_exr(file) &&
+           (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
+  };
+  const auto file = std::find_if(command.outputs.begin(), command.outputs.end(), keeps);
   return file == command.outputs.end() ? std::filesystem::path() : *file;
 }
 

@@ -25,7 +25,7 @@ struct RenderStart {
   std::string note;  ///< what to tell the user; "": nothing
 };
 
-/// The .exr output that films are kept in; empty if there is none.
+/// The .exr output that films are kept in: an ordinary file, there or not yet; empty if there is none.
 std::filesystem::path kept_film(const RenderCommand& command);
 
 /// Looks at the film in the .exr output. One that fits is gone on with if it is unfinished, has just the samples that

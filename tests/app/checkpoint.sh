@@ -116,6 +116,14 @@ cp "$source_root/tests/image/film_of_format_0.exr" old.exr
 expect 2 "$tyndall" render cornell-box --size 8x6 --isa sse4 --spp 5 --resume -q -o old.exr
 complains old.exr 'instruction set scalar'
 
+# A named pipe gets the image once, at the end, and no checkpoints.
+mkfifo pipe.exr
+cat pipe.exr >piped.exr &
+reader=$!
+expect 0 "$tyndall" "${box[@]}" --spp 3000 -q -o pipe.exr --stats piped.json
+wait "$reader"
+expect 0 "$tyndall" compare piped.exr piped.exr --max-rmse 0
+
 # Without checkpoints there is nothing before the end.
 "$tyndall" "${box[@]}" --spp 10000000 --checkpoint 0 -q -o none.exr &
 render=$!
