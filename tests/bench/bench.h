@@ -16,6 +16,7 @@ struct Settings {
   std::vector<std::string> parts;          ///< names, in the order of parts()
   std::filesystem::path json;              ///< where to write all figures; empty: nowhere
   std::filesystem::path references = ".";  ///< folder of the reference images
+  std::filesystem::path against;           ///< another program "tyndall"; empty: none
   bool quick = false;                      ///< shorter and less exact
   bool thorough = false;                   ///< also what takes minutes
   int repeat = 0;                          ///< repetitions of each measurement; 0: each part's own number
@@ -33,6 +34,7 @@ Json measure_closest(const Settings& settings);     ///< closest hits a second, 
 Json measure_tree(const Settings& settings);        ///< build time and memory of trees over spheres
 Json measure_edits(const Settings& settings);       ///< milliseconds from an edit to its picture
 Json measure_start(const Settings& settings);       ///< wall time of the smallest render as a process
+Json measure_against(const Settings& settings);     ///< speed and seconds to an error beside another program, in pairs
 
 struct Part {
   const char* name;

@@ -59,6 +59,9 @@ std::optional<Settings> read_settings(std::vector<std::string> words) {
   app.add_option("--repeat", repeat, "repetitions of each measurement; default: each part's own")->type_name("N");
   app.add_option("--references", settings.references, "folder for the reference images; default: the current one")
       ->type_name("FOLDER");
+  app.add_option("--against", settings.against,
+                 "another program \"tyndall\", such as the last release, for the part against")
+      ->type_name("FILE");
   std::reverse(words.begin(), words.end());
   try {
     app.parse(words);
@@ -71,6 +74,8 @@ std::optional<Settings> read_settings(std::vector<std::string> words) {
   if (!repeat.empty()) settings.repeat = read_repeat(repeat);
   if (!std::filesystem::is_directory(settings.references))
     throw UsageError("--references: found \"" + on_one_line(settings.references.string()) + "\", expected a folder");
+  if (!settings.against.empty() && !std::filesystem::is_regular_file(settings.against))
+    throw UsageError("--against: found \"" + on_one_line(settings.against.string()) + "\", expected a program");
   settings.parts = chosen_parts(names);
   return settings;
 }
