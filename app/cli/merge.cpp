@@ -4,6 +4,8 @@
 #include "app/files/outputs.h"
 #include "app/files/stats.h"
 #include "app/text/standard_streams.h"
+#include "core/accuracy/rare.h"
+#include "core/render/clean_film.h"
 
 namespace tyndall {
 namespace {
@@ -58,6 +60,8 @@ int run(const DenoiseCommand& command) {
   const Film& film = stored.part.film;
   const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
   const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);
+  if (is_doubtful(clean.picture, totals(film).least_taken))
+    complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   const std::string stats = clean_stats_text(film, clean.picture, clean.seconds);
   if (command.stats == "-")
     write_standard_output(stats);

@@ -15,6 +15,7 @@
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
+#include "core/render/clean_film.h"
 #include "core/render/plan.h"
 
 #include <fmt/core.h>
@@ -50,8 +51,10 @@ struct Outcome {
 
 Outcome outcome_of(const Job& job, const RenderResult& result, bool unfinished) {
   Outcome outcome{result, finished_picture(result), unfinished};
-  outcome.rare_bright_paths = has_rare_bright_paths(outcome.picture.estimate, outcome.picture.totals.least_taken,
-                                                    chance_of_caustics(job.loaded.scene, job.compiled));
+  outcome.rare_bright_paths =
+      has_rare_bright_paths(outcome.picture.estimate, outcome.picture.totals.least_taken,
+                            chance_of_caustics(job.loaded.scene, job.compiled)) ||
+      (outcome.result.clean && is_doubtful(*outcome.result.clean, outcome.picture.totals.least_taken));
   return outcome;
 }
 

@@ -59,14 +59,41 @@ TYNDALL_INLINE void clear_behind(float* row, int width) {
   for (int x = width; x < width + row_margin; ++x) row[x] = 0;
 }
 
-/// What errors are relative to: the mean around a pixel, where that is too dark for its own value to be by chance.
-/// Next to a lamp, that is the pixel itself: nothing else tells how dark it is there.
+/// The level of the picture that errors are relative to: the mean around a pixel, which is less by chance than its own.
+/// Where the pixel is by far darker than those around, and wherever lamps are seen sharply, it is the pixel's own, if
+/// that is less: next to a lamp nothing else tells how dark it is.
 template <class F>
 TYNDALL_INLINE F level_around(const FilterView& v, int y, int x) {
   const std::ptrdiff_t at = y * v.stride + x;
-  const F around = sum_around<F>(v, v.level, y, x) / pixels_around<F>(v, y, x, 1);
+  const F around = max(sum_around<F>(v, v.level, y, x) / pixels_around<F>(v, y, x, 1), F(0.0f));
   const F darker = max(min(load<F>(v.level + at), around), F(0.0f));
-  return select(less(F(0.0f), load<F>(v.sharp + at)), darker, around);
+  return select(less(F(0.0f), load<F>(v.sharp + at)), darker, select(less(darker, F(0.1f) * around), darker, around));
+}
+
+/// A pixel of which the two pictures differ by more than about the root of this, relative to its level, counts less: it
+/// was met by a rare bright path, and would decide alone what happens to all pixels around.
+inline constexpr float rare_distance = 30;
+
+/// Both of a pixel's sums over channels are relative to levels. Their colour is the pixel's: what differs by the same
+/// amount in all channels is by far more in those that are dark.
+template <class F>
+TYNDALL_INLINE void compare_pixels(const FilterView& v, const ChunkOfHalves& q, std::ptrdiff_t at, int x, F level) {
+  F gain = F(0.0f), distance = F(0.0f), sum = F(1e-12f);
+  for (int output = 0; output < outputs; ++output) sum = sum + max(load<F>(v.filtered[output] + at), F(0.0f));
+  const F per_sum = F(3.0f) * level / sum;
+  for (int c = 0; c < 3; ++c) {
+    const F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
+    const F to_a = pa - load<F>(q.of[c] + x), to_b = pb - load<F>(q.of[3 + c] + x);
+    const F residual_a = pa - load<F>(v.half[c] + at), residual_b = pb - load<F>(v.half[3 + c] + at);
+    const F own = per_sum * max(pa + pb, F(0.0f));
+    const F per = F(1.0f) / mul_add(own, own, splat<F>(v.floor));
+    const F cross = mul_add(residual_a, to_b, residual_b * to_a), noise = (pa - pb) * (to_a - to_b);
+    gain = mul_add(per, mul_add(F(0.5f), cross, F(0.25f) * noise), gain);
+    distance = mul_add(F(0.25f) * per * (to_a + to_b), to_a + to_b, distance);
+  }
+  const F weight = F(1.0f) / mul_add(distance, splat<F>(1 / rare_distance), F(1.0f));
+  store(v.gain + at, weight * gain);
+  store(v.distance + at, weight * distance);
 }
 
 template <class F>
@@ -75,22 +102,8 @@ TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   for (int x0 = 0; x0 < v.width; x0 += chunk) {
     const int count = least(chunk, v.width - x0);
     take_rival<F>(v, rival, y, x0, count, q);
-    for (int x = 0; x < count; x += lanes_of<F>) {
-      const std::ptrdiff_t at = y * v.stride + x0 + x;
-      F gain = F(0.0f), distance = F(0.0f);
-      for (int c = 0; c < 3; ++c) {
-        const F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
-        const F to_a = pa - load<F>(q.of[c] + x), to_b = pb - load<F>(q.of[3 + c] + x);
-        const F residual_a = pa - load<F>(v.half[c] + at), residual_b = pb - load<F>(v.half[3 + c] + at);
-        gain = gain +
-               mul_add(F(0.5f), mul_add(residual_a, to_b, residual_b * to_a), F(0.25f) * ((pa - pb) * (to_a - to_b)));
-        distance = mul_add(F(0.25f) * (to_a + to_b), to_a + to_b, distance);
-      }
-      const F level = level_around<F>(v, y, x0 + x);
-      const F per = F(1.0f) / mul_add(level, level, splat<F>(v.floor));
-      store(v.gain + at, gain * per);
-      store(v.distance + at, distance * per);
-    }
+    for (int x = 0; x < count; x += lanes_of<F>)
+      compare_pixels<F>(v, q, y * v.stride + x0 + x, x, level_around<F>(v, y, x0 + x));
   }
   clear_behind(v.gain + y * v.stride, v.width);
   clear_behind(v.distance + y * v.stride, v.width);
@@ -178,9 +191,9 @@ TYNDALL_INLINE void add_lanes(F values, int count, double& sum) {
   for (int i = 0; i < least(lanes_of<F>, count); ++i) sum += static_cast<double>(lane[i]);
 }
 
-/// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around, because a
-/// bright speck that is measured by itself would look like a small error. Where the pixel is brighter than those
-/// around, the level is raised towards its own mean, the more its two halves agree.
+/// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
+/// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
+/// is brighter than those around, the level is raised towards its own mean, the more its two halves agree.
 template <class F>
 TYNDALL_INLINE F known_level(F a, F b, F around) {
   const F both = a + b, apart = F(2.0f) * (a - b);
@@ -192,10 +205,10 @@ TYNDALL_INLINE F known_level(F a, F b, F around) {
 /// numbers were too large for single precision, becomes raw.
 template <class F>
 TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
-  double bias_sum = 0, noise_sum = 0;
+  double bias_sum = 0, noise_sum = 0, squares = 0;
   for (int x = 0; x < v.width; x += lanes_of<F>) {
     const std::ptrdiff_t at = y * v.stride + x;
-    const F around = pixels_around<F>(v, y, x, 1);
+    const F others = pixels_around<F>(v, y, x, 1) - F(1.0f);
     F bias = F(0.0f), noise = F(0.0f), picture[3];
     for (int c = 0; c < 3; ++c) {
       const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
@@ -203,8 +216,9 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
       const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
       pa = select(finite, pa, a), pb = select(finite, pb, b);
       picture[c] = F(0.5f) * (pa + pb);
-      const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x);
-      const F level = max(min(picture[c], known_level(a, b, F(0.5f) * raw / around)), F(0.0f));
+      const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x) - (a + b);
+      const F around = max(F(0.5f) * raw / max(others, F(1.0f)), F(0.0f));
+      const F level = max(min(picture[c], known_level(a, b, around)), F(0.0f));
       const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
       bias = mul_add((pa - a) * (pb - b), per, bias);
       noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);
@@ -213,10 +227,12 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
     store(v.error + at, bias + noise);
     add_lanes(bias, v.width - x, bias_sum);
     add_lanes(noise, v.width - x, noise_sum);
+    add_lanes((bias + noise) * (bias + noise), v.width - x, squares);
   }
   clear_behind(v.error + y * v.stride, v.width);
   v.row_bias[y] = bias_sum;
   v.row_noise[y] = noise_sum;
+  v.row_squares[y] = squares;
 }
 
 }  // namespace tyndall::filter

@@ -62,23 +62,24 @@ struct Cleaner::Memory {
   std::vector<ColumnPair> pairs = column_pairs();
   Planes work;  ///< filtered 6, level, gain, distance
   CleanPicture made;
-  std::vector<float> sums, coefficients;
+  ZeroedFloats sums, coefficients;
   std::vector<std::uint8_t> shines;
-  std::vector<double> row_bias, row_noise;
+  std::vector<double> row_bias, row_noise, row_squares;
   int cells_x = 0, cells_y = 0;
   std::ptrdiff_t cell_stride = 0;
 
   void resize(int width, int height) {
     work.resize(width, height, outputs + 3);
-    row_bias.resize(static_cast<std::size_t>(height)), row_noise.resize(static_cast<std::size_t>(height));
+    for (std::vector<double>* rows : {&row_bias, &row_noise, &row_squares})
+      rows->resize(static_cast<std::size_t>(height));
     if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
     cells_x = cells_in(width), cells_y = cells_in(height);
     constexpr int lanes = 16;
     cell_stride = std::ptrdiff_t{(cells_x + 2 + 2 * lanes) / lanes} * lanes;
     const auto rows = static_cast<std::size_t>(cells_y) + 2, row = static_cast<std::size_t>(cell_stride);
-    sums.assign(rows * all_sums * row + row, 0.0f);
+    sums.resize(rows * all_sums * row + row);
     shines.assign(rows * row + row, 0);
-    coefficients.assign((rows - 1) * outputs * terms * row, 0.0f);
+    coefficients.resize((rows - 1) * outputs * terms * row);
   }
 };
 
@@ -103,6 +104,12 @@ void put_pixel_errors(const FilterView& view, int y, float* to) {
 void put_picture(const FilterView& view, float scale, int y, float* rgb) {
   for (int x = 0; x < view.width; ++x)
     for (int c = 0; c < 3; ++c) rgb[3 * x + c] = scale * view.filtered[c][y * view.stride + x];
+}
+
+/// Whether few pixels make up most of the sum of all pixels' errors, of whose squares the sum is `squares`. Small
+/// pictures show some spread by chance alone: the second term takes off as much.
+bool few_matter(double sum, double squares, double pixels) {
+  return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
 }
 
 double sum_of(const std::vector<double>& rows) {
@@ -135,7 +142,7 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
   v.error = v.gain;
   v.pairs = m.pairs.data(), v.sums = m.sums.data(), v.shines = m.shines.data(), v.cell_stride = m.cell_stride;
   v.coefficients = m.coefficients.data();
-  v.row_bias = m.row_bias.data(), v.row_noise = m.row_noise.data();
+  v.row_bias = m.row_bias.data(), v.row_noise = m.row_noise.data(), v.row_squares = m.row_squares.data();
   const auto each = [&](int rows, const auto& step) {
     crew.for_each(rows, [&](int row) {
       if (!give_up.load(std::memory_order_relaxed)) step(row);
@@ -162,7 +169,9 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
   });
   if (!copied) return false;
   const double pixels = static_cast<double>(width * height);
-  m.made.relative_error = std::sqrt((std::max(sum_of(m.row_bias), 0.0) + sum_of(m.row_noise)) / pixels);
+  const double error = std::max(sum_of(m.row_bias), 0.0) + sum_of(m.row_noise);
+  m.made.relative_error = std::sqrt(error / pixels);
+  m.made.rests_on_few_pixels = few_matter(error, sum_of(m.row_squares), pixels);
   std::swap(out, m.made);
   return true;
 }

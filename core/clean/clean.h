@@ -18,11 +18,27 @@ namespace filter {
 struct FilterSteps;
 }
 
-/// What is seen first through the middle of a pixel, free of noise.
+/// What is seen first through a pixel, free of noise; the mean of what its parts see, those that see nothing as zeros.
 struct FirstSeen {
   Vec3f albedo, normal;
-  float depth = 0;    ///< > 0, in any unit; 0: nothing is seen
-  bool sharp = true;  ///< lamps and sky are not seen by chance there, as they are in glass and in brushed metal
+  float nearness = 0;  ///< 1 / (1 + depth over its harmonic mean in the picture), in [0, 1); 0: nothing is seen
+  bool sharp = true;   ///< lamps and sky are not seen by chance there, as they are in glass and in brushed metal
+};
+
+/// Zeros at first. They take memory once they are written to, by the thread that does so, and in large pages where the
+/// system has them: a picture's planes would else spend as much time on getting memory as on being filtered.
+class ZeroedFloats {
+ public:
+  /// Throws std::bad_alloc.
+  void resize(std::size_t count);
+  float* data() { return data_.get(); }
+  const float* data() const { return data_.get(); }
+
+ private:
+  struct Free {
+    void operator()(float* floats) const;
+  };
+  std::unique_ptr<float, Free> data_;
 };
 
 /// Planes of numbers, all of one size. Rows have room to the left and right, so that whole groups of lanes can be read
@@ -37,30 +53,33 @@ class Planes {
   std::ptrdiff_t stride() const { return stride_; }
   int count() const { return count_; }
   /// The first number of the first row.
-  float* plane(int i) { return data_.data() + margin + std::ptrdiff_t{i} * height_ * stride_; }
-  const float* plane(int i) const { return data_.data() + margin + std::ptrdiff_t{i} * height_ * stride_; }
+  float* plane(int i) { return data_.data() + first + std::ptrdiff_t{i} * height_ * stride_; }
+  const float* plane(int i) const { return data_.data() + first + std::ptrdiff_t{i} * height_ * stride_; }
 
  private:
+  static constexpr int first = 2 * margin;  ///< the first row has room to its left for groups that begin at -margin - 1
   int width_ = 0, height_ = 0, count_ = 0;
   std::ptrdiff_t stride_ = 0;
-  std::vector<float> data_;
+  ZeroedFloats data_;
 };
 
 /// A picture to be filtered: both halves, as means over samples, and the light that came straight from lamps and sky.
 struct CleanInput {
   int width = 0, height = 0;
   float scale = 1;  ///< a power of two: radiance is that times the numbers in the planes
+  double spp = 0;   ///< samples a pixel, on average
   Planes halves;    ///< 6: red, green, blue of A and B
   Planes emission;  ///< likewise, or none
-  Planes seen;      ///< 8: albedo, normal, 1 / (1 + depth over its harmonic mean), 1 where sharp
+  Planes seen;      ///< 8: albedo, normal, nearness, 1 where sharp
 };
 
-/// Fills `halves` and `emission` with a film's region. Where one half of a pixel is empty it gets what the other has.
+/// Fills all but `seen` with a film's region. Where one half of a pixel is empty it gets what the other has.
 /// Returns false if `give_up` was set before the end; the planes are then of no use.
 bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, CleanInput& input);
-/// Fills `seen` from one entry for each pixel, row by row. Returns false as read_film() does.
-bool read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, Crew& crew,
-                     const std::atomic<bool>& give_up, CleanInput& input);
+/// Makes room in `seen`.
+void resize_first_seen(int width, int height, CleanInput& input);
+/// Sets what a pixel sees first.
+void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input);
 
 /// The filtered picture.
 struct CleanPicture {
@@ -68,6 +87,8 @@ struct CleanPicture {
   std::vector<float> rgb;  ///< 3 floats a pixel, linear, top row first
   /// Estimated relative error: its square estimates the picture's relMSE.
   double relative_error = std::numeric_limits<double>::infinity();
+  /// Whether the estimate means little, because few pixels make up most of it: see ErrorEstimate::rests_on_few_pixels.
+  bool rests_on_few_pixels = false;
   /// The same of each pixel, from the 13 x 13 pixels around it.
   std::vector<float> pixel_error;
 };

@@ -57,6 +57,7 @@ struct FilterView {
   float* error;                    ///< estimated squared relative error of each pixel
   double* row_bias;                ///< for each row the sum of its pixels' squared relative bias; may be negative
   double* row_noise;               ///< the same of their relative variance
+  double* row_squares;             ///< for each row the sum of the squares of its pixels' errors
 
   TYNDALL_INLINE bool has_emission() const { return emission[0] != nullptr; }
 };

@@ -4,14 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <new>
+#include <numeric>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace tyndall {
+namespace {
+
+constexpr std::size_t large_page = std::size_t{1} << 21u;
+
+}  // namespace
+
+void ZeroedFloats::resize(std::size_t count) {
+  data_.reset();
+  data_.reset(static_cast<float*>(std::calloc(count, sizeof(float))));
+  if (!data_) throw std::bad_alloc();
+#if defined(__linux__)
+  void* begin = data_.get();
+  std::size_t bytes = count * sizeof(float);
+  if (std::align(large_page, large_page, begin, bytes)) madvise(begin, bytes, MADV_HUGEPAGE);
+#endif
+}
+
+void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
 
 void Planes::resize(int width, int height, int count) {
   if (width == width_ && height == height_ && count == count_) return;
   width_ = width, height_ = height, count_ = count;
   stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
-  data_.assign(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin, 0.0f);
+  data_.resize(static_cast<std::size_t>(stride_ * height * count) + first + margin);
 }
 
 namespace {
@@ -26,21 +51,25 @@ double per_sample(const Film& film, const FilmPixel& pixel, int half, double sca
   return count > 0 ? film.unit / scale / count : 0;
 }
 
-void read_row(const Film& film, int y, CleanInput& input) {
+/// Returns the number of samples in the row.
+std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
   const double scale = static_cast<double>(input.scale);
   const auto width = static_cast<std::size_t>(input.width);
   const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(y) * width;
   const std::ptrdiff_t row = y * input.halves.stride();
   float* to[filter::outputs];
   for (int k = 0; k < filter::outputs; ++k) to[k] = input.halves.plane(k) + row;
+  std::uint64_t samples = 0;
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
+    samples += pixel.taken;
     double per[2] = {per_sample(film, pixel, 0, scale), per_sample(film, pixel, 1, scale)};
     for (int half = 0; half < 2; ++half) {
       const int from = per[half] > 0 ? half : 1 - half;
       for (int c = 0; c < 3; ++c) to[3 * half + c][x] = static_cast<float>(pixel.sum[from][c].value() * per[from]);
     }
   }
+  return samples;
 }
 
 void read_emission_row(const Film& film, int y, CleanInput& input) {
@@ -55,31 +84,6 @@ void read_emission_row(const Film& film, int y, CleanInput& input) {
     }
 }
 
-/// Of the pixels of a row where anything is seen: how many there are, and the sum of 1 / depth.
-struct NearnessOfRow {
-  double sum = 0;
-  int pixels = 0;
-};
-
-NearnessOfRow nearness_of(const FirstSeen* row, int width) {
-  NearnessOfRow near;
-  for (int x = 0; x < width; ++x)
-    if (row[x].depth > 0) near.sum += 1 / static_cast<double>(row[x].depth), ++near.pixels;
-  return near;
-}
-
-void put_first_seen(const FirstSeen* row, int y, float per_depth, CleanInput& input) {
-  for (int x = 0; x < input.seen.width(); ++x) {
-    const FirstSeen& p = row[x];
-    const bool seen = p.depth > 0;
-    const float values[filter::seen_features] = {
-        p.albedo.x, p.albedo.y, p.albedo.z, p.normal.x, p.normal.y, p.normal.z, 1 / (1 + p.depth * per_depth)};
-    const std::ptrdiff_t at = y * input.seen.stride() + x;
-    for (int k = 0; k < filter::seen_features; ++k) input.seen.plane(k)[at] = seen ? values[k] : 0;
-    input.seen.plane(filter::seen_features)[at] = seen && !p.sharp ? 0.0f : 1.0f;
-  }
-}
-
 }  // namespace
 
 bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, CleanInput& input) {
@@ -87,29 +91,27 @@ bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, C
   input.scale = scale_of(film);
   input.halves.resize(input.width, input.height, filter::outputs);
   input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms);
+  std::vector<std::uint64_t> samples(static_cast<std::size_t>(input.height));
   crew.for_each(input.height, [&](int y) {
     if (give_up.load(std::memory_order_relaxed)) return;
-    read_row(film, y, input);
+    samples[static_cast<std::size_t>(y)] = read_row(film, y, input);
     if (!film.emission.empty()) read_emission_row(film, y, input);
   });
+  const auto all = std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
+  input.spp = static_cast<double>(all) / static_cast<double>(film.pixels.size());
   return !give_up;
 }
 
-bool read_first_seen(const std::vector<FirstSeen>& pixels, int width, int height, Crew& crew,
-                     const std::atomic<bool>& give_up, CleanInput& input) {
+void resize_first_seen(int width, int height, CleanInput& input) {
   input.seen.resize(width, height, filter::seen_features + 1);
-  std::vector<NearnessOfRow> rows(static_cast<std::size_t>(height));
-  const auto row = [&](int y) { return pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); };
-  crew.for_each(height, [&](int y) {
-    if (!give_up.load(std::memory_order_relaxed)) rows[static_cast<std::size_t>(y)] = nearness_of(row(y), width);
-  });
-  NearnessOfRow all;
-  for (const NearnessOfRow& of : rows) all.sum += of.sum, all.pixels += of.pixels;
-  const auto per_depth = static_cast<float>(all.pixels > 0 ? all.sum / all.pixels : 1);
-  crew.for_each(height, [&](int y) {
-    if (!give_up.load(std::memory_order_relaxed)) put_first_seen(row(y), y, per_depth, input);
-  });
-  return !give_up;
+}
+
+void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input) {
+  const float values[filter::seen_features + 1] = {pixel.albedo.x, pixel.albedo.y,           pixel.albedo.z,
+                                                   pixel.normal.x, pixel.normal.y,           pixel.normal.z,
+                                                   pixel.nearness, pixel.sharp ? 1.0f : 0.0f};
+  const std::ptrdiff_t at = y * input.seen.stride() + x;
+  for (int k = 0; k <= filter::seen_features; ++k) input.seen.plane(k)[at] = values[k];
 }
 
 }  // namespace tyndall

@@ -1,50 +1,26 @@
 #include "core/render/clean_film.h"
 
 #include "core/base/seconds.h"
-#include "core/materials/materials.h"
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
 
 namespace tyndall {
-namespace {
-
-/// Whether a ray that meets the surface goes on, if at all, as one that a mirror reflects.
-bool is_sharp(const SceneView& scene, std::int32_t element) {
-  const std::int32_t material = scene.material[element], kind = scene.kind[material];
-  if (kind == place_in<Dielectric<double>, MaterialKinds<double>>) return false;
-  return kind != place_in<Metal<double>, MaterialKinds<double>> || scene.parameter[0][material] <= least_sampled_fuzz;
-}
-
-}  // namespace
 
 FilmCleaner::FilmCleaner(const Kernels& kernels) : cleaner_(find_target(kernels.isa).value_or(Target::scalar)) {}
 
-bool FilmCleaner::find_first_seen(const Region& region, const RenderEngine& engine, const std::atomic<bool>& give_up) {
-  const auto width = static_cast<std::size_t>(region.width());
-  std::vector<FirstSeen> seen(width * static_cast<std::size_t>(region.height()));
-  engine.crew.for_each(region.height(), [&](int row) {
-    if (give_up.load(std::memory_order_relaxed)) return;
-    thread_local std::vector<FirstHit> hits;
-    hits.resize(width);
-    const int y = region.y0 + row;
-    engine.kernels.first_hits(engine.scene, {region.x0, y, region.x1, y + 1}, hits.data());
-    for (std::size_t x = 0; x < width; ++x) {
-      FirstSeen& to = seen[static_cast<std::size_t>(row) * width + x];
-      if (hits[x].element >= 0)
-        to = {hits[x].albedo, hits[x].normal, hits[x].depth, is_sharp(engine.scene, hits[x].element)};
-    }
-  });
-  if (!read_first_seen(seen, region.width(), region.height(), engine.crew, give_up, input_)) return false;
-  seen_of_ = region;
-  return true;
-}
-
 bool FilmCleaner::run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up,
                       CleanPicture& out) {
-  if (seen_of_ != film.region && !find_first_seen(film.region, engine, give_up)) return false;
-  return read_film(film, engine.crew, give_up, input_) && cleaner_.run(input_, engine.crew, give_up, out);
+  if (!read_film(film, engine.crew, give_up, input_)) return false;
+  const bool seen = seen_.parts > 0 && seen_.region == film.region && seen_.parts == parts_of_pixels(seen_, input_.spp);
+  if (!seen) {
+    change_scene();
+    FirstSeenParts made;
+    if (!find_first_seen(film.region, engine, give_up, input_, made)) return false;
+    seen_ = made;
+  }
+  return cleaner_.run(input_, engine.crew, give_up, out);
 }
 
 CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa) {
@@ -94,6 +70,7 @@ bool LiveClean::make(const Progression& picture, const RenderEngine& engine, con
     frame->pixel_error = picture_.pixel_error;
     frame->relative_error = picture_.relative_error;
     frame->spp = picture.taken();
+    frame->doubtful = is_doubtful(picture_, frame->spp);
     frame->seconds = picture.tally().seconds + spent_;
     latest_ = std::move(frame);
   } catch (const std::bad_alloc&) {

@@ -3,8 +3,8 @@
 #include "core/render/frame.h"
 #include "core/render/progression.h"
 
+#include <cstdint>
 #include <memory>
-#include <optional>
 
 /// The clean view of films: collects what the filter in core/clean reads, and decides when a picture that is still
 /// being rendered is filtered.
@@ -14,6 +14,26 @@ namespace tyndall {
 inline constexpr std::uint32_t least_clean_spp = 2;
 /// With fewer samples a pixel than this, the filtered picture's error is known only roughly.
 inline constexpr std::uint32_t rough_clean_spp = 16;
+/// Whether its error is known only roughly although it has so many samples.
+inline bool is_doubtful(const CleanPicture& picture, std::uint32_t spp) {
+  return spp >= rough_clean_spp && picture.rests_on_few_pixels;
+}
+
+/// How finely a picture's first-seen planes were made.
+struct FirstSeenParts {
+  Region region;
+  std::int64_t unlike = 0;  ///< pixels that see something else than their neighbours, as at edges and in textures
+  int parts = 0;            ///< these are the mean over parts x parts rays; the others show what their centre sees
+};
+
+/// Into how many parts unlike pixels are divided in each direction: at most 8, and so few that what is seen first takes
+/// at most as many rays as the samples of the picture.
+int parts_of_pixels(const FirstSeenParts& made, double spp);
+
+/// Fills input.seen for the pixels of a region, of a picture of input.spp samples a pixel, and tells in `made` how.
+/// Returns false if `give_up` was set before the end; `input.seen` and `made` are then of no use.
+bool find_first_seen(const Region& region, const RenderEngine& engine, const std::atomic<bool>& give_up,
+                     CleanInput& input, FirstSeenParts& made);
 
 /// Filters films, and keeps what is first seen until the scene changes.
 class FilmCleaner {
@@ -22,16 +42,14 @@ class FilmCleaner {
   explicit FilmCleaner(const Kernels& kernels);
 
   /// The scene has changed: what is first seen has to be found anew.
-  void change_scene() { seen_of_.reset(); }
+  void change_scene() { seen_ = {}; }
   /// See Cleaner::run. Every pixel of the film must have least_clean_spp samples or more.
   bool run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up, CleanPicture& out);
 
  private:
-  bool find_first_seen(const Region& region, const RenderEngine& engine, const std::atomic<bool>& give_up);
-
   Cleaner cleaner_;
   CleanInput input_;
-  std::optional<Region> seen_of_;  ///< the region that input_.seen shows; absent: none
+  FirstSeenParts seen_;  ///< how input_.seen was made; no parts: not yet
 };
 
 /// The clean view of a finished film of the scene. threads: 0: all cores; isa: "": the best.

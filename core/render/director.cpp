@@ -130,7 +130,7 @@ void Director::publish() {
   frame->step = picture_.step();
   frame->spp = picture_.taken();
   frame->relative_error = picture_.error();
-  frame->rare_bright_paths = rare_paths_.found();
+  frame->rare_bright_paths = rare_paths_.found() || (frame->clean && frame->clean->doubtful);
   frame->seconds = tally.seconds;
   frame->mrays_per_s = tally.last_mrays_per_s;
   frame->first_picture_ms = *first_picture_ms_;

@@ -39,6 +39,7 @@ struct CleanFrame {
   std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from those around it
   double relative_error = 0;       ///< estimated
   std::uint32_t spp = 0;           ///< samples a pixel that it was made from
+  bool doubtful = false;           ///< see is_doubtful
   double seconds = 0;              ///< rendering and filtering since the edit
 };
 
@@ -61,7 +62,7 @@ struct Frame {
                               ///< that render() makes for that number. 0 while only a coarse pass is there
   bool finished = false;      ///< the limit is reached, and the clean view (if wanted) is made from all samples
   double relative_error = 0;  ///< estimated; infinite before two samples
-  bool rare_bright_paths = false;  ///< the estimate cannot be trusted: see has_rare_bright_paths
+  bool rare_bright_paths = false;  ///< an estimate cannot be trusted: see has_rare_bright_paths, is_doubtful
   double seconds = 0;              ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;          ///< of the last pass
   double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it

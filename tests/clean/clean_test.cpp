@@ -21,8 +21,11 @@ struct Known {
 };
 
 void see_first(const std::vector<FirstSeen>& seen, int width, int height, CleanInput& input) {
-  Crew crew(2);
-  REQUIRE(read_first_seen(seen, width, height, crew, false, input));
+  resize_first_seen(width, height, input);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      put_first_seen(seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)],
+                     x, y, input);
 }
 
 Known known_picture(int width, int height, float noise, unsigned seed = 1) {
@@ -35,7 +38,7 @@ Known known_picture(int width, int height, float noise, unsigned seed = 1) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const bool left = 3 * x < width + y;
-      const FirstSeen s{left ? Vec3f{0.8f, 0.2f, 0.1f} : Vec3f{0.3f, 0.4f, 0.9f}, {0, left ? 1.0f : 0.0f, 0}, 3};
+      const FirstSeen s{left ? Vec3f{0.8f, 0.2f, 0.1f} : Vec3f{0.3f, 0.4f, 0.9f}, {0, left ? 1.0f : 0.0f, 0}, 0.5f};
       seen.push_back(s);
       const float light = 0.5f + 0.4f * std::sin(0.05f * static_cast<float>(x + 2 * y));
       const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
@@ -178,7 +181,9 @@ TEST_CASE("clean: a lone bright pixel stays where it is") {
   std::vector<float> raw = raw_picture(k.input);
   CHECK(relative_mse(after.rgb, k.truth) < 1.005 * relative_mse(raw, k.truth));
   CHECK(after.relative_error > 10 * before.relative_error);
-  CHECK(after.relative_error > 0.5);
+  CHECK(after.relative_error > 1);
+  CHECK(after.rests_on_few_pixels);
+  CHECK_FALSE(before.rests_on_few_pixels);
 }
 
 namespace {
@@ -219,7 +224,7 @@ TEST_CASE("clean: nothing glows into the dark where nothing is seen") {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 96; ++x)
       if (y < 37)
-        seen[static_cast<std::size_t>(96 * y + x)] = {{0.5f, 0.5f, 0.5f}, {0, 0, 1}, 2};
+        seen[static_cast<std::size_t>(96 * y + x)] = {{0.5f, 0.5f, 0.5f}, {0, 0, 1}, 0.5f};
       else
         for (int plane = 0; plane < 6; ++plane) k.input.halves.plane(plane)[y * k.input.halves.stride() + x] = 0;
   see_first(seen, 96, 64, k.input);
@@ -282,7 +287,6 @@ TEST_CASE("clean: reading gives up, too") {
   Crew crew(2);
   CleanInput input;
   CHECK_FALSE(read_film(film, crew, true, input));
-  CHECK_FALSE(read_first_seen(std::vector<FirstSeen>(64), 8, 8, crew, true, input));
 }
 
 TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from the other") {

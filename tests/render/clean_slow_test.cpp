@@ -1,5 +1,8 @@
 #include "core/accuracy/flip.h"
+#include "core/accuracy/rare.h"
 #include "core/compile/compile.h"
+#include "core/render/caustics.h"
+#include "core/render/clean_film.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
@@ -20,7 +23,7 @@ using namespace tyndall::test;
 
 namespace {
 
-constexpr double pixels = 20000;
+constexpr double pixels = 320 * 180;
 constexpr std::array<std::uint32_t, 6> counts{2, 4, 16, 64, 256, 1024};
 
 /// Errors of one picture, without the noise of the reference.
@@ -33,13 +36,14 @@ struct Row {
   std::string name;
   std::uint32_t spp;
   Errors raw, clean;
-  double estimated = 0;  ///< over the true squared relative error
-  double worse = 0;      ///< share of blocks that are worse than raw
-  double excess = 0;     ///< by how much together, of raw's whole error
+  double estimated = 0;   ///< over the true squared relative error
+  double worse = 0;       ///< share of blocks that are worse than raw
+  double excess = 0;      ///< by how much together, of raw's whole error
+  bool doubtful = false;  ///< users are warned that the estimate cannot be trusted
 };
 
 Errors errors_of(const std::vector<float>& image, const Reference& reference, int width, int height) {
-  constexpr int edge = 16;
+  constexpr int edge = 32;
   Errors e;
   const int columns = (width + edge - 1) / edge, rows = (height + edge - 1) / edge;
   e.blocks.resize(static_cast<std::size_t>(columns * rows));
@@ -62,7 +66,7 @@ Errors errors_of(const std::vector<float>& image, const Reference& reference, in
 }
 
 Row measured(const std::string& name, const Film& film, const CleanPicture& clean, std::uint32_t spp,
-             const Reference& reference) {
+             const Reference& reference, double chance) {
   const int width = film.region.width(), height = film.region.height();
   Row row{name, spp, errors_of(resolve(film), reference, width, height),
           errors_of(clean.rgb, reference, width, height)};
@@ -74,9 +78,10 @@ Row measured(const std::string& name, const Film& film, const CleanPicture& clea
     row.excess += std::max(after - before, 0.0), all += before;
   }
   row.excess /= std::max(all, 1e-12);
-  std::printf("%-32s %4u  %.2e %.2e %5.1f  %5.2f  %.3f %.3f  %+.4f  %4.1f %% %.2f %%\n", name.c_str(), spp,
+  row.doubtful = is_doubtful(clean, spp) || has_rare_bright_paths(estimate_error(film), spp, chance);
+  std::printf("%-32s %4u  %.2e %.2e %5.1f  %5.2f  %.3f %.3f  %+.4f  %4.1f %% %.2f %% %s\n", name.c_str(), spp,
               row.raw.rel_mse, row.clean.rel_mse, row.raw.rel_mse / row.clean.rel_mse, row.estimated, row.raw.flip,
-              row.clean.flip, row.clean.mean, 100 * row.worse, 100 * row.excess);
+              row.clean.flip, row.clean.mean, 100 * row.worse, 100 * row.excess, row.doubtful ? "!" : "");
   std::fflush(stdout);
   return row;
 }
@@ -88,6 +93,7 @@ void measure(const std::string& name, Scene scene, std::uint32_t reference_spp, 
   scene.render.adaptive = false;
   const Reference reference = reference_of(scene, reference_spp);
   const RenderScene compiled = compile(scene);
+  const double chance = chance_of_caustics(scene, compiled);
   RenderOptions options;
   options.clean = true;
   Film film;
@@ -95,7 +101,7 @@ void measure(const std::string& name, Scene scene, std::uint32_t reference_spp, 
     options.spp = spp;
     RenderResult result = render(compiled, options, {}, std::move(film));
     REQUIRE(result.clean);
-    rows.push_back(measured(name, result.film, *result.clean, spp, reference));
+    rows.push_back(measured(name, result.film, *result.clean, spp, reference, chance));
     film = std::move(result.film);
   }
 }
@@ -105,12 +111,19 @@ void print_head() {
               "FLIP", "clean", "mean", "worse", "by");
 }
 
-/// Of the rows with so many samples, the share whose estimate is within the band.
-double share_within(const std::vector<Row>& rows, std::uint32_t first, std::uint32_t last, double low, double high) {
-  int all = 0, within = 0;
+/// Of the rows with so many samples that are good or (`or_doubtful`) are warned of, the share.
+template <class Good>
+double share_of(const std::vector<Row>& rows, std::uint32_t first, std::uint32_t last, bool or_doubtful,
+                const Good& good) {
+  int all = 0, fit = 0;
   for (const Row& row : rows)
-    if (row.spp >= first && row.spp <= last) ++all, within += row.estimated >= low && row.estimated <= high;
-  return static_cast<double>(within) / std::max(all, 1);
+    if (row.spp >= first && row.spp <= last) ++all, fit += good(row) || (or_doubtful && row.doubtful) ? 1 : 0;
+  return static_cast<double>(fit) / std::max(all, 1);
+}
+
+/// Whether the estimated error, of which row.estimated has the square, is within these limits times the true one.
+bool knows_its_error(const Row& row, double low, double high) {
+  return row.estimated >= low * low && row.estimated <= high * high;
 }
 
 }  // namespace
@@ -118,24 +131,31 @@ double share_within(const std::vector<Row>& rows, std::uint32_t first, std::uint
 TEST_CASE("clean view: never worse than the raw picture in any built-in scene, and it knows its error") {
   std::vector<Row> rows;
   print_head();
-  for (const BuiltIn& built_in : built_in_scenes()) measure(built_in.name, load_scene(built_in.name).scene, 4096, rows);
+  for (const BuiltIn& built_in : built_in_scenes()) measure(built_in.name, load_scene(built_in.name).scene, 2048, rows);
+  const auto band = [](const Row& row) { return knows_its_error(row, 0.8, 1.25); };
+  const auto wide_band = [](const Row& row) { return knows_its_error(row, 0.6, 1.4); };
+  const auto few_worse = [](const Row& row) { return row.worse <= 0.034 && row.excess <= 0.005; };  // 2 of 60 blocks
   for (const Row& row : rows) {
     CAPTURE(row.name);
     CAPTURE(row.spp);
-    CHECK(row.clean.rel_mse <= 1.02 * row.raw.rel_mse + 1e-7);
-    CHECK(row.excess < 0.05);
+    CHECK(row.clean.rel_mse <= 1.005 * row.raw.rel_mse + 1e-7);
+    if (!row.doubtful) CHECK(row.excess < 0.05);
   }
-  MESSAGE("estimated over true error, squared: within [0.64, 1.56] from 16 spp on in "
-          << 100 * share_within(rows, 16, 1024, 0.64, 1.5625) << " %, within [0.36, 1.96] at 4 in "
-          << 100 * share_within(rows, 4, 4, 0.36, 1.96) << " %");
-  CHECK(share_within(rows, 16, 1024, 0.64, 1.5625) >= 0.9);
-  CHECK(share_within(rows, 4, 4, 0.36, 1.96) >= 0.85);
+  const double known = share_of(rows, 16, 1024, false, band), told = share_of(rows, 16, 1024, true, band),
+               at_4 = share_of(rows, 4, 4, false, wide_band), blocks = share_of(rows, 2, 1024, true, few_worse);
+  MESSAGE("estimated over true error from 16 spp on within [0.8, 1.25]: "
+          << 100 * known << " %, or warned of: " << 100 * told << " %; at 4 within [0.6, 1.4]: " << 100 * at_4
+          << " %; few blocks worse: " << 100 * blocks << " %");
+  CHECK(known >= 0.85);
+  CHECK(told >= 0.95);
+  CHECK(at_4 >= 0.85);
+  CHECK(blocks >= 0.9);
 }
 
 TEST_CASE("clean view: scenes made to break filters") {
   std::vector<Row> rows;
   print_head();
-  for (const auto& [name, scene] : scenes_hard_for_filters()) measure(name, scene, 4096, rows);
+  for (const auto& [name, scene] : scenes_hard_for_filters()) measure(name, scene, 2048, rows);
   for (const Row& row : rows) {
     CAPTURE(row.name);
     CAPTURE(row.spp);

@@ -1,0 +1,125 @@
+#include "core/clean/clean.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <random>
+
+/// What the clean view chooses where the regression cannot be right: pictures whose truth is known, with something in
+/// them that no feature tells.
+using namespace tyndall;
+
+namespace {
+
+constexpr int width = 64, height = 48;
+
+struct Picture {
+  CleanInput input;
+  std::vector<Vec3f> truth;
+
+  float& half(int half, int channel, int x, int y) {
+    return input.halves.plane(3 * half + channel)[y * input.halves.stride() + x];
+  }
+};
+
+/// truth(x, y): the radiance; seen(x, y): what is seen there; noise(x, y): relative standard deviation of each half.
+template <class Truth, class Seen, class Noise>
+Picture picture(const Truth& truth, const Seen& seen, const Noise& noise) {
+  Picture p;
+  p.input.width = width, p.input.height = height;
+  p.input.halves.resize(width, height, 6);
+  resize_first_seen(width, height, p.input);
+  std::mt19937 engine(1);
+  std::normal_distribution<float> normal;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Vec3f value = truth(x, y);
+      p.truth.push_back(value);
+      put_first_seen(seen(x, y), x, y, p.input);
+      for (int half = 0; half < 2; ++half) {
+        const float factor = 1 + noise(x, y) * normal(engine);
+        p.half(half, 0, x, y) = factor * value.x, p.half(half, 1, x, y) = factor * value.y;
+        p.half(half, 2, x, y) = factor * value.z;
+      }
+    }
+  return p;
+}
+
+CleanPicture clean(const Picture& p) {
+  Crew crew(1);
+  CleanPicture picture;
+  REQUIRE(Cleaner(Target::scalar).run(p.input, crew, false, picture));
+  return picture;
+}
+
+/// The squared relative error of a pixel of the clean view.
+double error_at(const CleanPicture& picture, const Picture& p, int x, int y) {
+  const auto i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+  const float truth[3] = {p.truth[i].x, p.truth[i].y, p.truth[i].z};
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double level = static_cast<double>(truth[c]), off = static_cast<double>(picture.rgb[3 * i + c]) - level;
+    sum += off * off / (level * level + 0.01) / 3;
+  }
+  return sum;
+}
+
+FirstSeen grey_floor(int, int) { return {{0.5f, 0.5f, 0.5f}, {0, 1, 0}, 0.5f}; }
+
+}  // namespace
+
+TEST_CASE("choice: errors in dark channels count as much as those in bright ones") {
+  // Red beside white. The column between is half of each, without noise, and seen as white.
+  const auto truth = [](int x, int) {
+    return x < 32 ? Vec3f{0.9f, 0.05f, 0.05f} : x > 32 ? Vec3f{1, 1, 1} : Vec3f{0.92f, 0.24f, 0.24f};
+  };
+  const auto seen = [](int x, int) {
+    return FirstSeen{x < 32 ? Vec3f{0.9f, 0.05f, 0.05f} : Vec3f{1, 1, 1}, {0, 0, 1}, 0.5f};
+  };
+  const Picture p = picture(truth, seen, [](int x, int) { return x == 32 ? 0.0f : 0.3f; });
+  const CleanPicture picture = clean(p);
+  double column = 0;
+  for (int y = 8; y < 40; ++y) column += error_at(picture, p, 32, y) / 32;
+  CHECK(column < 0.3);
+}
+
+TEST_CASE("choice: a rare bright path does not decide for the pixels around it") {
+  const auto truth = [](int x, int) { return x < 32 ? Vec3f{0.02f, 0.02f, 0.02f} : Vec3f{0.8f, 0.8f, 0.8f}; };
+  Picture p = picture(truth, grey_floor, [](int, int) { return 0.1f; });
+  for (int c = 0; c < 3; ++c) p.half(0, c, 24, 24) = 200;
+  const CleanPicture picture = clean(p);
+  double around = 0;
+  int pixels = 0;
+  for (int y = 18; y <= 30; ++y)
+    for (int x = 18; x <= 30; ++x)
+      if (std::abs(x - 24) > 2 || std::abs(y - 24) > 2) around += error_at(picture, p, x, y), ++pixels;
+  CHECK(around / pixels < 1);
+}
+
+TEST_CASE("choice: a tiny lamp behind glass does not shine on the dark pixels beside it") {
+  const auto truth = [](int x, int y) {
+    const float ripple =
+        0.03f + 0.02f * std::sin(0.6f * static_cast<float>(x)) * std::sin(0.6f * static_cast<float>(y));
+    const float value = x == 32 && y == 24 ? 40000.0f : ripple;
+    return Vec3f{value, value, value};
+  };
+  const auto seen = [](int x, int y) {
+    FirstSeen glass = grey_floor(x, y);
+    glass.sharp = false;
+    return glass;
+  };
+  Picture p = picture(truth, seen, [](int, int) { return 0.3f; });
+  p.input.emission.resize(width, height, 6);
+  for (int k = 0; k < 6; ++k) {
+    p.half(k / 3, k % 3, 32, 24) = k < 3 ? 38000.0f : 42000.0f;
+    p.input.emission.plane(k)[24 * p.input.emission.stride() + 32] = k < 3 ? 38000.0f : 42000.0f;
+  }
+  const CleanPicture picture = clean(p);
+  double beside = 0;
+  for (int y = 22; y <= 26; ++y)
+    for (int x = 30; x <= 34; ++x)
+      if (x != 32 || y != 24) beside = std::max(beside, error_at(picture, p, x, y));
+  CHECK(beside < 0.1);
+}
