@@ -73,7 +73,8 @@ void refuse_conflicts(const RenderCommand& c) {
     throw UsageError("--denoise: found --spp " + std::to_string(*c.spp) + ", expected at least " +
                      std::to_string(least_clean_spp) + " samples a pixel");
   if (c.fresh && c.resume) throw UsageError("--fresh and --resume exclude each other: one starts over, one goes on");
-  if (c.checkpoint > 0 && kept_film(c).empty()) throw UsageError("--checkpoint needs an output that ends in .exr");
+  if (c.checkpoint > 0 && kept_film(c).empty())
+    throw UsageError("--checkpoint needs an output that ends in .exr, and --exr-film yes");
   if (!c.samples) return;
   if (c.denoise) throw UsageError("--samples and --denoise exclude each other: a part is filtered when it is merged");
   const char* other = c.spp                  ? "--spp"
@@ -112,6 +113,12 @@ void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesy
     read_name(t, {"png", "exr", "pfm", "hdr"});
     form.format = t;
   });
+  add_value(app, "--exr-film", "yes|no",
+            "whether .exr files hold the film itself, which merge, denoise,\n"
+            "--resume and checkpoints need; without it they are smaller [yes]",
+            [&](Text t) {
+              form.exr_film = read_name(t, {"no", "yes"}) == 1;
+            });
 }
 
 void add_progress(CLI::App& app, ProgressStyle& style) {

@@ -4,6 +4,7 @@
 #include "app/files/checkpoint.h"
 #include "app/files/film_files.h"
 #include "app/files/layers.h"
+#include "app/files/memory.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/files/stats.h"
@@ -66,6 +67,14 @@ void check_if_ignored(const RenderCommand& command, const RenderSettings& settin
              std::string(name_of(settings.integrator)));
 }
 
+MemoryPlan memory_plan(const RenderCommand& command, const Scene& scene, const Region& region) {
+  const bool lamps = std::any_of(scene.materials.begin(), scene.materials.end(), [](const auto& material) {
+    return std::holds_alternative<Light<double>>(material.kind);
+  });
+  const bool copies = command.checkpoint > 0;  // else only renders of more than half a minute copy their film
+  return {region.width(), region.height(), lamps, command.denoise, copies, command.outputs, command.form};
+}
+
 /// Finds everything that can be wrong before the first sample.
 void prepare(Job& job) {
   const RenderCommand& command = job.command;
@@ -80,6 +89,7 @@ void prepare(Job& job) {
   check_outputs(outputs, job.loaded.files);
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
+  check_memory(memory_plan(command, job.loaded.scene, *job.options.region), free_memory());
   job.begin = find_start(command, job.loaded, job.options, job.kernels);
   job.samples_before = totals(job.begin.film).samples;
   if (!job.begin.note.empty()) complain(job.begin.note);
@@ -166,7 +176,9 @@ RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressRepor
     if (const auto problem = checkpoints.problem()) report.say(*problem);
     if (kept || said || !checkpoints.due()) return kept && checkpoints.due();
     said = true;
-    report.say("nothing is kept before the end; with an output that ends in .exr a killed render can go on");
+    report.say(
+        "nothing is kept before the end; with an output that ends in .exr, and --exr-film yes, a killed render can go "
+        "on");
     return false;
   };
   breaks.take_film = [&checkpoints](const Film& film) { checkpoints.take(film); };

@@ -160,6 +160,7 @@ RenderStart start_with(StoredFilm stored, const RenderCommand& command, const Lo
 }  // namespace
 
 std::filesystem::path kept_film(const RenderCommand& command) {
+  if (!command.form.exr_film) return {};
   const auto keeps = [](const std::filesystem::path& file) {
     std::error_code error;
     const auto type = std::filesystem::status(file, error).type();
@@ -173,7 +174,8 @@ std::filesystem::path kept_film(const RenderCommand& command) {
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels) {
   const std::filesystem::path file = kept_film(command);
-  if (command.resume && file.empty()) throw UsageError("--resume needs an output that ends in .exr");
+  if (command.resume && file.empty())
+    throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
   if (command.fresh || file.empty()) return {};
   std::error_code error;
   const bool exists = std::filesystem::exists(file, error);

@@ -8,7 +8,8 @@ namespace tyndall {
 namespace {
 
 Layer variance_layer(const Film& film) {
-  Layer layer{"variance", {"R", "G", "B"}, {}};
+  Layer layer{"Variance", {"R", "G", "B"}, {}};
+  layer.values.reserve(3 * film.pixels.size());
   for (const FilmPixel& pixel : film.pixels) {
     const bool whole = counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
     const Vec3f half = 0.5f * (half_mean(film, pixel, 0) - half_mean(film, pixel, 1));
@@ -23,7 +24,9 @@ Layer variance_layer(const Film& film) {
 std::vector<Layer> layers_of(const RenderScene& scene, const Film& film, const Kernels& kernels) {
   const Region& region = film.region;
   constexpr int rows = 64;  // at a time, to spare memory
-  std::vector<Layer> layers = {{"albedo", {"R", "G", "B"}, {}}, {"normal", {"X", "Y", "Z"}, {}}, {"depth", {"Z"}, {}}};
+  std::vector<Layer> layers = {
+      {"Albedo", {"R", "G", "B"}, {}, true}, {"Ns", {"X", "Y", "Z"}, {}}, {"Depth", {"Z"}, {}}};
+  for (Layer& layer : layers) layer.values.reserve(layer.channels.size() * film.pixels.size());
   std::vector<float>&albedo = layers[0].values, &normal = layers[1].values, &depth = layers[2].values;
   const SceneViewOf view(scene);
   for (int y = region.y0; y < region.y1; y += rows) {

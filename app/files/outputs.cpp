@@ -123,6 +123,12 @@ std::vector<Layer> all_layers(const Picture& picture) {
   return layers;
 }
 
+Embedded embedded_in_exr(const Picture& picture, const std::filesystem::path& file) {
+  Embedded embedded = picture.embedded(file);
+  embedded.film = picture.form.exr_film;
+  return embedded;
+}
+
 /// What files of one picture show.
 LinearImage shown(const Picture& picture) {
   if (!picture.clean) return picture.image;
@@ -135,11 +141,13 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : files) {
     try {
+      const Region& region = picture.film.region;
       const std::string kind = ending(name_with_ending(file, picture.form));
       if (kind == ".exr")
-        write_exr(file, picture.film, all_layers(picture), picture.embedded(file), &picture.image);
+        write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
       else if (kind == ".png")
-        write_png(file, shown(picture), picture.display.exposure, picture.display.tone_map, picture.embedded(file));
+        write_png(file, shown(picture), picture.display.exposure, picture.display.tone_map, picture.embedded(file),
+                  picture.display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt);
       else if (kind == ".pfm")
         write_pfm(file, shown(picture));
       else

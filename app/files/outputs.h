@@ -15,6 +15,7 @@ namespace tyndall {
 struct ImageForm {
   std::string
       format;  ///< of what goes to standard output, the file "-": png, exr, pfm or hdr; empty: nothing goes there
+  bool exr_film = true;  ///< whether EXR files hold the film itself, which merge, denoise and --resume need
 };
 
 /// Throws UsageError for an ending that is no image's, EXR in a build without it, or a file named twice; and if a

@@ -123,7 +123,7 @@ void PictureView::show(Platform& platform, const Rect& image) {
   const Display& display = session_.editor().scene().display;
   const auto look = [&](const Frame* frame) {
     const bool plain = session_.accuracy().map() || (frame && frame->view != View::beauty);
-    return plain ? Look{} : Look{display.exposure, display.tone_map};
+    return plain ? Look{} : Look{display.exposure, display.tone_map, display.dither};
   };
   right_.display->draw(whole, height, look(right_.frame.get()), whole);
   if (shows_halves() && left_.display) {

@@ -18,11 +18,12 @@ struct LinearImage {
   std::vector<float> rgb;
 };
 
-/// A further picture of the same size for EXR, for example "albedo" (R, G, B), "normal" (X, Y, Z) or "depth" (Z).
+/// A further picture of the same size for EXR, for example "Albedo" (R, G, B), "Ns" (X, Y, Z) or "Depth" (Z).
 struct Layer {
   std::string name;
   std::vector<std::string> channels;
   std::vector<float> values;  ///< channels interleaved
+  bool half = false;          ///< 16 bits a value are enough in the file: 11 significant ones, up to 65504
 };
 
 /// What a film's file says about how the film was made. Films may only be gone on with by the same version and
@@ -39,6 +40,7 @@ struct Embedded {
   std::string scene;  ///< JSON; empty: none
   std::string stats;  ///< JSON; empty: none
   FilmLabel label{};  ///< for EXR
+  bool film = true;   ///< whether an EXR holds the film itself
 };
 
 /// 8-bit RGB, top row first, as it stands in the file: for textures. channels: 3.

@@ -13,13 +13,14 @@
 namespace tyndall {
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
-               const Embedded& embedded);
+               const Embedded& embedded, std::optional<DitherOrigin> dither = {});
 /// PFM: bottom row first, scale -1.0 (little endian). It carries no scene and no statistics.
 void write_pfm(const std::filesystem::path& file, const LinearImage& image);
 /// Radiance HDR (RGBE). It carries no scene and no statistics.
 void write_hdr(const std::filesystem::path& file, const LinearImage& image);
-/// EXR: RGB in float, the layers, and the film itself in channels film.*; the data window is the film's region. Throws
-/// if built without OpenEXR. image: the film's means, if the caller has them; null: they are computed here.
+/// EXR: RGB in float, the layers, and, unless `embedded` says no, the film itself in channels film.*; the data window
+/// is the film's region. Throws if built without OpenEXR. image: the film's means, if the caller has them; null: they
+/// are computed here.
 void write_exr(const std::filesystem::path& file, const Film& film, const std::vector<Layer>& layers,
                const Embedded& embedded, const LinearImage* image = nullptr);
 /// A checkpoint: the film alone, uncompressed, which is much faster. It can be gone on with, but shows no picture.

@@ -14,12 +14,14 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <bit>
 #include <cassert>
 #include <cstdio>
 #include <cstring>
+#include <deque>
 #include <exception>
 #include <type_traits>
 
@@ -109,12 +111,8 @@ std::string planned_bytes(const Film& film) {
   return bytes;
 }
 
-Imf::Header make_header(const Film& film, const Embedded& embedded) {
-  const Region& r = film.region;
-  const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1}), data({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
-  Imf::Header header(display, data);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  header.zipCompressionLevel() = 1;  // higher levels take longer and save nothing: half of the bits are noise
+/// What makes the channels film.* a film.
+void describe_film(Imf::Header& header, const Film& film, const Embedded& embedded) {
   header.insert(exr_name::width, Imf::IntAttribute(film.width));
   header.insert(exr_name::height, Imf::IntAttribute(film.height));
   header.insert(exr_name::first_sample, Imf::DoubleAttribute(film.first_sample));
@@ -128,6 +126,17 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   header.insert(exr_name::isa, Imf::StringAttribute(embedded.label.isa));
   if (!film.planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned_bytes(film)));
   header.insert(exr_name::checksum, Imf::StringAttribute(checksum_text(film, embedded)));
+}
+
+Imf::Header make_header(const Film& film, const Embedded& embedded) {
+  const Region& r = film.region;
+  const Imath::Box2i display({0, 0}, {film.width - 1, film.height - 1}), data({r.x0, r.y0}, {r.x1 - 1, r.y1 - 1});
+  Imf::Header header(display, data);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = 1;  // higher levels take longer and save nothing: half of the bits are noise
+  Imf::addChromaticities(header, Imf::Chromaticities());  // those of Rec.709
+  header.insert("software", Imf::StringAttribute("Tyndall " TYNDALL_VERSION));
+  if (embedded.film) describe_film(header, film, embedded);
   if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
   if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
   return header;
@@ -136,7 +145,8 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
 /// Adds channels to the header and the frame buffer. The values are written from where they are: keep them until then.
 struct Picture {
   Imf::Header header;
-  Imf::FrameBuffer buffer;
+  Imf::FrameBuffer buffer{};
+  std::deque<std::vector<half>> halves{};
 
   void add(const std::string& name, Imf::PixelType type, const void* first, std::size_t stride) {
     header.channels().insert(name, Imf::Channel(type));
@@ -147,6 +157,12 @@ struct Picture {
     for (std::size_t i = 0; i < channels.size(); ++i) {
       add(prefix + channels[i], Imf::FLOAT, values.data() + i, channels.size() * sizeof(float));
     }
+  }
+  void add_layer(const Layer& layer) {
+    if (!layer.half) return add_floats(layer.name + ".", layer.channels, layer.values);
+    const std::vector<half>& values = halves.emplace_back(layer.values.begin(), layer.values.end());
+    for (std::size_t i = 0; i < layer.channels.size(); ++i)
+      add(layer.name + "." + layer.channels[i], Imf::HALF, values.data() + i, layer.channels.size() * sizeof(half));
   }
   void add_film(const Film& film) {
     const char* pixels = reinterpret_cast<const char*>(film.pixels.data());
@@ -181,19 +197,19 @@ void write_exr(const std::filesystem::path& file, const Film& film, const std::v
   assert(!image || image->rgb.size() == 3 * film.pixels.size());
   const std::vector<float> resolved = image ? std::vector<float>() : resolve(film);
   const std::vector<float>& rgb = image ? image->rgb : resolved;
-  Picture picture{make_header(film, embedded), {}};
+  Picture picture{make_header(film, embedded)};
   picture.add_floats("", {"R", "G", "B"}, rgb);
   for (const Layer& layer : layers) {
     assert(layer.values.size() == film.pixels.size() * layer.channels.size());
-    picture.add_floats(layer.name + ".", layer.channels, layer.values);
+    picture.add_layer(layer);
   }
-  picture.add_film(film);
+  if (embedded.film) picture.add_film(film);
   picture.write(file);
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Film& film, const Embedded& embedded) {
   check_writable(file, film.region.width(), film.region.height());
-  Picture picture{make_header(film, embedded), {}};
+  Picture picture{make_header(film, embedded)};
   picture.header.compression() = Imf::NO_COMPRESSION;
   picture.add_film(film);
   picture.write(file);

@@ -74,9 +74,11 @@ Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, co
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
-               const Embedded& embedded) {
+               const Embedded& embedded, std::optional<DitherOrigin> dither) {
   check_writable(file, image);
-  const Bytes png = encode_png(file, image, tone_map(image.rgb, exposure, curve));
+  const Bytes png = encode_png(file, image,
+                               dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
+                                      : tone_map(image.rgb, exposure, curve));
   Bytes extra;
   put_chunk(extra, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);

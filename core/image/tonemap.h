@@ -29,4 +29,14 @@ float srgb_decode(float encoded);
 /// `aces`: the fit by K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015.
 std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve);
 
+/// The pixel of the full image at a picture's top left, so that a region is dithered like the same part of the whole.
+struct DitherOrigin {
+  int x = 0, y = 0;
+};
+/// The same, but rounded by a fixed pattern instead of to the nearest: smooth shades do not become bands. Each value
+/// moves by less than half a step before it is rounded, so that what 8 bits can show exactly stays exact, and the mean
+/// over 8 x 8 pixels of a flat area is within 1/128 of a step. width: pixels a row.
+std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
+                                            DitherOrigin origin);
+
 }  // namespace tyndall

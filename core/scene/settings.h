@@ -100,6 +100,7 @@ inline constexpr auto fields(const RenderSettings*) {
 struct Display {
   double exposure = 0;
   ToneMap tone_map = ToneMap::srgb;
+  bool dither = true;
   bool operator==(const Display&) const = default;
 };
 
@@ -108,7 +109,9 @@ inline constexpr auto fields(const Display*) {
   return std::tuple{
       Field{"exposure", &Display::exposure, between(-100, 100), Slider{-6, 6}, "EV",
             "stops, of PNG and window only: light is multiplied by 2 to this power"},
-      Field{"tone_map", &Display::tone_map, "of PNG and window only: what happens to light that is too bright"}};
+      Field{"tone_map", &Display::tone_map, "of PNG and window only: what happens to light that is too bright"},
+      Field{"dither", &Display::dither,
+            "of PNG and window only: rounds to 8 bits by a fixed pattern, so that smooth shades show no bands"}};
 }
 
 }  // namespace tyndall

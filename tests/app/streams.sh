@@ -51,7 +51,7 @@ complains '-: cannot write'
 
 # Limits of the system are named. (A program with sanitizers does not start under this one.)
 if bash -c 'ulimit -v 600000; "$0" -V' "$tyndall" >probe 2>&1; then
-  expect 3 bash -c 'ulimit -v 600000; exec "$0" "$@"' "$tyndall" render cornell-box --size 4000x4000 --spp 1 -q -o a.pfm
+  expect 2 bash -c 'ulimit -v 600000; exec "$0" "$@"' "$tyndall" render cornell-box --size 4000x4000 --spp 1 -q -o a.pfm
   grep -q 'ulimit -v' err || fail "the limit of the address space is not named: $(cat err)"
   expect 3 bash -c 'ulimit -v 600000; exec "$0" "$@"' "$tyndall" render cornell-box --size 8x8 --spp 1 -t 400 -q -o a.pfm
   complains 'cannot start thread' 'of 400' 'ulimit -v' '--threads'

@@ -119,6 +119,43 @@ TEST_SUITE("exr" * doctest::skip(!has_openexr())) {
     CHECK(read_text(folder / "a.exr") == read_text(folder / "b.exr"));
   }
 
+  TEST_CASE("exr: says what wrote it and what its colours mean") {
+    const std::string bytes = small_exr(scratch_folder("exr_attributes_known"));
+    CHECK(bytes.find(std::string("software\0string\0", 16)) != bytes.npos);
+    CHECK(bytes.find("Tyndall " TYNDALL_VERSION) != bytes.npos);
+    CHECK(bytes.find(std::string("chromaticities\0chromaticities\0", 30)) != bytes.npos);
+  }
+
+  TEST_CASE("exr: without its film it has the same picture, scene and layers, and is smaller") {
+    const fs::path folder = scratch_folder("exr_lean");
+    const Film film = wild_film();
+    Embedded lean = notes;
+    lean.film = false;
+    write_exr(folder / "a.exr", film, some_layers(film), notes);
+    write_exr(folder / "b.exr", film, some_layers(film), lean);
+    CHECK(read_image(folder / "b.exr").rgb == read_image(folder / "a.exr").rgb);
+    CHECK(read_embedded_scene(folder / "b.exr") == notes.scene);
+    CHECK_FALSE(read_film(folder / "b.exr").has_value());
+    CHECK_FALSE(read_film_label(folder / "b.exr").has_value());
+    CHECK(read_text(folder / "b.exr").find("film.") == std::string::npos);
+    CHECK(5 * fs::file_size(folder / "b.exr") < fs::file_size(folder / "a.exr"));
+  }
+
+  TEST_CASE("exr: layers take 16 bits a value where that is enough, colours always 32") {
+    const fs::path folder = scratch_folder("exr_half");
+    const Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
+    std::vector<Layer> layers = some_layers(film);
+    layers[0].half = true;
+    write_exr(folder / "a.exr", film, layers, {});
+    const std::string bytes = read_text(folder / "a.exr");
+    const auto type_of = [&](const std::string& channel) {
+      return static_cast<int>(bytes[bytes.find('\0' + channel + '\0') + channel.size() + 2]);
+    };
+    CHECK(type_of("albedo.G") == 1);
+    CHECK(type_of("normal.X") == 2);
+    CHECK(type_of("G") == 2);
+  }
+
   TEST_CASE("exr: no film in other images") {
     const fs::path file = scratch_folder("exr_other") / "a.pfm";
     write_pfm(file, {1, 1, {1, 2, 3}});

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 using namespace tyndall;
 
@@ -46,4 +47,44 @@ TEST_CASE("tone map: ACES") {
   CHECK(tone_map({0.18f, 0.5f, 1}, 0, ToneMap::aces) == std::vector<std::uint8_t>{141, 206, 232});
   CHECK(tone_map({0.36f, 1, 2}, -1, ToneMap::aces) == std::vector<std::uint8_t>{141, 206, 232});
   CHECK(tone_map({0, 8, 1e20f}, 0, ToneMap::aces) == std::vector<std::uint8_t>{0, 255, 255});
+}
+
+TEST_CASE("dithering: what 8 bits can show stays exact, everything else is one of its two neighbours") {
+  std::vector<float> rgb;
+  for (int step = 0; step < 256; ++step)
+    for (int i = 0; i < 3 * 64; ++i) rgb.push_back(srgb_decode(static_cast<float>(step) / 255));
+  const auto bytes = tone_map_dithered(rgb, 0, ToneMap::srgb, 64, {});
+  for (std::size_t i = 0; i < bytes.size(); ++i) REQUIRE(bytes[i] == i / 192);
+  CHECK(tone_map_dithered({-1, std::nanf(""), 2}, 0, ToneMap::srgb, 1, {}) == std::vector<std::uint8_t>{0, 0, 255});
+}
+
+TEST_CASE("dithering: the mean of a flat area is right to 1/128 of a step") {
+  for (const float level : {10.3f, 100.02f, 200.5f, 254.9f}) {
+    const std::vector<float> rgb(3 * 64, srgb_decode(level / 255));
+    double sum = 0;
+    for (const std::uint8_t byte : tone_map_dithered(rgb, 0, ToneMap::srgb, 8, {3, 5})) sum += byte;
+    CHECK(std::abs(sum / 192 - static_cast<double>(level)) <= 1.01 / 128);
+  }
+}
+
+TEST_CASE("dithering: a sky of 512 rows has no bands, and a region is dithered like the same part of the whole") {
+  const int width = 16, height = 512;
+  std::vector<float> sky;
+  for (int y = 0; y < height; ++y)
+    for (int i = 0; i < 3 * width; ++i) sky.push_back(0.5f + 0.02f * static_cast<float>(y) / height);
+  const auto row_means = [&](const std::vector<std::uint8_t>& bytes) {
+    std::set<int> means;
+    for (int y = 0; y + 8 <= height; y += 8) {
+      int sum = 0;
+      for (int i = 0; i < 8 * 3 * width; ++i) sum += bytes[static_cast<std::size_t>(y * 3 * width + i)];
+      means.insert(sum);
+    }
+    return means.size();
+  };
+  CHECK(row_means(tone_map(sky, 0, ToneMap::srgb)) < 20);
+  const auto whole = tone_map_dithered(sky, 0, ToneMap::srgb, width, {});
+  CHECK(row_means(whole) > 55);
+  const std::vector<float> part(sky.begin() + 100 * 3 * width, sky.begin() + 120 * 3 * width);
+  const auto region = tone_map_dithered(part, 0, ToneMap::srgb, width, {0, 100});
+  CHECK(std::equal(region.begin(), region.end(), whole.begin() + 100 * 3 * width));
 }

@@ -55,6 +55,7 @@ FrameDisplay::FrameDisplay()
     : program_(link_program()), light_(make_texture(GL_NEAREST)), bytes_(make_texture(GL_LINEAR)) {
   scale_at_ = glGetUniformLocation(program_, "scale");
   curve_at_ = glGetUniformLocation(program_, "curve");
+  dither_at_ = glGetUniformLocation(program_, "dither");
   glGenVertexArrays(1, &vertices_);
   glGenFramebuffers(1, &target_);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &greatest_);
@@ -101,6 +102,7 @@ void FrameDisplay::tone_map(const Look& look) {
   glUseProgram(program_);
   glUniform1f(scale_at_, static_cast<float>(std::exp2(look.exposure)));
   glUniform1i(curve_at_, static_cast<int>(look.tone_map));
+  glUniform1i(dither_at_, look.dither ? 1 : 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, light_);
   glBindVertexArray(vertices_);

@@ -11,6 +11,7 @@ namespace tyndall {
 struct Look {
   double exposure = 0;  ///< stops
   ToneMap tone_map = ToneMap::srgb;
+  bool dither = false;
   bool operator==(const Look&) const = default;
 };
 
@@ -36,7 +37,7 @@ class FrameDisplay {
   void tone_map(const Look& look);
 
   unsigned program_ = 0, vertices_ = 0, light_ = 0, bytes_ = 0, target_ = 0;
-  int scale_at_ = -1, curve_at_ = -1, greatest_ = 0;
+  int scale_at_ = -1, curve_at_ = -1, dither_at_ = -1, greatest_ = 0;
   int width_ = 0, height_ = 0;
   Look look_;
   bool fresh_ = false;

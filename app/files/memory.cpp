@@ -1,0 +1,91 @@
+#include "app/files/memory.h"
+
+#include "app/text/values.h"
+#include "core/film/film.h"
+#include "core/image/image_io_file.h"
+
+#include <sys/resource.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+namespace tyndall {
+namespace {
+
+constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+
+/// The number in the first line of a file of the system that begins with `key`, in bytes if it is in kB; no_limit:
+/// there is none.
+std::uint64_t system_number(const char* file, const std::string& key, std::uint64_t unit = 1) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t digits = line.find_first_of("0123456789", key.size());
+    return digits == line.npos ? no_limit : unit * std::strtoull(line.c_str() + digits, nullptr, 10);
+  }
+  return no_limit;
+}
+
+std::uint64_t soft_limit(decltype(RLIMIT_AS) resource) {
+  rlimit limit{};
+  return getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ? no_limit : limit.rlim_cur;
+}
+
+std::uint64_t less(std::uint64_t limit, std::uint64_t used) {
+  return limit == no_limit ? no_limit : limit - std::min(limit, used);
+}
+
+/// Bytes a pixel that writing a file takes beside film and picture. Measured, like the numbers of memory_needed().
+std::uint64_t writing(const MemoryPlan& plan, const std::filesystem::path& file) {
+  const std::string name = file == "-" ? "." + plan.form.format : file.string();
+  if (is_exr(name)) return 52 + (plan.clean ? 16 : 0);  // layers, one of them also in 16 bits
+  if (name.ends_with(".hdr")) return 26;
+  return name.ends_with(".png") ? 20 : 0;
+}
+
+}  // namespace
+
+std::uint64_t memory_needed(const MemoryPlan& plan) {
+  const std::uint64_t film = bytes_per_pixel(plan.emission);
+  const std::uint64_t picture = 12, estimate = 13, filter = plan.emission ? 153 : 129, shown = 12;
+  std::uint64_t written = 0;
+  for (const auto& file : plan.files) written = std::max(written, writing(plan, file));
+  const std::uint64_t after = picture + std::max(estimate, (plan.clean ? shown : 0) + written);
+  const std::uint64_t pixel = film + (plan.checkpoints ? film : 0) + std::max(after, plan.clean ? filter : 0);
+  constexpr std::uint64_t program = 11'000'000;
+  return program + pixel * static_cast<std::uint64_t>(plan.width) * static_cast<std::uint64_t>(plan.height);
+}
+
+FreeMemory free_memory() {
+  FreeMemory free{system_number("/proc/meminfo", "MemAvailable:", 1024), "free on this machine"};
+  const std::uint64_t swap = system_number("/proc/meminfo", "SwapFree:", 1024);
+  if (free.bytes != no_limit && swap != no_limit) free.bytes += swap;
+  const auto at_most = [&free](std::uint64_t bytes, const char* limit) {
+    if (bytes < free.bytes) free = {bytes, limit};
+  };
+  const char* group = "/sys/fs/cgroup/memory.max";
+  at_most(less(system_number(group, ""), system_number("/sys/fs/cgroup/memory.current", "")),
+          "left to this group of processes (cgroup)");
+  at_most(less(soft_limit(RLIMIT_AS), system_number("/proc/self/status", "VmSize:", 1024)), "left by ulimit -v");
+  at_most(less(soft_limit(RLIMIT_DATA), system_number("/proc/self/status", "VmData:", 1024)), "left by ulimit -d");
+  return free;
+}
+
+void check_memory(const MemoryPlan& plan, const FreeMemory& free) {
+  const std::string size = fmt::format("{}x{}", plan.width, plan.height);
+  const bool png =
+      std::any_of(plan.files.begin(), plan.files.end(), [](const auto& f) { return f.extension() == ".png"; });
+  if (plan.width * plan.height > max_image_pixels || (png && (3 * plan.width + 1) * plan.height >= 1 << 30))
+    throw UsageError(
+        fmt::format("found an image of {} pixels, expected at most 2^28, which is what image files hold", size));
+  const std::uint64_t needed = memory_needed(plan);
+  if (needed > free.bytes)
+    throw UsageError(fmt::format("a render of {} pixels takes {} bytes ({:.3g} GB) of memory, and {:.3g} GB are {}",
+                                 size, needed, 1e-9 * static_cast<double>(needed),
+                                 1e-9 * static_cast<double>(free.bytes), free.limit));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Memory is known before it is taken: a picture that does not fit is refused before the first sample, with the number of
+# bytes, which is that of the render within a tenth.
+. "$(dirname "$0")/_common.sh"
+
+limit=200000 # kB of address space, too few for the renders below
+bash -c 'ulimit -v 200000; "$0" -V' "$tyndall" >probe 2>&1 || { echo 'skipped: sanitizers need more memory'; exit 77; }
+
+# needs PERCENT RENDER-OPTIONS...: compares the bytes that a refusal names with what the same render takes.
+needs() {
+  local percent=$1 said
+  shift
+  rm -f m.*
+  expect 2 bash -c 'ulimit -v "$1"; shift; exec "$@"' - $limit "$tyndall" render "$@" -q
+  complains 'ulimit -v' 'bytes'
+  [ -z "$(find . -name 'm.*')" ] || fail 'a refused render wrote something'
+  said=$(sed 's/.* takes \([0-9]*\) bytes .*/\1/' err)
+  expect 0 "$tyndall" render "$@" -q --stats s.json
+  python3 -c '
+import sys
+said, took, percent = (float(word) for word in sys.argv[1:])
+print(f"{100 * said / took - 100:+.1f} % of {took / 1e6:.0f} MB")
+sys.exit(abs(said / took - 1) > percent / 100)' "$said" "$(json s.json peak_memory_bytes)" "$percent" ||
+    fail "render $*: said $said"
+}
+
+needs 10 quads --size 1600x1000 --spp 2 -o m.pfm
+needs 10 cornell-box --size 1600x1000 --spp 2 -o m.pfm
+needs 10 cornell-box --size 1600x1000 --spp 2 -o m.png
+needs 10 cornell-box --size 1600x1000 --spp 2 -o m.hdr -o m.pfm
+needs 10 cornell-box --size 1600x1000 --spp 2 -o m.pfm --denoise
+needs 10 cornell-box --size 3200x1000 --region 0,0,1600,1000 --spp 1 -o m.pfm
+if has_exr; then
+  needs 10 cornell-box --size 1600x1000 --spp 2 -o m.exr
+  needs 10 quads --size 1600x1000 --spp 2 -o m.exr --exr-film no
+  needs 10 cornell-box --size 1600x1000 --spp 2 -o m.exr --denoise
+fi
+
+# What image files cannot hold is refused, too, whatever memory there is.
+expect 2 "$tyndall" render quads --size 20000x13500 --spp 1 -o big.png
+complains '20000x13500' '2^28'
+expect 2 "$tyndall" render quads --size 1x268435456 --spp 1 -o big.png
+[ ! -e big.png ] || fail 'an image was written'
+
+# A lean EXR has no film, so nothing can go on from it.
+if has_exr; then
+  expect 0 "$tyndall" render quads --size 128x96 --spp 2 -q -o lean.exr --exr-film no
+  expect 0 "$tyndall" render quads --size 128x96 --spp 2 -q -o full.exr -o full.pfm
+  expect 0 "$tyndall" compare lean.exr full.pfm --max-rmse 0
+  [ "$(wc -c <lean.exr)" -lt $(($(wc -c <full.exr) * 2 / 3)) ] || fail 'without its film an EXR is not smaller'
+  expect 2 "$tyndall" merge lean.exr -o none.png
+  complains 'lean.exr' 'no film'
+  expect 2 "$tyndall" render quads --size 32x24 --spp 4 -q -o lean.exr --exr-film no --resume
+  complains '--exr-film'
+  expect 2 "$tyndall" render quads --size 32x24 --spp 4 -q -o lean.exr --exr-film no --checkpoint 5
+  complains '--exr-film'
+fi
+
+# PNG is dithered, unless that is switched off; nothing else is.
+sky=(quads --size 32x24 --spp 2 -q)
+expect 0 "$tyndall" render "${sky[@]}" -o on.png -o on.pfm
+expect 0 "$tyndall" render "${sky[@]}" -o off.png -o off.pfm --dither off
+cmp -s on.pfm off.pfm || fail '--dither changes PFM'
+cmp -s on.png off.png && fail '--dither off changes nothing'
+expect 0 "$tyndall" render off.png -o again.png -q
+expect 0 "$tyndall" compare again.png off.png --max-rmse 0
+
+finish
