@@ -83,7 +83,7 @@ TYNDALL_INLINE void follow_chain(const SceneView& s, ChainTrail<F>& trail, const
   if (any(goes_on)) trail.met = select(goes_on, meet_ball(s, trail, ray, e.at.element, reflected), trail.met);
   trail.met = select(spreads, IntOf<F>(0), trail.met);
   trail.start = select(spreads, e.point, trail.start);
-  trail.density = select(spreads, density / chain_probability(s, e.point), trail.density);
+  trail.density = select(spreads, density / e.asks, trail.density);
 }
 
 /// Takes the events apart that ChainTrail::met counts.

@@ -34,6 +34,7 @@ struct Event {
   Incident<F> incident;
   SurfacePoint<F> at;
   IntOf<F> kind;  ///< of the material: its place in MaterialKinds
+  F asks;         ///< probability of asking for a chain; only in scenes with chains
   F g;            ///< of the medium
 };
 
@@ -52,6 +53,7 @@ TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Dice<F>& dice) {
           {ray.direction, nowhere, nowhere, zero, none, nowhere, false, dice},
           {nowhere, nowhere, none, first, first},
           first,
+          F(1.0f),
           zero};
 }
 

@@ -139,8 +139,10 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   }
   if (s.has_chains()) {
     const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
-    const auto drawn = less(p.dice.one_alone(dimension::chain_asked), chain_probability(s, e.point));
-    const auto asking = mask_and(mask_and(scattering, drawn), mask_or(e.medium, evenly));
+    const auto spreads = mask_or(e.medium, evenly);
+    if (any(spreads)) e.asks = chain_probability(s, e.point);
+    const auto drawn = less(p.dice.one_alone(dimension::chain_asked), e.asks);
+    const auto asking = mask_and(mask_and(scattering, drawn), spreads);
     if constexpr (ChainQueue<F>::waits)
       enqueue(chains, p, e, asking);
     else if (any(asking))
