@@ -23,6 +23,7 @@ import time
 
 SMALL = ["--size", "16x16", "-t", "1", "-q"]
 ERRORS = ["EIO", "ENOSPC", "EACCES"]
+MUST_BE_TOLD = {"write", "lseek", "fsync", "rename"}
 
 
 class Scenario:
@@ -168,6 +169,10 @@ class Faults:
             if code < 0 or (code != 0 and not text):
                 self.fail(where, f"ends with {code}: {text or 'without a word'}")
             new_files = all(now[name] == new[name] for name in scenario.images)
+            failed = [call.split()[0] for call in calls if call.endswith("failed")]
+            told = code != 0 if exact else text != ""
+            if not told and any(call in MUST_BE_TOLD for call in failed):
+                self.fail(where, f"ends with {code}, and does not tell: {text}")
             if code == 0 and not new_files:
                 self.fail(where, f"ends with 0, and not all files are new: {text}")
         else:
