@@ -200,7 +200,7 @@ class Filler {
     out.radius.push_back(static_cast<float>(radius)), out.index.push_back(static_cast<float>(index));
     out.inner_radius.push_back(0), out.inner_index.push_back(1);
     out.outer.push_back(element), out.inner.push_back(element), out.crowded.push_back(0);
-    for (int i = 0; i < faces; ++i) out.ball_of[static_cast<std::size_t>(element + i)] = 2 * ball;
+    std::fill_n(out.ball_of.begin() + element, faces, 2 * ball);
     out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
   }
 

@@ -53,11 +53,13 @@ std::vector<Vec3f> points_of(const LightColumns<float>& lamp) {
   }
   const Vec3f center = sphere_light_center(lamp, 0.0f);
   points.push_back(center);
-  for (int i = 0; i < 27; ++i) {
-    const Vec3f corner{static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1), static_cast<float>(i / 9 - 1)};
-    const float far = length(corner);
-    if (far > 0) points.push_back(center + (lamp.length_u / far) * corner);
-  }
+  for (const float x : {-1.0f, 0.0f, 1.0f})
+    for (const float y : {-1.0f, 0.0f, 1.0f})
+      for (const float z : {-1.0f, 0.0f, 1.0f}) {
+        const Vec3f corner{x, y, z};
+        const float far = length(corner);
+        if (far > 0) points.push_back(center + (lamp.length_u / far) * corner);
+      }
   return points;
 }
 
