@@ -29,26 +29,12 @@ TYNDALL_INLINE bool emission_near(const FilterView& v, int y, int x0, int count)
   return any;
 }
 
-/// How much of a half's emission is spread: none where it is seen sharply, as the dark around a lamp that is smaller
-/// than a pixel would be spoilt by far more than the lamp gains. Else, behind glass or in brushed metal, at most as
-/// much as the eight pixels around have together, so that a lone speck stays where it is.
+/// What is blurred: a half, of whose sharp emission nothing is spread: the dark around a lamp that is smaller than a
+/// pixel would be spoilt by far more than the lamp gains.
 template <class F>
-TYNDALL_INLINE F spread_emission(const FilterView& v, int output, int y, std::ptrdiff_t at) {
-  const F own = load<F>(v.emission[output] + at);
-  F others = F(0.0f) - own;
-  for (int k = y > 0 ? -1 : 0; k <= (y + 1 < v.height ? 1 : 0); ++k) {
-    const float* row = v.emission[output] + at + k * v.stride;
-    others = others + (load<F>(row - 1) + load<F>(row) + load<F>(row + 1));
-  }
-  const F spread = max(min(own, others), F(0.0f));
-  return select(less(F(0.0f), load<F>(v.sharp + at)), F(0.0f), spread);
-}
-
-/// What of a half is blurred.
-template <class F>
-TYNDALL_INLINE F blurred_part(const FilterView& v, bool lit, int output, int y, std::ptrdiff_t at) {
+TYNDALL_INLINE F blurred_part(const FilterView& v, bool lit, int output, std::ptrdiff_t at) {
   const F half = load<F>(v.half[output] + at);
-  return lit ? half - load<F>(v.emission[output] + at) + spread_emission<F>(v, output, y, at) : half;
+  return lit ? neg_mul_add(load<F>(v.sharp + at), load<F>(v.emission[output] + at), half) : half;
 }
 
 /// Binomial filter of 5 x 5 taps, of `count` pixels from x0 on in row y; mirrored at the borders. A half that the
@@ -58,13 +44,10 @@ TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, Ch
   constexpr int reach = blur_reach;
   alignas(64) float column[chunk + 64];  // from x0 - 16 on
   const bool lit = emission_near(v, y, x0, count);
-  int line[2 * reach + 1];
-  for (int k = -reach; k <= reach; ++k) line[k + reach] = mirrored(y + k, v.height);
-  const std::ptrdiff_t own = y * v.stride + x0;
+  std::ptrdiff_t row[2 * reach + 1];
+  for (int k = -reach; k <= reach; ++k) row[k + reach] = mirrored(y + k, v.height) * v.stride + x0;
   for (int output = 0; output < outputs; ++output) {
-    const auto part = [&](int k, int x) {
-      return blurred_part<F>(v, lit, output, line[k], line[k] * v.stride + x0 + x);
-    };
+    const auto part = [&](int k, int x) { return blurred_part<F>(v, lit, output, row[k] + x); };
     for (int x = -row_margin; x < count + reach; x += lanes_of<F>) {
       const F outer = part(0, x) + part(4, x), inner = part(1, x) + part(3, x);
       store(column + row_margin + x, mul_add(F(0.25f), inner, mul_add(F(0.375f), part(2, x), F(0.0625f) * outer)));
@@ -75,8 +58,9 @@ TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, Ch
     for (int x = 0; x < count; x += lanes_of<F>) {
       const F outer = load<F>(at + x - 2) + load<F>(at + x + 2), inner = load<F>(at + x - 1) + load<F>(at + x + 1);
       const F blurred = mul_add(F(0.25f), inner, mul_add(F(0.375f), load<F>(at + x), F(0.0625f) * outer));
-      const F half = load<F>(v.half[output] + own + x), kept = half - blurred_part<F>(v, lit, output, y, own + x);
-      const auto left = equal(load<F>(v.filtered[output] + own + x), half);
+      const F half = load<F>(v.half[output] + row[reach] + x),
+              kept = half - blurred_part<F>(v, lit, output, row[reach] + x);
+      const auto left = equal(load<F>(v.filtered[output] + row[reach] + x), half);
       store(to.of[output] + x, select(left, half, blurred + kept));
     }
   }

@@ -53,11 +53,10 @@ class Planes {
   std::ptrdiff_t stride() const { return stride_; }
   int count() const { return count_; }
   /// The first number of the first row.
-  float* plane(int i) { return data_.data() + first + std::ptrdiff_t{i} * height_ * stride_; }
-  const float* plane(int i) const { return data_.data() + first + std::ptrdiff_t{i} * height_ * stride_; }
+  float* plane(int i) { return data_.data() + margin + std::ptrdiff_t{i} * height_ * stride_; }
+  const float* plane(int i) const { return data_.data() + margin + std::ptrdiff_t{i} * height_ * stride_; }
 
  private:
-  static constexpr int first = 2 * margin;  ///< the first row has room to its left for groups that begin at -margin - 1
   int width_ = 0, height_ = 0, count_ = 0;
   std::ptrdiff_t stride_ = 0;
   ZeroedFloats data_;

@@ -36,7 +36,7 @@ void Planes::resize(int width, int height, int count) {
   if (width == width_ && height == height_ && count == count_) return;
   width_ = width, height_ = height, count_ = count;
   stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
-  data_.resize(static_cast<std::size_t>(stride_ * height * count) + first + margin);
+  data_.resize(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin);
 }
 
 namespace {
@@ -73,14 +73,15 @@ std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
 }
 
 void read_emission_row(const Film& film, int y, CleanInput& input) {
-  for (int x = 0; x < input.width; ++x)
+  const auto width = static_cast<std::size_t>(input.width), first = static_cast<std::size_t>(y) * width;
+  float* to[2 * filter::emission_terms];
+  for (int k = 0; k < 2 * filter::emission_terms; ++k) to[k] = input.emission.plane(k) + y * input.emission.stride();
+  for (std::size_t x = 0; x < width; ++x)
     for (int half = 0; half < 2; ++half) {
-      const std::size_t pixel = film.index(film.region.x0 + x, film.region.y0 + y);
-      const Vec3f mean = (1 / input.scale) * half_emission(film, pixel, half);
-      const std::ptrdiff_t at = y * input.emission.stride() + x;
-      input.emission.plane(3 * half)[at] = mean.x;
-      input.emission.plane(3 * half + 1)[at] = mean.y;
-      input.emission.plane(3 * half + 2)[at] = mean.z;
+      const std::int64_t* sum = film.emission[first + x].sum[half];
+      const bool dark = (sum[0] | sum[1] | sum[2]) == 0;  // as most pixels are, which need no division
+      const Vec3f mean = dark ? Vec3f{} : (1 / input.scale) * half_emission(film, first + x, half);
+      to[3 * half][x] = mean.x, to[3 * half + 1][x] = mean.y, to[3 * half + 2][x] = mean.z;
     }
 }
 
