@@ -4,7 +4,7 @@
 . "$(dirname "$0")/_common.sh"
 has_exr || finish
 
-long=(render cornell-box --size 64x64 --spp 100000000 -t 1 -q)
+long=(render cornell-box --size 64x64 --spp 16000000 -t 1 -q)
 "$tyndall" "${long[@]}" -o kept.exr 2>kept.err &
 kept=$!
 "$tyndall" "${long[@]}" -o image.png 2>image.err &
