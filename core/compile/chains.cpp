@@ -26,6 +26,22 @@ struct Candidate {
   int holds = -1;     // the largest candidate around the same centre that this one holds; -1: none
 };
 
+bool concentric(const RoundBody& a, const RoundBody& b) {
+  const double slack = 1e-7 * std::max(a.radius, b.radius);
+  return length(a.center - b.center) <= slack && length(a.way - b.way) <= slack;
+}
+
+/// Whether another sphere is in the same place. Which of the two a ray meets is decided by rounding.
+bool is_doubled(const Flattened& flat, std::size_t own, const RoundBody& body) {
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const auto* sphere = std::get_if<Sphere<>>(&flat.shapes[i].shape);
+    if (!sphere || i == own) continue;
+    const RoundBody other = round_body(*sphere, flat.shapes[i].placement);
+    if (concentric(body, other) && std::abs(body.radius - other.radius) < 1e-6 * body.radius) return true;
+  }
+  return false;
+}
+
 std::vector<Candidate> list_candidates(const Flattened& flat, const Scene& scene) {
   std::vector<Candidate> list;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
@@ -36,14 +52,10 @@ std::vector<Candidate> list_candidates(const Flattened& flat, const Scene& scene
     const auto* glass = std::get_if<Dielectric<>>(&material.kind);
     if (!glass && !(metal && metal->fuzz == 0)) continue;
     const double index = metal ? 0 : sphere->radius > 0 ? glass->refractive_index : 1 / glass->refractive_index;
-    list.push_back({round_body(*sphere, flat.shapes[i].placement), index, i});
+    const RoundBody body = round_body(*sphere, flat.shapes[i].placement);
+    if (!is_doubled(flat, i, body)) list.push_back({body, index, i});
   }
   return list;
-}
-
-bool concentric(const RoundBody& a, const RoundBody& b) {
-  const double slack = 1e-7 * std::max(a.radius, b.radius);
-  return length(a.center - b.center) <= slack && length(a.way - b.way) <= slack;
 }
 
 void nest(std::vector<Candidate>& list) {
@@ -96,7 +108,8 @@ struct Found {
 };
 
 Found look_for_all(const Flattened& flat, const Scene& scene) {
-  Found found{list_candidates(flat, scene), list_flat_mirrors(flat, scene), list_panes(flat, scene), {}};
+  const std::vector<Flat> flats = list_flats(flat);
+  Found found{list_candidates(flat, scene), list_flat_mirrors(flat, flats, scene), list_panes(flat, flats, scene), {}};
   nest(found.balls);
   if (!found.mirrors.empty()) found.receivers = list_receivers(flat, scene);
   return found;

@@ -10,8 +10,8 @@ namespace tyndall {
 /// them. The flat mirrors are quads and faces of boxes, of metal without fuzz. The panes are boxes of glass: see
 /// panes.h. The lamps are those whose radius is at most a quarter of their distance from the ball (0.15 of it if they
 /// shine through solid glass from outside), or a quarter of the radius of a ball that holds them, or half of their
-/// distance from the mirror or pane: larger ones are found by chance about as fast. There are no pairs if no surface or medium of the scene scatters evenly. compiled: the scene with its elements
-/// and lights.
+/// distance from the mirror or pane: larger ones are found by chance about as fast. There are no pairs if no surface or
+/// medium of the scene scatters evenly. compiled: the scene with its elements and lights.
 Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

@@ -84,6 +84,16 @@ bool reaches_into(const PlacedVolume& volume, const RoundBody& body) {
   return comes_close(body, [&](Vec3d center) { return distance_to_box(take_back(volume.placement, center), box); });
 }
 
+constexpr double in_plane = 1e-6;  // of the longer half edge: so far apart two flats count as in one plane
+constexpr double parallel = 1e-5;  // sine of the angle between two planes that count as parallel
+
+Flat flat_at(std::size_t shape, const Placement& placement, Vec3d corner, Vec3d u, Vec3d v) {
+  const Vec3d half_u = 0.5 * turn(placement, u), half_v = 0.5 * turn(placement, v);
+  return {shape,
+          {place(placement, corner) + half_u + half_v, {half_u, half_v, {0, 0, 0}}},
+          length(half_u) + length(half_v)};
+}
+
 }  // namespace
 
 double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
@@ -105,6 +115,58 @@ bool is_crowded(const Flattened& flat, const RoundBody& body, std::initializer_l
     if (std::find(own.begin(), own.end(), i) == own.end() && reaches_into(flat.shapes[i], body)) return true;
   return std::any_of(flat.volumes.begin(), flat.volumes.end(),
                      [&](const PlacedVolume& volume) { return reaches_into(volume, body); });
+}
+
+Block block_of(const Box<>& b, const Placement& placement) {
+  const Vec3d half = 0.5 * (b.max - b.min);
+  return {place(placement, 0.5 * (b.min + b.max)),
+          {turn(placement, {half.x, 0, 0}), turn(placement, {0, half.y, 0}), turn(placement, {0, 0, half.z})}};
+}
+
+/// By the theorem of the separating axis: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for
+/// Rapid Interference Detection, SIGGRAPH 1996.
+bool are_apart(const Block& a, const Block& b) {
+  const Vec3d way = b.middle - a.middle;
+  const auto separates = [&](Vec3d axis) {
+    double room = 0;
+    for (const Vec3d& e : a.edge) room += std::abs(dot(axis, e));
+    for (const Vec3d& e : b.edge) room += std::abs(dot(axis, e));
+    return std::abs(dot(axis, way)) > room;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (i + 1) % 3;
+    if (separates(cross(a.edge[i], a.edge[k])) || separates(cross(b.edge[i], b.edge[k]))) return true;
+    for (const Vec3d& e : b.edge)
+      if (separates(cross(a.edge[i], e))) return true;
+  }
+  return false;
+}
+
+std::vector<Flat> list_flats(const Flattened& flat) {
+  std::vector<Flat> flats;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const PlacedShape& shape = flat.shapes[i];
+    if (const auto* quad = std::get_if<Quad<>>(&shape.shape))
+      flats.push_back(flat_at(i, shape.placement, quad->corner, quad->u, quad->v));
+    const auto* box = std::get_if<Box<>>(&shape.shape);
+    for (std::int32_t k = 0; box && k < 6; ++k) {
+      const BoxFace face = box_face_edges(*box, k);
+      flats.push_back(flat_at(i, shape.placement, face.corner, face.u, face.v));
+    }
+  }
+  return flats;
+}
+
+bool is_covered(const Block& own, std::size_t shape, const std::vector<Flat>& flats) {
+  const double u = length(own.edge[0]), v = length(own.edge[1]), thin = in_plane * std::max(u, v);
+  const Vec3d normal = normalize(cross(own.edge[0], own.edge[1]));
+  const auto shrunk = [&](double edge) { return std::max(1 - 10 * thin / edge, 0.0); };
+  const Block block{own.middle, {shrunk(u) * own.edge[0], shrunk(v) * own.edge[1], thin * normal}};
+  return std::any_of(flats.begin(), flats.end(), [&](const Flat& other) {
+    if (other.shape == shape || length(other.block.middle - own.middle) > other.radius + u + v) return false;
+    const Vec3d across = normalize(cross(other.block.edge[0], other.block.edge[1]));
+    return length(cross(across, normal)) < parallel && !are_apart(block, other.block);
+  });
 }
 
 }  // namespace tyndall

@@ -1,7 +1,6 @@
 #include "core/compile/mirrors.h"
 
 #include "core/compile/columns.h"
-#include "core/compile/crowds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +55,7 @@ bool may_light(const FlatMirror& m, Vec3d image, double reach, const Receiver& r
 
 }  // namespace
 
-std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const Scene& scene) {
+std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene) {
   std::vector<FlatMirror> list;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
@@ -73,6 +72,7 @@ std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const Scene& sc
       list.back().depth = face < 2 ? size.x : face < 4 ? size.y : size.z;
     }
   }
+  std::erase_if(list, [&](const FlatMirror& m) { return is_covered({m.middle, {m.u, m.v, {}}}, m.shape, flats); });
   return list;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/compile/flatten.h"
+#include "core/compile/crowds.h"
 #include "core/compile/render_scene.h"
 
 #include <vector>
@@ -16,7 +16,8 @@ struct FlatMirror {
   Vec3d normal;       ///< unit; out of a box
   double depth = 0;   ///< of the box behind the face; 0: a quad
 };
-std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const Scene& scene);
+/// Those that no other flat covers, even in part. flats: of the scene.
+std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene);
 
 /// What scatters light evenly, so that the light of chains shows on it.
 struct Receiver {

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/compile/flatten.h"
+#include "core/compile/crowds.h"
 #include "core/compile/render_scene.h"
 
 #include <vector>
@@ -23,7 +23,8 @@ struct Pane {
 inline constexpr double least_pane_index = 1.4143;
 
 /// All panes. Boxes of a lower index are left out, and boxes that a surface, or the boundary of a medium, reaches into.
-std::vector<Pane> list_panes(const Flattened& flat, const Scene& scene);
+/// flats: of the scene.
+std::vector<Pane> list_panes(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene);
 
 /// What a lamp sends to a pane, as a measure for choosing. 0: the lamp is so large that chance finds it well enough.
 double worth_of(const Pane& pane, const Lights& lights, std::size_t light, Vec3d origin);

@@ -146,6 +146,25 @@ TEST_CASE("chains: flat mirrors pay for lamps that are small as seen from them, 
   CHECK(pairs(0.1, [](Scene& s) { add(s, Box<>{{-7, -1, -7}, {7, 9, 7}}, metal(0.8, 0)); }) == 6);  // around it
 }
 
+TEST_CASE("chains: flat mirrors that another surface covers, even in part, are left to chance") {
+  const auto mirrors = [](auto change) {
+    Scene scene = lit_floor(0.1, {0, 4, 0}, 1);
+    add(scene, Quad<>{{-3, 0, -4}, {6, 0, 0}, {0, 4, 0}}, metal(0.8, 0));  // it stands on the floor
+    change(scene);
+    return compile(scene).chains.mirrors.size() / numbers_of_mirror;
+  };
+  const auto picture = [](double z) { return Quad<>{{-1, 1, z}, {1, 0, 0}, {0, 1, 0}}; };
+  CHECK(mirrors([](Scene&) {}) == 1);
+  CHECK(mirrors([&](Scene& s) { add(s, picture(-4), lambertian(0.5)); }) == 0);
+  CHECK(mirrors([&](Scene& s) { add(s, picture(-3.999), lambertian(0.5)); }) == 1);
+  CHECK(mirrors([&](Scene& s) { add(s, picture(-4), metal(0.5, 0)); }) == 0);
+  CHECK(mirrors([](Scene& s) {
+          add(s, Quad<>{{3, 1, -4}, {1, 0, 0}, {0, 1, 0}}, lambertian(0.5));
+        }) == 1);  // beside it
+  CHECK(mirrors([](Scene& s) { add(s, Quad<>{{-1, 1, -5}, {1, 0, 0}, {0, 0, 3}}, lambertian(0.5)); }) == 1);  // a shelf
+  CHECK(mirrors([](Scene& s) { add(s, Box<>{{-9, -1, -4}, {9, 9, 9}}, lambertian(0.5)); }) == 0);
+}
+
 TEST_CASE("chains: no sample of a scene with flat mirrors is rejected, and tiles do not matter") {
   const Scene scene = small_scene("stress-mirror-wall", 48, 36, 16);
   const RenderScene compiled = compile(scene);

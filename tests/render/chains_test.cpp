@@ -146,6 +146,7 @@ TEST_CASE("chains: they pay for lamps that are small as seen from the ball, and 
   CHECK(pairs(0.1, [](Scene& s) { add(s, sphere({0, 1.2, 0}, -0.8), glass(1.5)); }) == 1);
   CHECK(pairs(0.1, [](Scene& s) { add(s, sphere({0, 1.2, 0}, 0.8), glass(1.2)); }) == 0);  // filled with something else
   CHECK(pairs(0.1, [](Scene& s) { add(s, sphere({3, 1, 0}, 0.5), metal(0.8, 0.1)); }) == 1);
+  CHECK(pairs(0.1, [](Scene& s) { add(s, sphere({0, 1.2, 0}, -1), glass(1.2)); }) == 0);  // two in one place
 }
 
 TEST_CASE("chains: no sample of the scenes that need them is rejected, and tiles do not matter") {
