@@ -8,6 +8,7 @@
 #include <chrono>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace tyndall {
 
@@ -37,12 +38,13 @@ void Crew::for_each(int count, const std::function<void(int)>& job, const std::f
   ++round_;
   wake_.notify_all();
   const auto finished = [&] { return busy_ == 0; };
-  if (!poll) return done_.wait(lock, finished);
-  while (!done_.wait_for(lock, std::chrono::milliseconds(50), finished)) {
+  if (!poll) done_.wait(lock, finished);
+  while (poll && !done_.wait_for(lock, std::chrono::milliseconds(50), finished)) {
     lock.unlock();
     poll();
     lock.lock();
   }
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void Crew::work(const std::stop_token& stop) {
@@ -53,8 +55,15 @@ void Crew::work(const std::stop_token& stop) {
     const auto& job = *job_;
     const int count = count_;
     lock.unlock();
-    for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count;) job(i);
+    std::exception_ptr failure;
+    try {
+      for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count;) job(i);
+    } catch (...) {
+      failure = std::current_exception();
+      next_ = count;  // no further jobs
+    }
     lock.lock();
+    if (failure && !failure_) failure_ = failure;
     if (--busy_ == 0) done_.notify_one();
   }
 }

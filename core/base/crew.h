@@ -2,6 +2,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -25,7 +26,8 @@ class Crew {
   int size() const { return static_cast<int>(threads_.size()); }
 
   /// Calls job(i) for every i in [0, count), each once, on the crew's threads, and returns when all have returned.
-  /// The job must not throw. Only one call at a time, and none from within a job.
+  /// If a job throws, no further ones begin, and what the first
+  /// one threw is thrown here when all have returned. Only one call at a time, and none from within a job.
   /// poll, if given, is called on the calling thread every 50 ms meanwhile.
   void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
 
@@ -38,6 +40,7 @@ class Crew {
   int count_ = 0, busy_ = 0;
   std::uint64_t round_ = 0;
   std::atomic<int> next_ = 0;
+  std::exception_ptr failure_;         ///< what a job of this round threw first
   std::vector<std::jthread> threads_;  // declared last, so that the threads end before what they use goes
 };
 

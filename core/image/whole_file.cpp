@@ -4,6 +4,7 @@
 
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <dirent.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace tyndall {
@@ -78,13 +80,18 @@ void remove_if_dead(const fs::path& temporary) {
   close(descriptor);
 }
 
+struct FolderCloser {
+  void operator()(DIR* folder) const { closedir(folder); }
+};
+
 /// Removes what killed writers of the same file have left. What cannot be read or removed is left to the next writer.
+/// (Not by std::filesystem, whose iterator ends the program when memory runs out.)
 void remove_dead(const fs::path& folder, const std::string& prefix) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
+  const std::unique_ptr<DIR, FolderCloser> entries(opendir(folder.c_str()));
+  for (const dirent* entry = nullptr; entries && (entry = readdir(entries.get())) != nullptr;) {
+    const std::string_view name = entry->d_name;
     const bool ours = name.size() == prefix.size() + digits_of_number && name.starts_with(prefix) &&
-                      name.find_first_not_of("0123456789abcdef", prefix.size()) == std::string::npos;
+                      name.find_first_not_of("0123456789abcdef", prefix.size()) == std::string_view::npos;
     if (ours) remove_if_dead(folder / name);
   }
 }
@@ -149,8 +156,10 @@ WholeFile::Owner WholeFile::owner_of_target() const {
 /// Creates and locks a temporary file. False if there is one of that name, or if another writer took it for a dead one
 /// and removed it between the two steps.
 bool WholeFile::create(const fs::path& temporary) {
+  temporary_ = temporary;                              // while there is no file: memory for the name may run out
   const mode_t mode = replaced_.exists ? 0600 : 0666;  // what replaces a private file is private while it is written
   const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (descriptor < 0) temporary_.clear();
   if (descriptor < 0 && errno == EEXIST) return false;
   if (descriptor < 0) fail(errno);
   // Where files cannot be locked, nobody can lock them in order to remove them, either.
@@ -158,10 +167,10 @@ bool WholeFile::create(const fs::path& temporary) {
   struct stat status {};
   if (taken || (fstat(descriptor, &status) == 0 && status.st_nlink == 0)) {
     close(descriptor);
+    temporary_.clear();
     return false;
   }
   descriptor_ = descriptor;
-  temporary_ = temporary;
   return true;
 }
 

@@ -1,11 +1,13 @@
 #include "core/render/director.h"
 
 #include "core/accuracy/rare.h"
+#include "core/base/limits.h"
 #include "core/base/seconds.h"
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
 
 #include <exception>
+#include <new>
 #include <utility>
 
 namespace tyndall {
@@ -39,19 +41,48 @@ Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<vo
 
 void Director::run(const std::stop_token& stop) {
   const std::stop_callback leave(stop, [this] { mail_.interrupt(); });
-  while (mail_.wait(stop, [this](std::uint32_t limit) { return unfinished(limit) || clean_is_due(); })) {
-    follow(mail_.take());
-    if (stop.stop_requested()) return;
-    if (unfinished(limit_) && picture_.run_pass(engine(), {.spp = limit_}, mail_.give_up())) finish_pass();
-    if (clean_is_due() && !mail_.give_up()) make_clean();
+  while (mail_.wait(stop, [this](std::uint32_t limit) { return !stalled_ && (unfinished(limit) || clean_is_due()); })) {
+    stalled_ = false;
+    try {
+      const Orders orders = mail_.take();
+      tell_if_it_fails(orders.edit, [&] { follow(orders); });
+      if (stop.stop_requested()) return;
+      tell_if_it_fails(shown_.edit, [this] { go_on(); });
+    } catch (...) {  // not even the message fits into memory: what is asked for next is tried again
+      stalled_ = true;
+    }
   }
+}
+
+void Director::go_on() {
+  if (stalled_) return;
+  if (unfinished(limit_) && picture_.run_pass(engine(), {.spp = limit_}, mail_.give_up())) finish_pass();
+  if (clean_is_due() && !mail_.give_up()) make_clean();
+}
+
+/// Memory can run out at any step. Then the callers are told, the pictures so far stay, and nothing is tried again
+/// until something is asked for.
+void Director::tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const std::exception& error) {
+    stalled_ = true;
+    tell(edit, error);
+  }
+}
+
+void Director::tell(std::uint64_t edit, const std::exception& error) {
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  mail_.post(RenderProblem{edit, memory ? "not enough memory" + memory_limit_text() : error.what()});
+  if (on_frame_) on_frame_();
 }
 
 void Director::follow(const Orders& orders) {
   view_ = orders.view;
   clean_.set_wanted(orders.clean);
   limit_ = orders.limit;
-  if (orders.threads > 0 && orders.threads != crew_->size()) crew_ = std::make_unique<Crew>(orders.threads);
+  if (orders.threads > 0 && orders.threads != crew_->size())
+    tell_if_it_fails(orders.edit, [&] { crew_ = std::make_unique<Crew>(orders.threads); });
   if (orders.scene) {
     take_scene(orders);
   } else if (orders.restart && shown_.compiled) {
@@ -84,8 +115,7 @@ void Director::take_scene(const Orders& orders) {
     clean_.change_scene();
     mail_.post(shown_.compiled);
   } catch (const std::exception& e) {
-    mail_.post(RenderProblem{orders.edit, e.what()});
-    if (on_frame_) on_frame_();
+    tell(orders.edit, e);
   }
 }
 
@@ -148,7 +178,13 @@ void Director::publish() {
 /// the pass: then the film is given as it is.
 void Director::answer_films() {
   if (picture_.within_pass() && unfinished(limit_)) return;
-  for (auto& request : mail_.take_film_requests()) request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});
+  for (auto& request : mail_.take_film_requests()) {
+    try {
+      request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});
+    } catch (const std::bad_alloc&) {
+      request.set_exception(std::current_exception());
+    }
+  }
 }
 
 }  // namespace tyndall

@@ -45,6 +45,9 @@ class Director {
   void run(const std::stop_token& stop);
 
  private:
+  void go_on();
+  void tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step);
+  void tell(std::uint64_t edit, const std::exception& error);
   void follow(const Orders& orders);
   void take_scene(const Orders& orders);
   void start_over(double budget);
@@ -71,6 +74,7 @@ class Director {
 
   View view_ = View::beauty;
   std::uint32_t limit_ = 0;  ///< samples a pixel at which to stop
+  bool stalled_ = false;     ///< a step failed; nothing is done until something is asked for
   double budget_ = 0;        ///< seconds for the first picture of the newest edit
   std::uint64_t frames_ = 0;
   std::optional<double> first_picture_ms_;  ///< absent until the newest edit or restart has its first picture

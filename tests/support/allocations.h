@@ -15,4 +15,19 @@ class AllocationCount {
   int count() const;
 };
 
+/// While it lives, `new` throws std::bad_alloc for one request, the `number`-th from its making on (from 1), or for all
+/// requests of exactly `size` bytes, by any thread. One at a time.
+class AllocationRefusal {
+ public:
+  static AllocationRefusal of_number(long number) { return {number, 0}; }
+  static AllocationRefusal of_size(std::size_t size) { return {0, size}; }
+  ~AllocationRefusal();
+  AllocationRefusal(const AllocationRefusal&) = delete;
+  AllocationRefusal& operator=(const AllocationRefusal&) = delete;
+  int refused() const;  ///< how many requests
+
+ private:
+  AllocationRefusal(long number, std::size_t size);
+};
+
 }  // namespace tyndall::test

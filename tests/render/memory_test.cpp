@@ -1,0 +1,85 @@
+#include "core/compile/compile.h"
+#include "core/image/image_io.h"
+#include "core/render/render.h"
+#include "core/scene/json.h"
+#include "tests/support/allocations.h"
+#include "tests/support/scratch.h"
+#include "tests/support/watched_renderer.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+const std::string text = R"({"tyndall": 1, "image": {"width": 16, "height": 12},
+  "camera": {"look_from": [0, 1, 4], "look_at": [0, 0.5, 0]},
+  "materials": {"white": {"type": "lambertian", "albedo": [0.7, 0.7, 0.7]},
+                "lamp": {"type": "light", "radiance": [5, 5, 5]},
+                "glass": {"type": "dielectric", "refractive_index": 1.5}},
+  "objects": [{"type": "sphere", "center": [0, 0.5, 0], "radius": 0.5, "material": "glass"},
+              {"type": "quad", "corner": [-3, 0, -3], "u": [6, 0, 0], "v": [0, 0, 6], "material": "white"},
+              {"type": "quad", "corner": [-1, 3, -1], "u": [2, 0, 0], "v": [0, 0, 2], "material": "lamp"}]})";
+
+/// Loads, renders one pass and saves. The scene and its text carry no names that lie in other threads.
+void load_render_save(const std::filesystem::path& folder) {
+  const Scene scene = read_scene(text, "a.json", ".");
+  const RenderScene compiled = compile(scene);
+  RenderOptions options;
+  options.threads = 1;
+  options.isa = "scalar";
+  options.region = Region{0, 0, scene.width, scene.height};
+  options.spp = 1;
+  const RenderResult result = render(compiled, options);
+  const LinearImage image{scene.width, scene.height, resolve(result.film)};
+  write_png(folder / "a.png", image, 0, ToneMap::srgb, {text, ""});
+  write_pfm(folder / "a.pfm", image);
+  write_hdr(folder / "a.hdr", image);
+  if (has_openexr()) write_exr(folder / "a.exr", result.film, {}, {text, ""});
+}
+
+}  // namespace
+
+TEST_CASE(
+    "memory: whichever request is refused while loading, rendering and saving, an error comes out and no scraps stay") {
+  const std::filesystem::path folder = scratch_folder("refused_memory");
+  load_render_save(folder);
+  const std::size_t files = count_files(folder);
+  long number = 1;
+  int errors = 0;
+  for (bool refused = true; refused; number += number < 400 ? 1 : 23) {
+    {
+      const AllocationRefusal refusal = AllocationRefusal::of_number(number);
+      try {
+        load_render_save(folder);
+      } catch (const std::exception&) {
+        ++errors;
+      }
+      refused = refusal.refused() > 0;
+    }
+    if (count_files(folder) != files) FAIL("request " << number << " leaves scraps");
+  }
+  CHECK(number > 300);
+  CHECK(errors > 300);
+}
+
+TEST_CASE("memory: a renderer that cannot publish its picture says so, and goes on when asked again") {
+  Scene scene = read_scene(text, "a.json", ".");
+  scene.width = 200;
+  scene.height = 100;
+  WatchedRenderer renderer(1);
+  std::uint64_t edit = 0;
+  {
+    // The frame's 4 floats a pixel. The film takes another size.
+    const AllocationRefusal refusal = AllocationRefusal::of_size(200 * 100 * 16);
+    edit = renderer->submit(scene);
+    renderer.wait_until([&] { return renderer->problem() != nullptr; });
+    CHECK(refusal.refused() > 0);
+  }
+  CHECK(renderer->problem()->what.starts_with("not enough memory"));
+  scene.camera.vfov = 30;
+  edit = renderer->submit(scene);
+  CHECK(renderer.wait_for([&](const Frame& f) { return f.edit == edit; })->width == 200);
+  CHECK(renderer->problem() == nullptr);
+}
