@@ -16,7 +16,7 @@ TEST_CASE("layers: the variance of pixels is what the picture's estimated error 
   const RenderResult result = render(scene, options);
   const std::vector<Layer> layers = layers_of(scene, result.film, available_kernels().front());
   REQUIRE(layers.size() == 4);
-  CHECK(layers[3].name == "variance");
+  CHECK(layers[3].name == "Variance");
   REQUIRE(layers[3].values.size() == 3 * result.film.pixels.size());
   for (std::size_t i = 0; i < result.film.pixels.size(); ++i) {
     const FilmPixel& pixel = result.film.pixels[i];
