@@ -1,5 +1,5 @@
-// One path at a time, for any processor: over float the readable reference; over double, which is slow, to show how much
-// rounding changes in the others.
+// One path at a time, for any processor: over float the readable reference; over double, which is slow, to show how
+// much rounding changes in the others.
 #include "core/kernel/entry.h"
 
 namespace tyndall {
