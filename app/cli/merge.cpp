@@ -7,6 +7,8 @@
 #include "core/accuracy/rare.h"
 #include "core/render/clean_film.h"
 
+#include <fmt/core.h>
+
 namespace tyndall {
 namespace {
 
@@ -36,8 +38,8 @@ int run(const MergeCommand& command) {
                        command.parts.front().string());
     const std::string &version = stored.label.version, &before = label.version;
     if (scene && !version.empty() && !before.empty() && version != before)
-      throw UsageError(file.string() + ": found a film of version " + version + ", expected " + before + " as in " +
-                       command.parts.front().string());
+      throw UsageError(fmt::format("{}: found a film of version {}, expected {} as in {}", file.string(), version,
+                                   before, command.parts.front().string()));
     label = scene ? merged_label(label, stored.label) : stored.label;
     if (!scene) scene = stored.scene;
     frames.push_back(std::move(stored.part));

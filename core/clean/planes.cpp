@@ -81,7 +81,8 @@ void read_emission_row(const Film& film, int y, CleanInput& input) {
       const std::int64_t* sum = film.emission[first + x].sum[half];
       const bool dark = (sum[0] | sum[1] | sum[2]) == 0;  // as most pixels are, which need no division
       const Vec3f mean = dark ? Vec3f{} : (1 / input.scale) * half_emission(film, first + x, half);
-      to[3 * half][x] = mean.x, to[3 * half + 1][x] = mean.y, to[3 * half + 2][x] = mean.z;
+      float* const* plane = to + std::ptrdiff_t{3} * half;
+      plane[0][x] = mean.x, plane[1][x] = mean.y, plane[2][x] = mean.z;
     }
 }
 

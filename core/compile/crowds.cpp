@@ -84,7 +84,7 @@ bool reaches_into(const PlacedVolume& volume, const RoundBody& body) {
   return comes_close(body, [&](Vec3d center) { return distance_to_box(take_back(volume.placement, center), box); });
 }
 
-constexpr double in_plane = 1e-6;  // of the longer half edge: so far apart two flats count as in one plane
+constexpr double flatness = 1e-6;  // of the longer half edge: so far apart two flats count as in one plane
 constexpr double parallel = 1e-5;  // sine of the angle between two planes that count as parallel
 
 Flat flat_at(std::size_t shape, const Placement& placement, Vec3d corner, Vec3d u, Vec3d v) {
@@ -158,7 +158,7 @@ std::vector<Flat> list_flats(const Flattened& flat) {
 }
 
 bool is_covered(const Block& own, std::size_t shape, const std::vector<Flat>& flats) {
-  const double u = length(own.edge[0]), v = length(own.edge[1]), thin = in_plane * std::max(u, v);
+  const double u = length(own.edge[0]), v = length(own.edge[1]), thin = flatness * std::max(u, v);
   const Vec3d normal = normalize(cross(own.edge[0], own.edge[1]));
   const auto shrunk = [&](double edge) { return std::max(1 - 10 * thin / edge, 0.0); };
   const Block block{own.middle, {shrunk(u) * own.edge[0], shrunk(v) * own.edge[1], thin * normal}};
