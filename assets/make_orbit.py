@@ -60,7 +60,7 @@ def main():
                 raw_spp = max(options.spp, round(options.spp * min(share, 4)))
             run(options.tyndall, *common, "--spp", raw_spp, "-o", raw)
             both = folder / f"both-{frame:03}.png"
-            run("convert", raw, clean, "+append", both)
+            run("convert", raw, clean, "+append", "+repage", both)
             frames.append(both)
         run("convert", "-delay", 8, "-loop", 0, *frames, "-layers", "Optimize", options.out)
         print(f"{options.out}: {options.out.stat().st_size} bytes; {raw_spp} samples a pixel on the left, "
