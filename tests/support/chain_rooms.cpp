@@ -140,7 +140,7 @@ std::vector<ChainRoom> in_fog_and_moving() {
     });
   };
   return {
-      {"moving mirror", moving(metal(0.9, 0)), 256},
+      {"moving mirror", moving(metal(0.9, 0)), 1024},
       {"moving glass", moving(glass(1.5)), 1024, edges},
       {"moving shell",
        with(under_hood(),
@@ -194,26 +194,26 @@ std::vector<ChainRoom> panes() {
     return [index](Scene& s) { add(s, Box<>{{-0.9, 1.9, -0.7}, {1, 2.1, 0.8}}, glass(index), {RotateY{20}}); };
   };
   return {
-      {"pane", with(under_hood(), hanging(1.5))},
+      {"pane", with(under_hood(), hanging(1.5)), 512, 0.003, 2e7},
       {"block of glass",
        with(under_hood(large_lamp),
             [](Scene& s) {
               add(s, Box<>{{-0.5, 1, -0.4}, {0.4, 2, 0.5}}, glass(1.6), {RotateY{30}});
             }),
        1024, 0.006},
-      {"block of glass on the floor",
+      {"block of glass just above the floor",
        with(under_hood(large_lamp),
             [](Scene& s) {
-              add(s, Box<>{{-0.9, 0, -0.8}, {0.9, 1.2, 0.8}}, glass(1.5), {RotateY{30}});
+              add(s, Box<>{{-0.9, 0.02, -0.8}, {0.9, 1.2, 0.8}}, glass(1.5), {RotateY{30}});
             }),
-       1024, 0.006},
+       1024, 0.006, 2e7},
       {"pane in fog",
        with(under_hood(large_lamp),
             [&](Scene& s) {
               hanging(1.5)(s);
               add_medium(s, Box<>{{-2.9, 0.1, -2.9}, {2.8, 2.9, 2.9}}, {0.3, 0.3}, 0.9);
             }),
-       512, 0.006},
+       512, 0.03},
   };
 }
 
@@ -226,16 +226,16 @@ std::vector<ChainRoom> lamps() {
   };
   const Quad<> quad{{-0.1, 4.1, -0.05}, {0.15, 0, 0}, {0, 0.03, 0.15}};
   return {
-      {"quad as lamp", lit([&](Scene& s) { add(s, quad, lamp(500)); }), 256},
+      {"quad as lamp", lit([&](Scene& s) { add(s, quad, lamp(500)); }), 512},
       {"textured lamp", lit([&](Scene& s) {
          s.textures.push_back({"tiles", Checker<>{0.04, {0.1, 0.5, 1}, {1, 0.7, 0.2}}});
          add(s, quad, {"", TextureIndex{0}, Light<>{}});
        }),
-       256},
+       512},
       {"box as lamp", lit([](Scene& s) {
          add(s, Box<>{{-0.05, 4, -0.05}, {0.05, 4.1, 0.05}}, lamp(500));
        }),
-       256, 0.006},
+       512, 0.006},
       {"moving lamp", lit([](Scene& s) {
          add(s, Sphere<>{{-0.1, 4.1, 0}, 0.05, Vec3d{0.1, 4.2, 0.05}}, lamp(700));
          open_shutter(s);
@@ -246,7 +246,7 @@ std::vector<ChainRoom> lamps() {
          add(s, sphere({-0.1, 4.2, -0.1}, 0.03), lamp(900));
          add(s, sphere({1.7, 0.5, -1.5}, 0.5), glass(1.5));
        }),
-       512},
+       1024},
   };
 }
 
