@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <vector>
 
 /// Lamps found by exact chains off flat mirrors: the light is what scattering alone finds in the end.
 using namespace tyndall;
@@ -18,11 +17,8 @@ const Quad<> wall{{-6, 0, -4}, {12, 0, 0}, {0, 8, 0}};
 void check_floor(const std::string& name, Vec3d point, auto change, double less_noise) {
   Scene scene = lit_floor(0.3, hanging, 20);
   change(scene);
-  const double open = scene.camera.shutter_open, close = scene.camera.shutter_close;
-  aim(scene, {0.3, 4, 6}, point);
-  scene.camera.shutter_open = open, scene.camera.shutter_close = close;
   REQUIRE(compile(scene).chains.mirrors.size() > 0);
-  check_against_scattering(name, scene, less_noise);
+  check_point_of_floor(name, scene, point, less_noise);
 }
 
 }  // namespace
@@ -38,12 +34,8 @@ TEST_CASE("chains: the light of a lamp's image in a flat mirror") {
     return strength * pi * radius * radius * way.y / std::pow(length(way), 3);
   };
   scene.render.max_depth = 2;  // not the lit floor's image in the mirror
-  const Film film = film_of(scene, 64);
-  CHECK(totals(film).rejected == 0);
-  std::vector<double> pixels;
-  for (const FilmPixel& pixel : film.pixels) pixels.push_back(static_cast<double>(mean(film, pixel).x));
   const double expected = 0.73 / pi * (irradiance(hanging) + 0.8 * irradiance(image));
-  CHECK(estimate(pixels).mean == doctest::Approx(expected).epsilon(0.002));
+  CHECK(radiance_of(film_of(scene, 64)).mean == doctest::Approx(expected).epsilon(0.002));
 }
 
 TEST_CASE("chains: what scattering finds, with less noise: off quads and boxes of metal, from both sides") {
@@ -109,19 +101,11 @@ TEST_CASE("chains: what scattering finds off flat mirrors, with less noise: text
 }
 
 TEST_CASE("chains: in a white furnace flat mirrors are invisible") {
-  Scene scene = white_room();
-  scene.render.integrator = Integrator::mis;
-  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(1));
-  add(scene, sphere({1.5, 4.5, 0.5}, 0.1), lamp(1));
+  Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, metal(1, 0), {RotateY{20}});
   add(scene, Quad<>{{-1, 0, 1}, {2.5, 0, 0}, {0, 2, 0.2}}, metal(1, 0));
-  scene.camera.look_from = {0, 3, 7};
-  scene.camera.look_at = {0, 1, 0};
-  scene.camera.vfov = 40;
   CHECK(compile(scene).chains.mirrors.size() > numbers_of_mirror);
-  const Estimate all = radiance(scene, 256);
-  CHECK(std::abs(all.mean - 1) < 4 * all.error);
-  CHECK(all.error < 0.002);
+  check_invisible(scene);
 }
 
 TEST_CASE("chains: flat mirrors pay for lamps that are small as seen from them, and where their light is seen") {

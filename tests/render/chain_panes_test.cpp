@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <vector>
 
 /// Lamps found by exact chains through panes: the light is what scattering alone finds in the end.
 using namespace tyndall;
@@ -23,11 +22,8 @@ Scene floor_with(double lamp_radius, auto change) {
 
 void check_floor(const std::string& name, Vec3d point, auto change, double less_noise, double lamp_radius = 0.3) {
   Scene scene = floor_with(lamp_radius, change);
-  const double open = scene.camera.shutter_open, close = scene.camera.shutter_close;
-  aim(scene, {0.3, 4, 6}, point);
-  scene.camera.shutter_open = open, scene.camera.shutter_close = close;
   REQUIRE(compile(scene).chains.panes.size() > 0);
-  check_against_scattering(name, scene, less_noise);
+  check_point_of_floor(name, scene, point, less_noise);
 }
 
 }  // namespace
@@ -41,13 +37,9 @@ TEST_CASE("chains: the light of a lamp that is seen straight through a pane") {
   add(scene, Box<>{{-2, 1, -2}, {2, 1 + thick, 2}}, glass(index));
   aim(scene, {3.5, 0.5, 0}, {0, 0, 0});
   scene.render.max_depth = 3;  // through the pane once
-  const Film film = film_of(scene, 64);
-  CHECK(totals(film).rejected == 0);
-  std::vector<double> pixels;
-  for (const FilmPixel& pixel : film.pixels) pixels.push_back(static_cast<double>(mean(film, pixel).x));
   const double reflected = std::pow((index - 1) / (index + 1), 2), seems_away = 3 - thick + thick / index;
   const double expected = strength * pi * radius * radius * std::pow((1 - reflected) / seems_away, 2) * 0.73 / pi;
-  CHECK(estimate(pixels).mean == doctest::Approx(expected).epsilon(0.002));
+  CHECK(radiance_of(film_of(scene, 64)).mean == doctest::Approx(expected).epsilon(0.002));
 }
 
 TEST_CASE("chains: what scattering finds, with less noise: through panes and cubes, and reflected in them") {
@@ -98,19 +90,11 @@ TEST_CASE("chains: what scattering finds through panes, with less noise: lamps o
 }
 
 TEST_CASE("chains: in a white furnace panes are invisible") {
-  Scene scene = white_room();
-  scene.render.integrator = Integrator::mis;
-  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(1));
-  add(scene, sphere({1.5, 4.5, 0.5}, 0.1), lamp(1));
+  Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, glass(1.5), {RotateY{20}});
   add(scene, Box<>{{-1, 0, 1}, {1.5, 2, 1.2}}, glass(1.7));
-  scene.camera.look_from = {0, 3, 7};
-  scene.camera.look_at = {0, 1, 0};
-  scene.camera.vfov = 40;
   CHECK(compile(scene).chains.panes.size() == 2 * numbers_of_pane);
-  const Estimate all = radiance(scene, 256);
-  CHECK(std::abs(all.mean - 1) < 4 * all.error);
-  CHECK(all.error < 0.002);
+  check_invisible(scene);
 }
 
 TEST_CASE("chains: which panes take part") {

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <vector>
 
 /// Lamps found by exact chains through and off single balls: the light is what scattering alone finds in the end.
 using namespace tyndall;
@@ -61,12 +60,7 @@ TEST_CASE("chains: the light of a small lamp's image in a mirror ball") {
   const double irradiance = strength * pi * radius * radius * (direct + spread * direction.y);
   CHECK(spread * direction.y > 0.02 * direct);
   scene.render.max_depth = 2;  // not the lit floor's image in the ball
-  const Film film = film_of(scene, 64);
-  CHECK(totals(film).rejected == 0);
-  std::vector<double> pixels;
-  for (const FilmPixel& pixel : film.pixels) pixels.push_back(static_cast<double>(mean(film, pixel).x));
-  const Estimate found = estimate(pixels);
-  CHECK(found.mean == doctest::Approx(0.73 / pi * irradiance).epsilon(0.002));
+  CHECK(radiance_of(film_of(scene, 64)).mean == doctest::Approx(0.73 / pi * irradiance).epsilon(0.002));
 }
 
 TEST_CASE("chains: what scattering finds, with less noise: off a mirror, through glass, shells and out of bulbs") {
@@ -74,8 +68,7 @@ TEST_CASE("chains: what scattering finds, with less noise: off a mirror, through
                        double less_noise) {
     Scene scene = lit_floor(lamp_radius, lamp_center, 20);
     add_balls(scene);
-    aim(scene, {0.3, 4, 6}, point);
-    check_against_scattering(name, scene, less_noise);
+    check_point_of_floor(name, scene, point, less_noise);
   };
   const Vec3d above{1.5, 4.5, 0.5}, center{0, 1.2, 0};
   const auto shell = [](Scene& scene, Vec3d at, double inner) {
@@ -109,21 +102,13 @@ TEST_CASE("chains: what scattering finds, with less noise: off a mirror, through
 }
 
 TEST_CASE("chains: in a white furnace a mirror, a shell and a bulb are invisible") {
-  Scene scene = white_room();
-  scene.render.integrator = Integrator::mis;
-  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(1));
-  add(scene, sphere({1.5, 4.5, 0.5}, 0.1), lamp(1));
+  Scene scene = furnace_with_floor();
   add(scene, sphere({-1.2, 1.2, 0}, 1), metal(1, 0));
   add(scene, sphere({1.2, 1.2, 0}, 1), glass(1.5));
   add(scene, sphere({1.2, 1.2, 0}, -0.8), glass(1.5));
   add(scene, sphere({1.3, 1.3, 0}, 0.1), lamp(1));
-  scene.camera.look_from = {0, 3, 7};
-  scene.camera.look_at = {0, 1, 0};
-  scene.camera.vfov = 40;
   CHECK(compile(scene).chains.ball.size() == 4);  // each lamp by each ball
-  const Estimate all = radiance(scene, 256);
-  CHECK(std::abs(all.mean - 1) < 4 * all.error);
-  CHECK(all.error < 0.002);
+  check_invisible(scene);
 }
 
 TEST_CASE("chains: they pay for lamps that are small as seen from the ball, and only then") {

@@ -35,4 +35,31 @@ inline void check_against_scattering(const std::string& name, Scene scene, doubl
   CHECK(chains.error < less_noise * chance.error * 4);  // sixteen times fewer samples
 }
 
+/// The same for `point` of the floor, seen by a camera with the scene's shutter.
+inline void check_point_of_floor(const std::string& name, Scene scene, Vec3d point, double less_noise) {
+  const double open = scene.camera.shutter_open, close = scene.camera.shutter_close;
+  aim(scene, {0.3, 4, 6}, point);
+  scene.camera.shutter_open = open, scene.camera.shutter_close = close;
+  check_against_scattering(name, scene, less_noise);
+}
+
+/// A white floor in a white room, and a lamp as bright as all around it.
+inline Scene furnace_with_floor() {
+  Scene scene = white_room();
+  scene.render.integrator = Integrator::mis;
+  scene.camera.look_from = {0, 3, 7};
+  scene.camera.look_at = {0, 1, 0};
+  scene.camera.vfov = 40;
+  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(1));
+  add(scene, sphere({1.5, 4.5, 0.5}, 0.1), lamp(1));
+  return scene;
+}
+
+/// Nothing of a furnace is to be seen: all is as bright as its walls.
+inline void check_invisible(const Scene& furnace) {
+  const Estimate all = radiance(furnace, 256);
+  CHECK(std::abs(all.mean - 1) < 4 * all.error);
+  CHECK(all.error < 0.002);
+}
+
 }  // namespace tyndall::test

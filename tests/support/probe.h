@@ -73,14 +73,19 @@ inline Film film_of(const Scene& scene, int spp, const std::string& isa = "") {
   return render(compile(scene), options).film;
 }
 
-/// Mean red radiance over the picture; every pixel is a batch. No sample may be rejected, and no path cut.
-inline Estimate radiance(const Scene& scene, int spp, const std::string& isa = "") {
-  const Film film = film_of(scene, spp, isa);
+/// Mean red radiance over the picture; every pixel is a batch. No sample may be rejected.
+inline Estimate radiance_of(const Film& film) {
   CHECK(totals(film).rejected == 0);
-  CHECK(totals(film).truncated == 0);
   std::vector<double> batches;
   for (const FilmPixel& pixel : film.pixels) batches.push_back(static_cast<double>(mean(film, pixel).x));
   return estimate(batches);
+}
+
+/// The same of a scene in which no path may be cut.
+inline Estimate radiance(const Scene& scene, int spp, const std::string& isa = "") {
+  const Film film = film_of(scene, spp, isa);
+  CHECK(totals(film).truncated == 0);
+  return radiance_of(film);
 }
 
 /// What every sample of a picture is, if it is the same to the last bit; NaN if it is not.
