@@ -19,6 +19,7 @@ LEVELS = [
     ["core/scene"],
     ["core/compile"],
     ["core/kernel"],
+    ["core/targets"],
     ["core/render"],
     ["app/text"],
     ["app/files"],
