@@ -8,6 +8,7 @@
 #include "app/window/window.h"
 #endif
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace tyndall {
@@ -57,7 +58,9 @@ int run(const ViewCommand& command) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
 #ifdef TYNDALL_WINDOW
   try {
-    return run_window({loaded, open, command.threads, command.isa, command.reference, command.ui_log});
+    const auto& words = command.words;
+    const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();
+    return run_window({loaded, open, command.threads, command.isa, command.reference, command.ui_log, named});
   } catch (const IoError& error) {
     throw IoError(error.what() + instead);
   }

@@ -52,7 +52,7 @@ void Commands::act(const KeyCommand& command) {
       platform_.toggle_full_screen();
       break;
     case Action::quit:
-      platform_.close();
+      ask_to_close();
       break;
     default:
       act_on_document(command.action);
@@ -119,7 +119,14 @@ void Commands::select_view(int index) {
   pacing_.on_new_start(clock_seconds());
 }
 
+void Commands::ask_to_close() {
+  closing_.begin(dialog_);
+  pacing_.on_event();
+}
+
 void Commands::escape() {
+  if (dialog_.kind == Dialog::Kind::changed_file) session_.editor().answer_about_file(false);
+  if (closing_.cancel()) return;
   if (asks())
     dialog_.kind = Dialog::Kind::none;
   else if (shows_help_)
@@ -138,6 +145,20 @@ void Commands::draw(Ui& ui, const Rect& area) {
   if (wish.drop) session_.references().drop();
   const auto file = draw_dialog(ui, area, dialog_, session_.editor().document());
   if (file) session_.editor().save(*file);
+  if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true};
+  const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
+  if (take) later_ = [this, take = *take] { session_.editor().answer_about_file(take); };
+  if (closing_.draw(ui, area, dialog_))
+    later_ = [this] {
+      session_.editor().go_to_unsaved();
+      save();
+    };
+}
+
+void Commands::carry_out() {
+  if (!later_) return;
+  std::exchange(later_, nullptr)();
+  pacing_.on_event();
 }
 
 }  // namespace tyndall

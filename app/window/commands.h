@@ -1,11 +1,14 @@
 #pragma once
 #include "app/window/actions.h"
+#include "app/window/closing.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
 #include "app/window/session.h"
 #include "app/window/system/pacing.h"
 #include "app/window/system/platform.h"
 #include "app/window/tools/gestures.h"
+
+#include <functional>
 
 /// What happens when the user presses a key, drops a file or answers a question.
 namespace tyndall {
@@ -15,17 +18,30 @@ class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
   Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures)
-      : session_(session), platform_(platform), panels_(panels), pacing_(pacing), gestures_(gestures) {}
+      : session_(session),
+        platform_(platform),
+        panels_(panels),
+        pacing_(pacing),
+        gestures_(gestures),
+        closing_(session) {}
 
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
   /// Shows a view (index: see views.h). A view of errors needs something to measure against; without it the view stays
   /// and a message says why.
   void select_view(int index);
+  /// The user wants to close the window: asks about what is not saved.
+  void ask_to_close();
+  /// The window may go.
+  bool closed() const { return closing_.done(); }
   /// Asks which picture errors are measured against.
   void ask_reference() { tyndall::ask_reference(dialog_); }
   /// Draws the help table and the question that waits for an answer, and does what was answered.
   void draw(Ui& ui, const Rect& area);
+
+  /// To be called at the end of each drawing, when the panels' scene was handed to the editor: does what was answered
+  /// and changes the scene.
+  void carry_out();
 
   /// Whether a question waits for an answer.
   bool asks() const { return dialog_.kind != Dialog::Kind::none; }
@@ -46,6 +62,8 @@ class Commands {
   Pacing& pacing_;
   Gestures& gestures_;
   Dialog dialog_;
+  Closing closing_;
+  std::function<void()> later_;  ///< what carry_out() does; empty: nothing
   int shown_view_ = 0;
   bool shows_help_ = false, shows_panels_ = true;
 };

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <set>
@@ -43,13 +44,14 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   if (reference) session_.references().set(std::move(reference));
 }
 
-void MainWindow::run() {
-  while (!platform_.closing()) {
+int MainWindow::run() {
+  while (!commands_.closed() && signals_.received() == 0) {
     const bool at_rest = log_ && session_.at_rest();  // asked first: a picture that comes later is not missed
     const double wait = waiting_time(clock_seconds());
     if (at_rest && wait >= 1) log_->rest();
     platform_.wait(wait);
     alarm_.rang = false;
+    if (platform_.take_close_wish()) commands_.ask_to_close();
     const InputEvents events = platform_.take_events();
     if (events.any || session_.collect()) pacing_.on_event();
     for (const KeyPress& press : events.keys)
@@ -61,6 +63,20 @@ void MainWindow::run() {
     if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
   }
   platform_.hide();  // a comparison or a snapshot may still take a second
+  return end_of_signal();
+}
+
+/// Says what becomes of the edits if a signal ends the window. Returns the exit code.
+int MainWindow::end_of_signal() {
+  const int signal = signals_.received();
+  if (signal == 0) return 0;
+  session_.pause(true);
+  session_.keep_edits();
+  session_.flush_edits();
+  if (const Document* unsaved = session_.editor().unsaved())
+    std::fprintf(stderr, "tyndall: the edits of %s are kept and come back at the next start\n",
+                 unsaved->origin->title.c_str());
+  return 128 + signal;
 }
 
 void MainWindow::send(double now) {
@@ -113,7 +129,10 @@ void MainWindow::update_scale() {
 void MainWindow::draw(double now) {
   const double cpu_before = thread_cpu_seconds();
   pacing_.on_drawing();
-  if (hidden()) return pacing_.on_drawn(now);
+  if (hidden()) {
+    platform_.skip_frame();
+    return pacing_.on_drawn(now);
+  }
   update_scale();
   platform_.begin_frame();
   ui_.wake_in = 1e300;
@@ -199,6 +218,7 @@ void MainWindow::apply_panels(double now) {
   const Wishes& wishes = panels_.wishes;
   session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
+  commands_.carry_out();
   if (wishes.open) session_.editor().open(*wishes.open);
   if (wishes.export_chart) session_.export_chart();
   if (wishes.split) {
@@ -249,9 +269,10 @@ int run_window(const WindowOptions& options) {
   if (!options.reference.empty())
     reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));
   MainWindow window(options, std::move(reference));
-  end_when_display_is_lost();
-  window.run();
-  return 0;
+  end_when_display_is_lost([&window] { window.flush_edits(); });
+  const int code = window.run();
+  end_when_display_is_lost({});  // what is left is gone soon
+  return code;
 }
 
 }  // namespace tyndall

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/commands.h"
 #include "app/window/picture_view.h"
+#include "app/window/system/end_signals.h"
 #include "app/window/tools/flight.h"
 #include "app/window/tools/pointer.h"
 
@@ -31,8 +32,10 @@ class MainWindow {
  public:
   /// reference: null: none.
   MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference);
-  /// Until the window is closed.
-  void run();
+  /// Until the window is closed. Returns the exit code.
+  int run();
+  /// Waits until the file of edits that were not saved holds all of them. From any thread.
+  void flush_edits() { session_.flush_edits(); }
 
  private:
   bool hidden() const;
@@ -46,6 +49,7 @@ class MainWindow {
   void apply_panels(double now);
   void send(double now);
   void keep_message(double now);
+  int end_of_signal();
   void finish_drawing(double now, double cpu_before, bool fresh);
   void update_scale();
 
@@ -53,6 +57,7 @@ class MainWindow {
   Platform platform_;
   FrameAlarm alarm_;
   Session session_;
+  EndSignals signals_{[] { Platform::wake(); }};
   PictureView picture_;
   Ui ui_;
   PanelState panels_;

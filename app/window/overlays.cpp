@@ -139,7 +139,8 @@ void begin_dialog(Ui& ui, const Rect& area) {
 void end_dialog() { end_box(); }
 
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
-  if (dialog.kind == Dialog::Kind::none || dialog.kind == Dialog::Kind::reference) return {};
+  using enum Dialog::Kind;
+  if (dialog.kind != comments && dialog.kind != save_as && dialog.kind != replace) return {};
   begin_dialog(ui, area);
   Decision decision;
   const Dialog::Kind shown = dialog.kind;
@@ -149,6 +150,21 @@ std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialo
   if (dialog.kind == shown) dialog.fresh = false;
   end_dialog();
   return decision;
+}
+
+std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
+  if (dialog.kind != Dialog::Kind::changed_file) return {};
+  begin_dialog(ui, area);
+  ImGui::TextUnformatted(("Another program has changed " + document.origin->title + ".").c_str());
+  note(ui, "You have edits of it that are not saved. If you take the file, Ctrl + Z brings them back.", false);
+  ImGui::Dummy({0, 4 * ui.scale});
+  const bool keep = small_button(ui, "dialog.keep", "Keep my edits");
+  ImGui::SameLine();
+  const bool take = small_button(ui, "dialog.take", "Take the file");
+  end_dialog();
+  if (!keep && !take) return {};
+  dialog.kind = Dialog::Kind::none;
+  return take;
 }
 
 }  // namespace tyndall

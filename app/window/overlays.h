@@ -48,7 +48,7 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
 
 /// A question that waits for an answer.
 struct Dialog {
-  enum class Kind { none, comments, save_as, replace, reference } kind = Kind::none;
+  enum class Kind { none, comments, save_as, replace, reference, close, changed_file } kind = Kind::none;
   char name[512] = {};  ///< of the file that is typed
   bool fresh = false;   ///< it was opened in this drawing
 };
@@ -57,6 +57,9 @@ void ask_comments(Dialog& dialog);
 void ask_name(Dialog& dialog, const std::filesystem::path& suggestion);
 /// Draws the question; returns the file to write once that is decided. empty path: the document's own.
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
+
+/// Asks whether to take what another program has written into the open file, or to keep the edits. Returns true: take.
+std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
 
 /// What the user chose when asked for a reference; at most one of these.
 struct ReferenceWish {

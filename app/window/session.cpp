@@ -22,12 +22,14 @@ int thread_count(int wanted) {
 Session::Session(const WindowOptions& options, const std::function<void()>& wake, std::function<void()> on_frame,
                  UiLog* log)
     : log_(log),
+      isa_(options.isa),
       messages_(log),
       accuracy_(wake),
       renderers_(thread_count(options.threads), options.isa, std::move(on_frame)),
       editor_(options.scene, options.reload,
               {[this] { timer_.on_change(clock_seconds()); }, [this] { accuracy_.clear(), set_split(false); }, wake},
               loading_, messages_, log),
+      kept_(state_folder()),
       references_(editor_, accuracy_, messages_),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
@@ -35,13 +37,54 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       saving_(wake) {
   accuracy_.set_threads(renderers_.threads());
   renderers_.set_clean(read_preferences(preferences_file()).clean);
+  restore_edits(!options.scene_named);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
+}
+
+/// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
+void Session::restore_edits(bool of_any_scene) {
+  const std::filesystem::path file = kept_.take_over(of_any_scene ? "" : editor_.document().origin->what);
+  kept_changes_ = editor_.changes();
+  try {
+    if (!file.empty()) editor_.restore(read_kept(file));
+  } catch (const std::exception& error) {
+    kept_.leave();
+    messages_.say("cannot restore edits: " + std::string(error.what()), true);
+  }
+  const std::vector<std::string> others = kept_.others();
+  if (file.empty() && !others.empty())
+    messages_.say("there are edits of " + others.front() + " that were not saved; start with it to go on");
+}
+
+void Session::keep_edits() {
+  if (editor_.changes() == kept_changes_ || discarded_) return;
+  kept_changes_ = editor_.changes();
+  const Document* unsaved = editor_.unsaved();
+  if (unsaved == &editor_.document())
+    kept_.keep(shared_scene(), unsaved->origin);
+  else if (unsaved)
+    kept_.keep(std::make_shared<const Scene>(unsaved->scene), unsaved->origin);
+  else
+    kept_.keep(nullptr, nullptr);
+}
+
+/// The edited scene, copied once for all who go on using it.
+const std::shared_ptr<const Scene>& Session::shared_scene() {
+  if (!shared_ || shared_changes_ != editor_.changes()) shared_ = std::make_shared<const Scene>(editor_.scene());
+  shared_changes_ = editor_.changes();
+  return shared_;
+}
+
+void Session::discard_edits() {
+  discarded_ = true;
+  kept_.keep(nullptr, nullptr);
 }
 
 Session::~Session() { closing_ = true; }
 
 bool Session::send(double now) {
+  keep_edits();
   const std::uint64_t edit = renderers_.edit(Half::current);
   const auto frame = renderers_.latest(Half::current);
   const bool seen = edit == 0 || (frame && frame->edit >= edit);
@@ -51,7 +94,7 @@ bool Session::send(double now) {
 }
 
 void Session::submit(double now) {
-  const auto scene = std::make_shared<const Scene>(editor_.scene());  // the one copy: all from here on share it
+  const std::shared_ptr<const Scene>& scene = shared_scene();
   const RendererPair::Begun begun = renderers_.submit(scene);
   if (begun.current) accuracy_.set_scene(Half::current, scene);
   if (begun.kept) accuracy_.set_scene(Half::kept, renderers_.kept_scene(*scene));
@@ -141,12 +184,10 @@ void Session::keep_as_reference() {
 }
 
 void Session::snapshot() {
-  const auto frame = renderers_.latest(Half::current);
-  if (!frame) return messages_.say("there is no picture yet");
   if (timer_.waits()) submit(clock_seconds());  // so that the snapshot shows the newest edit
   const Document& document = editor_.document();
-  Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), frame->isa, frame->threads};
-  messages_.say("saving " + snapshot.base.filename().string() + " …");
+  Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), isa_, renderers_.threads()};
+  messages_.say_until_done("saving " + snapshot.base.filename().string() + " …");
   const std::filesystem::path base = snapshot.base;
   snapshots_.write(base, [this, snapshot = std::move(snapshot), edit = renderers_.edit(Half::current)] {
     Film film =

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/accuracy/references.h"
 #include "app/window/accuracy/renderer_pair.h"
+#include "app/window/document/kept_edits.h"
 #include "app/window/document/numbered_files.h"
 #include "app/window/document/send_timer.h"
 #include "app/window/window.h"
@@ -47,6 +48,16 @@ class Session {
   /// or measured.
   bool at_rest() const;
 
+  /// Hands edits that are not saved to the file that keeps them, if there are new ones.
+  void keep_edits();
+  /// Waits until that file holds the newest edits. From any thread; only the main thread may edit meanwhile.
+  void flush_edits() { kept_.flush(); }
+  /// The user does not want the edits: they are not kept any longer.
+  void discard_edits();
+  /// Whether something is still to be written, and how much: a snapshot counts once.
+  bool writes_files() const { return !saving_.idle(); }
+  std::size_t jobs_of_writing() const { return saving_.open(); }
+
   void pause(bool paused);
   void restart() { renderers_.restart(); }
   /// Of all renderers together.
@@ -77,8 +88,11 @@ class Session {
 
  private:
   void submit(double now);
+  const std::shared_ptr<const Scene>& shared_scene();
+  void restore_edits(bool of_any_scene);
 
   UiLog* log_;
+  std::string isa_;  ///< "": the best
   MessageLine messages_;
   LiveAccuracy accuracy_;
   RendererPair renderers_;
@@ -87,6 +101,11 @@ class Session {
   std::atomic<bool> closing_ = false;
   bool beside_ = false;  ///< the clean view beside the raw one
   Editor editor_;
+  std::shared_ptr<const Scene> shared_;  ///< a copy of the edited scene
+  std::uint64_t shared_changes_ = 0;     ///< Editor::changes() when it was copied
+  std::uint64_t kept_changes_ = 0;       ///< Editor::changes() when the edits were kept last
+  bool discarded_ = false;               ///< edits are not kept any more
+  KeptEdits kept_;
   References references_;
   NumberedFiles snapshots_, charts_;
   JobQueue loading_, saving_;  // last: their jobs use the others

@@ -15,6 +15,7 @@ struct WindowOptions {
   std::string isa;                      ///< "": the best
   std::filesystem::path reference;      ///< image that errors are measured against; empty: none
   std::filesystem::path ui_log;         ///< diagnostic, see ui_log.h; empty: none, "-": standard output
+  bool scene_named = true;  ///< the user named the scene; else edits of any scene that were not saved are restored
 };
 
 /// Opens the window and returns the exit code when it is closed. Throws IoError where there is no display (neither

@@ -25,7 +25,7 @@ if [ -z "${IN_XVFB:-}" ]; then
 fi
 screen=$IN_XVFB
 # The window remembers nothing of other tests, and shows the raw picture; clean.sh begins as a first start does.
-export XDG_CONFIG_HOME=$scratch/config
+export XDG_CONFIG_HOME=$scratch/config XDG_STATE_HOME=$scratch/state
 mkdir -p "$XDG_CONFIG_HOME/tyndall"
 echo 'clean off' >"$XDG_CONFIG_HOME/tyndall/window.txt"
 
@@ -227,10 +227,19 @@ PY
 # compares A OPERATOR B: Python's comparison of two numbers.
 compares() { python3 -c "import sys; sys.exit(not ($*))"; }
 
-# Closes with Ctrl+Q and checks how it ended.
+# Closes with Ctrl+Q, without saving, and checks how it ended.
 finish() {
+  local lines status=0
+  lines=$(here)
   xdotool key --delay 60 ctrl+q
-  local status=0
+  while kill -0 "$pid" 2>/dev/null; do
+    if logged '^widget dialog.discard ' "$lines"; then
+      point dialog.discard 50
+      xdotool click 1 # the window goes before it tells of the button
+      break
+    fi
+    sleep 0.03
+  done
   wait "$pid" || status=$?
   [ "$status" = 0 ] || fail "exit code $status"
   [ -s "$scratch/errors" ] && fail "it complained"

@@ -11,6 +11,7 @@ namespace tyndall {
 /// Where a scene came from. Never changes once it is shared by documents.
 struct Origin {
   std::string title;             ///< shown: "cornell.json", "showroom"
+  std::string what;              ///< what load_scene takes to open it again; "": standard input, which is gone
   std::filesystem::path file;    ///< what Ctrl+S writes and what is watched; empty: Ctrl+S asks for a name
   std::filesystem::path folder;  ///< relative texture files are relative to it
   bool comments = false;         ///< the file has comments, which saving would lose

@@ -35,6 +35,7 @@ void Editor::edit(Scene next, std::uint64_t gesture) {
   }
   const bool same = same_picture(next, scene());
   history_.record({std::move(next), document().origin}, gesture);
+  ++changes_;
   if (messages_.current().error) messages_.dismiss();
   if (!same) events_.picture_changed();
 }
@@ -51,23 +52,53 @@ void Editor::redo() {
 
 void Editor::step(bool moved, const Scene& before, const char* otherwise) {
   if (!moved) return messages_.say(otherwise);
+  ++changes_;
   if (!same_picture(before, scene())) events_.picture_changed();
   watch();
 }
 
+void Editor::go_to_unsaved() {
+  const Scene before = scene();
+  history_.go_to_unsaved();
+  step(true, before, "");
+}
+
+void Editor::restore(Document restored) {
+  const std::string title = restored.origin->title;
+  if (restored.origin->what == document().origin->what) restored.origin = document().origin;
+  history_.record(std::move(restored), 0);
+  ++changes_;
+  events_.picture_changed();
+  watch();
+  messages_.say("restored the edits of " + title + " that were not saved; Ctrl + Z: without them");
+}
+
+void Editor::answer_about_file(bool take) {
+  if (!changed_file_) return;
+  Document file = *std::exchange(changed_file_, std::nullopt);
+  if (file.origin->what != document().origin->what) return;  // another scene was opened meanwhile
+  ++changes_;
+  if (take) return show(std::move(file), true);
+  history_.set_origin(file.origin);
+  messages_.say("kept your edits; saving replaces what " + document().origin->title + " holds");
+}
+
 void Editor::show(Document next, bool own_file) {
+  ++changes_;
   const bool same = same_picture(next.scene, scene());
   if (own_file && next.scene == scene()) {
     history_.set_origin(next.origin);  // the file now holds what is shown
     return;
   }
+  const std::string left = !own_file && edited(document()) ? document().origin->title : "";
   history_.record(std::move(next), 0);
   if (!same) {
     if (!own_file) events_.other_scene();
     events_.picture_changed();
   }
   watch();
-  messages_.say((own_file ? "read again: " : "opened ") + document().origin->title);
+  messages_.say((own_file ? "read again: " : "opened ") + document().origin->title +
+                (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left));
 }
 
 void Editor::read_in_background(const std::function<JobQueue::Result()>& read) {
@@ -93,9 +124,19 @@ void Editor::reload() {
     Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
     return [this, file, next = std::move(next)] {
       if (log_) log_->line("read " + file.string());
-      if (document().origin->file == file) show(next, true);
+      if (document().origin->file == file) take_file(next);
     };
   });
+}
+
+/// Takes what the open file holds now. Asks first if that would replace edits.
+void Editor::take_file(const Document& file) {
+  if (file.scene == document().origin->saved)
+    history_.set_origin(file.origin);  // it was only written again
+  else if (edited(document()) && !(file.scene == scene()))
+    changed_file_ = file;
+  else
+    show(file, true);
 }
 
 void Editor::watch() {
@@ -111,6 +152,7 @@ void Editor::save(const fs::path& file) {
   try {
     const std::string saved = "saved " + file.string();  // first: the file may be that of the origin which is replaced
     history_.set_origin(save_document(document(), file));
+    ++changes_;
     watch();
     messages_.say(saved);
     if (log_) log_->line(saved);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 /// This room holds the document, that is the scene that is edited with its history and its file, and the work that is
@@ -44,6 +45,15 @@ class Editor {
   void edit(Scene scene, std::uint64_t gesture);
   void undo();
   void redo();
+  /// Counts the edits, undone ones and saved ones too: the same number means the same document.
+  std::uint64_t changes() const { return changes_; }
+
+  /// Edits that no file has, see History::unsaved; null: there are none.
+  const Document* unsaved() const { return history_.unsaved(); }
+  /// Shows these edits, if another scene was opened since.
+  void go_to_unsaved();
+  /// Goes on with edits of an earlier window; one undo goes back to the scene as it was opened.
+  void restore(Document document);
 
   /// Opens a file or a built-in scene, in the background. what: as the command line takes it.
   void open(const std::string& what);
@@ -55,6 +65,10 @@ class Editor {
   void read_in_background(const std::function<JobQueue::Result()>& read);
   /// Reads the file again, in the background, if another program has changed it. Returns whether one has.
   bool collect();
+  /// Another program has changed the file while there are edits of it: what the file holds now waits for an answer.
+  bool asks_about_file() const { return changed_file_.has_value(); }
+  /// The answer: takes what the file holds, which can be undone, or keeps the edits.
+  void answer_about_file(bool take);
   /// Whether the file was changed and collect() has not been called since.
   bool file_changed() const { return file_changed_; }
 
@@ -63,6 +77,7 @@ class Editor {
   void step(bool moved, const Scene& before, const char* otherwise);
   void watch();
   void reload();
+  void take_file(const Document& file);
 
   std::function<LoadedScene()> reload_;
   std::filesystem::path reloads_;  ///< the file that reload_ reads
@@ -71,6 +86,8 @@ class Editor {
   MessageLine& messages_;
   UiLog* log_;
   History history_;
+  std::uint64_t changes_ = 0;
+  std::optional<Document> changed_file_;  ///< what the file holds, while the user is asked about it
   std::atomic<bool> file_changed_ = false;
   std::filesystem::path watched_;
   std::unique_ptr<FileWatch> watch_;  // declared last, because it uses the others

@@ -28,6 +28,27 @@ void History::set_origin(const std::shared_ptr<const Origin>& origin) {
     if (step.origin == before) step.origin = origin;
 }
 
+/// The number of the step that unsaved() returns; steps_.size(): none.
+std::size_t History::unsaved_step() const {
+  for (std::size_t step = at_ + 1; step-- > 0;) {
+    const bool last_of_its_scene = step == at_ || steps_[step].origin->what != steps_[step + 1].origin->what;
+    if (last_of_its_scene && edited(steps_[step])) return step;
+  }
+  return steps_.size();
+}
+
+const Document* History::unsaved() const {
+  const std::size_t step = unsaved_step();
+  return step < steps_.size() ? &steps_[step] : nullptr;
+}
+
+void History::go_to_unsaved() {
+  const std::size_t step = unsaved_step();
+  if (step == steps_.size()) return;
+  at_ = step;
+  open_ = false;
+}
+
 bool History::undo() {
   open_ = false;
   if (!can_undo()) return false;

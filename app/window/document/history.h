@@ -13,6 +13,11 @@ class History {
   explicit History(Document start);
 
   const Document& current() const { return steps_[at_]; }
+  /// The newest step up to the current one that holds edits which no file has: the current one, or the last one before
+  /// another scene was opened. Null: there is none.
+  const Document* unsaved() const;
+  /// Goes back to the step that unsaved() returns.
+  void go_to_unsaved();
   /// Makes `next` the current document and forgets what was undone; nothing happens if it equals the current one.
   /// Edits of the same gesture (a drag, a turn of the wheel; 0: none) that follow each other are one step. Returns
   /// whether it differs.
@@ -29,6 +34,8 @@ class History {
   static constexpr std::size_t most_steps = 200;
 
  private:
+  std::size_t unsaved_step() const;
+
   std::vector<Document> steps_;
   std::size_t at_ = 0;
   std::uint64_t gesture_ = 0;

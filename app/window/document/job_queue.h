@@ -28,6 +28,8 @@ class JobQueue {
   bool collect();
   /// Whether the results of all jobs were collected. For the main thread.
   bool idle() const { return open_ == 0; }
+  /// Jobs whose results were not collected. For the main thread.
+  std::size_t open() const { return open_; }
 
  private:
   void work(const std::stop_token& stop);

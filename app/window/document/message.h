@@ -2,7 +2,9 @@
 #include "app/window/system/clock.h"
 #include "app/window/system/ui_log.h"
 
+#include <limits>
 #include <string>
+#include <utility>
 
 /// The line in which the window tells the user what happened.
 namespace tyndall {
@@ -20,11 +22,9 @@ class MessageLine {
   /// log: may be null.
   explicit MessageLine(UiLog* log) : log_(log) {}
 
-  void say(const std::string& text, bool error = false) {
-    constexpr double seconds = 6;
-    current_ = {text, error, clock_seconds() + seconds};
-    if (log_) log_->line("message " + text);
-  }
+  void say(const std::string& text, bool error = false) { show({text, error, clock_seconds() + 6}); }
+  /// Something goes on: the text stays until another one takes its place.
+  void say_until_done(const std::string& text) { show({text, false, std::numeric_limits<double>::infinity()}); }
   void dismiss() {
     if (log_ && !current_.text.empty()) log_->line("message");
     current_ = {};
@@ -32,6 +32,11 @@ class MessageLine {
   const Message& current() const { return current_; }
 
  private:
+  void show(Message message) {
+    current_ = std::move(message);
+    if (log_) log_->line("message " + current_.text);
+  }
+
   UiLog* log_;
   Message current_;
 };

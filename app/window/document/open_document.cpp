@@ -19,9 +19,22 @@ bool has_comments(std::string_view text) {
   return false;
 }
 
+namespace {
+
+/// What opens the same scene again from any folder.
+std::string what_opens(const LoadedScene& loaded) {
+  if (!loaded.source.empty()) return fs::absolute(loaded.source).lexically_normal().string();
+  if (loaded.name == "-") return "";
+  const bool built_in = !fs::path(loaded.name).has_extension();
+  return built_in ? loaded.name : fs::absolute(loaded.name).lexically_normal().string();
+}
+
+}  // namespace
+
 Document document_of(const LoadedScene& loaded) {
   auto origin = std::make_shared<Origin>();
   origin->title = fs::path(loaded.name).filename().string();
+  origin->what = what_opens(loaded);
   origin->file = loaded.source;
   origin->folder = loaded.folder;
   origin->comments = !loaded.source.empty() && has_comments(loaded.text);
@@ -35,6 +48,7 @@ std::shared_ptr<const Origin> save_document(const Document& document, const fs::
   write_text_file(file, write_scene(scene));
   auto origin = std::make_shared<Origin>(*document.origin);
   origin->title = file.filename().string();
+  origin->what = fs::absolute(file).lexically_normal().string();
   origin->file = file;
   origin->folder = folder;
   origin->comments = false;

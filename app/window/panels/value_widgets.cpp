@@ -68,11 +68,13 @@ bool edit_box(Ui& ui, const Row& row, double& value, float width) {
   compat::push_font(ui.fonts.mono);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, palette::field_active);
   if (ui.edit.waited == 0) ImGui::SetKeyboardFocusHere();
+  ImGui::PushID(static_cast<int>(ui.edit.id));  // the boxes of a row are different ones for Dear ImGui
   ImGui::InputText("##typed", ui.edit.text, sizeof ui.edit.text, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::PopID();
   ImGui::PopStyleColor();
   ImGui::PopFont();
   const bool active = ImGui::IsItemActive();
-  const bool tab = active && compat::tab_pressed();
+  const bool tab = active && ui.edit.waited > 0 && compat::tab_pressed();  // not the Tab that has led here
   ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(palette::blue, 0.8f),
                                       4 * ui.scale);
   ui.edit.started = ui.edit.started || active;

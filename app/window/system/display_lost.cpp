@@ -4,14 +4,22 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <utility>
 
 namespace tyndall {
 namespace {
 
 using Handler = int (*)(void* display);
 
+/// The X library's handler gets no argument of its own.
+std::function<void()>& last_wish() {
+  static std::function<void()> wish;
+  return wish;
+}
+
 /// Ends the program, as X demands of such a handler. Destructors are left out: they would talk to the lost server.
 int on_lost(void*) {
+  if (last_wish()) last_wish()();
   constexpr char text[] = "tyndall: the display went away\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
   _exit(3);
@@ -19,7 +27,8 @@ int on_lost(void*) {
 
 }  // namespace
 
-void end_when_display_is_lost() {
+void end_when_display_is_lost(std::function<void()> before_end) {
+  last_wish() = std::move(before_end);
   std::signal(SIGPIPE, SIG_IGN);  // comes first when the connection breaks, and would end the program without a message
   // The window library loads X by itself; linking it here would tie the program to it.
   void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);

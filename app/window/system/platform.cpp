@@ -93,10 +93,17 @@ void Platform::wait(double seconds) {
 
 void Platform::wake() { glfwPostEmptyEvent(); }
 
-InputEvents Platform::take_events() { return std::exchange(state_->events, {}); }
+InputEvents Platform::take_events() {
+  deliver_input(state_->window);
+  return std::exchange(state_->events, {});
+}
 
-bool Platform::closing() const { return glfwWindowShouldClose(state_->window); }
-void Platform::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }
+bool Platform::take_close_wish() {
+  if (!glfwWindowShouldClose(state_->window)) return false;
+  glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
+  if (glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED)) glfwRestoreWindow(state_->window);
+  return true;
+}
 
 void Platform::hide() { glfwHideWindow(state_->window); }
 
@@ -149,6 +156,7 @@ void Platform::toggle_full_screen() {
 void Platform::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  set_delivered_mouse(*state_);
   ImGui::NewFrame();
 }
 
@@ -164,8 +172,10 @@ void Platform::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(state_->window);
-  send_late_releases(state_->window);
+  end_input_frame(state_->window);
 }
+
+void Platform::skip_frame() { end_input_frame(state_->window); }
 
 void Platform::renew_fonts() {
 #if IMGUI_VERSION_NUM < 19200

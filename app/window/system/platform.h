@@ -31,8 +31,8 @@ class Platform {
   /// Waits for events up to `seconds`; infinite: until one comes. 0: only looks.
   void wait(double seconds);
   InputEvents take_events();
-  bool closing() const;
-  void close();
+  /// Whether the user has asked the window system to close the window; the window stays, and shows if it was minimised.
+  bool take_close_wish();
   /// Takes the window off the screen: what is left to be done needs none.
   void hide();
 
@@ -48,6 +48,8 @@ class Platform {
   void begin_frame();
   void clear();
   void end_frame();
+  /// No frame is drawn because nobody would see it: what waits for one goes on.
+  void skip_frame();
   /// To be called after the fonts were loaded again: they are drawn from then on.
   void renew_fonts();
 

@@ -4,6 +4,7 @@
 #include "tests/support/paths.h"
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -21,22 +22,20 @@ class OpenedSession {
     std::filesystem::create_directories(folder_);
     before_ = std::filesystem::current_path();
     std::filesystem::current_path(folder_);
+    setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
     write(0.25);
-    WindowOptions options;
-    options.scene = load_scene("scene.json");
-    options.threads = 1;
-    session = std::make_unique<Session>(
-        options, [this] { news.tell(); },
-        [this] {
-          ++frames;
-          news.tell();
-          const std::lock_guard wait(gate);
-        },
-        nullptr);
+    open();
   }
   ~OpenedSession() {
     session.reset();
     std::filesystem::current_path(before_);
+  }
+
+  /// Ends the session and begins another one, as the next start of the program does.
+  void reopen() {
+    session->keep_edits();
+    session.reset();
+    open();
   }
 
   static void write(double fuzz, const std::string& file = "scene.json") {
@@ -75,6 +74,20 @@ class OpenedSession {
   std::unique_ptr<Session> session;
 
  private:
+  void open() {
+    WindowOptions options;
+    options.scene = load_scene("scene.json");
+    options.threads = 1;
+    session = std::make_unique<Session>(
+        options, [this] { news.tell(); },
+        [this] {
+          ++frames;
+          news.tell();
+          const std::lock_guard wait(gate);
+        },
+        nullptr);
+  }
+
   std::filesystem::path folder_, before_;
 };
 

@@ -24,17 +24,45 @@ TEST_CASE("opening another scene can be undone, with where it came from") {
   CHECK(opened.fuzz() == 0.5);
 }
 
-TEST_CASE("the file is read again when it changes, and what was edited is one undo away") {
+TEST_CASE("the file is read again when it changes; with edits the user is asked first") {
   OpenedSession opened("reload");
+  OpenedSession::write(0.625);
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.625; }));
   opened.set_fuzz(0.5);
+  Editor& editor = opened.session->editor();
   OpenedSession::write(0.75);
-  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.75; }));
-  CHECK_FALSE(edited(opened.session->editor().document()));
-  opened.session->editor().undo();
+  REQUIRE(opened.comes_true([&] { return editor.asks_about_file(); }));
+  CHECK(opened.fuzz() == 0.5);
+  editor.answer_about_file(false);
+  CHECK(opened.fuzz() == 0.5);
+  CHECK(std::get<Metal<>>(editor.document().origin->saved.materials[0].kind).fuzz == 0.75);
+  OpenedSession::write(0.875);
+  REQUIRE(opened.comes_true([&] { return editor.asks_about_file(); }));
+  editor.answer_about_file(true);
+  CHECK(opened.fuzz() == 0.875);
+  CHECK_FALSE(edited(editor.document()));
+  editor.undo();
   CHECK(opened.fuzz() == 0.5);
   std::ofstream("scene.json") << "{";
   REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
   CHECK(opened.fuzz() == 0.5);
+}
+
+TEST_CASE("edits that are not saved come back in the next session, and one undo goes back to the file") {
+  OpenedSession opened("restore");
+  opened.set_fuzz(0.5);
+  opened.reopen();
+  CHECK(opened.fuzz() == 0.5);
+  CHECK(opened.session->messages().current().text.find("restored the edits of scene.json") == 0);
+  opened.session->editor().undo();
+  CHECK(opened.fuzz() == 0.25);
+  opened.reopen();  // undone edits are none
+  CHECK(opened.fuzz() == 0.25);
+  opened.set_fuzz(0.75);
+  opened.session->keep_edits();
+  opened.session->discard_edits();
+  opened.reopen();
+  CHECK(opened.fuzz() == 0.25);
 }
 
 TEST_CASE("saving is no edit, and is not read again as one") {

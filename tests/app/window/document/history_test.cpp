@@ -94,3 +94,32 @@ TEST_CASE("saving changes what all steps of the same file are compared with, and
   history.redo();
   CHECK(history.current().origin == other);
 }
+
+TEST_CASE("edits that no file has are found after another scene was opened, but not when they were saved") {
+  const auto origin = [](const char* what) {
+    auto made = std::make_shared<Origin>();
+    made->what = what;
+    made->saved.width = 0;
+    return made;
+  };
+  const auto first = origin("first"), other = origin("other");
+  History history(numbered(0, first));
+  CHECK(history.unsaved() == nullptr);
+  history.record(numbered(1, first), 1);
+  REQUIRE(history.unsaved());
+  CHECK(history.unsaved()->scene.width == 1);
+  history.record(numbered(0, other), 0);
+  REQUIRE(history.unsaved());
+  CHECK(history.unsaved()->origin == first);
+  history.record(numbered(3, other), 2);
+  CHECK(history.unsaved()->origin == other);
+  history.undo();
+  history.go_to_unsaved();
+  CHECK(number(history) == 1);
+  auto saved = origin("first");
+  saved->saved.width = 1;
+  history.set_origin(saved);
+  CHECK(history.unsaved() == nullptr);
+  history.undo();
+  CHECK(history.unsaved()->scene.width == 0);
+}

@@ -1,0 +1,44 @@
+#pragma once
+#include "app/window/overlays.h"
+#include "app/window/session.h"
+
+/// How the window closes without losing anything.
+namespace tyndall {
+
+/// Asks about edits that were not saved, then waits until all files are written. For the main thread.
+class Closing {
+ public:
+  explicit Closing(Session& session) : session_(session) {}
+
+  /// The user wants to close the window. dialog: the window's; a question in it is replaced.
+  void begin(Dialog& dialog);
+  /// Draws the question or the progress, and goes on. Returns whether the user has just chosen to save: then the caller
+  /// saves, perhaps after questions of its own in the dialog.
+  bool draw(Ui& ui, const Rect& area, Dialog& dialog);
+  /// Stays open after all. Returns whether the window was waiting for files.
+  bool cancel();
+  /// The window may go.
+  bool done() const { return step_ == Step::done; }
+
+ private:
+  enum class Step {
+    none,
+    asks,    ///< whether to save
+    begins,  ///< the user chose to; the caller saves when this drawing has ended
+    saves,   ///< the user chose to; questions of saving may be open
+    writes,  ///< files are still being written
+    done
+  };
+  bool draw_question(Ui& ui, const Rect& area, Dialog& dialog);
+  void draw_progress(Ui& ui, const Rect& area);
+  void finish();
+  void leave();
+
+  Session& session_;
+  Step step_ = Step::none;
+  bool discards_ = false;       ///< the user does not want the edits
+  double since_ = 0;            ///< clock second at which writing began to be waited for
+  bool paused_before_ = false;  ///< rendering was paused when that began
+};
+
+}  // namespace tyndall
