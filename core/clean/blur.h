@@ -17,6 +17,11 @@ TYNDALL_INLINE int mirrored(int i, int count) {
   return most(0, least(j, count - 1));
 }
 
+/// Asks for the memory that a later row will be read from: rows are too short for the processor to foresee it.
+TYNDALL_INLINE void fetch(const FilterView& v, const float* plane, int y, int x) {
+  __builtin_prefetch(plane + std::ptrdiff_t{y} * v.stride + x);  // behind the picture it does nothing
+}
+
 inline constexpr int blur_reach = 2;
 
 /// Whether a cell that the blur of these pixels reads has emission.
@@ -31,24 +36,25 @@ TYNDALL_INLINE bool emission_near(const FilterView& v, int y, int x0, int count)
 
 /// What is blurred: a half, of whose sharp emission nothing is spread: the dark around a lamp that is smaller than a
 /// pixel would be spoilt by far more than the lamp gains.
-template <class F>
-TYNDALL_INLINE F blurred_part(const FilterView& v, bool lit, int output, std::ptrdiff_t at) {
+template <class F, bool lit>
+TYNDALL_INLINE F blurred_part(const FilterView& v, int output, std::ptrdiff_t at) {
   const F half = load<F>(v.half[output] + at);
   return lit ? neg_mul_add(load<F>(v.sharp + at), load<F>(v.emission[output] + at), half) : half;
 }
 
 /// Binomial filter of 5 x 5 taps, of `count` pixels from x0 on in row y; mirrored at the borders. A half that the
 /// regression has left as it was stays so.
-template <class F>
-TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, ChunkOfHalves& to) {
+template <class F, bool lit>
+TYNDALL_INLINE void blur_lit_chunk(const FilterView& v, int y, int x0, int count, ChunkOfHalves& to) {
   constexpr int reach = blur_reach;
   alignas(64) float column[chunk + 64];  // from x0 - 16 on
-  const bool lit = emission_near(v, y, x0, count);
   std::ptrdiff_t row[2 * reach + 1];
   for (int k = -reach; k <= reach; ++k) row[k + reach] = mirrored(y + k, v.height) * v.stride + x0;
   for (int output = 0; output < outputs; ++output) {
-    const auto part = [&](int k, int x) { return blurred_part<F>(v, lit, output, row[k] + x); };
+    const auto part = [&](int k, int x) { return blurred_part<F, lit>(v, output, row[k] + x); };
     for (int x = -row_margin; x < count + reach; x += lanes_of<F>) {
+      fetch(v, v.half[output], y + reach + 1, x0 + x);
+      fetch(v, v.filtered[output], y + 1, x0 + x);
       const F outer = part(0, x) + part(4, x), inner = part(1, x) + part(3, x);
       store(column + row_margin + x, mul_add(F(0.25f), inner, mul_add(F(0.375f), part(2, x), F(0.0625f) * outer)));
     }
@@ -59,11 +65,16 @@ TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, Ch
       const F outer = load<F>(at + x - 2) + load<F>(at + x + 2), inner = load<F>(at + x - 1) + load<F>(at + x + 1);
       const F blurred = mul_add(F(0.25f), inner, mul_add(F(0.375f), load<F>(at + x), F(0.0625f) * outer));
       const F half = load<F>(v.half[output] + row[reach] + x),
-              kept = half - blurred_part<F>(v, lit, output, row[reach] + x);
+              kept = half - blurred_part<F, lit>(v, output, row[reach] + x);
       const auto left = equal(load<F>(v.filtered[output] + row[reach] + x), half);
       store(to.of[output] + x, select(left, half, blurred + kept));
     }
   }
+}
+template <class F>
+TYNDALL_INLINE void blur_chunk(const FilterView& v, int y, int x0, int count, ChunkOfHalves& to) {
+  if (emission_near(v, y, x0, count)) return blur_lit_chunk<F, true>(v, y, x0, count, to);
+  blur_lit_chunk<F, false>(v, y, x0, count, to);
 }
 
 }  // namespace tyndall::filter

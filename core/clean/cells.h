@@ -6,87 +6,125 @@
 /// pixels, and sums the products of each two columns.
 namespace tyndall::filter {
 
-/// The columns of one cell, pixel by pixel; 0 outside of the picture.
-struct CellColumns {
-  alignas(64) float of[cell_columns][cell_pixels];
-  bool shines;
-};
+/// The sum of two numbers, as base/lanes_simd_pairs.h has it for groups of lanes.
+TYNDALL_INLINE float pair_sums(float a, float b) { return a + b; }
 
 TYNDALL_INLINE int least(int a, int b) { return a < b ? a : b; }
 TYNDALL_INLINE int most(int a, int b) { return a > b ? a : b; }
 
-/// Copies a cell's pixels from a plane. inside_x, inside_y: how many of its columns and rows lie in the picture; the
-/// others become 0.
-TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int inside_x, int inside_y, float* to) {
-  for (int y = 0; y < cell_edge; ++y, to += cell_edge) {
-    const float* from = plane + (y < inside_y ? y : 0) * stride;
-    for (int x = 0; x < cell_edge; ++x) to[x] = x < inside_x && y < inside_y ? from[x] : 0.0f;
-  }
+/// As many cells beside each other as F has lanes: a row of their pixels fills cell_edge groups of lanes.
+template <class F>
+struct Strip {
+  static constexpr int cells = lanes_of<F>, width = cell_edge * cells;
+  /// The columns of one group of lanes, row by row; 0 outside of the picture.
+  alignas(64) float column[cell_columns][cell_edge * lanes_of<F>];
+  /// Of each product of two columns the sums over the rows of each group.
+  alignas(64) float part[all_sums][width];
+  /// x of the pixels of a row, counted from the middle of each cell, over the width of a block.
+  alignas(64) float across[width];
+};
+
+/// Sums of cell_edge neighbours each: lane i has that of cell i of a strip.
+template <class F>
+TYNDALL_INLINE F fold(const float* row) {
+  constexpr int n = lanes_of<F>;
+  const auto pair = [&](int i) { return pair_sums(load<F>(row + i * n), load<F>(row + (i + 1) * n)); };
+  return pair_sums(pair_sums(pair(0), pair(2)), pair_sums(pair(4), pair(6)));
 }
 
-/// Fills the columns of a cell. halves: also those of the halves, which a fit needs and a prediction does not.
+/// Copies the first `rows` rows of a group of lanes from a plane; the others become 0.
+template <class F>
+TYNDALL_INLINE void take_rows(const float* plane, std::ptrdiff_t stride, int rows, float* to) {
+  for (int y = 0; y < rows; ++y) store(to + y * lanes_of<F>, load<F>(plane + y * stride));
+  for (int y = rows; y < cell_edge; ++y) store(to + y * lanes_of<F>, F(0.0f));
+}
+
+inline constexpr float middle_of_cell = 0.5f * (cell_edge - 1), per_block = 1.0f / (2 * cell_edge);
+
+/// Fills the columns of the group of lanes from x on. rows: how many of its rows lie in the picture.
 /// Where lamps are seen, their emission is taken off the halves, because the regression would smear it over the pixels
 /// around; it is added again to what the regression predicts. It also stays one of the terms, because in a pixel that a
 /// lamp covers in part, it hides the rest in part.
-TYNDALL_INLINE void fill_columns(const FilterView& v, int cell_x, int cell_y, bool halves, CellColumns& cell) {
-  const int x0 = cell_x * cell_edge, y0 = cell_y * cell_edge;
-  const int inside_x = least(cell_edge, v.width - x0), inside_y = least(cell_edge, v.height - y0);
-  const std::ptrdiff_t at = y0 * v.stride + x0;
-  for (int y = 0; y < cell_edge; ++y)
-    for (int x = 0; x < cell_edge; ++x) {
-      const int pixel = y * cell_edge + x;
-      const float one = x < inside_x && y < inside_y ? 1.0f : 0.0f;
-      constexpr float middle = 0.5f * (cell_edge - 1), per_block = 1.0f / (2 * cell_edge);
-      cell.of[0][pixel] = one;
-      cell.of[1][pixel] = one * (static_cast<float>(x) - middle) * per_block;
-      cell.of[2][pixel] = one * (static_cast<float>(y) - middle) * per_block;
-    }
-  for (int k = 0; k < seen_features; ++k) take_cell(v.seen[k] + at, v.stride, inside_x, inside_y, cell.of[3 + k]);
-  cell.shines = v.has_emission() && (halves || v.shines[(cell_y + 1) * v.cell_stride + cell_x + 1]);
-  if (cell.shines)
-    for (int k = 0; k < 2 * emission_terms; ++k)
-      take_cell(v.emission[k] + at, v.stride, inside_x, inside_y, cell.of[emission_column + k]);
-  if (!halves) return;
+template <class F>
+TYNDALL_INLINE void fill_group(const FilterView& v, int x, int y0, int rows, bool shines, const float* across,
+                               Strip<F>& strip) {
+  constexpr int n = lanes_of<F>;
+  const std::ptrdiff_t at = y0 * v.stride + x;
+  alignas(64) float one[n];
+  for (int i = 0; i < n; ++i) one[i] = x + i < v.width ? 1.0f : 0.0f;
+  for (int y = 0; y < cell_edge; ++y) {
+    const F inside = y < rows ? load<F>(one) : F(0.0f);
+    store(strip.column[0] + y * n, inside);
+    store(strip.column[1] + y * n, inside * load<F>(across));
+    store(strip.column[2] + y * n, inside * splat<F>((static_cast<float>(y) - middle_of_cell) * per_block));
+  }
+  for (int k = 0; k < seen_features; ++k) take_rows<F>(v.seen[k] + at, v.stride, rows, strip.column[3 + k]);
+  for (int k = 0; shines && k < 2 * emission_terms; ++k)
+    take_rows<F>(v.emission[k] + at, v.stride, rows, strip.column[emission_column + k]);
   for (int k = 0; k < outputs; ++k) {
-    float* column = cell.of[half_column + k];
-    take_cell(v.half[k] + at, v.stride, inside_x, inside_y, column);
-    for (int q = 0; cell.shines && q < cell_pixels; ++q) column[q] -= cell.of[emission_column + k][q];
+    float* column = strip.column[half_column + k];
+    take_rows<F>(v.half[k] + at, v.stride, rows, column);
+    for (int q = 0; shines && q < cell_edge * n; q += n)
+      store(column + q, load<F>(column + q) - load<F>(strip.column[emission_column + k] + q));
   }
 }
 
-TYNDALL_INLINE bool any_emission(const CellColumns& cell) {
-  float sum = 0;
-  for (int k = 0; k < 2 * emission_terms; ++k)
-    for (int q = 0; q < cell_pixels; ++q) sum += abs(cell.of[emission_column + k][q]);
-  return sum > 0;
+/// Sums the products of the columns of a group of lanes over its rows.
+template <class F>
+TYNDALL_INLINE void sum_rows(const FilterView& v, int sums, int group, Strip<F>& strip) {
+  constexpr int n = lanes_of<F>;
+  F own[cell_edge];
+  int held = -1;
+  for (int s = 0; s < sums; ++s) {
+    if (v.pairs[s].i != held) {
+      held = v.pairs[s].i;
+      for (int y = 0; y < cell_edge; ++y) own[y] = load<F>(strip.column[held] + y * n);
+    }
+    const float* other = strip.column[v.pairs[s].j];
+    F sum = own[0] * load<F>(other);
+    for (int y = 1; y < cell_edge; ++y) sum = mul_add(own[y], load<F>(other + y * n), sum);
+    store(strip.part[s] + group * n, sum);
+  }
 }
 
-/// The sum of the products of two columns.
+/// Finds which cells of a strip have emission, and returns whether any has.
 template <class F>
-TYNDALL_INLINE float column_product(const float* a, const float* b) {
-  F sum = load<F>(a) * load<F>(b);
-  for (int q = lanes_of<F>; q < cell_pixels; q += lanes_of<F>) sum = mul_add(load<F>(a + q), load<F>(b + q), sum);
-  alignas(64) float lane[lanes_of<F>];
-  store(lane, sum);
-  for (int step = lanes_of<F> / 2; step > 0; step /= 2)
-    for (int i = 0; i < step; ++i) lane[i] += lane[i + step];
-  return lane[0];
+TYNDALL_INLINE bool find_emission(const FilterView& v, int x0, int y0, int rows, std::uint8_t* shines) {
+  if (!v.has_emission()) return false;
+  constexpr int n = lanes_of<F>;
+  alignas(64) float bright[Strip<F>::width], cell[n];
+  for (int group = 0; group < cell_edge; ++group) {
+    F sum = F(0.0f);
+    const int x = x0 + group * n;
+    for (int k = 0; k < 2 * emission_terms && x < v.width; ++k)
+      for (int y = 0; y < rows; ++y) sum = sum + abs(load<F>(v.emission[k] + (y0 + y) * v.stride + x));
+    store(bright + group * n, sum);
+  }
+  store(cell, fold<F>(bright));
+  bool any = false;
+  for (int i = 0; i < n; ++i) any |= (shines[i] = cell[i] > 0) != 0;
+  return any;
 }
 
 template <class F>
 TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
-  const int cells = (v.width + cell_edge - 1) / cell_edge;
+  constexpr int n = lanes_of<F>;
+  const int y0 = cell_row * cell_edge, rows = least(cell_edge, v.height - y0);
   float* row = v.sums + std::ptrdiff_t{cell_row + 1} * all_sums * v.cell_stride;
-  CellColumns cell;
-  for (int cx = 0; cx < cells; ++cx) {
-    fill_columns(v, cx, cell_row, true, cell);
-    const bool shines = cell.shines && any_emission(cell);
-    v.shines[(cell_row + 1) * v.cell_stride + cx + 1] = shines;
-    const int count = shines ? all_sums : plain_sums;
-    for (int s = 0; s < count; ++s)
-      row[s * v.cell_stride + cx + 1] = column_product<F>(cell.of[v.pairs[s].i], cell.of[v.pairs[s].j]);
-    if (v.has_emission())
-      for (int s = count; s < all_sums; ++s) row[s * v.cell_stride + cx + 1] = 0;
+  Strip<F> strip;
+  for (int x = 0; x < Strip<F>::width; ++x)
+    strip.across[x] = (static_cast<float>(x % cell_edge) - middle_of_cell) * per_block;
+  for (int x0 = 0; x0 < v.width; x0 += Strip<F>::width) {
+    const std::ptrdiff_t first = x0 / cell_edge + 1;
+    const bool shines = find_emission<F>(v, x0, y0, rows, v.shines + (cell_row + 1) * v.cell_stride + first);
+    const int sums = shines ? all_sums : plain_sums;
+    for (int group = 0; group < cell_edge; ++group) {
+      const int x = x0 + group * n;
+      fill_group<F>(v, x, y0, x < v.width ? rows : 0, shines, strip.across + group * n, strip);
+      sum_rows<F>(v, sums, group, strip);
+    }
+    for (int s = 0; s < sums; ++s) store(row + s * v.cell_stride + first, fold<F>(strip.part[s]));
+    for (int s = sums; v.has_emission() && s < all_sums; ++s) store(row + s * v.cell_stride + first, F(0.0f));
   }
 }
 

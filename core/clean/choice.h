@@ -19,16 +19,19 @@ template <class F>
 TYNDALL_INLINE void take_rival(const FilterView& v, Rival rival, int y, int x0, int count, ChunkOfHalves& to) {
   if (rival == Rival::blurred) return blur_chunk<F>(v, y, x0, count, to);
   for (int output = 0; output < outputs; ++output)
-    for (int x = 0; x < count; x += lanes_of<F>)
+    for (int x = 0; x < count; x += lanes_of<F>) {
+      fetch(v, v.half[output], y + 1, x0 + x);
+      fetch(v, v.filtered[output], y + 1, x0 + x);
       store(to.of[output] + x, load<F>(v.half[output] + y * v.stride + x0 + x));
+    }
 }
 
 /// The x of each lane's pixel, from `x` on.
 template <class F>
 TYNDALL_INLINE F places(int x) {
-  alignas(64) float place[lanes_of<F>];
-  for (int i = 0; i < lanes_of<F>; ++i) place[i] = static_cast<float>(x + i);
-  return load<F>(place);
+  alignas(64) static constexpr float place[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  static_assert(lanes_of<F> <= 16);
+  return splat<F>(static_cast<float>(x)) + load<F>(place);
 }
 
 /// How many pixels a window around `at` covers in one direction, without those outside of the picture.
@@ -115,17 +118,26 @@ struct WindowColumns {
   alignas(64) float all[sums][chunk + 64], outer[sums][chunk + 64];  // from x0 - row_margin on
 };
 
+/// Adds rows of gains, their squares and distances to sums.
+template <class F>
+TYNDALL_INLINE void add_rows(const FilterView& v, int first, int last, std::ptrdiff_t x, F (&sum)[3]) {
+  for (int k = most(first, 0); k <= least(last, v.height - 1); ++k) {
+    const F gain = load<F>(v.gain + k * v.stride + x);
+    sum[0] = sum[0] + gain;
+    sum[1] = mul_add(gain, gain, sum[1]);
+    sum[2] = sum[2] + load<F>(v.distance + k * v.stride + x);
+  }
+}
+
 template <class F>
 TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, WindowColumns& columns) {
   for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
     F outer[3] = {F(0.0f), F(0.0f), F(0.0f)}, inner[3] = {F(0.0f), F(0.0f), F(0.0f)};
-    for (int k = most(y - window_reach, 0); k <= least(y + window_reach, v.height - 1); ++k) {
-      F* to = k < y - hole_reach || k > y + hole_reach ? outer : inner;
-      const F gain = load<F>(v.gain + k * v.stride + x0 + x);
-      to[0] = to[0] + gain;
-      to[1] = mul_add(gain, gain, to[1]);
-      to[2] = to[2] + load<F>(v.distance + k * v.stride + x0 + x);
-    }
+    add_rows(v, y - window_reach, y - hole_reach - 1, x0 + x, outer);
+    add_rows(v, y + hole_reach + 1, y + window_reach, x0 + x, outer);
+    add_rows(v, y - hole_reach, y + hole_reach, x0 + x, inner);
+    fetch(v, v.gain, y + window_reach + 1, x0 + x);
+    fetch(v, v.distance, y + window_reach + 1, x0 + x);
     for (int s = 0; s < 3; ++s) {
       store(columns.all[s] + row_margin + x, outer[s] + inner[s]);
       store(columns.outer[s] + row_margin + x, outer[s]);
@@ -181,58 +193,6 @@ TYNDALL_INLINE void mix_of(const FilterView& v, Rival rival, int y) {
     }
   }
   clear_behind(v.level + y * v.stride, v.width);
-}
-
-/// Adds the lanes below `count` to a row's sum, in order.
-template <class F>
-TYNDALL_INLINE void add_lanes(F values, int count, double& sum) {
-  alignas(64) float lane[lanes_of<F>];
-  store(lane, values);
-  for (int i = 0; i < least(lanes_of<F>, count); ++i) sum += static_cast<double>(lane[i]);
-}
-
-/// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
-/// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
-/// is brighter than those around, the level is raised towards its own mean, the more its two halves agree.
-template <class F>
-TYNDALL_INLINE F known_level(F a, F b, F around) {
-  const F both = a + b, apart = F(2.0f) * (a - b);
-  const F agreed = max(neg_mul_add(apart, apart, both * both) / max(both * both, F(1e-30f)), F(0.0f));
-  return mul_add(agreed, max(F(0.5f) * both - around, F(0.0f)), around);
-}
-
-/// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because
-/// numbers were too large for single precision, becomes raw.
-template <class F>
-TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
-  double bias_sum = 0, noise_sum = 0, squares = 0;
-  for (int x = 0; x < v.width; x += lanes_of<F>) {
-    const std::ptrdiff_t at = y * v.stride + x;
-    const F others = pixels_around<F>(v, y, x, 1) - F(1.0f);
-    F bias = F(0.0f), noise = F(0.0f), picture[3];
-    for (int c = 0; c < 3; ++c) {
-      const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
-      F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
-      const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
-      pa = select(finite, pa, a), pb = select(finite, pb, b);
-      picture[c] = F(0.5f) * (pa + pb);
-      const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x) - (a + b);
-      const F around = max(F(0.5f) * raw / max(others, F(1.0f)), F(0.0f));
-      const F level = max(min(picture[c], known_level(a, b, around)), F(0.0f));
-      const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
-      bias = mul_add((pa - a) * (pb - b), per, bias);
-      noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);
-    }
-    for (int c = 0; c < 3; ++c) store(v.filtered[c] + at, picture[c]);
-    store(v.error + at, bias + noise);
-    add_lanes(bias, v.width - x, bias_sum);
-    add_lanes(noise, v.width - x, noise_sum);
-    add_lanes((bias + noise) * (bias + noise), v.width - x, squares);
-  }
-  clear_behind(v.error + y * v.stride, v.width);
-  v.row_bias[y] = bias_sum;
-  v.row_noise[y] = noise_sum;
-  v.row_squares[y] = squares;
 }
 
 }  // namespace tyndall::filter

@@ -81,29 +81,16 @@ struct Cleaner::Memory {
     shines.assign(rows * row + row, 0);
     coefficients.resize((rows - 1) * outputs * terms * row);
   }
+  FilterView view_of(const CleanInput& input);
 };
 
 namespace {
 
-/// The relative error of each pixel of a row: the root of the mean of view.error over the 13 x 13 pixels around it. A
-/// mean that is negative by chance counts as 0.
-void put_pixel_errors(const FilterView& view, int y, float* to) {
-  constexpr int reach = 6;
-  const int top = std::max(y - reach, 0), bottom = std::min(y + reach, view.height - 1);
-  std::vector<float> column(static_cast<std::size_t>(view.width));
-  for (int k = top; k <= bottom; ++k)
-    for (int x = 0; x < view.width; ++x) column[static_cast<std::size_t>(x)] += view.error[k * view.stride + x];
-  for (int x = 0; x < view.width; ++x) {
-    const int left = std::max(x - reach, 0), right = std::min(x + reach, view.width - 1);
-    float sum = 0;
-    for (int k = left; k <= right; ++k) sum += column[static_cast<std::size_t>(k)];
-    to[x] = std::sqrt(std::max(sum, 0.0f) / static_cast<float>((right - left + 1) * (bottom - top + 1)));
-  }
-}
-
 void put_picture(const FilterView& view, float scale, int y, float* rgb) {
-  for (int x = 0; x < view.width; ++x)
-    for (int c = 0; c < 3; ++c) rgb[3 * x + c] = scale * view.filtered[c][y * view.stride + x];
+  const float *red = view.filtered[0] + y * view.stride, *green = view.filtered[1] + y * view.stride,
+              *blue = view.filtered[2] + y * view.stride;
+  for (int x = 0; x < view.width; ++x, rgb += 3)
+    rgb[0] = scale * red[x], rgb[1] = scale * green[x], rgb[2] = scale * blue[x];
 }
 
 /// Whether few pixels make up most of the sum of all pixels' errors, of whose squares the sum is `squares`. Small
@@ -126,46 +113,62 @@ Cleaner::~Cleaner() = default;
 Cleaner::Cleaner(Cleaner&&) noexcept = default;
 Cleaner& Cleaner::operator=(Cleaner&&) noexcept = default;
 
-bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out) {
-  Memory& m = *memory_;
-  m.resize(input.width, input.height);
+FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   FilterView v;
-  v.width = input.width, v.height = input.height, v.stride = m.work.stride();
+  v.width = input.width, v.height = input.height, v.stride = work.stride();
   v.floor = 0.01f / input.scale / input.scale;
   for (int k = 0; k < outputs; ++k) {
-    v.half[k] = input.halves.plane(k), v.filtered[k] = m.work.plane(k);
+    v.half[k] = input.halves.plane(k), v.filtered[k] = work.plane(k);
     v.emission[k] = input.emission.count() > 0 ? input.emission.plane(k) : nullptr;
   }
   for (int k = 0; k < seen_features; ++k) v.seen[k] = input.seen.plane(k);
   v.sharp = input.seen.plane(seen_features);
-  v.level = m.work.plane(outputs), v.gain = m.work.plane(outputs + 1), v.distance = m.work.plane(outputs + 2);
+  v.level = work.plane(outputs), v.gain = work.plane(outputs + 1), v.distance = work.plane(outputs + 2);
   v.error = v.gain;
-  v.pairs = m.pairs.data(), v.sums = m.sums.data(), v.shines = m.shines.data(), v.cell_stride = m.cell_stride;
-  v.coefficients = m.coefficients.data();
-  v.row_bias = m.row_bias.data(), v.row_noise = m.row_noise.data(), v.row_squares = m.row_squares.data();
+  v.pairs = pairs.data(), v.sums = sums.data(), v.shines = shines.data(), v.cell_stride = cell_stride;
+  v.coefficients = coefficients.data();
+  v.row_bias = row_bias.data(), v.row_noise = row_noise.data(), v.row_squares = row_squares.data();
+  return v;
+}
+
+bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out) {
+  Memory& m = *memory_;
+  m.resize(input.width, input.height);
+  const FilterView v = m.view_of(input);
   const auto each = [&](int rows, const auto& step) {
     crew.for_each(rows, [&](int row) {
       if (!give_up.load(std::memory_order_relaxed)) step(row);
     });
     return !give_up;
   };
-  const auto mix = [&](Rival rival) {
-    return each(v.height, [&](int y) { m.steps.compare(v, rival, y); }) &&
-           each(v.height, [&](int y) { m.steps.mix(v, rival, y); });
+  // Rows of pixels are dealt out in bands: a thread then finds the rows around one in its cache.
+  const auto each_pixel_row = [&](const auto& step) {
+    return each(m.cells_y, [&](int band) {
+      const int end = std::min((band + 1) * cell_edge, v.height);
+      for (int y = band * cell_edge; y < end && !give_up.load(std::memory_order_relaxed); ++y) step(y);
+    });
   };
-  const bool whole = each(m.cells_y, [&](int row) { m.steps.sum_cells(v, row); }) &&
+  const auto mix = [&](Rival rival) {
+    return each_pixel_row([&](int y) { m.steps.compare(v, rival, y); }) &&
+           each_pixel_row([&](int y) { m.steps.mix(v, rival, y); });
+  };
+  const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
+  const auto make_room = [&] {
+    m.made.width = v.width, m.made.height = v.height;
+    m.made.rgb.resize(3 * width * height);
+    m.made.pixel_error.resize(width * height);
+  };
+  // The room for the result is made by one thread while the others sum: the system takes its time over new memory.
+  const auto sum_row = [&](int row) { row == 0 ? make_room() : m.steps.sum_cells(v, row - 1); };
+  const bool whole = each(m.cells_y + 1, sum_row) &&
                      each(m.cells_y + 1, [&](int row) { m.steps.fit_blocks(v, row); }) &&
                      each(m.cells_y, [&](int row) { m.steps.predict(v, row); }) && mix(Rival::blurred) &&
-                     mix(Rival::raw) && each(v.height, [&](int y) { m.steps.judge(v, y); });
+                     mix(Rival::raw) && each_pixel_row([&](int y) { m.steps.judge(v, y); });
   if (!whole) return false;
-  const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
-  m.made.width = v.width, m.made.height = v.height;
-  m.made.rgb.resize(3 * width * height);
-  m.made.pixel_error.resize(width * height);
-  const bool copied = each(v.height, [&](int y) {
+  const bool copied = each_pixel_row([&](int y) {
     const std::size_t row = static_cast<std::size_t>(y) * width;
     put_picture(v, input.scale, y, m.made.rgb.data() + 3 * row);
-    put_pixel_errors(v, y, m.made.pixel_error.data() + row);
+    m.steps.tell(v, y, m.made.pixel_error.data() + row);
   });
   if (!copied) return false;
   const double pixels = static_cast<double>(width * height);

@@ -25,20 +25,22 @@ struct FirstSeen {
   bool sharp = true;   ///< lamps and sky are not seen by chance there, as they are in glass and in brushed metal
 };
 
-/// Zeros at first. They take memory once they are written to, by the thread that does so, and in large pages where the
-/// system has them: a picture's planes would else spend as much time on getting memory as on being filtered.
+/// Zeros at first, and at a multiple of 64 bytes, as a group of lanes is. They take memory once they are written to, by
+/// the thread that does so, and in large pages where the system has them: a picture's planes would else spend as much
+/// time on getting memory as on being filtered.
 class ZeroedFloats {
  public:
   /// Throws std::bad_alloc.
   void resize(std::size_t count);
-  float* data() { return data_.get(); }
-  const float* data() const { return data_.get(); }
+  float* data() { return first_; }
+  const float* data() const { return first_; }
 
  private:
   struct Free {
     void operator()(float* floats) const;
   };
-  std::unique_ptr<float, Free> data_;
+  std::unique_ptr<float, Free> memory_;
+  float* first_ = nullptr;
 };
 
 /// Planes of numbers, all of one size. Rows have room to the left and right, so that whole groups of lanes can be read

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/clean/choice.h"
+#include "core/clean/judge.h"
 #include "core/clean/predict.h"
 
 /// The filter's entry points as templates over the number type F. Each instruction set has a small .cpp file, which
@@ -31,10 +31,15 @@ template <class F>
 static void judge_entry(const FilterView& view, int y) {
   judge_of<F>(view, y);
 }
+template <class F>
+static void tell_entry(const FilterView& view, int y, float* pixel_error) {
+  tell_of<F>(view, y, pixel_error);
+}
 
 template <class F>
 static FilterSteps filter_of() {
-  return {sum_cells_entry<F>, fit_blocks_entry<F>, predict_entry<F>, compare_entry<F>, mix_entry<F>, judge_entry<F>};
+  return {sum_cells_entry<F>, fit_blocks_entry<F>, predict_entry<F>, compare_entry<F>,
+          mix_entry<F>,       judge_entry<F>,      tell_entry<F>};
 }
 
 }  // namespace tyndall::filter

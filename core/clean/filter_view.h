@@ -68,13 +68,14 @@ enum class Rival { blurred, raw };
 /// The filter's steps. Each takes one row of its kind and reads only what earlier steps wrote, so that the rows of a
 /// step can be shared between threads in any way without changing a bit.
 struct FilterSteps {
-  void (*sum_cells)(const FilterView& view, int cell_row);      ///< rows of cells
-  void (*fit_blocks)(const FilterView& view, int block_row);    ///< one more than rows of cells
-  void (*predict)(const FilterView& view, int cell_row);        ///< writes filtered, level
-  void (*compare)(const FilterView& view, Rival rival, int y);  ///< writes gain, distance
-  void (*mix)(const FilterView& view, Rival rival, int y);      ///< changes filtered, level
-  void (*judge)(const FilterView& view, int y);                 ///< writes error, row_bias, row_noise; then
-                                                                ///< filtered[0 .. 2] are the picture
+  void (*sum_cells)(const FilterView& view, int cell_row);          ///< rows of cells
+  void (*fit_blocks)(const FilterView& view, int block_row);        ///< one more than rows of cells
+  void (*predict)(const FilterView& view, int cell_row);            ///< writes filtered, level
+  void (*compare)(const FilterView& view, Rival rival, int y);      ///< writes gain, distance
+  void (*mix)(const FilterView& view, Rival rival, int y);          ///< changes filtered, level
+  void (*judge)(const FilterView& view, int y);                     ///< writes error, row_bias, row_noise; then
+                                                                    ///< filtered[0 .. 2] are the picture
+  void (*tell)(const FilterView& view, int y, float* pixel_error);  ///< fills a row of CleanPicture::pixel_error
 };
 
 // Each is in a file of its own, which is compiled with that instruction set's flags.

@@ -15,17 +15,18 @@
 namespace tyndall {
 namespace {
 
-constexpr std::size_t large_page = std::size_t{1} << 21u;
+constexpr std::size_t large_page = std::size_t{1} << 21u, group = 64;
 
 }  // namespace
 
 void ZeroedFloats::resize(std::size_t count) {
-  data_.reset();
-  data_.reset(static_cast<float*>(std::calloc(count, sizeof(float))));
-  if (!data_) throw std::bad_alloc();
+  memory_.reset();
+  std::size_t bytes = count * sizeof(float) + group;
+  memory_.reset(static_cast<float*>(std::calloc(bytes, 1)));
+  if (!memory_) throw std::bad_alloc();
+  void* begin = memory_.get();
+  first_ = static_cast<float*>(std::align(group, bytes - group, begin, bytes));
 #if defined(__linux__)
-  void* begin = data_.get();
-  std::size_t bytes = count * sizeof(float);
   if (std::align(large_page, large_page, begin, bytes)) madvise(begin, bytes, MADV_HUGEPAGE);
 #endif
 }

@@ -4,6 +4,40 @@
 /// What the regression makes of a picture: each pixel takes what the four blocks around predict of it.
 namespace tyndall::filter {
 
+/// What a prediction reads of one cell, pixel by pixel: the terms, and the emission of both halves.
+struct CellTerms {
+  alignas(64) float of[emission_column + 2 * emission_terms][cell_pixels];
+  int rows;     ///< how many of its rows lie in the picture; those below repeat the last one
+  bool shines;  ///< whether it has emission
+};
+
+/// Copies a row of a cell.
+TYNDALL_INLINE void copy_row(const float* from, float* to) { __builtin_memcpy(to, from, cell_edge * sizeof(float)); }
+
+/// Copies a cell's pixels from a plane. Those to the right of the picture get what is there: they are not used.
+TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int rows, float* to) {
+  for (int y = 0; y < cell_edge; ++y) copy_row(plane + least(y, rows - 1) * stride, to + y * cell_edge);
+}
+
+/// Fills the terms that are the same in each cell.
+TYNDALL_INLINE void fill_places(CellTerms& cell) {
+  for (int pixel = 0; pixel < cell_pixels; ++pixel) {
+    cell.of[0][pixel] = 1;
+    cell.of[1][pixel] = (static_cast<float>(pixel % cell_edge) - middle_of_cell) * per_block;
+    cell.of[2][pixel] = (static_cast<float>(pixel / cell_edge) - middle_of_cell) * per_block;
+  }
+}
+
+/// Fills the others.
+TYNDALL_INLINE void fill_terms(const FilterView& v, int cell_x, int cell_y, CellTerms& cell) {
+  const std::ptrdiff_t at = cell_y * cell_edge * v.stride + cell_x * cell_edge;
+  cell.rows = least(cell_edge, v.height - cell_y * cell_edge);
+  for (int k = 0; k < seen_features; ++k) take_cell(v.seen[k] + at, v.stride, cell.rows, cell.of[3 + k]);
+  cell.shines = v.shines[(cell_y + 1) * v.cell_stride + cell_x + 1] != 0;
+  for (int k = 0; cell.shines && k < 2 * emission_terms; ++k)
+    take_cell(v.emission[k] + at, v.stride, cell.rows, cell.of[emission_column + k]);
+}
+
 /// The coefficients of the four blocks that a cell belongs to, for places counted from the cell's own middle.
 struct CellBlocks {
   float of[4][outputs][terms];
@@ -34,22 +68,30 @@ TYNDALL_INLINE void fill_tents(float (*tent)[cell_pixels]) {
     }
 }
 
-/// The prediction of an output for a group of pixels from `pixel` on.
-template <class F>
-TYNDALL_INLINE F predict_pixels(const CellColumns& cell, const CellBlocks& blocks, const float (*tent)[cell_pixels],
-                                int output, int pixel) {
-  F total = F(0.0f);
-  for (int k = 0; k < 4; ++k) {
-    const float* c = blocks.of[k][output];
-    F sum = splat<F>(c[0]);
-    for (int i = 1; i < plain_terms; ++i) sum = mul_add(splat<F>(c[i]), load<F>(cell.of[i] + pixel), sum);
-    if (cell.shines)
-      for (int i = 0; i < emission_terms; ++i)
-        sum = mul_add(splat<F>(c[plain_terms + i]),
-                      load<F>(cell.of[emission_column + output / 3 * emission_terms + i] + pixel), sum);
-    total = mul_add(load<F>(tent[k] + pixel), sum, total);
+/// The predictions of all outputs for a group of pixels from `pixel` on, and their mean behind them. all_terms: whether
+/// there are more than the plain ones.
+template <class F, bool all_terms>
+TYNDALL_INLINE void predict_pixels(const CellTerms& cell, const CellBlocks& blocks, const float (*tent)[cell_pixels],
+                                   int pixel, float (*out)[cell_pixels]) {
+  F term[plain_terms], weight[4], level = F(0.0f);
+  for (int i = 1; i < plain_terms; ++i) term[i] = load<F>(cell.of[i] + pixel);
+  for (int k = 0; k < 4; ++k) weight[k] = load<F>(tent[k] + pixel);
+  for (int output = 0; output < outputs; ++output) {
+    const float(*emission)[cell_pixels] = cell.of + emission_column + output / 3 * emission_terms;
+    F total = F(0.0f);
+    for (int k = 0; k < 4; ++k) {
+      const float* c = blocks.of[k][output];
+      F sum = splat<F>(c[0]);
+      for (int i = 1; i < plain_terms; ++i) sum = mul_add(splat<F>(c[i]), term[i], sum);
+      for (int i = 0; all_terms && i < emission_terms; ++i)
+        sum = mul_add(splat<F>(c[plain_terms + i]), load<F>(emission[i] + pixel), sum);
+      total = mul_add(weight[k], sum, total);
+    }
+    if (all_terms) total = total + load<F>(cell.of[emission_column + output] + pixel);
+    store(out[output] + pixel, total);
+    level = level + total;
   }
-  return cell.shines ? total + load<F>(cell.of[emission_column + output] + pixel) : total;
+  store(out[outputs] + pixel, F(1.0f / outputs) * level);
 }
 
 /// Whether a half shows no light but what came straight from lamps or the sky, in those of the 3 x 3 pixels around
@@ -68,8 +110,12 @@ TYNDALL_INLINE bool is_dark(const FilterView& v, int half, int x0, int y0) {
 
 /// Leaves a half as it is where nothing is seen and it is dark: what is seen next to there would glow into the dark.
 /// Only where emission is recorded, as else the sky, which is seen there, cannot be told from such a glow.
-TYNDALL_INLINE void keep_dark(const FilterView& v, const CellColumns& cell, int x0, int y0, float (*out)[cell_pixels]) {
+TYNDALL_INLINE void keep_dark(const FilterView& v, const CellTerms& cell, int x0, int y0, float (*out)[cell_pixels]) {
   if (!v.has_emission()) return;
+  float nearest = 1;
+  for (int q = 0; q < cell_pixels; ++q)
+    nearest = nearest < cell.of[depth_column][q] ? nearest : cell.of[depth_column][q];
+  if (nearest > 0) return;
   alignas(64) float glow[cell_pixels];  // what is predicted beside the emission, but for the rounding of both
   for (int q = 0; q < cell_pixels; ++q) glow[q] = out[outputs][q];
   for (int k = 0; cell.shines && k < outputs; ++k)
@@ -95,34 +141,36 @@ TYNDALL_INLINE void keep_dark(const FilterView& v, const CellColumns& cell, int 
   }
 }
 
+/// Writes what was made of a cell to the picture.
+TYNDALL_INLINE void put_cell(const FilterView& v, int x0, int y0, int rows, const float (*out)[cell_pixels]) {
+  const int columns = least(cell_edge, v.width - x0);
+  for (int output = 0; output <= outputs; ++output) {
+    float* to = (output < outputs ? v.filtered[output] : v.level) + y0 * v.stride + x0;
+    for (int y = 0; y < rows; ++y)
+      if (columns == cell_edge)
+        copy_row(out[output] + y * cell_edge, to + y * v.stride);
+      else
+        for (int x = 0; x < columns; ++x) to[y * v.stride + x] = out[output][y * cell_edge + x];
+  }
+}
+
 template <class F>
 TYNDALL_INLINE void predict_of(const FilterView& v, int cell_row) {
   const int cells = (v.width + cell_edge - 1) / cell_edge;
-  const int inside_y = least(cell_edge, v.height - cell_row * cell_edge);
   alignas(64) float tent[4][cell_pixels], out[outputs + 1][cell_pixels];
   fill_tents(tent);
-  CellColumns cell;
+  CellTerms cell;
+  fill_places(cell);
   CellBlocks blocks;
   for (int cx = 0; cx < cells; ++cx) {
-    fill_columns(v, cx, cell_row, false, cell);
+    fill_terms(v, cx, cell_row, cell);
     take_blocks(v, cx, cell_row, blocks);
-    for (int pixel = 0; pixel < cell_pixels; pixel += lanes_of<F>) {
-      F level = F(0.0f);
-      for (int output = 0; output < outputs; ++output) {
-        const F value = predict_pixels<F>(cell, blocks, tent, output, pixel);
-        store(out[output] + pixel, value);
-        level = level + value;
-      }
-      store(out[outputs] + pixel, F(1.0f / outputs) * level);
-    }
+    if (cell.shines)
+      for (int q = 0; q < cell_pixels; q += lanes_of<F>) predict_pixels<F, true>(cell, blocks, tent, q, out);
+    else
+      for (int q = 0; q < cell_pixels; q += lanes_of<F>) predict_pixels<F, false>(cell, blocks, tent, q, out);
     keep_dark(v, cell, cx * cell_edge, cell_row * cell_edge, out);
-    const int inside_x = least(cell_edge, v.width - cx * cell_edge);
-    for (int output = 0; output <= outputs; ++output) {
-      float* to = (output < outputs ? v.filtered[output] : v.level) + std::ptrdiff_t{cell_row} * cell_edge * v.stride +
-                  std::ptrdiff_t{cx} * cell_edge;
-      for (int y = 0; y < inside_y; ++y)
-        for (int x = 0; x < inside_x; ++x) to[y * v.stride + x] = out[output][y * cell_edge + x];
-    }
+    put_cell(v, cx * cell_edge, cell_row * cell_edge, cell.rows, out);
   }
 }
 

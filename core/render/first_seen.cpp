@@ -16,10 +16,13 @@ bool is_sharp(const SceneView& scene, std::int32_t element) {
   return kind != place_in<Metal<double>, MaterialKinds<double>> || scene.parameter[0][material] <= least_sampled_fuzz;
 }
 
-constexpr int depth_plane = 6;  // of input.seen
+constexpr int planes = 8;  // of input.seen: albedo, normal, nearness, sharpness
+constexpr int depth_plane = 6, sharp_plane = 7;
 constexpr int most_parts = 8;
-/// Pixels of a row that are divided together, so that one row of their parts fills the lanes.
+/// Pixels of a row that are divided together or not at all.
 constexpr int group = 4;
+/// Parts beside each other that are looked at together, which fills the lanes.
+constexpr int together = group * most_parts;
 
 /// Of a row's pixels where anything is seen: how many there are, and the sum of 1 / depth. And its unlike pixels.
 struct RowCount {
@@ -27,33 +30,59 @@ struct RowCount {
   std::int64_t unlike = 0;
 };
 
+/// is_sharp of the elements that rays meet; most meet the same one as the ray before.
+class Sharpness {
+ public:
+  explicit Sharpness(const SceneView& scene) : scene_(scene) {}
+  bool of(std::int32_t element) {
+    if (element != element_) element_ = element, sharp_ = element < 0 || is_sharp(scene_, element);
+    return sharp_;
+  }
+
+ private:
+  const SceneView& scene_;
+  std::int32_t element_ = -1;
+  bool sharp_ = true;
+};
+
+/// Sets marks[i] where two rows of pixels see different things at i; `a` and `b` are their places in the planes.
+void mark_differences(const CleanInput& input, std::ptrdiff_t a, std::ptrdiff_t b, int count, std::uint8_t* marks) {
+  const float *row[depth_plane + 1], *other[depth_plane + 1];
+  for (int k = 0; k <= depth_plane; ++k) row[k] = input.seen.plane(k) + a, other[k] = input.seen.plane(k) + b;
+  const auto off = [&](int k, int i) { return std::abs(row[k][i] - other[k][i]); };
+  for (int i = 0; i < count; ++i) {
+    const float colour = off(0, i) + off(1, i) + off(2, i), normal = off(3, i) + off(4, i) + off(5, i);
+    marks[i] = static_cast<std::uint8_t>((colour > 0.02f) | (normal > 0.4f) | (off(depth_plane, i) > 0.02f));
+  }
+}
+
 struct FirstSeenFinder {
   const Region& region;
   const RenderEngine& engine;
   CleanInput& input;
   std::vector<RowCount> rows;
   std::vector<std::uint8_t> unlike;  ///< of each group, row by row
-  float per_depth = 0;               ///< over the mean depth; 0: not known yet
+  float per_depth = 0;               ///< over the mean depth
 
   int width() const { return region.width(); }
   std::size_t groups() const { return static_cast<std::size_t>((width() + group - 1) / group); }
   float* row(int plane, int y) const { return input.seen.plane(plane) + y * input.seen.stride(); }
 
-  FirstSeen seen_at(const FirstHit& hit) const {
-    if (hit.element < 0) return {};
-    return {hit.albedo, hit.normal, 1 / (1 + hit.depth * per_depth), is_sharp(engine.scene, hit.element)};
-  }
   /// What the pixels' centres see; the depth itself in place of the nearness.
   void look_at_centres(int y) {
     std::vector<FirstHit> hits(static_cast<std::size_t>(width()));
     engine.kernels.first_hits(engine.scene, {region.x0, region.y0 + y, region.x1, region.y0 + y + 1}, hits.data());
     RowCount& count = rows[static_cast<std::size_t>(y)];
+    Sharpness sharpness(engine.scene);
+    float* to[planes];
+    for (int k = 0; k < planes; ++k) to[k] = row(k, y);
     for (int x = 0; x < width(); ++x) {
       const FirstHit& hit = hits[static_cast<std::size_t>(x)];
-      FirstSeen seen = seen_at(hit);
-      seen.nearness = hit.element < 0 ? 0 : hit.depth;
-      put_first_seen(seen, x, y, input);
-      if (seen.nearness > 0) count.per_depth += 1 / static_cast<double>(seen.nearness), ++count.seen;
+      const float depth = hit.element < 0 ? 0 : hit.depth;
+      to[0][x] = hit.albedo.x, to[1][x] = hit.albedo.y, to[2][x] = hit.albedo.z;
+      to[3][x] = hit.normal.x, to[4][x] = hit.normal.y, to[5][x] = hit.normal.z;
+      to[depth_plane][x] = depth, to[sharp_plane][x] = sharpness.of(hit.element) ? 1.0f : 0.0f;
+      if (depth > 0) count.per_depth += 1 / static_cast<double>(depth), ++count.seen;
     }
   }
   /// One over the harmonic mean of the depths at which anything is seen; 1 where nothing is.
@@ -66,43 +95,52 @@ struct FirstSeenFinder {
     float* depth = row(depth_plane, y);
     for (int x = 0; x < width(); ++x) depth[x] = depth[x] > 0 ? 1 / (1 + depth[x] * per_depth) : 0;
   }
-  bool differ(std::ptrdiff_t a, std::ptrdiff_t b) const {
-    float colour = 0, normal = 0;
-    for (int k = 0; k < 3; ++k) colour += std::abs(input.seen.plane(k)[a] - input.seen.plane(k)[b]);
-    for (int k = 3; k < 6; ++k) normal += std::abs(input.seen.plane(k)[a] - input.seen.plane(k)[b]);
-    return colour > 0.02f || normal > 0.4f ||
-           std::abs(input.seen.plane(depth_plane)[a] - input.seen.plane(depth_plane)[b]) > 0.02f;
-  }
+  /// Finds the groups in which a pixel sees something else than one of the four beside it.
   void find_unlike(int y) {
-    const std::ptrdiff_t stride = input.seen.stride();
-    for (int x = 0; x < width(); ++x) {
-      const std::ptrdiff_t at = y * stride + x;
-      if ((x > 0 && differ(at, at - 1)) || (x + 1 < width() && differ(at, at + 1)) ||
-          (y > 0 && differ(at, at - stride)) || (y + 1 < region.height() && differ(at, at + stride)))
-        unlike[static_cast<std::size_t>(y) * groups() + static_cast<std::size_t>(x / group)] = 1;
-    }
-    const auto first = unlike.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * groups());
+    const std::ptrdiff_t stride = input.seen.stride(), at = y * stride;
+    const auto size = static_cast<std::size_t>(width());
+    std::vector<std::uint8_t> right(size + 1), above(size), below(size);  // right[x]: x - 1 and x are unlike
+    mark_differences(input, at, at + 1, width() - 1, right.data() + 1);
+    if (y > 0) mark_differences(input, at, at - stride, width(), above.data());
+    if (y + 1 < region.height()) mark_differences(input, at, at + stride, width(), below.data());
+    right[size] = 0;
+    std::uint8_t* marks = unlike.data() + static_cast<std::size_t>(y) * groups();
+    for (std::size_t x = 0; x < size; ++x)
+      if (right[x] != 0 || right[x + 1] != 0 || above[x] != 0 || below[x] != 0) marks[x / group] = 1;
     rows[static_cast<std::size_t>(y)].unlike =
-        group * std::count(first, first + static_cast<std::ptrdiff_t>(groups()), std::uint8_t{1});
+        group * std::count(marks, marks + static_cast<std::ptrdiff_t>(groups()), std::uint8_t{1});
   }
   /// Sets `count` pixels from x0 on to the means over their parts. scene: with parts for pixels.
   void divide(const SceneView& scene, int parts, int x0, int y, int count) const {
-    const float share = 1.0f / static_cast<float>(parts * parts);
-    FirstHit hits[group * most_parts];
-    FirstSeen mean[group];
+    FirstHit hits[together];
+    float sum[together][planes] = {};  // of each pixel
+    Sharpness sharpness(scene);
     const int left = parts * (region.x0 + x0), top = parts * (region.y0 + y);
     for (int line = top; line < top + parts; ++line) {
       engine.kernels.first_hits(scene, {left, line, left + parts * count, line + 1}, hits);
       for (int i = 0; i < parts * count; ++i) {
-        const FirstSeen part = seen_at(hits[i]);
-        FirstSeen& to = mean[i / parts];
-        to.albedo = to.albedo + share * part.albedo;
-        to.normal = to.normal + share * part.normal;
-        to.nearness += share * part.nearness;
-        to.sharp = to.sharp && part.sharp;
+        const FirstHit& hit = hits[i];
+        float* to = sum[i / parts];
+        to[0] += hit.albedo.x, to[1] += hit.albedo.y, to[2] += hit.albedo.z;
+        to[3] += hit.normal.x, to[4] += hit.normal.y, to[5] += hit.normal.z;
+        to[depth_plane] += hit.element < 0 ? 0 : 1 / (1 + hit.depth * per_depth);
+        to[sharp_plane] += sharpness.of(hit.element) ? 1.0f : 0.0f;
       }
     }
-    for (int i = 0; i < count; ++i) put_first_seen(mean[i], x0 + i, y, input);
+    const float share = 1.0f / static_cast<float>(parts * parts);  // a power of two
+    for (int k = 0; k < planes; ++k)
+      for (int i = 0; i < count; ++i) row(k, y)[x0 + i] = share * sum[i][k];
+    for (int i = 0; i < count; ++i) row(sharp_plane, y)[x0 + i] = share * sum[i][sharp_plane] < 1 ? 0.0f : 1.0f;
+  }
+  /// Divides the unlike pixels of a row, as many together as fill the lanes.
+  void divide_row(const SceneView& scene, int parts, int y, const std::atomic<bool>& give_up) const {
+    const std::uint8_t* marks = unlike.data() + static_cast<std::size_t>(y) * groups();
+    for (int x = 0; x < width() && !give_up.load(std::memory_order_relaxed);) {
+      int end = x;
+      while (end < width() && end - x < together / parts && marks[end / group] != 0) end += group;
+      if (end > x) divide(scene, parts, x, y, std::min(end, width()) - x);
+      x = std::max(end, x + group);
+    }
   }
 };
 
@@ -145,11 +183,7 @@ bool find_first_seen(const Region& region, const RenderEngine& engine, const std
   made.parts = parts_of_pixels(made, input.spp);
   if (made.parts == 1) return true;
   const SceneView scene = divided(engine.scene, made.parts);
-  return each_row([&](int y) {
-    const std::uint8_t* unlike = finder.unlike.data() + static_cast<std::size_t>(y) * finder.groups();
-    for (int x = 0; x < region.width() && !give_up.load(std::memory_order_relaxed); x += group)
-      if (unlike[x / group] != 0) finder.divide(scene, made.parts, x, y, std::min(group, region.width() - x));
-  });
+  return each_row([&](int y) { finder.divide_row(scene, made.parts, y, give_up); });
 }
 
 }  // namespace tyndall

@@ -1,0 +1,98 @@
+#pragma once
+#include "core/clean/choice.h"
+
+/// How wrong the chosen picture is: choice.h has the formula.
+namespace tyndall::filter {
+
+/// A sum over a row of pixels, which are dealt out to so many slots that the order is the same for all numbers of
+/// lanes.
+struct RowSum {
+  static constexpr int slots = 16;
+  alignas(64) float slot[slots] = {};
+
+  double total() const {
+    double sum = 0;
+    for (int i = 0; i < slots; ++i) sum += static_cast<double>(slot[i]);
+    return sum;
+  }
+};
+
+/// Adds the values of pixels from x on.
+template <class F>
+TYNDALL_INLINE void add_pixels(F values, int x, RowSum& sum) {
+  float* slot = sum.slot + x % RowSum::slots;
+  store(slot, load<F>(slot) + values);
+}
+
+/// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
+/// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
+/// is brighter than those around, the level is raised towards its own mean, the more its two halves agree.
+template <class F>
+TYNDALL_INLINE F known_level(F a, F b, F around) {
+  const F both = a + b, apart = F(2.0f) * (a - b);
+  const F agreed = max(neg_mul_add(apart, apart, both * both) / max(both * both, F(1e-30f)), F(0.0f));
+  return mul_add(agreed, max(F(0.5f) * both - around, F(0.0f)), around);
+}
+
+/// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because
+/// numbers were too large for single precision, becomes raw.
+template <class F>
+TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
+  RowSum bias_sum, noise_sum, squares;
+  for (int x = 0; x < v.width; x += lanes_of<F>) {
+    for (int output = 0; output < outputs; ++output)
+      fetch(v, v.half[output], y + 2, x), fetch(v, v.filtered[output], y + 1, x);
+    const std::ptrdiff_t at = y * v.stride + x;
+    const F others = pixels_around<F>(v, y, x, 1) - F(1.0f);
+    F bias = F(0.0f), noise = F(0.0f), picture[3];
+    for (int c = 0; c < 3; ++c) {
+      const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
+      F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
+      const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
+      pa = select(finite, pa, a), pb = select(finite, pb, b);
+      picture[c] = F(0.5f) * (pa + pb);
+      const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x) - (a + b);
+      const F around = max(F(0.5f) * raw / max(others, F(1.0f)), F(0.0f));
+      const F level = max(min(picture[c], known_level(a, b, around)), F(0.0f));
+      const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
+      bias = mul_add((pa - a) * (pb - b), per, bias);
+      noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);
+    }
+    for (int c = 0; c < 3; ++c) store(v.filtered[c] + at, picture[c]);
+    const auto inside = less(places<F>(x), splat<F>(static_cast<float>(v.width)));
+    bias = select(inside, bias, F(0.0f)), noise = select(inside, noise, F(0.0f));
+    store(v.error + at, bias + noise);
+    add_pixels(bias, x, bias_sum);
+    add_pixels(noise, x, noise_sum);
+    add_pixels((bias + noise) * (bias + noise), x, squares);
+  }
+  clear_behind(v.error + y * v.stride, v.width);
+  v.row_bias[y] = bias_sum.total();
+  v.row_noise[y] = noise_sum.total();
+  v.row_squares[y] = squares.total();
+}
+
+/// The relative error of each pixel of a row: the root of the mean of view.error over the window around it. A mean that
+/// is negative by chance counts as 0.
+template <class F>
+TYNDALL_INLINE void tell_of(const FilterView& v, int y, float* pixel_error) {
+  alignas(64) float column[chunk + 64], root[chunk + 64];  // from x0 - row_margin on; from x0 on
+  for (int x0 = 0; x0 < v.width; x0 += chunk) {
+    const int count = least(chunk, v.width - x0);
+    for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
+      F sum = F(0.0f);
+      for (int k = most(y - window_reach, 0); k <= least(y + window_reach, v.height - 1); ++k)
+        sum = sum + load<F>(v.error + k * v.stride + x0 + x);
+      store(column + row_margin + x, sum);
+      fetch(v, v.error, y + window_reach + 1, x0 + x);
+    }
+    for (int x = 0; x < count; x += lanes_of<F>) {
+      F sum = F(0.0f);
+      for (int k = -window_reach; k <= window_reach; ++k) sum = sum + load<F>(column + row_margin + x + k);
+      store(root + x, sqrt(max(sum, F(0.0f)) / pixels_around<F>(v, y, x0 + x, window_reach)));
+    }
+    __builtin_memcpy(pixel_error + x0, root, static_cast<std::size_t>(count) * sizeof(float));
+  }
+}
+
+}  // namespace tyndall::filter
