@@ -9,6 +9,18 @@ find_package(fmt 8 CONFIG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(doctest 2.4 CONFIG QUIET)
 
+# Debian's {fmt} and OpenEXR are compiled with GNU's standard library. With libc++ {fmt} is taken from its headers, and
+# OpenEXR is left out unless -DTYNDALL_OPENEXR=ON says that there is one for libc++.
+include(CheckCXXSymbolExists)
+check_cxx_symbol_exists(_LIBCPP_VERSION ciso646 TYNDALL_LIBCXX)
+set(fmt_library fmt::fmt)
+if(TYNDALL_LIBCXX)
+  set(fmt_library fmt::fmt-header-only)
+  if(TYNDALL_OPENEXR STREQUAL "AUTO")
+    set(TYNDALL_OPENEXR OFF)
+  endif()
+endif()
+
 # stb: two headers, included as <stb_image.h>.
 find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
 add_library(tyndall_stb INTERFACE)

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 
 namespace tyndall {
 namespace {
@@ -14,11 +15,13 @@ namespace {
   throw UsageError("found " + in_quotes(printable(text)) + ", expected " + expected);
 }
 
-template <class T>
+template <std::integral T>
 bool read_all(std::string_view text, T& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size();
 }
+
+bool read_all(std::string_view text, double& value) { return number_from_text(text, value); }
 
 /// The parts of text between separators.
 std::vector<std::string_view> split(std::string_view text, char separator) {

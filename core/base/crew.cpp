@@ -16,7 +16,7 @@ Crew::Crew(int size) {
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int wanted = size > 0 ? size : machine;
   try {
-    for (int i = 0; i < wanted; ++i) threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+    for (int i = 0; i < wanted; ++i) threads_.emplace_back([this](const StopToken& stop) { work(stop); });
   } catch (const std::system_error& error) {
     throw IoError("cannot start thread " + std::to_string(threads_.size() + 1) + " of " + std::to_string(wanted) +
                   ": " + error.code().message() + thread_limit_text() + "; --threads says how many to start");
@@ -47,7 +47,7 @@ void Crew::for_each(int count, const std::function<void(int)>& job, const std::f
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void Crew::work(const std::stop_token& stop) {
+void Crew::work(const StopToken& stop) {
   for (std::uint64_t seen = 0;;) {
     std::unique_lock lock(mutex_);
     if (!wake_.wait(lock, stop, [&] { return round_ != seen; })) return;

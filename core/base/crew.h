@@ -1,11 +1,11 @@
 #pragma once
+#include "core/base/stoppable.h"
+
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 /// Threads that share work.
@@ -32,16 +32,16 @@ class Crew {
   void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
 
  private:
-  void work(const std::stop_token& stop);
+  void work(const StopToken& stop);
 
   std::mutex mutex_;
-  std::condition_variable_any wake_, done_;
+  StoppableCondition wake_, done_;
   const std::function<void(int)>* job_ = nullptr;
   int count_ = 0, busy_ = 0;
   std::uint64_t round_ = 0;
   std::atomic<int> next_ = 0;
-  std::exception_ptr failure_;         ///< what a job of this round threw first
-  std::vector<std::jthread> threads_;  // declared last, so that the threads end before what they use goes
+  std::exception_ptr failure_;            ///< what a job of this round threw first
+  std::vector<StoppableThread> threads_;  // declared last, so that the threads end before what they use goes
 };
 
 }  // namespace tyndall

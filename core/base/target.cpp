@@ -1,5 +1,9 @@
 #include "core/base/target.h"
 
+#if defined(TYNDALL_HAVE_AVX2)
+#include <cpuid.h>
+#endif
+
 namespace tyndall {
 namespace {
 
@@ -11,15 +15,24 @@ bool runs_sse4() {
 }
 #endif
 #if defined(TYNDALL_HAVE_AVX2)
+/// What the function that compilers have for such questions does not know by name in each of them: half floats, loads
+/// of reversed bytes, counts of leading zeros (Intel 64 and IA-32 Architectures Software Developer's Manual, CPUID).
+bool has_f16c_movbe_lzcnt() {
+  unsigned a = 0, b = 0, c = 0, extended = 0, d = 0;
+  if (!__get_cpuid(1, &a, &b, &c, &d)) return false;
+  if (!__get_cpuid(0x80000001u, &a, &b, &extended, &d)) return false;
+  return (c & bit_F16C) && (c & bit_MOVBE) && (extended & bit_LZCNT);
+}
 bool runs_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
          __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul") &&
-         __builtin_cpu_supports("f16c");
+         has_f16c_movbe_lzcnt();
 }
 #endif
 #if defined(TYNDALL_HAVE_AVX512)
 bool runs_avx512() {
-  return __builtin_cpu_supports("x86-64-v4") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
+  return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 }
 #endif
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace tyndall {
 namespace {
@@ -113,6 +115,22 @@ std::string number_text(double value) {
   std::array<char, 64> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, format).ptr;
   return {digits.data(), end};
+}
+
+bool number_from_text(std::string_view text, double& value) {
+#if defined(__cpp_lib_to_chars)
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+#else  // libc++ before 20
+  const std::string copy(text);
+  if (copy.empty() || copy.find_first_of("+xX \t\n\v\f\r") == 0 || copy.find_first_of("xX") != copy.npos) return false;
+  char* end = nullptr;
+  errno = 0;
+  const double read = std::strtod(copy.c_str(), &end);
+  if (errno == ERANGE || end != copy.c_str() + copy.size()) return false;
+  value = read;
+  return true;
+#endif
 }
 
 std::string_view closest(std::string_view name, const std::vector<std::string_view>& candidates) {

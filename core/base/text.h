@@ -20,6 +20,10 @@ std::string in_quotes(std::string_view text);
 /// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" where there is none.
 std::string number_text(double value);
 
+/// Reads the whole text as a number of decimal digits ("-1.5", "2e3"), whatever the language of the user; false, with
+/// the value as it was, if it is none. Also "inf" and "nan" are numbers.
+bool number_from_text(std::string_view text, double& value);
+
 /// The candidate that a misspelt name probably means: at most a third of its letters are wrong. Empty: there is none.
 std::string_view closest(std::string_view name, const std::vector<std::string_view>& candidates);
 

@@ -1,3 +1,4 @@
+#include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
@@ -46,11 +47,12 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
-template <class T>
-bool parse(std::string_view word, T& value) {
+bool parse(std::string_view word, int& value) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size();
 }
+
+bool parse(std::string_view word, double& value) { return number_from_text(word, value); }
 
 PfmHeader read_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   PfmHeader header;

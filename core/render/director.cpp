@@ -39,8 +39,7 @@ Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<vo
       crew_(std::make_unique<Crew>(threads)),
       clean_(kernels) {}
 
-void Director::run(const std::stop_token& stop) {
-  const std::stop_callback leave(stop, [this] { mail_.interrupt(); });
+void Director::run(const StopToken& stop) {
   while (mail_.wait(stop, [this](std::uint32_t limit) { return !stalled_ && (unfinished(limit) || clean_is_due()); })) {
     stalled_ = false;
     try {

@@ -42,7 +42,7 @@ class Director {
   Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame);
 
   /// Renders until a stop is requested.
-  void run(const std::stop_token& stop);
+  void run(const StopToken& stop);
 
  private:
   void go_on();

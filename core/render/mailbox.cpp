@@ -109,7 +109,7 @@ std::shared_ptr<const RenderScene> Mailbox::compiled() const {
   return compiled_;
 }
 
-bool Mailbox::wait(const std::stop_token& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
+bool Mailbox::wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
   std::unique_lock lock(mutex_);
   const bool news = news_.wait(lock, stop, [&] {
     return orders_.scene || orders_.restart || orders_.redraw || orders_.threads > 0 || !films_.empty() ||

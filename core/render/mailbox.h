@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/stoppable.h"
 #include "core/compile/render_scene.h"
 #include "core/film/film.h"
 #include "core/render/frame.h"
@@ -11,7 +12,6 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <stop_token>
 #include <vector>
 
 /// Where the threads that use a Renderer and the renderer's own thread meet.
@@ -66,7 +66,7 @@ class Mailbox {
 
   /// Sleeps until something was asked for or `unfinished`, called with the limit in samples a pixel, is true. False:
   /// the thread is to stop.
-  bool wait(const std::stop_token& stop, const std::function<bool(std::uint32_t limit)>& unfinished);
+  bool wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished);
   /// Takes what was asked for, and lowers the flag to give up.
   Orders take();
   std::vector<std::promise<Film>> take_film_requests();
@@ -85,7 +85,7 @@ class Mailbox {
   void wake(bool give_up);
 
   mutable std::mutex mutex_;  ///< guards all but give_up_
-  std::condition_variable_any news_;
+  StoppableCondition news_;
   std::atomic<bool> give_up_ = false;
 
   std::shared_ptr<const Scene> newest_;  ///< null: none came yet

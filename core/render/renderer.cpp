@@ -19,11 +19,11 @@ Kernels kernels_or_throw(const std::string& isa) {
 struct Renderer::State {
   Mailbox mail;
   Director director;
-  std::jthread thread;  // declared last, so that it has ended before what it uses goes
+  StoppableThread thread;  // declared last, so that it has ended before what it uses goes
 
   State(const Options& options, std::function<void()> on_frame)
       : director(mail, kernels_or_throw(options.isa), options.threads, std::move(on_frame)),
-        thread([this](const std::stop_token& stop) { director.run(stop); }) {}
+        thread([this](const StopToken& stop) { director.run(stop); }) {}
 };
 
 Renderer::Renderer(const Options& options, std::function<void()> on_frame)
@@ -31,6 +31,7 @@ Renderer::Renderer(const Options& options, std::function<void()> on_frame)
 
 Renderer::~Renderer() {
   state_->thread.request_stop();
+  state_->mail.interrupt();
   state_->thread.join();
   for (auto& request : state_->mail.take_film_requests()) request.set_value({});  // nobody may wait forever
 }

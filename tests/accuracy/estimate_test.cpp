@@ -1,4 +1,5 @@
 #include "core/accuracy/estimate.h"
+#include "tests/support/capture.h"
 
 #include "core/accuracy/error.h"
 
@@ -176,8 +177,8 @@ TEST_CASE("estimated error: pixels that have an empty half tell nothing about th
 
 TEST_CASE("estimated error: the same bits for any number of threads, and pictures of any shape") {
   for (const auto& [columns, rows] : {std::pair{1, 1}, {1, 2}, {1, 97}, {97, 1}, {2, 33}, {5, 5}, {61, 67}}) {
-    CAPTURE(columns);
-    CAPTURE(rows);
+    CAPTURE_BOUND(columns);
+    CAPTURE_BOUND(rows);
     Film film = make_film(100, 100, {3, 2, 3 + columns, 2 + rows}, 0, 2);
     std::mt19937 engine(7);
     for (FilmPixel& pixel : film.pixels) {

@@ -1,6 +1,7 @@
 // FLIP against numbers that do not come from this project's reading of the paper: what the authors' own program says,
 // and what can be worked out with pen and paper from published colours and from the integrals of the filters.
 #include "core/accuracy/flip.h"
+#include "tests/support/capture.h"
 
 #include <doctest/doctest.h>
 
@@ -92,8 +93,8 @@ TEST_CASE("FLIP gives the numbers of its authors' program") {
                                        {16, 16, 0.193135},
                                        {0, 12, 0.002275},
                                        {27, 2, 0.003745}}) {
-    CAPTURE(x);
-    CAPTURE(y);
+    CAPTURE_BOUND(x);
+    CAPTURE_BOUND(y);
     CHECK(at(map, width, x, y) == doctest::Approx(expected).epsilon(2e-4));
   }
   double sum = 0;
@@ -131,8 +132,8 @@ TEST_CASE("FLIP of a single pixel follows from the weights in the middle of its 
     double grey, pixel;
   };
   for (const auto& [grey, pixel] : {Greys{0.2, 0.3}, {0.2, 0.6}, {0.2, 1}, {0.5, 0}, {0.5, 0.4}, {0.8, 0.9}}) {
-    CAPTURE(grey);
-    CAPTURE(pixel);
+    CAPTURE_BOUND(grey);
+    CAPTURE_BOUND(pixel);
     const double seen = std::abs(lightness(grey + w * (pixel - grey)) - lightness(grey));
     const double colour = 0.95 * std::pow(seen, 0.7) / 16.5104, feature = std::sqrt(p * std::abs(pixel - grey));
     const auto [background, value] = std::array{static_cast<float>(grey), static_cast<float>(pixel)};

@@ -1,4 +1,5 @@
 #include "core/image/image_io.h"
+#include "tests/support/capture.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
@@ -100,8 +101,8 @@ TEST_CASE("writing: a full disk leaves the old file and no scraps") {
   const std::pair<rlim_t, int> cases[] = {{0, 4}, {0, 100}, {100, 100}, {6000, 100}};
   for (const auto& [room, size] : cases) {
     for (const auto& [name, write] : writers(size, size)) {
-      CAPTURE(name);
-      CAPTURE(room);
+      CAPTURE_BOUND(name);
+      CAPTURE_BOUND(room);
       write_text(folder / name, "old");
       std::string message;
       {

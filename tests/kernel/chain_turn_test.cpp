@@ -69,7 +69,7 @@ TEST_CASE("chains: as many ways are found as a search finds, and each turns as w
   std::uniform_real_distribution<double> u(0, 1);
   int differ = 0, count = 0;
   for (int i = 0; i < 300; ++i) {
-    const Words& w = all_words[i % std::size(all_words)];
+    const Words& w = all_words[static_cast<std::size_t>(i) % std::size(all_words)];
     const double near = 1.01 + 4 * u(engine), far = 1.1 + 4 * u(engine), angle = pi * u(engine);
     const ChainTurn<double> exact = turn_between(ball_of<double>(w.index, w.inner_radius), w.word, near, far);
     const ChainTurn<float> chain = turn_between(ball_of<float>(w.index, w.inner_radius),

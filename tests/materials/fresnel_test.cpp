@@ -1,4 +1,5 @@
 #include "core/materials/dielectric.h"
+#include "tests/support/capture.h"
 
 #include "core/base/math.h"
 #include "tests/support/statistics.h"
@@ -106,7 +107,7 @@ TEST_CASE("fresnel: critical and Brewster's angles") {
                                   {1.5, 41.810314895778596, 56.309932474020215},
                                   {2.417, 24.439743865451863, 67.52335735271564}};
   for (const auto& [index, critical, brewster] : angles) {
-    CAPTURE(index);
+    CAPTURE_BOUND(index);
     CHECK(fresnel(std::cos((critical + 1e-5) * degrees), 1 / index) == 1);
     const double below = fresnel(std::cos((critical - 1e-5) * degrees), 1 / index);
     CHECK(below < 1);

@@ -1,4 +1,5 @@
 #include "core/media/medium.h"
+#include "tests/support/capture.h"
 
 #include "tests/support/directions.h"
 #include "tests/support/event.h"
@@ -89,7 +90,7 @@ TEST_CASE("henyey-greenstein: Legendre moments are powers of g") {
   constexpr double forward[][2] = {
       {-0.5, 0.1708204}, {0.3, 0.7139635}, {0.75, 0.9333333}, {0.95, 0.9891119}, {0.999, 0.9997927}};
   for (const auto& [g, share] : forward) {
-    CAPTURE(g);
+    CAPTURE_BOUND(g);
     const CosineMoments m = cosine_moments<double>(g, 1000000), single = cosine_moments<float>(g, 1000000);
     CHECK(m.mean == doctest::Approx(g).epsilon(1e-6));
     CHECK(m.legendre2 == doctest::Approx(g * g).epsilon(1e-5));

@@ -1,4 +1,5 @@
 #include "core/kernel/path.h"
+#include "tests/support/capture.h"
 #include "tests/support/event.h"
 #include "tests/support/probe.h"
 
@@ -69,8 +70,8 @@ TEST_CASE("glass ball: turns a ray by Snell's law, straight through and after on
       {1.333, 0.9, 43.381615955587485, 138.44709743750923}, {1.5, 0.1, 3.833233495984885, 176.1881260374362},
       {1.5, 0.5, 21.057558731018624, 162.11511746203726},   {1.5, 0.9, 54.576339181977715, 160.83654389028968}};
   for (const auto& [index, impact, through, reflected] : cases) {
-    CAPTURE(index);
-    CAPTURE(impact);
+    CAPTURE_BOUND(index);
+    CAPTURE_BOUND(impact);
     const Scene scene = ball(index);
     // The scene's numbers are floats: 1.333 is known to 1e-8 only, 1.5 exactly.
     const double tolerance = index == 1.5 && impact == 0.5 ? 1e-9 : 1e-5;
@@ -103,7 +104,7 @@ TEST_CASE("hollow glass ball: a negative radius and a relative index turn rays a
   add(bubble, sphere({0, 0, 0}, -0.9), glass(1.5));
   add(relative, sphere({0, 0, 0}, 0.9), glass(1 / 1.5));
   for (const auto& [impact, expected, events] : cases) {
-    CAPTURE(impact);
+    CAPTURE_BOUND(impact);
     for (const Scene& scene : {bubble, relative}) {
       const Course course = follow<double>(scene, impact, {});
       CHECK(course.events == events);

@@ -1,3 +1,4 @@
+#include "tests/support/capture.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -65,7 +66,7 @@ TEST_CASE("slab: thick beyond sight, at any density and from any distance, also 
       for (const double angle : {0.0, 60.0}) {
         const bool far = seed % 2 == 0, glassy = seed % 3 == 0;
         CAPTURE(density);
-        CAPTURE(albedo);
+        CAPTURE_BOUND(albedo);
         CAPTURE(angle);
         CAPTURE(far);
         CAPTURE(glassy);

@@ -1,3 +1,4 @@
+#include "tests/support/capture.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -55,7 +56,7 @@ TEST_CASE("beer-lambert: balls, at any scale") {
       for (const char* isa : {"", "scalar"}) {
         if (*isa && (scale != 1 || impact != 0)) continue;
         CAPTURE(scale);
-        CAPTURE(density);
+        CAPTURE_BOUND(density);
         Scene scene = ball_seen_at(impact, scale);
         scene.render.seed = ++seed;
         add_medium(scene, sphere({0, 0, 0}, scale), {density / scale, 0}, 0);

@@ -1,3 +1,4 @@
+#include "tests/support/capture.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -69,8 +70,8 @@ TEST_CASE("coloured glass: a ball that absorbs inside") {
   for (const double scale : {1.0, 1e-3, 1e3})
     for (const auto& [index, density, impact, expected] : cases) {
       CAPTURE(scale);
-      CAPTURE(index);
-      CAPTURE(impact);
+      CAPTURE_BOUND(index);
+      CAPTURE_BOUND(impact);
       Scene scene = ball_seen_at(impact, scale);
       scene.render.seed = ++seed;
       add(scene, sphere({0, 0, 0}, scale), glass(index));

@@ -25,7 +25,8 @@ std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t>& p
   if (kind.progressive) jpeg_simple_progression(&info);
   jpeg_start_compress(&info, TRUE);
   while (info.next_scanline < info.image_height) {
-    const std::size_t row = static_cast<std::size_t>(info.next_scanline) * info.image_width * info.input_components;
+    const std::size_t row =
+        std::size_t{info.next_scanline} * info.image_width * static_cast<std::size_t>(info.input_components);
     JSAMPROW pointer = const_cast<JSAMPROW>(pixels.data() + row);
     jpeg_write_scanlines(&info, &pointer, 1);
   }

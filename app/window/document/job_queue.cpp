@@ -5,7 +5,7 @@
 namespace tyndall {
 
 JobQueue::JobQueue(std::function<void()> on_result)
-    : on_result_(std::move(on_result)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
+    : on_result_(std::move(on_result)), thread_([this](const StopToken& stop) { work(stop); }) {}
 
 JobQueue::~JobQueue() {
   thread_.request_stop();
@@ -31,7 +31,7 @@ bool JobQueue::collect() {
   return !results.empty();
 }
 
-void JobQueue::work(const std::stop_token& stop) {
+void JobQueue::work(const StopToken& stop) {
   for (;;) {
     Job job;
     {

@@ -1,9 +1,9 @@
 #pragma once
-#include <condition_variable>
+#include "core/base/stoppable.h"
+
 #include <deque>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 /// Work in the background.
@@ -32,15 +32,15 @@ class JobQueue {
   std::size_t open() const { return open_; }
 
  private:
-  void work(const std::stop_token& stop);
+  void work(const StopToken& stop);
 
   std::function<void()> on_result_;
   std::mutex mutex_;
-  std::condition_variable_any wake_;
+  StoppableCondition wake_;
   std::deque<Job> jobs_;
   std::vector<Result> results_;
-  std::size_t open_ = 0;  ///< jobs whose results were not collected; the main thread's
-  std::jthread thread_;   // declared last, because it uses the others
+  std::size_t open_ = 0;    ///< jobs whose results were not collected; the main thread's
+  StoppableThread thread_;  // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -1,0 +1,93 @@
+#pragma once
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#if !defined(__cpp_lib_jthread)
+#include <functional>
+#include <memory>
+#include <utility>
+#endif
+
+/// Threads that are asked to stop, and joined, when their owner goes: those of the standard library where it has them.
+/// libc++ has them from version 20 on; for older ones, here is as much as this program uses.
+namespace tyndall {
+
+#if defined(__cpp_lib_jthread)
+
+using StopToken = std::stop_token;
+using StoppableThread = std::jthread;
+using StoppableCondition = std::condition_variable_any;
+
+#else
+
+/// Whether the thread that got this token was asked to stop.
+class StopToken {
+ public:
+  bool stop_requested() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->requested;
+  }
+
+ private:
+  friend class StoppableThread;
+  friend class StoppableCondition;
+  struct State {
+    std::mutex mutex;
+    bool requested = false;
+    std::function<void()> wake;  ///< empty: the thread does not sleep
+  };
+  std::shared_ptr<State> state_ = std::make_shared<State>();
+};
+
+class StoppableThread {
+ public:
+  template <class Work>
+  explicit StoppableThread(Work work)
+      : token_(), thread_([work = std::move(work), token = token_]() mutable { work(token); }) {}
+  StoppableThread(StoppableThread&&) = default;
+  ~StoppableThread() {
+    if (!thread_.joinable()) return;
+    request_stop();
+    thread_.join();
+  }
+  void request_stop() {
+    std::function<void()> wake;
+    {
+      const std::lock_guard lock(token_.state_->mutex);
+      token_.state_->requested = true;
+      wake = token_.state_->wake;
+    }
+    if (wake) wake();
+  }
+  void join() { thread_.join(); }
+
+ private:
+  StopToken token_;  // declared first, because the thread gets a copy
+  std::thread thread_;
+};
+
+class StoppableCondition : public std::condition_variable_any {
+ public:
+  using std::condition_variable_any::wait;
+  /// Sleeps until the predicate holds or a stop was requested; whether the predicate holds.
+  template <class Predicate>
+  bool wait(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate) {
+    const auto wake = [this, mutex = lock.mutex()] {
+      { const std::lock_guard between_test_and_sleep(*mutex); }
+      notify_all();
+    };
+    while (!predicate()) {
+      {
+        const std::lock_guard state(stop.state_->mutex);
+        stop.state_->wake = wake;
+        if (stop.state_->requested) return false;
+      }
+      wait(lock);
+    }
+    return true;
+  }
+};
+
+#endif
+
+}  // namespace tyndall
