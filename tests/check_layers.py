@@ -22,7 +22,7 @@ LEVELS = [
     ["core/targets"],
     ["core/render"],
     ["app/text"],
-    ["app/files"],
+    ["app/files", "app/manual"],
     ["app/curves"],
     ["app/report"],
     ["app/window/system"],

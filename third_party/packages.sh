@@ -43,10 +43,15 @@ ensure_packages() {
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0
     -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300)
   local install=("${apt[@]}" install --no-install-recommends "${missing[@]}")
+  local log
   # A fresh machine has no package lists: the first try fails.
-  "${install[@]}" </dev/null >&2 || { "${apt[@]}" update </dev/null >&2 && "${install[@]}" </dev/null >&2; } || {
-    printf 'apt-get could not install them (its messages are above). Once that is mended, start this again, or as root run\n' >&2
-    printf '  apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
+  log=$("${install[@]}" </dev/null 2>&1) || log=$("${apt[@]}" update </dev/null 2>&1 && "${install[@]}" </dev/null 2>&1) || {
+    if grep -qE 'Could not resolve|Temporary failure|Could not connect|Unable to connect|unreachable' <<<"$log"; then
+      printf 'Tyndall needs packages, and no server of Debian can be reached; with a network, start this again, or: ' >&2
+    else
+      printf '%s\napt-get could not install them (its messages are above). As root run: ' "$log" >&2
+    fi
+    printf 'apt-get install -y --no-install-recommends %s\n' "${missing[*]}" >&2
     return 1
   }
   packages_changed=1
@@ -64,26 +69,65 @@ The window also needs glad 2 (pip install glad2) and Dear ImGui; to build with i
 MSG
 }
 
-# configure_build PRESET: configures build/PRESET once, and again after packages came in. Prints only what went wrong.
-# Works in the current folder, the root of the sources.
-configure_build() {
-  [ -f "build/$1/build.ninja" ] && [ "$packages_changed" = 0 ] && return 0
-  cmake --preset "$1" >/dev/null
+# build_folder PRESET: where it is built. In the sources' own folder "build", or, where that cannot be written, in the
+# user's cache.
+build_folder() {
+  local home=${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache} here
+  here=$(pwd -P)
+  local existing=build/$1
+  while [ ! -e "$existing" ]; do existing=$(dirname "$existing"); done
+  if [ -w "$existing" ]; then
+    printf 'build/%s\n' "$1"
+  else
+    printf '%s/tyndall/%s-%s\n' "$home" "$1" "$(printf '%s' "$here" | cksum | cut -d ' ' -f 1)"
+  fi
 }
 
-# compile PRESET [ARGUMENT...]: builds build/PRESET with one compiler for each processor. Ninja alone would start two more:
-# on two processors four of them get in each other's way, and the same files take half as long again.
+# configure_build PRESET: configures the folder once, and again after packages came in. Prints only what went wrong.
+# Works in the current folder, the root of the sources.
+configure_build() {
+  local folder
+  folder=$(build_folder "$1")
+  [ -f "$folder/build.ninja" ] && [ "$packages_changed" = 0 ] && return 0
+  if ! mkdir -p "$folder" 2>/dev/null; then
+    printf 'Tyndall can be built neither in %s/build nor in %s: both cannot be written\n' "$(pwd -P)" "$folder" >&2
+    return 1
+  fi
+  [ "$folder" = "build/$1" ] || printf 'the sources cannot be written to, so Tyndall is built in %s\n' "$folder" >&2
+  cmake --preset "$1" -B "$folder" >/dev/null
+}
+
+# compile PRESET [ARGUMENT...]: builds it with one compiler for each processor. Ninja alone would start two more: on two
+# processors four of them get in each other's way, and the same files take half as long again. Where nobody sees ninja's
+# progress, a line now and then says how far it is, and the messages of the compiler come only when something failed.
 compile() {
-  local preset=$1
+  local folder log status=0
+  folder=$(build_folder "$1")
   shift
-  cmake --build "build/$preset" --parallel "$(nproc)" "$@"
+  if [ -t 2 ]; then
+    cmake --build "$folder" --parallel "$(nproc)" "$@" >&2
+    return
+  fi
+  log=$folder/build.log
+  cmake --build "$folder" --parallel "$(nproc)" "$@" >"$log" 2>&1 &
+  local builder=$! seconds=0
+  while kill -0 "$builder" 2>/dev/null; do
+    sleep 1
+    seconds=$((seconds + 1))
+    [ $((seconds % ${TYNDALL_TELL_SECONDS:-30})) -ne 0 ] || printf 'building: %s files after %d s\n' \
+      "$(grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -1 | tr -d '[]' | sed 's,/, of ,')" "$seconds" >&2
+  done
+  wait "$builder" || status=$?
+  [ "$status" -eq 0 ] || cat "$log" >&2
+  return "$status"
 }
 
 # say_how_long PRESET TARGET MINUTES: where nobody sees ninja's progress, a first build says how long it takes. MINUTES
 # on two cores, without a compiler cache.
 say_how_long() {
   [ -t 2 ] && return 0
-  local program=build/$1/tyndall
-  [ "$2" = all ] && program=build/$1/tests/core_tests
+  local program
+  program=$(build_folder "$1")/tyndall
+  [ "$2" = all ] && program=${program%tyndall}tests/core_tests
   [ -e "$program" ] || printf 'building, about %s minutes\n' "$3" >&2
 }

@@ -166,7 +166,8 @@ std::string overview() {
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
-         "  -V, --version show the version\n\n"
+         "  -V, --version show the version, the compiler, instruction sets and libraries\n"
+         "  help man, help bash, help zsh, help fish: the manual's page; completion for a shell\n\n"
          "Exit codes: 0 done; 1 a check failed; 2 wrong usage or a scene that cannot be read;\n"
          "3 input, output or display error; 130 Ctrl-C; 128 and its number: another signal.\n";
 }
@@ -182,13 +183,27 @@ void refuse_misspelt_command(Text word, bool alone) {
   throw UsageError("unknown command " + in_quotes(word) + hint);
 }
 
+Command read_help(Words words) {
+  if (words.empty()) return PrintCommand{overview(), {}};
+  std::string (*const writers[])(const std::vector<CommandPage>&) = {man_page, bash_completion, zsh_completion,
+                                                                     fish_completion};
+  const std::size_t form = read_name(words[0], {"man", "bash", "zsh", "fish"});
+  std::vector<CommandPage> pages;
+  for (const Entry& entry : entries) {
+    pages.push_back(std::get<PrintCommand>(entry.read({"--help"})).page);
+    pages.back().summary = entry.about;
+  }
+  return PrintCommand{writers[form](pages), {}};
+}
+
 }  // namespace
 
 Command read_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return ViewCommand{};
   const std::string& first = arguments.front();
-  if (first == "-h" || first == "--help" || first == "help") return PrintCommand{overview()};
-  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{"tyndall " TYNDALL_VERSION "\n"};
+  if (first == "-h" || first == "--help") return PrintCommand{overview(), {}};
+  if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
+  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text(), {}};
   for (const Entry& entry : entries)
     if (first == entry.name) return entry.read({arguments.begin() + 1, arguments.end()});
   refuse_misspelt_command(first, arguments.size() == 1);

@@ -101,18 +101,17 @@ void add_machine_options(CLI::App& app, int& threads, std::string& isa) {
 }
 
 void add_isa(CLI::App& app, std::string& isa) {
-  add_value(app, "--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", [&](Text t) {
-    read_name(t, {"scalar", "sse4", "avx2", "avx512"});
-    isa = t;
-  });
+  const std::vector<std::string> names{"scalar", "sse4", "avx2", "avx512"};
+  const auto read = [&isa, names](Text t) { isa = names[read_name(t, names)]; };
+  add_value(app, "--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", read, names);
 }
 
 void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form) {
   add_values(app, "-o,--output", "FILE", help, [&](Text t) { files.push_back(t); });
-  add_value(app, "--format", "NAME", "png, exr, pfm or hdr: the format of what goes to standard output", [&](Text t) {
-    read_name(t, {"png", "exr", "pfm", "hdr"});
-    form.format = t;
-  });
+  const std::vector<std::string> formats{"png", "exr", "pfm", "hdr"};
+  add_value(
+      app, "--format", "NAME", "png, exr, pfm or hdr: the format of what goes to standard output",
+      [&form, formats](Text t) { form.format = formats[read_name(t, formats)]; }, formats);
   add_value(app, "--exr-film", "yes|no",
             "whether .exr files hold the film itself, which merge, denoise,\n"
             "--resume and checkpoints need; without it they are smaller [yes]",
@@ -123,7 +122,8 @@ void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesy
 
 void add_progress(CLI::App& app, ProgressStyle& style) {
   const std::string help = wrapped("on standard error" + choices_text(style) + " [auto]", help_width);
-  add_value(app, "--progress", "NAME", help, [&](Text t) { read_option(t, {}, style); });
+  add_value(
+      app, "--progress", "NAME", help, [&](Text t) { read_option(t, {}, style); }, choices(style));
 }
 
 void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {

@@ -9,11 +9,12 @@ namespace {
 
 class HelpFormatter : public CLI::Formatter {
  public:
-  explicit HelpFormatter(std::string usage) : usage_("\nUsage: tyndall " + std::move(usage) + "\n") {
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) {
     column_width(30);
     label("Positionals", "Arguments");
   }
-  std::string make_usage(const CLI::App*, std::string) const override { return usage_; }
+  std::string make_usage(const CLI::App*, std::string) const override { return "\nUsage: tyndall " + usage_ + "\n"; }
+  const std::string& usage() const { return usage_; }
   /// CLI11 puts two empty lines between groups.
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
@@ -36,6 +37,30 @@ Reader named(const std::string& names, Reader read) {
       throw UsageError(name + ": " + error.what());
     }
   };
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  return text.empty() ? std::vector<std::string>() : CLI::detail::split(text, separator);
+}
+
+OptionPage page_of(const CLI::Option& option) {
+  OptionPage page{
+      {}, option.get_group(), option.get_option_text(), split(option.get_type_name(), '|'), option.get_description()};
+  for (const std::string& name : option.get_snames()) page.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) page.names.push_back("--" + name);
+  if (page.names.empty()) page.names = {option.get_name()};
+  if (page.choices.empty() && page.unit.find('|') != std::string::npos) page.choices = split(page.unit, '|');
+  if (page.unit == " " || option.get_expected_min() == 0) page.unit.clear();
+  return page;
+}
+
+CommandPage page_of(const CLI::App& app) {
+  const std::string name = app.get_name().substr(app.get_name().find(' ') + 1);
+  const auto formatter = std::static_pointer_cast<HelpFormatter>(app.get_formatter());
+  CommandPage page{name, {}, formatter->usage(), app.get_description(), app.get_footer(), {}, {}};
+  for (const CLI::Option* option : app.get_options())
+    (option->get_positional() ? page.arguments : page.options).push_back(page_of(*option));
+  return page;
 }
 
 /// Throws for the first word that is neither option nor argument.
@@ -63,8 +88,10 @@ std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::strin
   return app;
 }
 
-void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read) {
-  app.add_option_function<std::string>(names, named(names, std::move(read)), help)->option_text(unit);
+void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
+               const std::vector<std::string>& choices) {
+  CLI::Option* option = app.add_option_function<std::string>(names, named(names, std::move(read)), help);
+  option->option_text(unit)->type_name(CLI::detail::join(choices, "|"));  // the help shows the unit alone
 }
 
 void add_values(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help,
@@ -73,23 +100,23 @@ void add_values(CLI::App& app, const std::string& names, const std::string& unit
     for (const std::string& text : texts) read(text);
   };
   CLI::Option* option = app.add_option_function<std::vector<std::string>>(names, each, help);
-  option->option_text(unit)->allow_extra_args(false)->take_all();
+  option->option_text(unit)->type_name("")->allow_extra_args(false)->take_all();
 }
 
 void add_argument(CLI::App& app, const std::string& name, const std::string& help, std::string& text) {
-  app.add_option(name, text, help)->option_text(" ")->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  app.add_option(name, text, help)->option_text(" ")->type_name("")->multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }
 
 void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts) {
-  app.add_option(name, texts, help)->option_text(" ")->take_all();
+  app.add_option(name, texts, help)->option_text(" ")->type_name("")->take_all();
 }
 
-std::optional<std::string> parse(CLI::App& app, std::vector<std::string> words) {
+std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> words) {
   std::reverse(words.begin(), words.end());  // what CLI11 expects
   try {
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
-    return app.help();
+    return PrintCommand{app.help(), page_of(app)};
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();
     throw UsageError(text.substr(0, text.find(':')) + ": a value is missing" + see_help(app));

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/cli/requests.h"
 #include "app/text/values.h"
 
 #include <CLI/CLI.hpp>
@@ -24,16 +25,18 @@ inline constexpr std::size_t help_width = 66;
 std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::string& about,
                                       const std::string& examples = "");
 
-/// An option with a value. names: "-t,--threads"; unit: what the help calls the value.
-void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read);
+/// An option with a value. names: "-t,--threads"; unit: what the help calls the value; choices: the values that it
+/// takes, where they have names, for shells that complete them.
+void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
+               const std::vector<std::string>& choices = {});
 /// The same; may be given several times, each time with one value.
 void add_values(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read);
 /// Words without a dash.
 void add_argument(CLI::App& app, const std::string& name, const std::string& help, std::string& text);
 void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts);
 
-/// Reads the words after the command. Returns the help text if that is asked for. Throws UsageError, a line.
-std::optional<std::string> parse(CLI::App& app, std::vector<std::string> words);
+/// Reads the words after the command. Returns the help if that is asked for. Throws UsageError, a line.
+std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> words);
 /// Throws "WHAT is missing" unless it was given.
 void require(const CLI::App& app, bool given, const std::string& what);
 

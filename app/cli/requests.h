@@ -1,6 +1,7 @@
 #pragma once
 #include "app/files/outputs.h"
 #include "app/files/scene_request.h"
+#include "app/manual/page.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
 
@@ -109,6 +110,7 @@ struct ConvertCommand {
 /// A text to be printed and nothing else: help or the version.
 struct PrintCommand {
   std::string text;
+  CommandPage page;  ///< of the help of a command: what it says
 };
 
 using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,

@@ -65,6 +65,17 @@ std::string choices_text(const T&) {
   return text;
 }
 
+/// The names of the choices, if there are any.
+template <class T>
+std::vector<std::string> choices(const T&) {
+  if constexpr (NamedEnum<T>) {
+    const auto names = names_of<T>();
+    return {names.begin(), names.end()};
+  } else {
+    return {};
+  }
+}
+
 inline std::string default_text(double value) { return number_text(value); }
 inline std::string default_text(bool value) { return value ? "on" : "off"; }
 template <NamedEnum E>
@@ -90,12 +101,14 @@ void add_setting(CLI::App& app, Changes<Owner>& changes, const Field<Owner, T>& 
       app.add_flag_function(option_name(field.name), switch_on, help);
       return;
     }
-  add_value(app, option_name(field.name), placeholder(meaning_of(field), usual), help,
-            [&changes, field](const std::string& text) {
-              T value{};
-              read_option(text, meaning_of(field), value);
-              set(changes, field.value, value);
-            });
+  add_value(
+      app, option_name(field.name), placeholder(meaning_of(field), usual), help,
+      [&changes, field](const std::string& text) {
+        T value{};
+        read_option(text, meaning_of(field), value);
+        set(changes, field.value, value);
+      },
+      choices(usual));
 }
 
 /// Options for all fields of a struct but some.

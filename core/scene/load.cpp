@@ -4,7 +4,6 @@
 #include "core/image/image_io.h"
 #include "core/scene/check.h"
 #include "core/scene/json_tree.h"
-#include "core/scene/source_assets.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -110,9 +109,9 @@ fs::path assets_folder() {
   if (const char* chosen = std::getenv("TYNDALL_ASSETS"); chosen && *chosen) return chosen;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  fs::path installed = program.parent_path().parent_path() / "share" / "tyndall";
-  if (!error && fs::is_directory(installed / "scenes", error)) return installed;
-  if (fs::is_directory(fs::path(source_assets()) / "scenes", error)) return source_assets();
+  const fs::path folder = program.parent_path();
+  for (const fs::path& assets : {folder.parent_path() / "share" / "tyndall", folder / "assets"})
+    if (fs::is_directory(assets / "scenes", error)) return assets;
   return {};
 }
 

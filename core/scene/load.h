@@ -31,8 +31,8 @@ struct BuiltIn {
 /// The scenes in the assets folder, by name. Empty if there is no such folder.
 std::vector<BuiltIn> built_in_scenes();
 
-/// The folder with scenes/ and textures/: $TYNDALL_ASSETS, else share/tyndall of the installation, else that of the
-/// source tree; empty if there is none.
+/// The folder with scenes/ and textures/: $TYNDALL_ASSETS, else share/tyndall of the installation, else assets beside
+/// the program; empty if there is none.
 std::filesystem::path assets_folder();
 
 /// The scene with its relative texture files respelt so that a scene file in folder `to` finds what one in folder

@@ -1,0 +1,48 @@
+#include "app/manual/page.h"
+#include "core/base/target.h"
+
+namespace tyndall {
+namespace {
+
+std::string compiler_text() {
+#if defined(__clang__)
+  const std::string name = "clang " __clang_version__;
+#elif defined(__GNUC__)
+  const std::string name = "GCC " __VERSION__;
+#else
+  const std::string name = "unknown compiler";
+#endif
+#if defined(_LIBCPP_VERSION)
+  const std::string library = "libc++ " + std::to_string(_LIBCPP_VERSION / 1000);
+#elif defined(__GLIBCXX__)
+  const std::string library = "libstdc++ " + std::to_string(_GLIBCXX_RELEASE);
+#else
+  const std::string library = "unknown standard library";
+#endif
+  return name.substr(0, name.find_last_not_of(' ') + 1) + ", " + library + ", " TYNDALL_BUILD;
+}
+
+/// What this build has code for.
+constexpr char built_targets[] =
+    "scalar"
+#if defined(TYNDALL_HAVE_SSE4)
+    " sse4"
+#endif
+#if defined(TYNDALL_HAVE_AVX2)
+    " avx2"
+#endif
+#if defined(TYNDALL_HAVE_AVX512)
+    " avx512"
+#endif
+    ;
+
+}  // namespace
+
+std::string version_text() {
+  std::string runs;
+  for (const Target target : available_targets()) runs += (runs.empty() ? "" : " ") + std::string(name_of(target));
+  return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + built_targets +
+         "; this CPU runs " + runs + "\nlibraries  " TYNDALL_LIBRARIES "\n";
+}
+
+}  // namespace tyndall

@@ -1,0 +1,58 @@
+#include "app/manual/page.h"
+#include "core/base/target.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::vector<CommandPage> pages() {
+  const OptionPage scene{{"SCENE"}, "", "", {}, "a scene"};
+  const OptionPage output{{"-o", "--output"}, "Output", "FILE", {}, "the image; it's required"};
+  const OptionPage method{{"--method"}, "Method", "NAME", {"fast", "slow"}, "how [from the scene]"};
+  const OptionPage quiet{{"-q", "--quiet"}, "Output", "", {}, ".dots and \\ backslashes"};
+  return {{"paint",
+           "paint a scene",
+           "paint SCENE -o FILE",
+           "Paints.\n\nSlowly.",
+           "tyndall paint a.json",
+           {scene},
+           {output, method, quiet}},
+          {"list", "list: all of them", "list", "Lists.", "", {}, {}}};
+}
+
+}  // namespace
+
+TEST_CASE("manual: every option with its value, nothing that the formatter would take for a request") {
+  const std::string text = man_page(pages());
+  CHECK(has(text, ".SH PAINT\n.B tyndall paint SCENE \\-o FILE\n"));
+  CHECK(has(text, "Paints.\n.PP\nSlowly.\n"));
+  CHECK(has(text, ".SS Output\n.TP\n\\fB\\-o\\fR, \\fB\\-\\-output\\fR \\fIFILE\\fR\nthe image; it's required\n"));
+  CHECK(has(text, "\n\\&.dots and \\e backslashes\n"));
+  CHECK(has(text, ".nf\ntyndall paint a.json\n.fi\n"));
+}
+
+TEST_CASE("completion: names, choices and files") {
+  const std::string bash = bash_completion(pages());
+  CHECK(has(bash, "'paint -o' | 'paint --output') _tyndall_files \"$word\"; return ;;"));
+  CHECK(has(bash, "'paint --method') words='fast slow' ;;"));
+  CHECK(has(bash, "paint) words='-o --output --method -q --quiet' ;;"));
+  const std::string fish = fish_completion(pages());
+  CHECK(has(fish, "-s o -l output -r -F -d 'the image'"));
+  CHECK(has(fish, "-l method -x -a 'fast slow' -d 'how'"));
+  CHECK(has(fish, "-a list -d 'list'"));
+  const std::string zsh = zsh_completion(pages());
+  CHECK(has(zsh, "'*'{-o,--output}'[the image]:FILE:_files'"));
+  CHECK(has(zsh, "'*'--method'[how]:NAME:(fast slow)'"));
+  CHECK(has(zsh, "'*'{-q,--quiet}'[.dots and \\ backslashes]'"));
+}
+
+TEST_CASE("version: the compiler, all targets of this build, the libraries") {
+  const std::string text = version_text();
+  CHECK(text.rfind("tyndall " TYNDALL_VERSION "\ncompiler   ", 0) == 0);
+  for (const Target target : available_targets()) CHECK(has(text, std::string(" ") + name_of(target)));
+  CHECK(has(text, "\nlibraries  CLI11 "));
+}

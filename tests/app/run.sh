@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# What ./run says while it builds without a terminal, on sources that cannot be written to, and without a network. CMake,
+# dpkg-query and apt-get are stand-ins here.
+. "$(dirname "$0")/_common.sh"
+mkdir -p tree stand-ins
+cp -r "$source_root/run" "$source_root/third_party" tree
+cat >stand-ins/cmake <<'MSG'
+#!/bin/sh
+case $1 in
+  --preset) mkdir -p "$4" && echo >"$4/build.ninja" ;;
+  --build)
+    for step in 1 2 3; do echo "[$step/3] Building CXX object"; sleep 0.7; done
+    [ -z "$BROKEN" ] || { echo "a message of the compiler"; exit 1; }
+    printf '#!/bin/sh\necho "ran $*"\n' >"$2/tyndall" && chmod +x "$2/tyndall" ;;
+esac
+MSG
+printf '#!/bin/sh\nexit 1\n' >stand-ins/dpkg-query
+printf '#!/bin/sh\necho "Err: Could not resolve deb.debian.org"; echo "E: many lines"; exit 100\n' >stand-ins/apt-get
+chmod +x stand-ins/* && chmod -R a+rX . && chmod a+rx "$PWD"
+export PATH=$PWD/stand-ins:$PATH TYNDALL_TELL_SECONDS=1
+
+expect 0 env TYNDALL_SKIP_PACKAGES=1 tree/run version
+same 'standard output' 'ran version' "$(cat out)"
+grep -q '^building, about 2 minutes$' err || fail "the time of a build is not told: $(cat err)"
+grep -q '^building: [23] of 3 files after [12] s$' err || fail "progress is not told: $(cat err)"
+expect 1 env TYNDALL_SKIP_PACKAGES=1 BROKEN=1 tree/run version
+grep -q '^a message of the compiler$' err || fail "the compiler's message is lost: $(cat err)"
+
+# Another user: the sources cannot be written to.
+rm -rf tree/build && mkdir -m 777 cache
+if [ "$(id -u)" = 0 ] && setpriv --reuid 65534 --regid 65534 --clear-groups test -x "$PWD/tree/run"; then
+  as_other=(setpriv --reuid 65534 --regid 65534 --clear-groups)
+  expect 0 "${as_other[@]}" env TYNDALL_SKIP_PACKAGES=1 XDG_CACHE_HOME="$PWD/cache" tree/run version
+  grep -q "cannot be written to, so Tyndall is built in $PWD/cache/tyndall" err || fail "the other folder is not told: $(cat err)"
+  expect 1 "${as_other[@]}" env TYNDALL_SKIP_PACKAGES=1 XDG_CACHE_HOME=/nowhere tree/run version
+  same 'lines' 1 "$(grep -c 'both cannot be written' err)"
+  [ "$(wc -l <err)" = 1 ] || fail "expected one line: $(cat err)"
+fi
+
+if [ "$(id -u)" = 0 ]; then
+  expect 1 tree/run version
+  grep -v '^installing packages' err >rest
+  [ "$(wc -l <rest)" = 1 ] || fail "expected one line without a network: $(cat rest)"
+  grep -q 'no server.*apt-get install .*g++' rest || fail "no network: $(cat rest)"
+fi
+finish

@@ -1,0 +1,47 @@
+# "cmake --install" and, by CPack, a Debian package and an archive. Included by CMakeLists.txt.
+install(TARGETS tyndall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES assets/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
+install(DIRECTORY assets/scenes assets/textures assets/verify DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall
+        FILES_MATCHING REGEX "\\.(json|csv|png|jpg)$")
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(FILES app/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES assets/desktop/tyndall.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+install(FILES assets/desktop/tyndall.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+install(FILES assets/desktop/tyndall.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+
+# The manual's page and the completion of shells are printed by the program itself, while it is installed.
+set(manual ${PROJECT_BINARY_DIR}/manual)
+file(MAKE_DIRECTORY ${manual})
+function(tyndall_printed form file folder)
+  install(CODE "execute_process(COMMAND ${CMAKE_CROSSCOMPILING_EMULATOR} \"$<TARGET_FILE:tyndall>\" help ${form}
+                                OUTPUT_FILE \"${manual}/${file}\" COMMAND_ERROR_IS_FATAL ANY)")
+  install(FILES ${manual}/${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder})
+endfunction()
+tyndall_printed(bash tyndall bash-completion/completions)
+tyndall_printed(zsh _tyndall zsh/site-functions)
+tyndall_printed(zsh _tyndall zsh/vendor-completions) # where Debian's own packages put theirs
+tyndall_printed(fish tyndall.fish fish/vendor_completions.d)
+find_program(GZIP_EXECUTABLE gzip REQUIRED)
+install(CODE "execute_process(COMMAND ${CMAKE_CROSSCOMPILING_EMULATOR} \"$<TARGET_FILE:tyndall>\" help man
+                              COMMAND \"${GZIP_EXECUTABLE}\" -9n
+                              OUTPUT_FILE \"${manual}/tyndall.1.gz\" COMMAND_ERROR_IS_FATAL ANY)")
+install(FILES ${manual}/tyndall.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+
+set(CPACK_GENERATOR "DEB;TGZ")
+set(CPACK_PACKAGE_NAME tyndall)
+set(CPACK_PACKAGE_VENDOR Tyndall)
+set(CPACK_PACKAGE_CONTACT "The authors of Tyndall <tyndall@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "progressive path tracer for glass, brushed metal and fog")
+set(CPACK_PACKAGE_DESCRIPTION "Computes pictures by following light paths at random, in a window where each value is a
+slider, or headless for tests and farms. It says how accurate each picture is, and gives the same bits
+for any number of threads and machines.")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_FILE_NAME tyndall-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+if(TARGET tyndall_window_libraries)
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri, fonts-roboto-unhinted, fonts-jetbrains-mono")
+endif()
+include(CPack)
