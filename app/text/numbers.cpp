@@ -1,10 +1,11 @@
 #include "app/text/numbers.h"
 
+#include "app/text/arithmetic.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace tyndall {
 namespace {
@@ -19,9 +20,16 @@ double round_to(double value, int exponent) {
   return std::round(value * per_unit) / per_unit;
 }
 
-double three_digits(double value) {
+double with_digits(double value, int digits) {
   if (value == 0) return 0;
-  return round_to(value, static_cast<int>(std::floor(std::log10(std::abs(value)))) - 2);
+  return round_to(value, static_cast<int>(std::floor(std::log10(std::abs(value)))) - digits + 1);
+}
+
+/// The number of 1, 2, 5 and 10 times a power of ten that is nearest by proportion. size > 0.
+double nearest_of_1_2_5(double size) {
+  const double power = std::floor(std::log10(size) + 1e-12), part = size / std::pow(10.0, power);
+  const double multiple = part < std::sqrt(2.0) ? 1 : part < std::sqrt(10.0) ? 2 : part < std::sqrt(50.0) ? 5 : 10;
+  return with_digits(multiple * std::pow(10.0, power), 1);
 }
 
 int step_exponent(const Slider& slider) {
@@ -44,24 +52,32 @@ double slider_position(const Slider& slider, double value) {
   return std::clamp(std::log(size / slider.low) / std::log(slider.high / slider.low), 0.0, 1.0);
 }
 
-double slider_value(const Slider& slider, double position, double before) {
+double slider_value(const Slider& slider, double position, double before, int finer) {
   const double t = std::clamp(position, 0.0, 1.0);
   if (!slider.logarithmic)
-    return std::clamp(round_to(slider.low + t * (slider.high - slider.low), step_exponent(slider)), slider.low,
+    return std::clamp(round_to(slider.low + t * (slider.high - slider.low), step_exponent(slider) - finer), slider.low,
                       slider.high) +
            0.0;
-  const double size = three_digits(slider.low * std::pow(slider.high / slider.low, t));
+  const double size = with_digits(slider.low * std::pow(slider.high / slider.low, t), 3 + finer);
   return std::copysign(std::clamp(size, slider.low, slider.high), before < 0 ? -1.0 : 1.0);
 }
 
-double dragged(const Slider& slider, double before, double steps) {
+double dragged(const Slider& slider, double before, double steps, int finer) {
   if (steps == 0) return before;
   if (slider.logarithmic && before != 0) {
     const double factor = std::exp(steps / 400 * std::log(slider.high / slider.low));
-    return three_digits(before * factor);
+    return with_digits(before * factor, 3 + finer);
   }
   const double range = slider.high - slider.low;
-  return round_to(before + steps / 400 * range, step_exponent(slider)) + 0.0;
+  return round_to(before + steps / 400 * range, step_exponent(slider) - finer) + 0.0;
+}
+
+double snapped(const Slider& slider, double value, bool fine) {
+  if (value == 0) return value;
+  if (slider.logarithmic)
+    return std::copysign(fine ? with_digits(std::abs(value), 2) : nearest_of_1_2_5(std::abs(value)), value);
+  const double step = nearest_of_1_2_5((slider.high - slider.low) / (fine ? 200 : 20));
+  return with_digits(std::round(value / step) * step, 12) + 0.0;
 }
 
 std::string format_value(const Slider& slider, double value) {
@@ -90,12 +106,9 @@ bool parse_number(const std::string& text, const std::string& unit, double& valu
   if (!unit.empty() && number.size() > unit.size() && number.ends_with(unit))
     number.resize(number.size() - unit.size());
   trim();
-  if (number.empty()) return false;
-  char* end = nullptr;
-  const double parsed = std::strtod(number.c_str(), &end);
-  if (*end != '\0' || !std::isfinite(parsed)) return false;
-  value = parsed;
-  return true;
+  const auto typed = evaluate(number);
+  if (typed) value = *typed;
+  return typed.has_value();
 }
 
 }  // namespace tyndall

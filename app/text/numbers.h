@@ -12,10 +12,13 @@ Slider widened(const Slider& slider, const Valid& valid, double value);
 /// Where a value is on a slider, in [0, 1]. Logarithmic sliders show the size and keep the sign.
 double slider_position(const Slider& slider, double value);
 /// The value at a position in [0, 1], rounded to what a user would type. `before` gives the sign on logarithmic
-/// sliders.
-double slider_value(const Slider& slider, double position, double before);
-/// The value after dragging a number sideways by `steps`: 400 of them cross the slider.
-double dragged(const Slider& slider, double before, double steps);
+/// sliders. finer: so many digits more.
+double slider_value(const Slider& slider, double position, double before, int finer = 0);
+/// The value after dragging a number sideways by `steps`: 400 of them cross the slider. finer: so many digits more.
+double dragged(const Slider& slider, double before, double steps, int finer = 0);
+/// The nearest round number: of about twenty even steps across the slider, or 1, 2 or 5 times a power of ten on a
+/// logarithmic one. fine: of ten times as many even steps, or of two digits.
+double snapped(const Slider& slider, double value, bool fine);
 
 /// "0.180", "34.0": with as many digits as steps of the slider have; very large or small values as format_short().
 std::string format_value(const Slider& slider, double value);
@@ -24,7 +27,8 @@ std::string format_short(double value);
 /// "1,024".
 std::string format_count(unsigned long long n);
 
-/// Reads what a user typed; a decimal comma, spaces and the unit are allowed. Returns whether it is a number.
+/// Reads what a user typed: a number or a sum ("1/4", "2*pi"); a decimal comma, spaces and the unit are allowed.
+/// Returns whether it is one.
 bool parse_number(const std::string& text, const std::string& unit, double& value);
 
 }  // namespace tyndall

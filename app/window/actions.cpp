@@ -2,14 +2,30 @@
 
 #include "app/window/accuracy/views.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace tyndall {
 namespace {
 
 // GLFW's numbers for keys that do not type a character.
-constexpr int key_escape = 256, key_tab = 258, key_home = 268, key_f1 = 290, key_f11 = 300, key_space = 32;
+constexpr int key_escape = 256, key_tab = 258, key_insert = 260, key_delete = 261, key_home = 268, key_f1 = 290,
+              key_f2 = 291, key_f11 = 300, key_space = 32;
 
 constexpr ActionEntry entries[] = {
     {Action::deselect, "deselect", {key_escape}},
+    {Action::grab, "move the selection", {'G'}, {}, "then X, Y or Z, the mouse or a number; Enter or Esc"},
+    {Action::add, "add an object", {key_insert}, {}, "at the cursor"},
+    {Action::duplicate, "duplicate", {'D', true}, {}, "", true},
+    {Action::remove, "delete", {key_delete}, {}, "", true},
+    {Action::rename, "rename", {key_f2}, {}, "", true},
+    {Action::own_material, "make single user", {}},
+    {Action::add_sphere, "add a sphere", {}},
+    {Action::add_hollow_ball, "add a hollow ball", {}},
+    {Action::add_box, "add a box", {}},
+    {Action::add_quad, "add a quad", {}},
+    {Action::add_lamp, "add a lamp", {}},
+    {Action::add_fog, "add fog", {}},
     {Action::frame, "frame the selection", {'F'}},
     {Action::reset_camera, "reset the camera", {key_home}, {}, "", true},
     {Action::pause, "pause or go on", {key_space}},
@@ -27,16 +43,19 @@ constexpr ActionEntry entries[] = {
     {Action::help, "this table", {key_f1}, {'H'}},
 };
 
-const HelpLine mouse_lines[] = {{"Left drag", "orbit"},
+const HelpLine mouse_lines[] = {{"Left drag", "orbit; on a handle of the selection: move, turn, size it"},
                                 {"Middle drag", "pan"},
                                 {"Right drag, wheel", "nearer, farther"},
                                 {"Ctrl + wheel", "field of view"},
                                 {"W A S D Q E", "fly; with Shift faster"},
-                                {"Click", "select the object under the cursor"},
+                                {"Click", "select the object under the cursor; again: what lies behind it"},
+                                {"Ctrl + click", "add to the selection"},
+                                {"Right click", "menu: add, duplicate, delete, rename"},
                                 {"Shift + click", "focus on that point"},
                                 {"Ctrl + Shift + click", "focus there, but keep the far blur as it is"},
                                 {"Drop a file", "open a scene or snapshot; other images become the reference"},
-                                {"Numbers", "drag sideways, or click and type; Shift: finer"}};
+                                {"Numbers, sliders", "drag, or click and type (1/4); Shift: finer, Ctrl: round"},
+                                {"Double click on them", "back to what the scene's file has"}};
 
 bool is_pressed(const Key& key, int code, Modifiers modifiers) {
   return code != 0 && key.code == code && key.control == modifiers.control && key.shift == modifiers.shift;
@@ -61,6 +80,7 @@ HelpLine views_line(bool of_errors) {
 
 /// A new line of the help table, or the end of the last one.
 void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
+  if (entry.key.code == 0) return;  // menus have it
   const std::string effect = entry.name + (*entry.help ? ": " + std::string(entry.help) : "");
   if (entry.on_line_of_previous) {
     lines.back().input += ", " + text_of(entry.key);
@@ -74,6 +94,12 @@ void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
 }  // namespace
 
 std::span<const ActionEntry> actions() { return entries; }
+
+const ActionEntry* find_action(Action action) {
+  const auto found = std::find_if(std::begin(entries), std::end(entries),
+                                  [action](const ActionEntry& entry) { return entry.action == action; });
+  return found == std::end(entries) ? nullptr : found;
+}
 
 std::optional<KeyCommand> command_of_key(int key, Modifiers modifiers) {
   if (modifiers.alt) return {};
@@ -93,6 +119,12 @@ std::string text_of(const Key& key) {
       return text + "Esc";
     case key_tab:
       return text + "Tab";
+    case key_insert:
+      return text + "Insert";
+    case key_delete:
+      return text + "Delete";
+    case key_f2:
+      return text + "F2";
     case key_home:
       return text + "Home";
     case key_f1:

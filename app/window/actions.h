@@ -27,8 +27,23 @@ enum class Action {
   panels,
   full_screen,
   quit,
-  help
+  help,
+  grab,
+  add,
+  duplicate,
+  remove,
+  rename,
+  own_material,
+  add_sphere,  // these in the order of Addition
+  add_hollow_ball,
+  add_box,
+  add_quad,
+  add_lamp,
+  add_fog
 };
+
+/// Whether the action adds an object.
+constexpr bool is_addition(Action action) { return action >= Action::add_sphere && action <= Action::add_fog; }
 
 /// A key with the modifiers that must be held with it, and no others. code: GLFW's number, for letters and digits their
 /// capital ASCII; 0: no key.
@@ -48,6 +63,8 @@ struct ActionEntry {
 
 /// All actions but the views, which views.h lists.
 std::span<const ActionEntry> actions();
+/// The entry of an action; null for Action::view.
+const ActionEntry* find_action(Action action);
 
 /// An action, and for Action::view which: the number of the view, see views.h.
 struct KeyCommand {

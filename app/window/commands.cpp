@@ -12,6 +12,8 @@ void Commands::take(const InputEvents& events) {
   for (const KeyPress& press : events.keys) {
     const auto command = command_of_key(press.key, press.modifiers);
     const bool answers = command && command->action == Action::deselect;
+    if (!press.typing && !asks() && objects_.has_keys() && objects_.take_key(press.key)) continue;
+    if (objects_.active() && !answers) continue;
     if (!command || (press.typing && !asks()) || (asks() && !answers)) continue;
     act(*command);
   }
@@ -60,15 +62,18 @@ void Commands::act(const KeyCommand& command) {
 }
 
 void Commands::act_on_document(Action action) {
+  if (objects_.act(action)) {
+    if (action == Action::rename) shows_panels_ = true;
+    return;
+  }
   switch (action) {
     case Action::frame:
       return frame_selection();
     case Action::reset_camera:
       return reset_camera();
     case Action::undo:
-      return session_.editor().undo();
     case Action::redo:
-      return session_.editor().redo();
+      return step(action);
     case Action::save:
       return save();
     case Action::save_as:
@@ -78,6 +83,15 @@ void Commands::act_on_document(Action action) {
     default:
       return;
   }
+}
+
+void Commands::step(Action action) {
+  const Scene before = session_.editor().scene();
+  if (action == Action::undo)
+    session_.editor().undo();
+  else
+    session_.editor().redo();
+  objects_.after_step(before);
 }
 
 void Commands::reset_camera() {
@@ -127,6 +141,11 @@ void Commands::ask_to_close() {
 void Commands::escape() {
   if (dialog_.kind == Dialog::Kind::changed_file) session_.editor().answer_about_file(false);
   if (closing_.cancel()) return;
+  if (popup_is_open()) {
+    panels_.close_popup = true;
+    return;
+  }
+  if (objects_.escape()) return;
   if (asks())
     dialog_.kind = Dialog::Kind::none;
   else if (shows_help_)
@@ -134,7 +153,7 @@ void Commands::escape() {
   else if (session_.messages().current().error)
     session_.messages().dismiss();
   else
-    panels_.selected.clear();
+    panels_.selected.clear(), panels_.also.clear();
 }
 
 void Commands::draw(Ui& ui, const Rect& area) {

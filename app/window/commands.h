@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/actions.h"
 #include "app/window/closing.h"
+#include "app/window/object_tools.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
 #include "app/window/session.h"
@@ -17,16 +18,20 @@ namespace tyndall {
 class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
-  Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures)
+  Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures,
+           ObjectTools& objects)
       : session_(session),
         platform_(platform),
         panels_(panels),
         pacing_(pacing),
         gestures_(gestures),
+        objects_(objects),
         closing_(session) {}
 
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
+  /// Carries out an action.
+  void act(const KeyCommand& command);
   /// Shows a view (index: see views.h). A view of errors needs something to measure against; without it the view stays
   /// and a message says why.
   void select_view(int index);
@@ -48,10 +53,10 @@ class Commands {
   bool shows_panels() const { return shows_panels_; }
 
  private:
-  void act(const KeyCommand& command);
   void act_on_document(Action action);
   void reset_camera();
   void frame_selection();
+  void step(Action action);
   void save();
   void save_as();
   void escape();
@@ -61,6 +66,7 @@ class Commands {
   PanelState& panels_;
   Pacing& pacing_;
   Gestures& gestures_;
+  ObjectTools& objects_;
   Dialog dialog_;
   Closing closing_;
   std::function<void()> later_;  ///< what carry_out() does; empty: nothing

@@ -37,7 +37,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       session_(
           options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
       picture_(session_),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures) {
+      objects_(session_, panels_, tools_.gestures, pacing_),
+      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_) {
   ui_.log = log_.get();
   panels_.facts.scenes = built_in_scenes();
   panels_.facts.accuracy = &session_.accuracy();
@@ -137,6 +138,7 @@ void MainWindow::draw(double now) {
   platform_.begin_frame();
   ui_.wake_in = 1e300;
   ui_.problem.clear();
+  ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
   if (fresh) picture_.take();
   // The old picture keeps its shape until the new one is there.
@@ -157,6 +159,7 @@ void MainWindow::draw(double now) {
 void MainWindow::fill_panels() {
   panels_.scene = session_.editor().scene();
   panels_.facts.frame = picture_.shown();
+  panels_.facts.saved = &session_.editor().document().origin->saved;
   panels_.facts.title = session_.editor().document().origin->title;
   panels_.facts.threads = session_.renderers().threads();
   panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
@@ -164,12 +167,12 @@ void MainWindow::fill_panels() {
   panels_.facts.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
-  if (!find_object(panels_.scene, panels_.selected)) panels_.selected.clear();
+  drop_lost_selection(panels_);
 }
 
 void MainWindow::draw_interface(const Layout& layout) {
   draw_column(ui_, panels_, layout.column);
-  draw_outline(ui_, layout.image, outline(panels_.scene, panels_.selected));
+  objects_.draw(ui_, layout);
   picture_.draw_halves(ui_, layout.image);
   const RendererPair& renderers = session_.renderers();
   const LiveAccuracy& accuracy = session_.accuracy();
@@ -190,32 +193,23 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   if (log_) log_->mouse(mouse);
   const std::set<int>& held = platform_.held();
   PointerTool& pointer = tools_.pointer;
-  tools_.gestures.update(mouse.any_down() || holds_fly_key(held) || pointer.is_turning(now));
+  tools_.gestures.update(mouse.any_down() || holds_fly_key(held) || pointer.is_turning(now) || objects_.active());
   const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.asks();
-  if (!picture_.drag_divider(ui_, layout.image, mouse, free) &&
-      pointer.update(mouse, layout, ui_.scale, !commands_.asks(), now, panels_.scene.camera))
-    click(layout, mouse);
-  const bool flies =
-      tools_.flight.update(mouse.control ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
-  if (flies) pacing_.wake_at(now + least_frame_interval);
-}
-
-void MainWindow::click(const Layout& layout, const Mouse& mouse) {
-  if (!layout.image.contains(mouse.x, mouse.y)) return;
-  const PictureClick click = click_at(layout.image, mouse.x, mouse.y, panels_.scene.width, panels_.scene.height);
-  const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
-  if (!mouse.shift) {
-    panels_.selected = clicked_object(panels_.scene, pick, click.at, panels_.selected);
-    pacing_.on_event();
-  } else if (pick.object.empty() || !(pick.depth > 0)) {
-    session_.messages().say("nothing to focus on there");
-  } else {
-    panels_.scene.camera = focus(panels_.scene.camera, pick.depth, mouse.control);
+  const bool divides = !objects_.active() && picture_.drag_divider(ui_, layout.image, mouse, free);
+  if (!divides && !objects_.use_mouse(mouse, layout, ui_.scale, free)) {
+    const bool opens = !commands_.asks() && !objects_.shows_menu();
+    const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
+    if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
   }
+  const bool grounded = mouse.control || objects_.active();
+  const bool flies =
+      tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
+  if (flies) pacing_.wake_at(now + least_frame_interval);
 }
 
 void MainWindow::apply_panels(double now) {
   const Wishes& wishes = panels_.wishes;
+  objects_.finish_edit();
   session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   commands_.carry_out();
@@ -231,6 +225,7 @@ void MainWindow::apply_panels(double now) {
     pacing_.on_new_start(now);
   }
   if (wishes.reference) commands_.ask_reference();
+  if (wishes.action) commands_.act({static_cast<Action>(*wishes.action)});
   if (wishes.threads) session_.set_threads(*wishes.threads);
   commands_.select_view(shows_errors(panels_.view) && !session_.can_show_errors() ? 0 : panels_.view);
   send(now);

@@ -45,7 +45,6 @@ class MainWindow {
   void fill_panels();
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
-  void click(const Layout& layout, const Mouse& mouse);
   void apply_panels(double now);
   void send(double now);
   void keep_message(double now);
@@ -63,6 +62,7 @@ class MainWindow {
   PanelState panels_;
   Pacing pacing_;
   Tools tools_;
+  ObjectTools objects_;
   Commands commands_;
   std::uint64_t paced_edit_ = 0;  ///< newest edit that pacing_ knows of
 };

@@ -10,7 +10,13 @@ bool History::record(Document next, std::uint64_t gesture) {
   if (next == current()) return false;
   steps_.resize(at_ + 1);
   if (open_ && gesture != 0 && gesture == gesture_) {
-    steps_[at_] = std::move(next);
+    if (at_ > 0 && next == steps_[at_ - 1]) {
+      steps_.pop_back();
+      --at_;
+      open_ = false;
+    } else {
+      steps_[at_] = std::move(next);
+    }
     return true;
   }
   steps_.push_back(std::move(next));

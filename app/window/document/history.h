@@ -19,8 +19,8 @@ class History {
   /// Goes back to the step that unsaved() returns.
   void go_to_unsaved();
   /// Makes `next` the current document and forgets what was undone; nothing happens if it equals the current one.
-  /// Edits of the same gesture (a drag, a turn of the wheel; 0: none) that follow each other are one step. Returns
-  /// whether it differs.
+  /// Edits of the same gesture (a drag, a turn of the wheel; 0: none) that follow each other are one step; no step is
+  /// left of a gesture that ends as it began. Returns whether it differs.
   bool record(Document next, std::uint64_t gesture);
   /// The file was written: all steps that came from it are from now on compared with what it holds. No step.
   void set_origin(const std::shared_ptr<const Origin>& origin);

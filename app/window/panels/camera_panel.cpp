@@ -17,12 +17,13 @@ std::string focus_meaning(const Scene& scene) {
 }
 
 /// Shows the distance that is in use, also where the scene leaves it open.
-void focus_row(Ui& ui, Scene& scene) {
-  Camera shown = scene.camera;
+void focus_row(Ui& ui, Scene& scene, const Camera& saved) {
+  Camera shown = scene.camera, original = saved;
   const double before = focus_distance(shown);
   shown.focus_distance = before;
+  original.focus_distance = focus_distance(saved);
   field_rows(
-      ui, shown, [](const auto& value, auto name) { return is_any_of<std::optional<double>>(value, name); },
+      ui, shown, &original, [](const auto& value, auto name) { return is_any_of<std::optional<double>>(value, name); },
       [&](std::string_view) { return focus_meaning(scene); });
   if (*shown.focus_distance != before) scene.camera.focus_distance = shown.focus_distance;
 }
@@ -39,10 +40,11 @@ void camera_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Camera", "Home: reset")) return;
   ui.scope = "camera.";
   Camera& camera = state.scene.camera;
-  field_rows(ui, camera, [](const auto& value, auto name) { return is_any_of<double>(value, name); });
-  focus_row(ui, state.scene);
+  const Camera* saved = &state.facts.saved->camera;
+  field_rows(ui, camera, saved, [](const auto& value, auto name) { return is_any_of<double>(value, name); });
+  focus_row(ui, state.scene, *saved);
   const bool plain_up = camera.vup == Vec3d{0, 1, 0};
-  field_rows(ui, camera, [&](const auto& value, std::string_view name) {
+  field_rows(ui, camera, saved, [&](const auto& value, std::string_view name) {
     return is_any_of<Vec3d>(value, name) && !(plain_up && name == "vup");
   });
   ui.scope.clear();
@@ -52,14 +54,18 @@ void background_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Background", "seen beyond all objects")) return;
   ui.scope = "background.";
   Background& background = state.scene.background;
+  const Background& saved = state.facts.saved->background;
   int kind = static_cast<int>(background.index());
-  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background), kind)) set_kind(background, kind);
+  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background), kind))
+    set_background_kind(background, kind, state.backgrounds);
   std::visit(Overloaded{[&](Vec3d& constant) {
                           Meaning radiance = colour_meaning("radiance");
                           radiance.slider.high = 2;
-                          colour_row(ui, row_of("colour", radiance, ""), constant);
+                          Row row = row_of("colour", radiance, "");
+                          if (const Vec3d* original = std::get_if<Vec3d>(&saved)) row.original = *original;
+                          colour_row(ui, row, constant);
                         },
-                        [&](auto& sky) { field_rows(ui, sky); }},
+                        [&](auto& sky) { field_rows(ui, sky, same_kind(sky, &saved)); }},
              background);
   ui.scope.clear();
 }

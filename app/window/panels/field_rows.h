@@ -85,20 +85,41 @@ constexpr bool is_any_of(const auto& value, std::string_view) {
   return (std::is_same_v<std::decay_t<decltype(value)>, T> || ...);
 }
 
-/// A row per field for which wanted(value, name) is true; said(name) is the grey line beneath.
+/// What a double click on a row sets: nothing for choices.
+template <class T>
+std::optional<Vec3d> original_of(const T& value) {
+  if constexpr (std::is_same_v<T, Vec3d>)
+    return value;
+  else if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>)
+    return Vec3d{static_cast<double>(value), 0, 0};
+  else
+    return {};
+}
+template <class T>
+std::optional<Vec3d> original_of(const std::optional<T>& value) {
+  return value ? original_of(*value) : std::nullopt;
+}
+
+/// A row per field for which wanted(value, name) is true; said(name) is the grey line beneath. saved: what the scene's
+/// file has, to which a double click goes back; null: it has no such thing, and the defaults count.
 template <class Owner, class Wanted, class Said>
-void field_rows(Ui& ui, Owner& owner, const Wanted& wanted, const Said& said) {
+void field_rows(Ui& ui, Owner& owner, const Owner* saved, const Wanted& wanted, const Said& said) {
+  static const Owner defaults{};
+  const Owner& original = saved ? *saved : defaults;
   const auto one = [&](const auto& field) {
     auto& value = owner.*(field.value);
-    if (wanted(value, std::string_view(field.name))) value_row(ui, row_of(field, said(field.name)), value);
+    if (!wanted(value, std::string_view(field.name))) return;
+    Row row = row_of(field, said(field.name));
+    row.original = original_of(original.*(field.value));
+    value_row(ui, row, value);
   };
   std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
 }
 
 /// The same, with the grey lines of meaning(owner, name) where the struct has them.
 template <class Owner, class Wanted>
-void field_rows(Ui& ui, Owner& owner, const Wanted& wanted) {
-  field_rows(ui, owner, wanted, [&]([[maybe_unused]] std::string_view name) -> std::string {
+void field_rows(Ui& ui, Owner& owner, const Owner* saved, const Wanted& wanted) {
+  field_rows(ui, owner, saved, wanted, [&]([[maybe_unused]] std::string_view name) -> std::string {
     if constexpr (requires { meaning(owner, name); })
       return meaning(owner, name);
     else
@@ -107,15 +128,14 @@ void field_rows(Ui& ui, Owner& owner, const Wanted& wanted) {
 }
 
 template <class Owner>
-void field_rows(Ui& ui, Owner& owner) {
-  field_rows(ui, owner, [](const auto&, std::string_view) { return true; });
+void field_rows(Ui& ui, Owner& owner, const Owner* saved) {
+  field_rows(ui, owner, saved, [](const auto&, std::string_view) { return true; });
 }
 
-/// Gives a variant the kind of that number, with its defaults.
-template <class... Kinds>
-void set_kind(std::variant<Kinds...>& variant, int number) {
-  int k = 0;
-  (void)((k++ == number && (variant = Kinds{}, true)) || ...);
+/// The same kind in another variant; null if that is of another kind, or null.
+template <class Kind, class Variant>
+const Kind* same_kind(const Kind&, const Variant* other) {
+  return other ? std::get_if<Kind>(other) : nullptr;
 }
 
 }  // namespace tyndall

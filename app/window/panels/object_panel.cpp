@@ -1,4 +1,5 @@
 #include "app/window/panels/field_rows.h"
+#include "app/window/panels/material_rows.h"
 #include "app/window/panels/panels.h"
 #include "core/base/kinds.h"
 
@@ -7,64 +8,33 @@
 namespace tyndall {
 namespace {
 
-/// Puts a prefix before the names of controls in the log, as long as it lives.
-class Scope {
- public:
-  Scope(Ui& ui, const std::string& name) : ui_(ui), before_(ui.scope) {
-    ui.scope += name + ".";
-    ImGui::PushID(ui.scope.c_str());
-  }
-  ~Scope() {
-    ImGui::PopID();
-    ui_.scope = before_;
-  }
-  Scope(const Scope&) = delete;
-  Scope& operator=(const Scope&) = delete;
-
- private:
-  Ui& ui_;
-  std::string before_;
-};
-
-void material_rows(Ui& ui, Scene& scene, int index, bool brief) {
-  Material& material = scene.materials[static_cast<std::size_t>(index)];
-  const Scope scope(ui, material.name);
-  std::visit([&](auto& kind) { field_rows(ui, kind); }, material.kind);
-  const char* name = colour_name(material.kind);
-  if (!name) return;
-  Row row = row_of(name, colour_meaning(name), "");
-  const Vec3d* colour = std::get_if<Vec3d>(&material.colour);
-  if (colour && !brief) row.meaning = colour_meaning(material, *colour);
-  colour_rows(ui, scene, material.colour, row);
+/// The object's counterpart in the scene's file; null: it has none at that path.
+const Object* saved_object(const PanelState& state, const ObjectPath& path) {
+  const Object *now = find_object(state.scene, path), *saved = find_object(*state.facts.saved, path);
+  return saved && saved->name == now->name && saved->kind.index() == now->kind.index() ? saved : nullptr;
 }
 
-void material_choice(Ui& ui, const Scene& scene, Solid3d& solid) {
-  std::vector<std::string> names;
-  for (const Material& material : scene.materials) names.push_back(material.name);
-  const int users = users_of(scene, solid.material);
-  Row row{"material", "Material", {}, {}, "", "which of the scene's materials it has", ""};
-  if (users > 1) row.meaning = "shared by " + std::to_string(users) + " objects: all of them change";
-  combo_row(ui, row, names, solid.material);
-}
-
-void transform_rows(Ui& ui, const char* prefix, Transform& transform) {
+void transform_rows(Ui& ui, const char* prefix, Transform& transform, const Transform* saved) {
   int number = 0;
   for (auto& step : transform)
     std::visit(
         [&]<class Step>(Step& move) {
           const auto field = std::get<0>(fields_of<Step>());
           Row row = row_of(field, "");
+          const auto k = static_cast<std::size_t>(number);
+          const Step* original = saved && k < saved->size() ? std::get_if<Step>(&(*saved)[k]) : nullptr;
+          if (original) row.original = original_of(original->*field.value);
           row.name = prefix + std::to_string(number++);
           value_row(ui, std::move(row), move.*field.value);
         },
         step);
 }
 
-void medium_rows(Ui& ui, Scene& scene, Volume& volume) {
-  field_rows(ui, volume.medium);
+void medium_rows(Ui& ui, PanelState& state, Volume& volume, const Volume* saved) {
+  field_rows(ui, volume.medium, saved ? &saved->medium : nullptr);
   Row row = row_of("albedo", colour_meaning("albedo"), "");
   if (const Vec3d* colour = std::get_if<Vec3d>(&volume.albedo)) row.meaning = albedo_meaning(volume.medium, *colour);
-  colour_rows(ui, scene, volume.albedo, row);
+  colour_rows(ui, state, volume.albedo, saved ? &saved->albedo : nullptr, std::move(row));
 }
 
 std::string kinds_of(const Scene& scene, const Object& object) {
@@ -75,77 +45,89 @@ std::string kinds_of(const Scene& scene, const Object& object) {
 }
 
 /// The rows that are shown of an object while nothing is selected: its material, and a metal ball's radius.
-void brief_section(Ui& ui, Scene& scene, const ObjectPath& path) {
-  Object& object = *find_object(scene, path);
-  if (!section(ui, title_of(scene, path), kinds_of(scene, object))) return;
+void brief_section(Ui& ui, PanelState& state, const ObjectPath& path) {
+  Object& object = *find_object(state.scene, path);
+  const Object* saved = saved_object(state, path);
+  if (!section(ui, title_of(state.scene, path), kinds_of(state.scene, object))) return;
   if (Volume* volume = std::get_if<Volume>(&object.kind)) {
-    const Scope scope(ui, title_of(scene, path));
-    field_rows(ui, volume->medium);
+    const Scope scope(ui, title_of(state.scene, path));
+    field_rows(ui, volume->medium, saved ? &std::get<Volume>(saved->kind).medium : nullptr);
     return;
   }
   Solid3d& solid = std::get<Solid3d>(object.kind);
-  material_rows(ui, scene, solid.material, true);
+  material_rows(ui, state, solid.material, true);
   Sphere<>* sphere = std::get_if<Sphere<>>(&solid.shape);
-  if (!sphere || !std::holds_alternative<Metal<>>(material_of(scene, object)->kind)) return;
-  const Scope scope(ui, title_of(scene, path));
-  field_rows(ui, *sphere, [](const auto&, std::string_view name) { return name == "radius"; });
+  if (!sphere || !std::holds_alternative<Metal<>>(material_of(state.scene, object)->kind)) return;
+  const Scope scope(ui, title_of(state.scene, path));
+  const Sphere<>* original = same_kind(*sphere, saved ? &std::get<Solid3d>(saved->kind).shape : nullptr);
+  field_rows(ui, *sphere, original, [](const auto&, std::string_view name) { return name == "radius"; });
 }
 
-void full_section(Ui& ui, Scene& scene, const ObjectPath& path) {
-  Object& object = *find_object(scene, path);
-  if (!section(ui, title_of(scene, path), kinds_of(scene, object))) return;
-  if (Solid3d* solid = std::get_if<Solid3d>(&object.kind)) {
-    material_rows(ui, scene, solid->material, false);
-    const Scope scope(ui, title_of(scene, path));
-    std::visit([&](auto& shape) { field_rows(ui, shape); }, solid->shape);
-    material_choice(ui, scene, *solid);
-    transform_rows(ui, "transform", object.transform);
-    return;
-  }
-  const Scope scope(ui, title_of(scene, path));
+void shape_rows(Ui& ui, auto& shape, const auto* saved) {
+  std::visit([&](auto& kind) { field_rows(ui, kind, same_kind(kind, saved)); }, shape);
+}
+
+/// The rows of a solid, a medium or a group, but for its name and its own transform.
+void kind_rows(Ui& ui, PanelState& state, Object& object, const Object* saved) {
+  if (Solid3d* solid = std::get_if<Solid3d>(&object.kind))
+    return shape_rows(ui, solid->shape, saved ? &std::get<Solid3d>(saved->kind).shape : nullptr);
   if (Volume* volume = std::get_if<Volume>(&object.kind)) {
-    medium_rows(ui, scene, *volume);
-    std::visit([&](auto& shape) { field_rows(ui, shape); }, volume->boundary);
-    transform_rows(ui, "boundary", volume->boundary_transform);
-  } else {
-    note(ui, std::to_string(std::get<Group>(object.kind).objects.size()) + " objects", false);
+    const Volume* before = saved ? &std::get<Volume>(saved->kind) : nullptr;
+    medium_rows(ui, state, *volume, before);
+    shape_rows(ui, volume->boundary, before ? &before->boundary : nullptr);
+    return transform_rows(ui, "boundary", volume->boundary_transform, before ? &before->boundary_transform : nullptr);
   }
-  transform_rows(ui, "transform", object.transform);
+  note(ui, std::to_string(std::get<Group>(object.kind).objects.size()) + " objects", false);
 }
 
-void texture_rows(Ui& ui, Texture& texture) {
-  const Scope scope(ui, texture.name);
-  std::visit(Overloaded{[&](Image& image) {
-                          text_row(ui, {"file", "Picture", {}, {}, "", image.file, ""}, image.file);
-                        },
-                        [&](auto& kind) { field_rows(ui, kind); }},
-             texture.kind);
+void full_section(Ui& ui, PanelState& state) {
+  ObjectPath& path = state.selected;
+  const Object* object = find_object(state.scene, path);
+  const std::string title = title_of(state.scene, path), also = std::to_string(state.also.size());
+  if (!section(ui, title, state.also.empty() ? kinds_of(state.scene, *object) : "and " + also + " more")) return;
+  const std::string scope_name = title;
+  const Solid3d* solid = std::get_if<Solid3d>(&object->kind);
+  if (solid) material_rows(ui, state, solid->material, false);
+  const Scope scope(ui, scope_name);
+  if (solid) surface_rows(ui, state, path);
+  Object& now = *find_object(state.scene, path);  // another type may have moved it in its list
+  const Object* saved = saved_object(state, path);
+  kind_rows(ui, state, now, saved);
+  transform_rows(ui, "transform", now.transform, saved ? &saved->transform : nullptr);
+  const Row name{"name", "Name", {}, {}, "", "of this object: key F2", ""};
+  name_row(ui, name, title, state.rename, now.name);
+  state.rename = false;
 }
 
 }  // namespace
 
-void colour_rows(Ui& ui, Scene& scene, ColourOrTexture& colour, const Row& row) {
-  if (Vec3d* rgb = std::get_if<Vec3d>(&colour)) {
-    colour_row(ui, row, *rgb);
-    return;
-  }
-  int& index = std::get<TextureIndex>(colour).index;
-  std::vector<std::string> names;
-  for (const Texture& texture : scene.textures) names.push_back(texture.name);
-  combo_row(ui, row, names, index);
-  texture_rows(ui, scene.textures[static_cast<std::size_t>(index)]);
+std::vector<ObjectPath> all_selected(const PanelState& state) {
+  std::vector<ObjectPath> all;
+  if (!state.selected.empty()) all.push_back(state.selected);
+  all.insert(all.end(), state.also.begin(), state.also.end());
+  return all;
+}
+
+void drop_lost_selection(PanelState& state) {
+  std::erase_if(state.also, [&](const ObjectPath& path) { return !find_object(state.scene, path); });
+  if (find_object(state.scene, state.selected)) return;
+  state.selected.clear();
+  if (state.also.empty()) return;
+  state.selected = state.also.front();
+  state.also.erase(state.also.begin());
 }
 
 void object_panel(Ui& ui, PanelState& state) {
   if (find_object(state.scene, state.selected)) {
+    if (state.rename) ui.folded.erase(title_of(state.scene, state.selected));
     ImGui::PushID("selected");
-    full_section(ui, state.scene, state.selected);
+    full_section(ui, state);
     ImGui::PopID();
     return;
   }
   for (const ObjectPath& path : interesting(state.scene)) {
     ImGui::PushID(path.back());
-    brief_section(ui, state.scene, path);
+    brief_section(ui, state, path);
     ImGui::PopID();
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
+#include "app/window/edit/material_edits.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/tools/selection.h"
 #include "core/render/renderer.h"
@@ -19,7 +20,8 @@ struct Wishes {
   bool export_chart = false;  ///< write the chart's curves into files
   bool reference = false;     ///< ask which picture errors are measured against
   std::optional<bool> split;
-  std::optional<int> clean;  ///< 0: off, 1: on, 2: beside the raw picture
+  std::optional<int> action;  ///< carry out that one of the list of actions
+  std::optional<int> clean;   ///< 0: off, 1: on, 2: beside the raw picture
 };
 
 /// What panels tell about the window, besides the scene.
@@ -28,6 +30,7 @@ struct PanelFacts {
   const LiveAccuracy* accuracy = nullptr;
   std::string kept_method;       ///< of the left half of a split view; "": there is no split view
   bool can_show_errors = false;  ///< there is something to measure the picture against
+  const Scene* saved = nullptr;  ///< what the scene's file holds
   std::vector<BuiltIn> scenes;
   std::string title;  ///< of the open scene
   int clean = 0;      ///< see Wishes
@@ -39,10 +42,19 @@ struct PanelState {
   PanelFacts facts;
   // Panels change these in place.
   Scene scene;
-  ObjectPath selected;
+  ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
+  std::vector<ObjectPath> also;  ///< further objects that are selected with it
+  bool rename = false;           ///< the name of the selected object is to be typed
+  bool close_popup = false;      ///< a list or a picker that is open closes in the next drawing
+  BackgroundMemory backgrounds;
   int view = 0;  ///< see view_entry()
   Wishes wishes;
 };
+
+/// All selected objects, the one whose values are shown first.
+std::vector<ObjectPath> all_selected(const PanelState& state);
+/// Forgets selected objects that the scene does not have.
+void drop_lost_selection(PanelState& state);
 
 /// All sections in the column, the chart at its foot.
 void draw_column(Ui& ui, PanelState& state, const Rect& column);
@@ -63,8 +75,5 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy);
 
 /// height: of the chart itself.
 void chart_panel(Ui& ui, PanelState& state, float height);
-
-/// Texture, or colour, of a material or medium, with the fields of the texture.
-void colour_rows(Ui& ui, Scene& scene, ColourOrTexture& colour, const Row& row);
 
 }  // namespace tyndall

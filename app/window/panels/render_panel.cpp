@@ -97,7 +97,7 @@ std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × "
 void image_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Image", "rendering goes on")) return;
   ui.scope = "image.";
-  field_rows(ui, state.scene.display);
+  field_rows(ui, state.scene.display, &state.facts.saved->display);
   clean_row(ui, state);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) {
@@ -114,10 +114,11 @@ void render_panel(Ui& ui, PanelState& state) {
   RenderSettings& render = state.scene.render;
   const auto said = [&state](std::string_view name) { return setting_meaning(state, name); };
   const auto is_choice = []<class T>(const T&, std::string_view) { return NamedEnum<T> || std::is_same_v<T, bool>; };
-  field_rows(ui, render, is_choice, said);
+  const RenderSettings* saved = &state.facts.saved->render;
+  field_rows(ui, render, saved, is_choice, said);
   split_row(ui, state);
   field_rows(
-      ui, render, [&](const auto& value, auto name) { return !is_choice(value, name); }, said);
+      ui, render, saved, [&](const auto& value, auto name) { return !is_choice(value, name); }, said);
   threads_row(ui, state);
   note(ui, contents_text(state.scene), false);
   ui.scope.clear();

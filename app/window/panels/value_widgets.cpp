@@ -73,6 +73,11 @@ bool edit_box(Ui& ui, const Row& row, double& value, float width) {
   ImGui::PopID();
   ImGui::PopStyleColor();
   ImGui::PopFont();
+  const bool untouched = ui.edit.start == ui.edit.text;
+  if (untouched && row.original && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+    ui.edit = {};  // the first click began to type, the second one sets the value back
+    return accept(row, row.original->x, value);
+  }
   const bool active = ImGui::IsItemActive();
   const bool tab = active && ui.edit.waited > 0 && compat::tab_pressed();  // not the Tab that has led here
   ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(palette::blue, 0.8f),
@@ -105,9 +110,34 @@ bool colour_picker(Ui& ui, Vec3d& value) {
       ImGui::ColorPicker3("##picker", rgb, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs);
   const auto decode = [&](float x) { return std::round(1e3 * scale * static_cast<double>(srgb_decode(x))) / 1e3; };
   if (changed) value = {decode(rgb[0]), decode(rgb[1]), decode(rgb[2])};
+  if (ui.close_popup) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   return changed;
 }
+
+/// Sets the value to what the scene's file has when the last item is clicked twice. Returns whether it differs.
+bool reset_by_double_click(Ui& ui, const Row& row, double& value) {
+  if (!row.original || !ImGui::IsItemHovered() || !ImGui::IsMouseDoubleClicked(0)) return false;
+  ui.drag.reset = true;
+  return accept(row, row.original->x, value);
+}
+
+/// Begins or goes on with a drag of the last item, which is active.
+void follow_mouse(Ui& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto mouse = static_cast<double>(io.MousePos.x);
+  if (ImGui::IsItemActivated()) ui.drag.last = mouse, ui.drag.way = 0, ui.drag.reset = false;
+  ui.drag.way += (mouse - ui.drag.last) * (io.KeyShift ? 0.1 : 1.0);
+  ui.drag.last = mouse;
+}
+
+/// The value that a drag gives, snapped while Ctrl is held.
+double snapped_by_keys(const Slider& range, double value) {
+  const ImGuiIO& io = ImGui::GetIO();
+  return io.KeyCtrl ? snapped(range, value, io.KeyShift) : value;
+}
+
+int finer_by_keys() { return ImGui::GetIO().KeyShift ? 1 : 0; }
 
 /// Three boxes in `width`, named x y z or r g b.
 bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* const names[3], bool fixed_digits) {
@@ -116,7 +146,10 @@ bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* 
   double* components[3] = {&value.x, &value.y, &value.z};
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, space);
-    changed = value_box(ui, names[k], row, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
+    Row part = row;
+    if (row.original)
+      part.original = Vec3d{k == 0 ? row.original->x : k == 1 ? row.original->y : row.original->z, 0, 0};
+    changed = value_box(ui, names[k], part, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
   }
   return changed;
 }
@@ -137,12 +170,15 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
     ui.drag.offset = std::abs(mouse - place_of(value)) <= grab / 2 ? mouse - place_of(value) : 0.0f;
     ui.drag.start = static_cast<double>(mouse);
   }
-  bool changed = false;
+  if (ImGui::IsItemActive()) follow_mouse(ui);
+  bool changed = reset_by_double_click(ui, row, value);
   // A press on the grab moves nothing until the mouse does.
-  const bool moved = ui.drag.offset == 0 || static_cast<double>(mouse) != ui.drag.start;
-  if (ImGui::IsItemActive() && moved && way > 0)
-    changed =
-        accept(row, slider_value(range, static_cast<double>((mouse - ui.drag.offset - first) / way), value), value);
+  const bool moved = ui.drag.offset == 0 || ui.drag.way != 0;
+  if (ImGui::IsItemActive() && moved && way > 0 && !ui.drag.reset) {
+    const double place =
+        (ui.drag.start + ui.drag.way - static_cast<double>(ui.drag.offset + first)) / static_cast<double>(way);
+    changed = accept(row, snapped_by_keys(range, slider_value(range, place, value, finer_by_keys())), value);
+  }
   draw_frame(ui);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float at = place_of(value), from = range.low < 0 && !range.logarithmic ? place_of(0) : a.x + pad;
@@ -165,15 +201,15 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
     return typed;
   }
   ImGui::InvisibleButton(id, {width, ImGui::GetFrameHeight()});
-  const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated()) ui.drag.start = value, ui.drag.moved = false;
+  if (ImGui::IsItemActive()) follow_mouse(ui);
   bool changed = false;
   if (ImGui::IsItemActive() && (ui.drag.moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
     ui.drag.moved = true;
-    const double steps =
-        static_cast<double>((io.MousePos.x - io.MouseClickedPos[0].x) / ui.scale) * (io.KeyShift ? 0.1 : 1.0);
-    changed = accept(row, dragged(row.slider, ui.drag.start, steps), value);
+    const double steps = ui.drag.way / static_cast<double>(ui.scale);
+    const double wanted = dragged(row.slider, ui.drag.start, steps, finer_by_keys());
+    changed = accept(row, snapped_by_keys(row.slider, wanted), value);
   }
   if (ImGui::IsItemDeactivated() && !ui.drag.moved) begin_edit(ui, item, text);
   draw_frame(ui);

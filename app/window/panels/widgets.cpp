@@ -188,15 +188,29 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
 }
 
 bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen) {
+  std::vector<Choice> choices;
+  for (const std::string& name : names) choices.push_back({name.c_str()});
+  return combo_row(ui, row, choices, chosen);
+}
+
+bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen) {
   begin_row(ui, row);
   ImGui::SetNextItemWidth(value_width(ui));
   bool changed = false;
-  const bool open = ImGui::BeginCombo("##list", names[static_cast<std::size_t>(chosen)].c_str());
-  log_item(ui, row.name, names[static_cast<std::size_t>(chosen)]);
+  const char* now = chosen >= 0 ? choices[static_cast<std::size_t>(chosen)].name : "";
+  const bool open = ImGui::BeginCombo("##list", now);
+  log_item(ui, row.name, now);
   if (open) {
-    for (int k = 0; k < static_cast<int>(names.size()); ++k)
-      if (ImGui::Selectable((names[static_cast<std::size_t>(k)] + "##" + std::to_string(k)).c_str(), k == chosen))
-        changed = changed || k != chosen, chosen = k;
+    for (int k = 0; k < static_cast<int>(choices.size()); ++k) {
+      const Choice& choice = choices[static_cast<std::size_t>(k)];
+      ImGui::PushID(k);
+      const ImGuiSelectableFlags flags = choice.missing ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
+      if (ImGui::Selectable(choice.name, k == chosen, flags)) changed = k != chosen, chosen = k;
+      ImGui::PopID();
+      log_item(ui, row.name + "." + choice.name, choice.missing ? "missing" : "item");
+      tooltip(ui, choice.missing ? choice.missing : choice.help);
+    }
+    if (ui.close_popup) ImGui::CloseCurrentPopup();
     ImGui::EndCombo();
   }
   end_row(ui, row);
@@ -210,6 +224,8 @@ void text_row(Ui& ui, const Row& row, const std::string& text) {
   ImGui::PopStyleColor();
   end_row(ui, row);
 }
+
+bool popup_is_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }
 
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width) {
   compat::push_font(ui.fonts.small);

@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -17,7 +18,7 @@ namespace tyndall {
 struct TextEdit {
   ImGuiID id = 0;     ///< of its box; 0: none
   std::string start;  ///< text when it began; unchanged text changes nothing
-  char text[64] = {};
+  char text[256] = {};
   bool started = false;  ///< the keyboard has reached it
   int waited = 0;        ///< drawings before it was reached
   bool next = false;     ///< Tab: the next box in the column is typed into
@@ -28,7 +29,10 @@ struct NumberDrag {
   double start = 0;  ///< its value when the drag began; on a slider where the mouse was
   Slider range;      ///< of the slider
   float offset = 0;  ///< from the mouse to the middle of the slider's grab
+  double last = 0;   ///< where the mouse was in the drawing before
+  double way = 0;    ///< how far the mouse went, window units; with Shift a tenth of it counts
   bool moved = false;
+  bool reset = false;  ///< a double click has set the value back: the mouse changes nothing until it is let go
 };
 
 /// The control under the mouse, whose tooltip comes after a moment.
@@ -49,6 +53,7 @@ struct Ui {
   NumberDrag drag;
   HoveredItem hovered;
   double wake_in = 1e300;        ///< seconds until something appears by itself
+  bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
   std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed
 };
@@ -64,6 +69,8 @@ struct Row {
   std::string meaning;   ///< grey line beneath; "": none
   bool whole = false;    ///< whole numbers only
   bool warning = false;  ///< the line beneath is one
+  std::optional<Vec3d> original =
+      std::nullopt;  ///< what a double click sets: what the scene's file has; of single numbers x
 };
 
 /// A heading with a note on the right; a click folds the section. Returns whether it is open.
@@ -86,6 +93,10 @@ struct Choice {
 bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen, int columns = 0);
 /// Label and a list that drops down.
 bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen);
+/// The same; what is missing is grey, says why, and cannot be chosen.
+bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen);
+/// Label and a text to type. hint: shown grey where it is empty. begin: typing begins now.
+bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::string& value);
 /// Label and text.
 void text_row(Ui& ui, const Row& row, const std::string& text);
 /// A small button in the label's column or anywhere; logged as `name`.
@@ -95,6 +106,9 @@ void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = pal
 /// The same on one line, cut where it does not fit, with all of it in a tooltip; and the height that this takes.
 void line_of_note(Ui& ui, const std::string& text, Tone colour);
 float line_of_note_height(const Ui& ui);
+
+/// Whether a list or a colour picker is open.
+bool popup_is_open();
 
 /// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);

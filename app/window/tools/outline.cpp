@@ -15,31 +15,18 @@ constexpr std::size_t most_lines = 4000;
 /// Turns lines in space into lines of the image.
 class Projector {
  public:
-  explicit Projector(const Scene& scene)
-      : camera_(scene.camera),
-        height_(2 * std::tan(scene.camera.vfov * (pi / 360))),
-        width_(height_ * scene.width / scene.height),
-        near_(1e-3 * target_distance(scene.camera)) {}
+  explicit Projector(const Scene& scene) : projection_(scene) {}
 
   void add(Vec3d from, Vec3d to) {
-    Vec3d a = in_camera_frame(camera_, from), b = in_camera_frame(camera_, to);
-    if (a.z < near_ && b.z < near_) return;
-    if (a.z < near_) a = cut(a, b);
-    if (b.z < near_) b = cut(b, a);
-    if (lines.size() < most_lines) lines.push_back({project(a), project(b)});
+    const auto line = projection_.line(from, to);
+    if (line && lines.size() < most_lines) lines.push_back(*line);
   }
-  Vec3d eye() const { return camera_.look_from; }
+  Vec3d eye() const { return projection_.camera().look_from; }
 
   std::vector<ImageLine> lines;
 
  private:
-  Vec3d cut(Vec3d behind, Vec3d ahead) const {
-    return behind + ((near_ - behind.z) / (ahead.z - behind.z)) * (ahead - behind);
-  }
-  ImagePoint project(Vec3d p) const { return {0.5 + p.x / (p.z * width_), 0.5 - p.y / (p.z * height_)}; }
-
-  Camera camera_;
-  double height_, width_, near_;
+  Projection projection_;
 };
 
 /// The circle where lines from the eye touch the sphere.

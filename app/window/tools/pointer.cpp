@@ -1,30 +1,30 @@
 #include "app/window/tools/pointer.h"
 
 #include "app/window/tools/camera_control.h"
-#include "app/window/tools/medium_pick.h"
+#include "app/window/tools/objects_under.h"
 #include "core/base/math.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tyndall {
 
-bool PointerTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, double now, Camera& camera) {
+PressedButton PointerTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, double now,
+                                  Camera& camera) {
   const bool over = !mouse.taken && layout.area.contains(mouse.x, mouse.y);
   if (button_ < 0 && over && free)
     for (int button = 0; button < 3; ++button)
       if (mouse.clicked[button]) button_ = button, moved_ = false;
   if (over) turn_wheel(mouse, now, camera);
-  if (button_ < 0) return false;
+  if (button_ < 0) return PressedButton::none;
   float dx = mouse.dx, dy = mouse.dy;
   if (!moved_) {
     dx = mouse.x - mouse.pressed_x[button_], dy = mouse.y - mouse.pressed_y[button_];
     moved_ = std::hypot(dx, dy) > 4 * scale;
   }
   if (moved_) drag(layout, static_cast<double>(dx), static_cast<double>(dy), camera);
-  if (mouse.down[button_]) return false;
-  const bool clicked = !moved_ && button_ == 0;
+  if (mouse.down[button_]) return PressedButton::none;
+  const PressedButton clicked = moved_ ? PressedButton::none : static_cast<PressedButton>(button_ + 1);
   button_ = -1, moved_ = false;
   return clicked;
 }
@@ -53,11 +53,22 @@ PictureClick click_at(const Rect& image, float mouse_x, float mouse_y, int width
   return {{static_cast<double>(x), static_cast<double>(y)}, pixel(x, width), pixel(y, height)};
 }
 
-ObjectPath clicked_object(const Scene& scene, const Renderer::Pick& pick, ImagePoint at, const ObjectPath& selected) {
-  const bool nothing = pick.object.empty(), again = !nothing && pick.object == selected;
-  const double behind = nothing ? std::numeric_limits<double>::infinity() : pick.depth;
-  const ObjectPath medium = medium_at(scene, at, behind);
-  return (again || nothing) && !medium.empty() ? medium : pick.object;
+ObjectPath clicked_object(const Scene& scene, const Renderer::Pick& pick, ImagePoint at, const ObjectPath& selected,
+                          bool again) {
+  std::vector<ObjectUnder> order = objects_under(scene, at);
+  // What is seen comes first, then all fog, then the rest from near to far.
+  std::stable_partition(order.begin(), order.end(), [](const ObjectUnder& object) { return object.medium; });
+  std::stable_partition(order.begin(), order.end(), [&](const ObjectUnder& o) { return o.path == pick.object; });
+  const auto now = std::find_if(order.begin(), order.end(), [&](const ObjectUnder& o) { return o.path == selected; });
+  if (again && now != order.end()) return now + 1 == order.end() ? order.front().path : (now + 1)->path;
+  if (!pick.object.empty()) return pick.object;
+  return !order.empty() && order.front().medium ? order.front().path : ObjectPath{};
+}
+
+bool ClickPlace::again(float x, float y, float scale, const Camera& camera) {
+  const bool same = std::hypot(x - x_, y - y_) <= 6 * scale && camera == camera_;
+  x_ = x, y_ = y, camera_ = camera;
+  return same;
 }
 
 }  // namespace tyndall

@@ -81,4 +81,23 @@ TEST_CASE("typed numbers: units, blanks and decimal commas are fine, the rest is
   for (const char* text : {"", " ", "abc", "1.2.3", "1 2", "nan", "inf", "1e999", "°"})
     CHECK_FALSE(parse_number(text, "°", v));
   CHECK(v == -1e-3);
+  CHECK(parse_number(" 360/8 ° ", "°", v));
+  CHECK(v == 45);
+}
+
+TEST_CASE("snapping gives round numbers, ten times as many when it is fine") {
+  CHECK(snapped({0, 1}, 0.234, false) == 0.25);
+  CHECK(snapped({0, 1}, 0.234, true) == doctest::Approx(0.235).epsilon(0.003));
+  CHECK(snapped({-180, 180}, 37, false) == 40);
+  CHECK(snapped({0.01, 10, true}, 0.3, false) == 0.2);
+  CHECK(snapped({0.01, 10, true}, -3.4, false) == -5);
+  CHECK(snapped({0.01, 10, true}, 9, false) == 10);
+  CHECK(snapped({0.01, 10, true}, 0.3456, true) == 0.35);
+  CHECK(snapped({0, 1}, 0, false) == 0);
+}
+
+TEST_CASE("finer drags and sliders give a digit more") {
+  CHECK(slider_value({0, 1}, 0.12345, 0) == 0.123);
+  CHECK(slider_value({0, 1}, 0.12345, 0, 1) == 0.1235);
+  CHECK(dragged({0, 1}, 0.5, 0.5, 1) == 0.5013);
 }

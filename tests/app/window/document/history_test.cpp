@@ -123,3 +123,18 @@ TEST_CASE("edits that no file has are found after another scene was opened, but 
   history.undo();
   CHECK(history.unsaved()->scene.width == 0);
 }
+
+TEST_CASE("a drag that ends where it began leaves no step") {
+  History history(numbered(1));
+  history.record(numbered(2), 1);
+  for (const int n : {3, 4, 3, 2}) history.record(numbered(n), 7);
+  CHECK(number(history) == 2);
+  CHECK(history.undo());
+  CHECK(number(history) == 1);
+  CHECK(history.redo());
+  CHECK(number(history) == 2);
+  CHECK_FALSE(history.redo());
+  for (const int n : {3, 2, 5}) history.record(numbered(n), 8);  // goes through where it began
+  CHECK(history.undo());
+  CHECK(number(history) == 2);
+}

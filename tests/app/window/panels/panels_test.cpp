@@ -2,96 +2,11 @@
 
 #include "app/window/accuracy/views.h"
 #include "core/scene/check.h"
-#include "tests/app/window/panels/null_imgui.h"
+#include "tests/app/window/panels/column.h"
 
 #include <doctest/doctest.h>
 
-#include <cstring>
-
 using namespace tyndall;
-
-namespace {
-
-/// The column over a scene, driven by a mouse that aims at controls by name.
-class Column {
- public:
-  Column() : log_("/dev/null") {
-    set_style(1);
-    ui.log = &log_;
-    state.scene.materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.18}}, {"glass", {}, Dielectric<>{2.0 / 3}}};
-    state.scene.objects = {{"ball", Solid3d{Sphere<>{{0, 0, 0}, 0.7, {}}, 0}, {}},
-                           {"bubble", Solid3d{Sphere<>{{2, 0, 0}, -0.9, {}}, 1}, {RotateY{30}}},
-                           {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
-    state.scene.camera.look_from = {0, 1, 6};
-    state.facts.accuracy = &accuracy_;
-    state.facts.scenes = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
-    state.facts.title = "showroom";
-    draw();
-    draw();
-  }
-
-  void draw() {
-    imgui_.frame([&] {
-      ui.problem.clear();
-      state.wishes = {};
-      draw_column(ui, state, {0, 0, 372, 2400});
-      log_.end_of_widgets();
-      if (!ui.problem.empty()) problem = ui.problem;
-      if (state.wishes.open) opened = *state.wishes.open;
-      if (state.wishes.split) split = *state.wishes.split;
-      exported = exported || state.wishes.export_chart;
-      asked = asked || state.wishes.reference;
-    });
-  }
-  bool has(const std::string& name) const { return log_.find(name).has_value(); }
-  Rect rect(const std::string& name) const { return *log_.find(name); }
-  /// Puts the mouse on a control: across from 0 to 1.
-  void aim(const std::string& name, double across = 0.5) {
-    const auto rect = log_.find(name);
-    REQUIRE_MESSAGE(rect, name);
-    compat::mouse_pos(ImGui::GetIO(), rect->x0 + static_cast<float>(across) * rect->width(), (rect->y0 + rect->y1) / 2);
-    draw();
-  }
-  void button(bool down) {
-    compat::mouse_button(ImGui::GetIO(), 0, down);
-    draw();
-  }
-  void click(const std::string& name, double across = 0.5) {
-    aim(name, across);
-    button(true);
-    button(false);
-    draw();
-  }
-  void type(const std::string& name, const char* text) {
-    click(name);
-    draw();
-    for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
-    draw();
-    press(ImGuiKey_Enter);
-  }
-  void press(ImGuiKey key) {
-    compat::key(ImGui::GetIO(), key, true);
-    draw();
-    compat::key(ImGui::GetIO(), key, false);
-    draw();
-    draw();
-  }
-
-  Metal<>& gold() { return std::get<Metal<>>(state.scene.materials[0].kind); }
-  Dielectric<>& glass() { return std::get<Dielectric<>>(state.scene.materials[1].kind); }
-
-  Ui ui;
-  PanelState state;
-  std::string problem, opened;
-  bool split = false, exported = false, asked = false;
-
- private:
-  NullImGui imgui_{372, 2400};
-  UiLog log_;
-  LiveAccuracy accuracy_{[] {}};
-};
-
-}  // namespace
 
 TEST_CASE("a new user finds fuzz, refractive index and density at once") {
   const Column column;

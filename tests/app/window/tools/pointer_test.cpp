@@ -12,15 +12,17 @@ namespace {
 /// A picture of 400 x 300 units in a window, a camera, and a mouse to press and move.
 struct Hand {
   PointerTool tool;
+  PressedButton clicked = PressedButton::none;
   Mouse mouse;
   Camera camera;
   Layout layout = make_layout(400, 330, 400, 300, 1, false);
 
+  /// Whether the left button was clicked.
   bool update(bool free = true, double now = 10) {
-    const bool clicked = tool.update(mouse, layout, 1, free, now, camera);
+    clicked = tool.update(mouse, layout, 1, free, now, camera);
     mouse.dx = mouse.dy = mouse.wheel = 0;
     for (bool& button : mouse.clicked) button = false;
-    return clicked;
+    return clicked == PressedButton::left;
   }
   void press(int button, float x, float y) {
     mouse.x = mouse.pressed_x[button] = x, mouse.y = mouse.pressed_y[button] = y;
@@ -50,6 +52,15 @@ TEST_CASE("a press and a release between two drawings are a click") {
   hand.press(0, 100, 100);
   hand.mouse.down[0] = false;
   CHECK(hand.update());
+}
+
+TEST_CASE("a right press without movement is a click of its own") {
+  Hand hand;
+  hand.press(1, 100, 100);
+  hand.update();
+  hand.mouse.down[1] = false;
+  CHECK_FALSE(hand.update());
+  CHECK(hand.clicked == PressedButton::right);
 }
 
 TEST_CASE("drags: left orbits, middle pans, right dollies, none is a click") {
@@ -130,9 +141,34 @@ TEST_CASE("fog is selected where nothing else is, or by a second click") {
   scene.objects = {ball, fog};
   const ImagePoint middle{0.5, 0.5};
   const Renderer::Pick on_ball{{0}, 4, {0, 0, -4}}, nothing{};
-  CHECK(clicked_object(scene, on_ball, middle, {}) == ObjectPath{0});
-  CHECK(clicked_object(scene, on_ball, middle, {0}) == ObjectPath{1});
-  CHECK(clicked_object(scene, on_ball, middle, {1}) == ObjectPath{0});
-  CHECK(clicked_object(scene, nothing, middle, {}) == ObjectPath{1});
-  CHECK(clicked_object(scene, nothing, {0.99, 0.5}, {}).empty());
+  CHECK(clicked_object(scene, on_ball, middle, {}, false) == ObjectPath{0});
+  CHECK(clicked_object(scene, on_ball, middle, {0}, true) == ObjectPath{1});
+  CHECK(clicked_object(scene, on_ball, middle, {1}, true) == ObjectPath{0});
+  CHECK(clicked_object(scene, on_ball, middle, {0}, false) == ObjectPath{0});
+  CHECK(clicked_object(scene, nothing, middle, {}, false) == ObjectPath{1});
+  CHECK(clicked_object(scene, nothing, {0.99, 0.5}, {}, false).empty());
+}
+
+TEST_CASE("clicks at one place go on to what lies behind, and from the last object to the first again") {
+  Scene scene;
+  scene.width = scene.height = 100;
+  scene.camera.vfov = 90;
+  const auto ball = [](double z, double radius) { return Object{"", Solid3d{Sphere<>{{0, 0, z}, radius, {}}, 0}, {}}; };
+  Object fog{"", Volume{Sphere<>{{0, 0, -20}, 3, {}}, {}, {}, {}}, {}};
+  scene.objects = {ball(-9, 1), ball(-4, 2), ball(-4, -1.5), fog};
+  const Renderer::Pick front{{1}, 2, {0, 0, -2}};
+  ObjectPath now = clicked_object(scene, front, {0.5, 0.5}, {}, false);
+  std::vector<ObjectPath> seen{now};
+  for (int k = 0; k < 4; ++k) seen.push_back(now = clicked_object(scene, front, {0.5, 0.5}, now, true));
+  CHECK(seen == std::vector<ObjectPath>{{1}, {3}, {2}, {0}, {1}});
+}
+
+TEST_CASE("clicks are at one place if the mouse and the camera have stayed") {
+  ClickPlace place;
+  Camera camera;
+  CHECK_FALSE(place.again(10, 10, 1, camera));
+  CHECK(place.again(13, 10, 1, camera));
+  CHECK_FALSE(place.again(30, 10, 1, camera));
+  camera.vfov = 50;
+  CHECK_FALSE(place.again(30, 10, 1, camera));
 }

@@ -1,5 +1,5 @@
 #include "app/window/tools/selection.h"
-#include "app/window/tools/medium_pick.h"
+#include "app/window/tools/objects_under.h"
 #include "app/window/tools/outline.h"
 
 #include <doctest/doctest.h>
@@ -26,6 +26,13 @@ Scene example() {
   scene.objects = {ball({0, 0, 0}, 1, 0, "matt"),
                    {"pair", Group{{ball({1, 0, 0}, 0.5, 1), fog}}, {RotateY{90}, Translate{{0, 2, 0}}}}};
   return scene;
+}
+
+/// The medium that a line of sight enters first, if it does so before `depth` along the axis; empty: none.
+ObjectPath medium_at(const Scene& scene, ImagePoint at, double depth) {
+  for (const ObjectUnder& object : objects_under(scene, at))
+    if (object.medium && object.distance * Projection(scene).sight(at).direction.z * -1 < depth) return object.path;
+  return {};
 }
 
 struct Span {
@@ -133,4 +140,30 @@ TEST_CASE("fog is found where the ray enters it, nearest first, and not behind w
   scene.objects = {fog(Box<>{{2, -1, -1}, {4, 1, 1}}, {RotateY{90}})};  // now from z = -4 to -2
   CHECK(medium_at(scene, {0.5, 0.5}, 12.01) == ObjectPath{0});
   CHECK(medium_at(scene, {0.5, 0.5}, 11.99).empty());
+}
+
+TEST_CASE(
+    "all that lies under a point is listed from near to far, also in turned groups, and quads only within their "
+    "edges") {
+  Scene scene = example();
+  scene.objects = {{"wall", Solid3d{Quad<>{{-2, -2, -3}, {4, 0, 0}, {0, 4, 0}}, 0}, {}},
+                   ball({0, 0, 0}, 1, 0),
+                   {"turned", Group{{ball({-4, 0, 0}, 0.5, 1)}}, {RotateY{90}}}};  // now at z = 4
+  const auto found = objects_under(scene, {0.5, 0.5});
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].path == ObjectPath{2, 0});
+  CHECK(found[0].distance == doctest::Approx(5.5));
+  CHECK(found[1].path == ObjectPath{1});
+  CHECK(found[2].path == ObjectPath{0});
+  CHECK(found[2].distance == doctest::Approx(13));
+  CHECK(objects_under(scene, {0.95, 0.5}).empty());
+}
+
+TEST_CASE("what a projection shows at a point lies on the line of sight through it") {
+  const Projection projection(example());
+  const Vec3d point{1.5, -0.7, 2};
+  const Sight sight = projection.sight(*projection.point(point));
+  CHECK(length(cross(point - sight.origin, sight.direction)) < 1e-12);
+  CHECK(projection.depth_of(point) == doctest::Approx(8));
+  CHECK_FALSE(projection.point({0, 0, 11}).has_value());
 }

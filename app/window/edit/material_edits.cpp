@@ -1,0 +1,182 @@
+#include "app/window/edit/material_edits.h"
+
+#include "app/window/edit/arrange.h"
+#include "app/window/edit/companions.h"
+#include "core/base/kinds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr const char* types[] = {Lambertian<>::type, Metal<>::type, Dielectric<>::type, Light<>::type, "fog within"};
+constexpr int fog_within = 4;
+constexpr double usual_power = 5;  // of what becomes a light
+constexpr Vec3d usual_albedo{0.8, 0.8, 0.8};
+
+const Solid3d* solid_at(const Scene& scene, const ObjectPath& path) {
+  const Object* object = find_object(scene, path);
+  return object ? std::get_if<Solid3d>(&object->kind) : nullptr;
+}
+
+/// The medium that fills the object exactly; empty: there is none.
+ObjectPath filling(const Scene& scene, const ObjectPath& path) {
+  const Solid3d* solid = solid_at(scene, path);
+  if (!solid) return {};
+  for (const ObjectPath& other : companions(scene, path)) {
+    const Volume* volume = std::get_if<Volume>(&find_object(scene, other)->kind);
+    const bool same = volume && std::visit(
+                                    [&]<class Shape>(const Shape& boundary) {
+                                      const Shape* shape = std::get_if<Shape>(&solid->shape);
+                                      return shape && *shape == boundary;
+                                    },
+                                    volume->boundary);
+    if (same) return other;
+  }
+  return {};
+}
+
+std::string free_material_name(const Scene& scene, const std::string& wish) {
+  for (int number = 2;; ++number) {
+    std::string name = wish + " " + std::to_string(number);
+    const bool taken =
+        std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) { return m.name == name; });
+    if (!taken) return name;
+  }
+}
+
+std::vector<Object>& siblings(Scene& scene, const ObjectPath& path) {
+  if (path.size() == 1) return scene.objects;
+  return std::get<Group>(find_object(scene, ObjectPath(path.begin(), path.end() - 1))->kind).objects;
+}
+
+/// The colour of a material that changes its kind. before: the kind it had.
+ColourOrTexture colour_for(const MaterialKinds<double>& kind, const Material& before) {
+  const bool lit = std::holds_alternative<Light<>>(before.kind), lights = std::holds_alternative<Light<>>(kind);
+  if (!colour_name(kind)) return Material().colour;
+  if (!colour_name(before.kind)) return lights ? Vec3d{usual_power, usual_power, usual_power} : usual_albedo;
+  const Vec3d* colour = std::get_if<Vec3d>(&before.colour);
+  if (!colour || lit == lights) return before.colour;
+  const LampColour lamp = lamp_colour(*colour);
+  if (lights) return lamp_radiance({lamp.colour, usual_power});
+  return without_noise(usual_albedo.x * lamp.colour);
+}
+
+void set_kind(Material& material, int type) {
+  const Material before = material;
+  if (static_cast<std::size_t>(type) == before.kind.index()) return;
+  if (type == 0) material.kind = Lambertian<>{};
+  if (type == 1) material.kind = Metal<>{};
+  if (type == 2) material.kind = Dielectric<>{};
+  if (type == 3) material.kind = Light<>{};
+  material.colour = colour_for(material.kind, before);
+}
+
+/// Puts fog of that colour behind the object, with its very shape and place.
+void fill(Scene& scene, const ObjectPath& path, const ColourOrTexture& colour) {
+  const Object object = *find_object(scene, path);
+  Volume volume;
+  double size = 1;
+  std::visit(Overloaded{[&](const Sphere<>& sphere) { volume.boundary = sphere, size = sphere.radius; },
+                        [&](const Box<>& box) { volume.boundary = box, size = 0.5 * length(box.max - box.min); },
+                        [](const Quad<>&) {}},
+             std::get<Solid3d>(object.kind).shape);
+  volume.medium.density = nice_below(2 / size).size();
+  if (const Vec3d* albedo = std::get_if<Vec3d>(&colour)) volume.albedo = *albedo;
+  const std::string name = object.name.empty() ? "" : free_name(scene, object.name + " fog");
+  std::vector<Object>& list = siblings(scene, path);
+  list.insert(list.begin() + path.back() + 1, {name, volume, object.transform});
+}
+
+}  // namespace
+
+std::span<const char* const> surface_types() { return types; }
+
+int surface_type(const Scene& scene, const ObjectPath& path) {
+  const Solid3d* solid = solid_at(scene, path);
+  if (!solid) return -1;
+  const Material& material = scene.materials[static_cast<std::size_t>(solid->material)];
+  const bool glass = std::holds_alternative<Dielectric<>>(material.kind);
+  return glass && !filling(scene, path).empty() ? fog_within : static_cast<int>(material.kind.index());
+}
+
+std::string why_not(const Scene& scene, const ObjectPath& path, int type) {
+  const Solid3d* solid = solid_at(scene, path);
+  if (!solid || type != fog_within) return solid ? "" : "it has no surface";
+  const Sphere<>* sphere = std::get_if<Sphere<>>(&solid->shape);
+  if (std::holds_alternative<Quad<>>(solid->shape)) return "a quad has no inside for fog";
+  if (sphere && sphere->radius < 0) return "fog cannot be within a sphere of negative radius";
+  if (sphere && sphere->center_end) return "fog cannot move with a moving sphere";
+  return "";
+}
+
+ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type) {
+  if (type == surface_type(scene, path) || !why_not(scene, path, type).empty()) return path;
+  ObjectPath now = path;
+  if (const ObjectPath fog = filling(scene, path); !fog.empty()) {
+    std::vector<Object>& list = siblings(scene, fog);
+    list.erase(list.begin() + fog.back());
+    const std::size_t level = fog.size() - 1;  // what stood behind the fog in its list has moved
+    const bool same_list = now.size() > level && std::equal(fog.begin(), fog.end() - 1, now.begin());
+    if (same_list && now[level] > fog[level]) --now[level];
+  }
+  const auto material = [&]() -> Material& {
+    return scene.materials[static_cast<std::size_t>(std::get<Solid3d>(find_object(scene, now)->kind).material)];
+  };
+  const bool glass = std::holds_alternative<Dielectric<>>(material().kind);
+  if (type == fog_within && !glass) make_single_user(scene, now);
+  const Material before = material();
+  set_kind(material(), type == fog_within ? 2 : type);
+  if (type == fog_within) fill(scene, now, glass ? ColourOrTexture(Vec3d{1, 1, 1}) : before.colour);
+  return now;
+}
+
+void make_single_user(Scene& scene, const ObjectPath& path) {
+  Solid3d* solid = std::get_if<Solid3d>(&find_object(scene, path)->kind);
+  if (!solid || users_of(scene, solid->material) < 2) return;
+  Material copy = scene.materials[static_cast<std::size_t>(solid->material)];
+  copy.name = free_material_name(scene, copy.name);
+  scene.materials.push_back(std::move(copy));
+  solid->material = static_cast<int>(scene.materials.size()) - 1;
+}
+
+LampColour lamp_colour(Vec3d radiance) {
+  const double power = max_component(radiance);
+  if (!(power > 0)) return {{1, 1, 1}, 0};
+  const auto part = [&](double x) { return rounded(x / power, {1, -7}); };
+  return {{part(radiance.x), part(radiance.y), part(radiance.z)}, power};
+}
+
+Vec3d lamp_radiance(LampColour lamp) {
+  const double most = max_component(lamp.colour);
+  if (!(most > 0)) return {lamp.power, lamp.power, lamp.power};
+  const Vec3d radiance = (lamp.power / most) * lamp.colour;
+  const Grain grain{1, decimal_below(std::max(lamp.power, 1e-30)).exponent - 5};
+  return rounded(radiance, grain);
+}
+
+void set_background_kind(Background& background, int kind, BackgroundMemory& memory) {
+  const Background before = background;
+  if (kind == static_cast<int>(before.index())) return;
+  memory[before.index()] = before;
+  if (const auto& known = memory[static_cast<std::size_t>(kind)]) {
+    background = *known;
+    return;
+  }
+  const auto [up, down] = std::visit(Overloaded{[](const Vec3d& colour) {
+                                                  return std::pair{colour, colour};
+                                                },
+                                                [](const Gradient& sky) {
+                                                  return std::pair{sky.top, sky.bottom};
+                                                },
+                                                [](const Hemispheres& sky) {
+                                                  return std::pair{sky.up, sky.down};
+                                                }},
+                                     before);
+  if (kind == place_in<Vec3d, Background>) background = up;
+  if (kind == place_in<Gradient, Background>) background = Gradient{down, up};
+  if (kind == place_in<Hemispheres, Background>) background = Hemispheres{up, down};
+}
+
+}  // namespace tyndall

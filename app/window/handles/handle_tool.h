@@ -1,0 +1,62 @@
+#pragma once
+#include "app/window/handles/handle_drag.h"
+#include "app/window/system/mouse.h"
+
+#include <optional>
+#include <set>
+#include <string>
+
+/// The mouse on the handles of the selection, and moving by the keyboard: G, then X, Y or Z, then the mouse or a
+/// number.
+namespace tyndall {
+
+/// Moves, turns and sizes the selected objects.
+class HandleTool {
+ public:
+  /// To be called in each drawing, before the tool that orbits; changes the objects of the scene. free: nothing else
+  /// has the mouse. Returns whether the handles have it.
+  bool update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
+              Scene& scene);
+
+  /// Begins to move the selection with the mouse, without a button: until a click or Enter, or Esc or a right click,
+  /// which takes it back. Nothing happens without a selection.
+  void grab(const Mouse& mouse, const ObjectPaths& selected, const Scene& scene);
+  /// A key while something is moved; key: GLFW's number. Returns whether it was meant for this.
+  bool take_key(int key);
+  /// Gives up what is being done, and takes it back with the next drawing.
+  void cancel() { cancelled_ = drag_.has_value(); }
+
+  /// Whether something is being moved, turned or sized.
+  bool active() const { return drag_.has_value(); }
+  bool grabbing() const { return drag_ && grabbed_; }
+  /// The handle under the mouse, or the one that is dragged.
+  const std::optional<Handle>& hovered() const { return hovered_; }
+  /// Whether a handle was pressed and let go without moving it, in this drawing: a click on what lies behind it.
+  bool clicked_through() const { return clicked_through_; }
+  /// What is being done: "x +0.35"; "": nothing.
+  const std::string& said() const { return said_; }
+
+  /// Where the handles are: in the middle of the first object, or where it was clicked if its middle is not in the
+  /// picture.
+  Vec3d origin(const Scene& scene, const PictureFrame& frame, const ObjectPaths& selected) const;
+  /// Remembers where the user clicked on an object.
+  void clicked(const Scene& scene, const ObjectPath& object, Vec3d point);
+
+ private:
+  bool begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene);
+  void follow_mouse(const Mouse& mouse, const PictureFrame& frame, Scene& scene);
+  void choose_axis(HandleKind kind);
+  void end();
+
+  std::optional<HandleDrag> drag_;
+  std::vector<Object> start_;  ///< the objects when it began
+  std::vector<Material> materials_;
+  std::optional<Handle> hovered_;
+  std::string said_, typed_;
+  bool grabbed_ = false, moved_ = false, confirmed_ = false, cancelled_ = false;
+  bool waits_for_release_ = false, clicked_through_ = false;
+  ObjectPath clicked_;
+  Vec3d click_;  ///< from the middle of that object
+};
+
+}  // namespace tyndall

@@ -1,0 +1,130 @@
+#include "app/window/handles/handles.h"
+
+#include "app/window/edit/arrange.h"
+#include "app/window/tools/camera_control.h"
+#include "core/base/math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace tyndall {
+namespace {
+
+// Units of the design.
+constexpr double arrow_start = 14, arrow_end = 64, least_arrow = 14, ring_radius = 82, least_grip = 26, reach = 9;
+constexpr int ring_points = 64;
+
+bool can_turn(const Scene& scene, const ObjectPath& path) {
+  const Object& object = *find_object(scene, path);
+  const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
+  const Volume* volume = std::get_if<Volume>(&object.kind);
+  const bool sphere = (solid && std::holds_alternative<Sphere<>>(solid->shape)) ||
+                      (volume && std::holds_alternative<Sphere<>>(volume->boundary));
+  return !sphere;
+}
+
+double distance(WindowPoint a, WindowPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+double distance_to_line(WindowPoint p, WindowPoint a, WindowPoint b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
+  return distance(p, {a.x + t * dx, a.y + t * dy});
+}
+
+void add_arrow(const PictureFrame& frame, Vec3d origin, HandleKind kind, std::vector<Handle>& out) {
+  const Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Vec3d axis = axes[static_cast<int>(kind) - static_cast<int>(HandleKind::along_x)];
+  const double unit = frame.scale * frame.unit_at(origin);
+  const auto from = frame.point(origin + (arrow_start * unit) * axis);
+  const auto to = frame.point(origin + (arrow_end * unit) * axis);
+  if (from && to && distance(*from, *to) >= least_arrow * frame.scale) out.push_back({kind, 0, {*from, *to}});
+}
+
+void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out) {
+  const double radius = ring_radius * frame.scale * frame.unit_at(origin);
+  Handle ring{HandleKind::turn, 0, {}};
+  for (int k = 0; k < ring_points; ++k) {
+    const double angle = 2 * pi * k / ring_points;
+    const auto point = frame.point(origin + radius * Vec3d{std::cos(angle), 0, std::sin(angle)});
+    if (!point) return;
+    ring.points.push_back(*point);
+  }
+  out.push_back(std::move(ring));
+}
+
+void add_grips(const Scene& scene, const PictureFrame& frame, const ObjectPath& path, std::vector<Handle>& out) {
+  const CameraAxes axes = axes_of(scene.camera);
+  const std::vector<SizeGrip> grips = size_grips(scene, path, normalize(axes.right - axes.up));
+  const auto middle = frame.point(middle_of(scene, path));
+  for (std::size_t k = 0; k < grips.size(); ++k) {
+    auto at = frame.point(grips[k].at);
+    if (!at || !middle) continue;
+    const double away = distance(*at, *middle), least = least_grip * frame.scale;
+    if (away < least) {  // so small that the grip would lie on the other handles
+      const auto outside = frame.point(grips[k].at + (least - away) * frame.unit_at(grips[k].at) * grips[k].way);
+      if (outside) at = outside;
+    }
+    out.push_back({HandleKind::size, k, {*at}});
+  }
+}
+
+}  // namespace
+
+PictureFrame frame_of(const Scene& scene, const Rect& image, double scale) { return {Projection(scene), image, scale}; }
+
+std::optional<WindowPoint> PictureFrame::point(Vec3d p) const {
+  const auto at = projection.point(p);
+  if (!at) return {};
+  return WindowPoint{static_cast<double>(image.x0) + at->x * static_cast<double>(image.width()),
+                     static_cast<double>(image.y0) + at->y * static_cast<double>(image.height())};
+}
+
+Sight PictureFrame::sight(WindowPoint at) const {
+  return projection.sight({(at.x - static_cast<double>(image.x0)) / static_cast<double>(image.width()),
+                           (at.y - static_cast<double>(image.y0)) / static_cast<double>(image.height())});
+}
+
+double PictureFrame::unit_at(Vec3d p) const {
+  const double least = 1e-3 * target_distance(projection.camera());
+  return projection.height_at(std::max(projection.depth_of(p), least)) /
+         std::max(1.0, static_cast<double>(image.height()));
+}
+
+std::string name_of_handle(const Scene& scene, const ObjectPaths& selected, const Handle& handle) {
+  static constexpr const char* names[] = {"move", "x", "y", "z", "turn"};
+  if (handle.kind != HandleKind::size) return names[static_cast<int>(handle.kind)];
+  return std::string("size.") + size_grips(scene, selected.front(), {1, 0, 0})[handle.grip].name;
+}
+
+std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, const ObjectPaths& selected,
+                               Vec3d origin) {
+  std::vector<Handle> handles;
+  if (selected.empty() || frame.image.width() <= 0) return handles;
+  if (const auto middle = frame.point(origin)) {
+    handles.push_back({HandleKind::plane, 0, {*middle}});
+    for (const HandleKind kind : {HandleKind::along_x, HandleKind::along_y, HandleKind::along_z})
+      add_arrow(frame, origin, kind, handles);
+    const bool turns = std::all_of(selected.begin(), selected.end(), [&](const auto& p) { return can_turn(scene, p); });
+    if (turns) add_ring(frame, origin, handles);
+  }
+  if (selected.size() == 1) add_grips(scene, frame, selected.front(), handles);
+  return handles;
+}
+
+std::optional<Handle> handle_at(const std::vector<Handle>& handles, WindowPoint at, double scale) {
+  const Handle* best = nullptr;
+  double least = reach * scale;
+  for (const Handle& handle : handles) {
+    double away = handle.points.size() == 1 ? distance(at, handle.points[0]) : 1e9;
+    const std::size_t lines = handle.points.size() == 2 ? 1 : handle.points.size() > 2 ? handle.points.size() : 0;
+    for (std::size_t k = 0; k < lines; ++k)
+      away = std::min(away, distance_to_line(at, handle.points[k], handle.points[(k + 1) % handle.points.size()]));
+    if (handle.kind == HandleKind::size) away -= 2 * scale;  // a grip on an arrow is meant
+    if (handle.kind == HandleKind::turn) away += 3 * scale;
+    if (away < least) least = away, best = &handle;
+  }
+  return best ? std::optional(*best) : std::nullopt;
+}
+
+}  // namespace tyndall

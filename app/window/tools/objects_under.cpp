@@ -1,0 +1,77 @@
+#include "app/window/tools/objects_under.h"
+
+#include "core/base/math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Distances at which a line enters and leaves a shape; near = never: it misses.
+struct Crossing {
+  double near = never, far = never;
+};
+
+Crossing crossing(const Sphere<>& sphere, const Sight& sight) {
+  const Interval<double> line = sphere_interval(sphere.center - sight.origin, std::abs(sphere.radius), sight.direction);
+  return line.hit ? Crossing{line.near, line.far} : Crossing{};
+}
+
+Crossing crossing(const Box<>& box, const Sight& sight) {
+  double near = -never, far = never;
+  const auto slab = [&](double low, double high, double from, double along_axis) {
+    double a = (low - from) / along_axis, b = (high - from) / along_axis;
+    if (a > b) std::swap(a, b);
+    near = std::max(near, a), far = std::min(far, b);
+  };
+  slab(box.min.x, box.max.x, sight.origin.x, sight.direction.x);
+  slab(box.min.y, box.max.y, sight.origin.y, sight.direction.y);
+  slab(box.min.z, box.max.z, sight.origin.z, sight.direction.z);
+  return near <= far ? Crossing{near, far} : Crossing{};
+}
+
+Crossing crossing(const Quad<>& quad, const Sight& sight) {
+  const Vec3d normal = cross(quad.u, quad.v);
+  const double t = dot(normal, quad.corner - sight.origin) / dot(normal, sight.direction);
+  const Vec3d p = sight.origin + t * sight.direction - quad.corner;
+  const double square = dot(normal, normal), a = dot(cross(p, quad.v), normal) / square,
+               b = dot(cross(quad.u, p), normal) / square;
+  const bool inside = a >= 0 && a <= 1 && b >= 0 && b <= 1;  // false for what is not a number
+  return inside ? Crossing{t, t} : Crossing{};
+}
+
+/// Where the object begins along the line of sight, at a distance above 0; `never`: nowhere.
+double begins_at(const Object& object, const Sight& sight) {
+  if (const Solid3d* solid = std::get_if<Solid3d>(&object.kind)) {
+    const Crossing c = std::visit([&](const auto& shape) { return crossing(shape, sight); }, solid->shape);
+    return c.near > 0 ? c.near : c.far > 0 ? c.far : never;
+  }
+  const Volume& volume = std::get<Volume>(object.kind);
+  const Crossing c = std::visit([&](const auto& shape) { return crossing(shape, sight); }, volume.boundary);
+  return c.near > 0 ? c.near : never;
+}
+
+}  // namespace
+
+std::vector<ObjectUnder> objects_under(const Scene& scene, ImagePoint at) {
+  const Sight sight = Projection(scene).sight(at);
+  std::vector<ObjectUnder> found;
+  for (const ObjectPath& path : leaves(scene)) {
+    const Object& object = *find_object(scene, path);
+    const Placement placed = placement_at(scene, path);
+    const Placement back{-placed.degrees, {}};
+    const Sight own{turn(back, sight.origin - placed.offset), turn(back, sight.direction)};
+    const double distance = begins_at(object, own);
+    if (distance < never) found.push_back({path, distance, std::holds_alternative<Volume>(object.kind)});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const ObjectUnder& a, const ObjectUnder& b) { return a.distance < b.distance; });
+  return found;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,47 @@
+#pragma once
+#include "core/scene/scene.h"
+
+#include <optional>
+
+/// From points in space to points of the picture, and back.
+namespace tyndall {
+
+/// A point of the image: x to the right and y down, both in [0, 1] inside it.
+struct ImagePoint {
+  double x = 0, y = 0;
+};
+/// Two points of a line.
+struct ImageLine {
+  ImagePoint a, b;
+};
+
+/// A line of sight. direction: unit.
+struct Sight {
+  Vec3d origin, direction;
+};
+
+/// How a scene's camera sees points. The lens and the shutter are left out.
+class Projection {
+ public:
+  explicit Projection(const Scene& scene);
+
+  const Camera& camera() const { return camera_; }
+  /// Where a point is seen; nothing for points that are behind the eye or too close before it.
+  std::optional<ImagePoint> point(Vec3d p) const;
+  /// The part of a line that is before the eye; nothing where there is none.
+  std::optional<ImageLine> line(Vec3d from, Vec3d to) const;
+  /// The line of sight through a point of the image.
+  Sight sight(ImagePoint at) const;
+  /// Height of the picture in scene units, at a depth along the camera's axis.
+  double height_at(double depth) const { return height_ * depth; }
+  /// Depth of a point along the camera's axis.
+  double depth_of(Vec3d p) const;
+
+ private:
+  ImagePoint seen(Vec3d in_frame) const;
+
+  Camera camera_;
+  double height_, width_, near_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,116 @@
+#include "app/window/edit/material_edits.h"
+
+#include "app/window/edit/companions.h"
+#include "core/base/kinds.h"
+#include "core/scene/check.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, fog_within = 4;
+
+Scene example() {
+  Scene scene;
+  scene.materials = {{"gold", Vec3d{0.8, 0.6, 0.2}, Metal<>{0.3}}, {"glass", {}, Dielectric<>{1.4}}};
+  const auto ball = [](double x, int material) {
+    return Object{"b", Solid3d{Sphere<>{{x, 0, 0}, 1, {}}, material}, {}};
+  };
+  scene.objects = {ball(0, 0), ball(3, 0), ball(6, 1), {"q", Solid3d{Quad<>{}, 1}, {}}};
+  return scene;
+}
+const Material& material(const Scene& scene, const ObjectPath& path) {
+  return *material_of(scene, *find_object(scene, path));
+}
+
+}  // namespace
+
+TEST_CASE("types are listed as the scene file names them, and each object says its own") {
+  CHECK(std::string(surface_types()[metal]) == "metal");
+  const Scene scene = example();
+  CHECK(surface_type(scene, {0}) == metal);
+  CHECK(surface_type(scene, {2}) == dielectric);
+  CHECK(surface_type(scene, {9}) == -1);
+}
+
+TEST_CASE("another type keeps the colour as far as it has one") {
+  Scene scene = example();
+  set_surface_type(scene, {0}, lambertian);
+  CHECK(material(scene, {1}) == Material{"gold", Vec3d{0.8, 0.6, 0.2}, Lambertian<>{}});  // it is shared
+  set_surface_type(scene, {0}, light);
+  CHECK(std::get<Vec3d>(material(scene, {0}).colour) == Vec3d{5, 3.75, 1.25});
+  set_surface_type(scene, {0}, metal);
+  CHECK(std::get<Vec3d>(material(scene, {0}).colour) == Vec3d{0.8, 0.6, 0.2});
+  set_surface_type(scene, {0}, dielectric);
+  CHECK(material(scene, {0}) == Material{"gold", Material().colour, Dielectric<>{}});
+  CHECK_FALSE(check(scene).has_value());
+}
+
+TEST_CASE("fog within a ball is glass with a medium of its very shape, which another type takes out again") {
+  Scene scene = example();
+  CHECK(set_surface_type(scene, {1}, fog_within) == ObjectPath{1});
+  CHECK(surface_type(scene, {1}) == fog_within);
+  CHECK(surface_type(scene, {0}) == metal);  // it had the same material
+  REQUIRE(scene.objects.size() == 5);
+  const Volume& fog = std::get<Volume>(scene.objects[2].kind);
+  CHECK(std::get<Vec3d>(fog.albedo) == Vec3d{0.8, 0.6, 0.2});
+  CHECK(companions(scene, {1}) == ObjectPaths{{2}});
+  CHECK_FALSE(check(scene).has_value());
+  set_surface_type(scene, {1}, dielectric);
+  CHECK(scene.objects.size() == 4);
+  CHECK(surface_type(scene, {1}) == dielectric);
+}
+
+TEST_CASE("fog that stands before its ball is found, and the ball with its new place") {
+  Scene scene = example();
+  set_surface_type(scene, {2}, fog_within);
+  std::swap(scene.objects[2], scene.objects[3]);
+  CHECK(surface_type(scene, {3}) == fog_within);
+  CHECK(set_surface_type(scene, {3}, metal) == ObjectPath{2});
+  CHECK(surface_type(scene, {2}) == metal);
+}
+
+TEST_CASE("what cannot hold fog says why") {
+  Scene scene = example();
+  CHECK(why_not(scene, {0}, fog_within).empty());
+  CHECK(why_not(scene, {3}, fog_within) == "a quad has no inside for fog");
+  std::get<Sphere<>>(std::get<Solid3d>(scene.objects[0].kind).shape).radius = -1;
+  CHECK_FALSE(why_not(scene, {0}, fog_within).empty());
+  const Scene before = scene;
+  set_surface_type(scene, {0}, fog_within);
+  CHECK(scene == before);
+}
+
+TEST_CASE("a single user has a copy with a new name; others keep theirs") {
+  Scene scene = example();
+  make_single_user(scene, {1});
+  CHECK(material(scene, {0}).name == "gold");
+  CHECK(material(scene, {1}).name == "gold 2");
+  CHECK(material(scene, {1}).kind == material(scene, {0}).kind);
+  const Scene before = scene;
+  make_single_user(scene, {1});
+  CHECK(scene == before);
+}
+
+TEST_CASE("a lamp's colour times its power is its radiance") {
+  const LampColour lamp = lamp_colour({7, 6.2, 5});
+  CHECK(lamp.power == 7);
+  CHECK(lamp.colour.x == 1);
+  CHECK(lamp_radiance(lamp) == Vec3d{7, 6.2, 5});
+  CHECK(lamp_radiance({{0.5, 0.25, 0.5}, 10}) == Vec3d{10, 5, 10});
+  CHECK(lamp_radiance({{0, 0, 0}, 3}) == Vec3d{3, 3, 3});
+  CHECK(lamp_colour({0, 0, 0}).power == 0);
+}
+
+TEST_CASE("a background of another kind has the present colours, and its own when it was there before") {
+  Background background = Gradient{{1, 1, 1}, {0.5, 0.7, 1}};
+  BackgroundMemory memory;
+  set_background_kind(background, place_in<Hemispheres, Background>, memory);
+  CHECK(background == Background(Hemispheres{{0.5, 0.7, 1}, {1, 1, 1}}));
+  set_background_kind(background, place_in<Vec3d, Background>, memory);
+  CHECK(background == Background(Vec3d{0.5, 0.7, 1}));
+  set_background_kind(background, place_in<Gradient, Background>, memory);
+  CHECK(background == Background(Gradient{{1, 1, 1}, {0.5, 0.7, 1}}));
+}
