@@ -87,10 +87,17 @@ TYNDALL_INLINE void sum_rows(const FilterView& v, int sums, int group, Strip<F>&
   }
 }
 
+/// Whether all pixels of a row of cells are known to have no emission.
+TYNDALL_INLINE bool is_dark_row(const FilterView& v, int y0, int rows) {
+  if (!v.has_emission()) return true;
+  bool dark = v.dark_rows != nullptr;
+  for (int y = y0; dark && y < y0 + rows; ++y) dark = v.dark_rows[y] != 0;
+  return dark;
+}
+
 /// Finds which cells of a strip have emission, and returns whether any has.
 template <class F>
 TYNDALL_INLINE bool find_emission(const FilterView& v, int x0, int y0, int rows, std::uint8_t* shines) {
-  if (!v.has_emission()) return false;
   constexpr int n = lanes_of<F>;
   alignas(64) float bright[Strip<F>::width], cell[n];
   for (int group = 0; group < cell_edge; ++group) {
@@ -111,12 +118,15 @@ TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
   constexpr int n = lanes_of<F>;
   const int y0 = cell_row * cell_edge, rows = least(cell_edge, v.height - y0);
   float* row = v.sums + std::ptrdiff_t{cell_row + 1} * all_sums * v.cell_stride;
+  const bool dark = is_dark_row(v, y0, rows);
   Strip<F> strip;
   for (int x = 0; x < Strip<F>::width; ++x)
     strip.across[x] = (static_cast<float>(x % cell_edge) - middle_of_cell) * per_block;
   for (int x0 = 0; x0 < v.width; x0 += Strip<F>::width) {
     const std::ptrdiff_t first = x0 / cell_edge + 1;
-    const bool shines = find_emission<F>(v, x0, y0, rows, v.shines + (cell_row + 1) * v.cell_stride + first);
+    std::uint8_t* cell = v.shines + (cell_row + 1) * v.cell_stride + first;
+    for (int i = 0; i < Strip<F>::cells; ++i) cell[i] = 0;
+    const bool shines = !dark && find_emission<F>(v, x0, y0, rows, cell);
     const int sums = shines ? all_sums : plain_sums;
     for (int group = 0; group < cell_edge; ++group) {
       const int x = x0 + group * n;

@@ -99,6 +99,15 @@ bool few_matter(double sum, double squares, double pixels) {
   return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
 }
 
+/// Resizes in so small steps that it gives up soon.
+void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool>& give_up) {
+  constexpr std::size_t step = std::size_t{1} << 18u;
+  numbers.reserve(count);
+  for (std::size_t size = std::min(numbers.size(), count); size < count && !give_up.load(std::memory_order_relaxed);)
+    numbers.resize(size = std::min(size + step, count));
+  if (numbers.size() > count) numbers.resize(count);
+}
+
 double sum_of(const std::vector<double>& rows) {
   double sum = 0;
   for (const double row : rows) sum += row;
@@ -121,6 +130,7 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
     v.half[k] = input.halves.plane(k), v.filtered[k] = work.plane(k);
     v.emission[k] = input.emission.count() > 0 ? input.emission.plane(k) : nullptr;
   }
+  v.dark_rows = input.dark_rows.empty() ? nullptr : input.dark_rows.data();
   for (int k = 0; k < seen_features; ++k) v.seen[k] = input.seen.plane(k);
   v.sharp = input.seen.plane(seen_features);
   v.level = work.plane(outputs), v.gain = work.plane(outputs + 1), v.distance = work.plane(outputs + 2);
@@ -153,12 +163,12 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
            each_pixel_row([&](int y) { m.steps.mix(v, rival, y); });
   };
   const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
+  // The room for the result is made by one thread while the others sum: the system takes its time over new memory.
   const auto make_room = [&] {
     m.made.width = v.width, m.made.height = v.height;
-    m.made.rgb.resize(3 * width * height);
-    m.made.pixel_error.resize(width * height);
+    grow(m.made.rgb, 3 * width * height, give_up);
+    grow(m.made.pixel_error, width * height, give_up);
   };
-  // The room for the result is made by one thread while the others sum: the system takes its time over new memory.
   const auto sum_row = [&](int row) { row == 0 ? make_room() : m.steps.sum_cells(v, row - 1); };
   const bool whole = each(m.cells_y + 1, sum_row) &&
                      each(m.cells_y + 1, [&](int row) { m.steps.fit_blocks(v, row); }) &&

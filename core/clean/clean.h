@@ -4,6 +4,7 @@
 #include "core/film/film.h"
 
 #include <atomic>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -49,8 +50,8 @@ class Planes {
  public:
   static constexpr int margin = 16;
 
-  /// Zeros. Keeps its memory where the size is the same, with whatever it holds within the rows.
-  void resize(int width, int height, int count);
+  /// Zeros. Keeps its memory where the size is the same, with whatever it holds within the rows, and returns false.
+  bool resize(int width, int height, int count);
   int width() const { return width_; }
   std::ptrdiff_t stride() const { return stride_; }
   int count() const { return count_; }
@@ -67,11 +68,12 @@ class Planes {
 /// A picture to be filtered: both halves, as means over samples, and the light that came straight from lamps and sky.
 struct CleanInput {
   int width = 0, height = 0;
-  float scale = 1;  ///< a power of two: radiance is that times the numbers in the planes
-  double spp = 0;   ///< samples a pixel, on average
-  Planes halves;    ///< 6: red, green, blue of A and B
-  Planes emission;  ///< likewise, or none
-  Planes seen;      ///< 8: albedo, normal, nearness, 1 where sharp
+  float scale = 1;                      ///< a power of two: radiance is that times the numbers in the planes
+  double spp = 0;                       ///< samples a pixel, on average
+  Planes halves;                        ///< 6: red, green, blue of A and B
+  Planes emission;                      ///< likewise, or none
+  std::vector<std::uint8_t> dark_rows;  ///< 1: the row's emission is 0; empty: not known of any
+  Planes seen;                          ///< 8: albedo, normal, nearness, 1 where sharp
 };
 
 /// Fills all but `seen` with a film's region. Where one half of a pixel is empty it gets what the other has.

@@ -43,6 +43,7 @@ struct FilterView {
   float floor = 0;                            ///< what is added to squared levels, in squared units of the planes
   const float* half[outputs];                 ///< A and B: red, green, blue
   const float* emission[2 * emission_terms];  ///< likewise; null: not recorded
+  const std::uint8_t* dark_rows;              ///< 1 where a row's emission is 0; null: not known
   const float* seen[seen_features];
   const float* sharp;        ///< 1 where lamps and sky are seen without chance in between, else 0
   float* filtered[outputs];  ///< A and B

@@ -33,11 +33,12 @@ void ZeroedFloats::resize(std::size_t count) {
 
 void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
 
-void Planes::resize(int width, int height, int count) {
-  if (width == width_ && height == height_ && count == count_) return;
+bool Planes::resize(int width, int height, int count) {
+  if (width == width_ && height == height_ && count == count_) return false;
   width_ = width, height_ = height, count_ = count;
   stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
   data_.resize(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin);
+  return true;
 }
 
 namespace {
@@ -46,25 +47,35 @@ namespace {
 /// lamp is brighter than 2^25.
 float scale_of(const Film& film) { return static_cast<float>(std::max(film.unit * 0x1p-25, 1.0)); }
 
-/// The factor that turns a half's sums into the means that planes hold; 0 for an empty half.
-double per_sample(const Film& film, const FilmPixel& pixel, int half, double scale) {
-  const std::uint32_t count = counted(film, pixel, half);
-  return count > 0 ? film.unit / scale / count : 0;
-}
+/// The factor that turns the sums of a half with so many samples into the means that planes hold; 0 for an empty half.
+/// Most pixels have as many samples as the one before, and a division takes longer than all the rest.
+class PerSample {
+ public:
+  explicit PerSample(double unit) : unit_(unit) {}
+  double of(std::uint32_t count) {
+    if (count != count_) count_ = count, per_ = count > 0 ? unit_ / count : 0;
+    return per_;
+  }
+
+ private:
+  double unit_, per_ = 0;
+  std::uint32_t count_ = 0;
+};
 
 /// Returns the number of samples in the row.
 std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
-  const double scale = static_cast<double>(input.scale);
   const auto width = static_cast<std::size_t>(input.width);
   const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(y) * width;
   const std::ptrdiff_t row = y * input.halves.stride();
   float* to[filter::outputs];
   for (int k = 0; k < filter::outputs; ++k) to[k] = input.halves.plane(k) + row;
   std::uint64_t samples = 0;
+  const double unit = film.unit / static_cast<double>(input.scale);
+  PerSample of_half[2] = {PerSample(unit), PerSample(unit)};
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
     samples += pixel.taken;
-    double per[2] = {per_sample(film, pixel, 0, scale), per_sample(film, pixel, 1, scale)};
+    const double per[2] = {of_half[0].of(counted(film, pixel, 0)), of_half[1].of(counted(film, pixel, 1))};
     for (int half = 0; half < 2; ++half) {
       const int from = per[half] > 0 ? half : 1 - half;
       for (int c = 0; c < 3; ++c) to[3 * half + c][x] = static_cast<float>(pixel.sum[from][c].value() * per[from]);
@@ -73,15 +84,24 @@ std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
   return samples;
 }
 
+bool is_dark(const EmissionSums& sums) {
+  const auto& sum = sums.sum;
+  return (sum[0][0] | sum[0][1] | sum[0][2] | sum[1][0] | sum[1][1] | sum[1][2]) == 0;
+}
+
+/// Dark rows, as most are, are not written where they are 0 already: memory that is never touched takes no time.
 void read_emission_row(const Film& film, int y, CleanInput& input) {
   const auto width = static_cast<std::size_t>(input.width), first = static_cast<std::size_t>(y) * width;
+  const EmissionSums* sums = film.emission.data() + first;
+  std::uint8_t& is_row_dark = input.dark_rows[static_cast<std::size_t>(y)];
+  const bool dark = std::all_of(sums, sums + width, is_dark);
+  if (dark && is_row_dark != 0) return;
+  is_row_dark = dark ? 1 : 0;
   float* to[2 * filter::emission_terms];
   for (int k = 0; k < 2 * filter::emission_terms; ++k) to[k] = input.emission.plane(k) + y * input.emission.stride();
   for (std::size_t x = 0; x < width; ++x)
     for (int half = 0; half < 2; ++half) {
-      const std::int64_t* sum = film.emission[first + x].sum[half];
-      const bool dark = (sum[0] | sum[1] | sum[2]) == 0;  // as most pixels are, which need no division
-      const Vec3f mean = dark ? Vec3f{} : (1 / input.scale) * half_emission(film, first + x, half);
+      const Vec3f mean = is_dark(sums[x]) ? Vec3f{} : (1 / input.scale) * half_emission(film, first + x, half);
       float* const* plane = to + std::ptrdiff_t{3} * half;
       plane[0][x] = mean.x, plane[1][x] = mean.y, plane[2][x] = mean.z;
     }
@@ -93,7 +113,8 @@ bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, C
   input.width = film.region.width(), input.height = film.region.height();
   input.scale = scale_of(film);
   input.halves.resize(input.width, input.height, filter::outputs);
-  input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms);
+  if (input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms))
+    input.dark_rows.assign(static_cast<std::size_t>(input.height), 1);
   std::vector<std::uint64_t> samples(static_cast<std::size_t>(input.height));
   crew.for_each(input.height, [&](int y) {
     if (give_up.load(std::memory_order_relaxed)) return;

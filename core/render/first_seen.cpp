@@ -45,14 +45,20 @@ class Sharpness {
   bool sharp_ = true;
 };
 
-/// Sets marks[i] where two rows of pixels see different things at i; `a` and `b` are their places in the planes.
-void mark_differences(const CleanInput& input, std::ptrdiff_t a, std::ptrdiff_t b, int count, std::uint8_t* marks) {
+/// Which of its neighbours a pixel differs from.
+constexpr std::uint8_t differs_from_right = 1, differs_from_below = 2;
+
+/// Adds `mark` to marks[i] where two rows of pixels see different things at i; `a` and `b` are their places in the
+/// planes.
+void mark_differences(const CleanInput& input, std::ptrdiff_t a, std::ptrdiff_t b, int count, std::uint8_t mark,
+                      std::uint8_t* marks) {
   const float *row[depth_plane + 1], *other[depth_plane + 1];
   for (int k = 0; k <= depth_plane; ++k) row[k] = input.seen.plane(k) + a, other[k] = input.seen.plane(k) + b;
   const auto off = [&](int k, int i) { return std::abs(row[k][i] - other[k][i]); };
   for (int i = 0; i < count; ++i) {
     const float colour = off(0, i) + off(1, i) + off(2, i), normal = off(3, i) + off(4, i) + off(5, i);
-    marks[i] = static_cast<std::uint8_t>((colour > 0.02f) | (normal > 0.4f) | (off(depth_plane, i) > 0.02f));
+    const bool differ = (colour > 0.02f) | (normal > 0.4f) | (off(depth_plane, i) > 0.02f);
+    marks[i] = static_cast<std::uint8_t>(marks[i] | (differ ? mark : 0));
   }
 }
 
@@ -61,6 +67,7 @@ struct FirstSeenFinder {
   const RenderEngine& engine;
   CleanInput& input;
   std::vector<RowCount> rows;
+  std::vector<std::uint8_t> marks;   ///< of each pixel: differs_from_right, differs_from_below
   std::vector<std::uint8_t> unlike;  ///< of each group, row by row
   float per_depth = 0;               ///< over the mean depth
 
@@ -95,20 +102,24 @@ struct FirstSeenFinder {
     float* depth = row(depth_plane, y);
     for (int x = 0; x < width(); ++x) depth[x] = depth[x] > 0 ? 1 / (1 + depth[x] * per_depth) : 0;
   }
+  std::uint8_t* marks_of(int y) {
+    return marks.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width());
+  }
+  void compare_neighbours(int y) {
+    const std::ptrdiff_t stride = input.seen.stride(), at = y * stride;
+    mark_differences(input, at, at + 1, width() - 1, differs_from_right, marks_of(y));
+    if (y + 1 < region.height()) mark_differences(input, at, at + stride, width(), differs_from_below, marks_of(y));
+  }
   /// Finds the groups in which a pixel sees something else than one of the four beside it.
   void find_unlike(int y) {
-    const std::ptrdiff_t stride = input.seen.stride(), at = y * stride;
-    const auto size = static_cast<std::size_t>(width());
-    std::vector<std::uint8_t> right(size + 1), above(size), below(size);  // right[x]: x - 1 and x are unlike
-    mark_differences(input, at, at + 1, width() - 1, right.data() + 1);
-    if (y > 0) mark_differences(input, at, at - stride, width(), above.data());
-    if (y + 1 < region.height()) mark_differences(input, at, at + stride, width(), below.data());
-    right[size] = 0;
-    std::uint8_t* marks = unlike.data() + static_cast<std::size_t>(y) * groups();
-    for (std::size_t x = 0; x < size; ++x)
-      if (right[x] != 0 || right[x + 1] != 0 || above[x] != 0 || below[x] != 0) marks[x / group] = 1;
+    const std::uint8_t *own = marks_of(y), *above = marks_of(std::max(y - 1, 0));
+    std::uint8_t* found = unlike.data() + static_cast<std::size_t>(y) * groups();
+    for (int x = 0; x < width(); ++x)
+      if (own[x] != 0 || (x > 0 && (own[x - 1] & differs_from_right) != 0) ||
+          (y > 0 && (above[x] & differs_from_below) != 0))
+        found[x / group] = 1;
     rows[static_cast<std::size_t>(y)].unlike =
-        group * std::count(marks, marks + static_cast<std::ptrdiff_t>(groups()), std::uint8_t{1});
+        group * std::count(found, found + static_cast<std::ptrdiff_t>(groups()), std::uint8_t{1});
   }
   /// Sets `count` pixels from x0 on to the means over their parts. scene: with parts for pixels.
   void divide(const SceneView& scene, int parts, int x0, int y, int count) const {
@@ -118,13 +129,18 @@ struct FirstSeenFinder {
     const int left = parts * (region.x0 + x0), top = parts * (region.y0 + y);
     for (int line = top; line < top + parts; ++line) {
       engine.kernels.first_hits(scene, {left, line, left + parts * count, line + 1}, hits);
-      for (int i = 0; i < parts * count; ++i) {
-        const FirstHit& hit = hits[i];
-        float* to = sum[i / parts];
-        to[0] += hit.albedo.x, to[1] += hit.albedo.y, to[2] += hit.albedo.z;
-        to[3] += hit.normal.x, to[4] += hit.normal.y, to[5] += hit.normal.z;
-        to[depth_plane] += hit.element < 0 ? 0 : 1 / (1 + hit.depth * per_depth);
-        to[sharp_plane] += sharpness.of(hit.element) ? 1.0f : 0.0f;
+      for (int i = 0; i < count; ++i) {
+        FirstSeen all{{sum[i][0], sum[i][1], sum[i][2]}, {sum[i][3], sum[i][4], sum[i][5]}, sum[i][depth_plane]};
+        float sharp = sum[i][sharp_plane];
+        for (const FirstHit* hit = hits + i * parts; hit < hits + (i + 1) * parts; ++hit) {
+          all.albedo.x += hit->albedo.x, all.albedo.y += hit->albedo.y, all.albedo.z += hit->albedo.z;
+          all.normal.x += hit->normal.x, all.normal.y += hit->normal.y, all.normal.z += hit->normal.z;
+          all.nearness += hit->element < 0 ? 0 : 1 / (1 + hit->depth * per_depth);
+          sharp += sharpness.of(hit->element) ? 1.0f : 0.0f;
+        }
+        const float values[planes] = {all.albedo.x, all.albedo.y, all.albedo.z, all.normal.x,
+                                      all.normal.y, all.normal.z, all.nearness, sharp};
+        std::copy_n(values, planes, sum[i]);
       }
     }
     const float share = 1.0f / static_cast<float>(parts * parts);  // a power of two
@@ -134,10 +150,10 @@ struct FirstSeenFinder {
   }
   /// Divides the unlike pixels of a row, as many together as fill the lanes.
   void divide_row(const SceneView& scene, int parts, int y, const std::atomic<bool>& give_up) const {
-    const std::uint8_t* marks = unlike.data() + static_cast<std::size_t>(y) * groups();
+    const std::uint8_t* chosen = unlike.data() + static_cast<std::size_t>(y) * groups();
     for (int x = 0; x < width() && !give_up.load(std::memory_order_relaxed);) {
       int end = x;
-      while (end < width() && end - x < together / parts && marks[end / group] != 0) end += group;
+      while (end < width() && end - x < together / parts && chosen[end / group] != 0) end += group;
       if (end > x) divide(scene, parts, x, y, std::min(end, width()) - x);
       x = std::max(end, x + group);
     }
@@ -165,8 +181,9 @@ bool find_first_seen(const Region& region, const RenderEngine& engine, const std
                      CleanInput& input, FirstSeenParts& made) {
   const int height = region.height();
   resize_first_seen(region.width(), height, input);
-  FirstSeenFinder finder{region, engine, input, {}, {}};
+  FirstSeenFinder finder{region, engine, input, {}, {}, {}};
   finder.rows.resize(static_cast<std::size_t>(height));
+  finder.marks.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(region.width()));
   finder.unlike.resize(finder.groups() * static_cast<std::size_t>(height));
   const auto each_row = [&](const auto& job) {
     engine.crew.for_each(height, [&](int y) {
@@ -176,7 +193,8 @@ bool find_first_seen(const Region& region, const RenderEngine& engine, const std
   };
   if (!each_row([&](int y) { finder.look_at_centres(y); })) return false;
   finder.per_depth = finder.per_mean_depth();
-  if (!each_row([&](int y) { finder.turn_into_nearness(y); }) || !each_row([&](int y) { finder.find_unlike(y); }))
+  if (!each_row([&](int y) { finder.turn_into_nearness(y); }) ||
+      !each_row([&](int y) { finder.compare_neighbours(y); }) || !each_row([&](int y) { finder.find_unlike(y); }))
     return false;
   made = {region, 0, 1};
   for (const RowCount& row : finder.rows) made.unlike += row.unlike;

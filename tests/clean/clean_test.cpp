@@ -327,3 +327,32 @@ TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from
   CHECK(value(0, 2) == 0);
   CHECK(value(5, 2) == 0);
 }
+
+TEST_CASE("clean: rows without emission are known as dark, also after a picture in which they shone") {
+  Film lit = make_film(3, 2, {0, 0, 3, 2}, 0, 1, true), dark = lit;
+  lit.at(1, 1).taken = 2;
+  lit.emission[4].sum[0][2] = std::int64_t{1} << 29;
+  Crew crew(1);
+  CleanInput input;
+  const auto shine = [&] { return input.emission.plane(2)[input.emission.stride() + 1]; };
+  REQUIRE(read_film(lit, crew, false, input));
+  CHECK(input.dark_rows == std::vector<std::uint8_t>{1, 0});
+  CHECK(shine() == 1);
+  REQUIRE(read_film(dark, crew, false, input));
+  CHECK(input.dark_rows == std::vector<std::uint8_t>{1, 1});
+  CHECK(shine() == 0);
+  REQUIRE(read_film(lit, crew, false, input));
+  CHECK(shine() == 1);
+}
+
+TEST_CASE("clean: emission is found in rows that are not known to be dark, and not looked for in the others") {
+  Known k = known_picture(96, 64, 0.3f);
+  k.input.emission.resize(96, 64, 6);
+  for (int half = 0; half < 2; ++half) add_emission(k.input, half, 40, 20, 30);
+  const CleanPicture unknown = clean(k.input);
+  k.input.dark_rows.assign(64, 1);
+  k.input.dark_rows[20] = 0;
+  CHECK(clean(k.input).rgb == unknown.rgb);
+  k.input.dark_rows[20] = 1;
+  CHECK(clean(k.input).rgb != unknown.rgb);
+}
