@@ -66,7 +66,7 @@ std::string json_text(const Comparison& c) {
 }
 
 std::string blocks_text(const BlockScores& b) {
-  return fmt::format("blocks   mean z^2 {:.3g} in {} blocks of 8x8 (up to {:.3g} is noise), worst |z| {:.3g}: {}\n",
+  return fmt::format("blocks   mean z^2 {:.3g} in {} blocks of 16x16 (up to {:.3g} is noise), worst |z| {:.3g}: {}\n",
                      b.mean_square, b.blocks, b.most, b.worst, b.noise() ? "only noise" : "more than noise");
 }
 

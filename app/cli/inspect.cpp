@@ -2,14 +2,15 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/files/open_scene.h"
-#include "app/report/chain_gain.h"
 #include "app/report/contents.h"
 #include "app/report/kernel_gain.h"
+#include "app/report/method_gain.h"
 #include "app/report/names.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
+#include "core/kernel/sharing.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -27,11 +28,11 @@ struct Report {
   KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
-  ChainGain chain_gain;
+  MethodGain chain_gain, sharing_gain;
 };
 
 Report examine(const InspectCommand& command) {
-  Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}};
+  Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
   report.compiled = compile(scene);
@@ -40,6 +41,7 @@ Report examine(const InspectCommand& command) {
   if (command.measure) {
     report.gain = measure_kernel_gain(report.compiled, kernels);
     report.chain_gain = measure_chain_gain(scene, kernels.isa);
+    report.sharing_gain = measure_sharing_gain(scene, kernels.isa);
   }
   report.film_bytes = bytes_per_pixel(has_material<Light<double>>(report.compiled.needs)) *
                       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
@@ -74,6 +76,8 @@ std::string json_text(const Report& report) {
   json["chains"] = report.compiled.chains.ball.size();
   if (report.chain_gain.measured)
     json["chain_gain"] = {{"time", report.chain_gain.time}, {"squared_error", report.chain_gain.error}};
+  if (report.sharing_gain.measured)
+    json["sharing_gain"] = {{"time", report.sharing_gain.time}, {"squared_error", report.sharing_gain.error}};
   json["background"] = c.background;
   json["motion"] = c.motion;
   json["defocus"] = c.defocus;
@@ -146,6 +150,21 @@ std::string chains_text(const Report& report) {
          "; by chance: ways over two of them, quads of glass, other boxes of glass, and fuzzy metal";
 }
 
+/// Whether second vertices are shared between pixels.
+std::string sharing_text(const Report& report) {
+  const RenderScene& compiled = report.compiled;
+  if (!report.loaded.scene.render.sharing) return "off";
+  if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
+  if (!compiled.chains.ball.empty()) return "none: light by chains cannot be shared";
+  if (compiled.needs.moving_spheres) return "none: spheres move";
+  const SceneViewOf view(compiled);
+  const SharingGain gain = probe_sharing(view.view());
+  const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
+                                        gain.variance, gain.time);
+  if (view.view().shares) return "on: " + probe;
+  return "none: " + probe + fmt::format("; it pays where the product is at most {}", worthwhile_product);
+}
+
 std::string bytes_text(std::size_t bytes) {
   const auto number = static_cast<double>(bytes);
   return bytes < 100'000 ? fmt::format("{:.1f} kB", number / 1e3) : fmt::format("{:.1f} MB", number / 1e6);
@@ -158,9 +177,9 @@ std::string gain_text(const KernelGain& gain) {
                      gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
 }
 
-std::string chain_gain_text(const ChainGain& gain) {
+std::string gain_text(const MethodGain& gain) {
   return fmt::format(
-      "a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times scattering's",
+      "a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times that without",
       gain.time, gain.error);
 }
 
@@ -182,7 +201,9 @@ std::string table(const Report& report) {
   row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
   row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
   row("chains", chains_text(report));
-  if (report.chain_gain.measured) row("", chain_gain_text(report.chain_gain));
+  if (report.chain_gain.measured) row("", gain_text(report.chain_gain));
+  row("sharing", sharing_text(report));
+  if (report.sharing_gain.measured) row("", gain_text(report.sharing_gain));
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");

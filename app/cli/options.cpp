@@ -21,7 +21,7 @@ Command read_compare(Words words) {
                   "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
                   "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
-                  "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 8x8 pixels say\n"
+                  "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
                   "whether the difference is more than noise.",
                   "Exit code 1: an error is above its --max-..., or not a number.");
   std::string image, reference;

@@ -59,12 +59,16 @@ Outcome outcome_of(const Job& job, const RenderResult& result, bool unfinished) 
   return outcome;
 }
 
-/// Tells the user if an option asks for chains where the integrator does not look for any.
+/// Tells the user if an option asks for what the integrator does not do.
 void check_if_ignored(const RenderCommand& command, const RenderSettings& settings) {
-  if (!command.scene.render.given.contains("caustics") || settings.caustics != Caustics::chains) return;
-  if (settings.integrator != Integrator::mis)
-    complain("--caustics chains: ignored, because chains are a part of integrator mis, and this is " +
+  if (settings.integrator == Integrator::mis) return;
+  const auto& given = command.scene.render.given;
+  const auto ignored = [&](const std::string& option, const char* what) {
+    complain(option + ": ignored, because " + what + " part of integrator mis, and this is " +
              std::string(name_of(settings.integrator)));
+  };
+  if (given.contains("caustics") && settings.caustics == Caustics::chains) ignored("--caustics chains", "chains are a");
+  if (given.contains("sharing") && settings.sharing) ignored("--sharing on", "sharing is a");
 }
 
 MemoryPlan memory_plan(const RenderCommand& command, const Scene& scene, const Region& region) {

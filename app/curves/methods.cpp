@@ -1,6 +1,7 @@
 #include "app/curves/measure.h"
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
+#include "core/kernel/scene_view.h"
 
 #include <string_view>
 
@@ -11,6 +12,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   exact.render.integrator = Integrator::mis;
   exact.render.fresnel = FresnelKind::exact;
   exact.render.caustics = Caustics::chains;
+  exact.render.sharing = true;
   const RenderScene compiled = compile(exact);
   const Needs needs = compiled.needs;
   std::vector<ChartMethod> methods;
@@ -20,6 +22,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.integrator = Integrator::path;
   settings.sampler = SamplerKind::random;
   settings.caustics = Caustics::scatter;
+  settings.sharing = false;
   settings.fresnel = has_material<Dielectric<>>(needs) ? FresnelKind::schlick : FresnelKind::exact;
   methods.push_back({"the books' method", settings, "scalar"});
   const auto switch_on = [&](const char* name, auto change) {
@@ -34,6 +37,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   }
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
   if (!compiled.chains.ball.empty()) switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
+  if (SceneViewOf(compiled).view().shares) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});

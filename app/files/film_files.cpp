@@ -5,6 +5,7 @@
 #include "app/text/values.h"
 #include "core/base/seconds.h"
 #include "core/compile/compile.h"
+#include "core/kernel/scene_view.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
@@ -26,21 +27,26 @@ void strip(Scene& scene) {
     if (Image* image = std::get_if<Image>(&texture.kind)) image->file.clear();  // its pixels are compared
 }
 
-constexpr const char* caustics_pointer = "/render/caustics";
+constexpr const char *caustics_pointer = "/render/caustics", *sharing_pointer = "/render/sharing";
 
-/// Whether the text that a film carries says how caustics were found. Films from before there was a choice do not, and
-/// left them to chance.
-bool says_caustics(const std::string& text) {
+/// Whether the text that a film carries has a render setting. Films from before there was a choice do not: they left
+/// caustics to chance, and shared nothing.
+bool says(const std::string& text, const char* setting) {
   const JsonValue json = parse_json(text);
   const auto* root = std::get_if<JsonObject>(&json.value);
   const JsonValue* render = root ? find(*root, "render") : nullptr;
   const auto* settings = render ? std::get_if<JsonObject>(&render->value) : nullptr;
-  return settings && find(*settings, "caustics");
+  return settings && find(*settings, setting);
 }
 
 bool could_have_chains(Scene scene) {
   scene.render.caustics = Caustics::chains;
   return !compile(scene).chains.ball.empty();
+}
+
+bool could_share(Scene scene) {
+  scene.render.sharing = true;
+  return SceneViewOf(compile(scene)).view().shares;
 }
 
 }  // namespace
@@ -77,7 +83,8 @@ FilmLabel label_of(const std::filesystem::path& file) {
 StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   LoadedScene loaded = load_scene(file.string());
   Scene scene = move_textures(loaded.scene, loaded.folder, ".");
-  if (!says_caustics(loaded.text)) scene.render.caustics = Caustics::scatter;
+  if (!says(loaded.text, "caustics")) scene.render.caustics = Caustics::scatter;
+  if (!says(loaded.text, "sharing")) scene.render.sharing = false;
   return {{file.string(), std::move(film)}, scene, label_of(file)};
 }
 
@@ -92,17 +99,20 @@ StoredFilm read_stored_frame(const std::filesystem::path& file) {
 bool same_samples(Scene a, Scene b) {
   strip(a);
   strip(b);
-  if (a.render.caustics == b.render.caustics) return a == b;
-  b.render.caustics = a.render.caustics;
-  return a == b && !could_have_chains(a);
+  const bool other_caustics = a.render.caustics != b.render.caustics;
+  const bool other_sharing = a.render.sharing != b.render.sharing;
+  b.render.caustics = a.render.caustics, b.render.sharing = a.render.sharing;
+  if (!(a == b)) return false;
+  return !(other_caustics && could_have_chains(a)) && !(other_sharing && could_share(a));
 }
 
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image) {
   scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, most_samples));
-  const std::string caustics = name_of(scene.render.caustics);
+  const std::string caustics = name_of(scene.render.caustics), sharing = scene.render.sharing ? "true" : "false";
   JsonValue json = parse_json(write_scene(move_textures(std::move(scene), textures, image.parent_path())));
   apply_override(json, {caustics_pointer, caustics});
+  apply_override(json, {sharing_pointer, sharing});
   return print_json(json);
 }
 

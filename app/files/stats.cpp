@@ -1,5 +1,6 @@
 #include "app/files/stats.h"
 
+#include "core/kernel/scene_view.h"
 #include "core/render/plan.h"
 
 #include <fmt/core.h>
@@ -67,6 +68,8 @@ void add_losses(Json& json, const RunFigures& run, const FilmTotals& sum) {
   json["least_spp"] = sum.least_taken;
   json["most_spp"] = sum.most_taken;
   json["rare_bright_paths"] = run.rare_bright_paths;
+  json["caustics"] = name_of(run.settings.render.caustics);
+  json["sharing"] = SceneViewOf(run.compiled).view().shares;  // what was done, not only what was allowed
   add_choices(json, run.settings.render);
 }
 

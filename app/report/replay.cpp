@@ -81,6 +81,10 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
     text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
             std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
   }
+  if (path.shared)
+    text +=
+        "shared: instead of what comes by way of its own second vertex, the sample takes a part of what leaves "
+        "those of eight pixels\n";
   return text + "sample " + text_of(exact(path.radiance)) + "\n";
 }
 

@@ -1,5 +1,7 @@
 #include "core/accuracy/bias.h"
 
+#include "core/film/groups.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,11 +15,13 @@ struct RegionSum {
   double value = 0, variance = 0;
   bool whole = true;  ///< both halves of every pixel have samples
 
-  void add(const Film& film, const FilmPixel& pixel) {
-    whole = whole && counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
-    value += grey(mean(film, pixel));
-    const double half = (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
-    variance += half * half;
+  RegionSum(const Film& film, const Region& region) {
+    const auto deviation = [&](const FilmPixel& pixel) {
+      whole = whole && counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
+      value += grey(mean(film, pixel));
+      return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
+    };
+    for (const double group : group_sums(film, region, deviation)) variance += group * group;
   }
 };
 
@@ -30,9 +34,8 @@ BlockScores block_scores(const Film& a, const Film& b, int edge) {
   double squares = 0;
   for (int y0 = r.y0; y0 < r.y1; y0 += edge)
     for (int x0 = r.x0; x0 < r.x1; x0 += edge) {
-      RegionSum of_a, of_b;
-      for (int y = y0; y < std::min(y0 + edge, r.y1); ++y)
-        for (int x = x0; x < std::min(x0 + edge, r.x1); ++x) of_a.add(a, a.at(x, y)), of_b.add(b, b.at(x, y));
+      const Region block{x0, y0, std::min(x0 + edge, r.x1), std::min(y0 + edge, r.y1)};
+      const RegionSum of_a(a, block), of_b(b, block);
       if (!of_a.whole || !of_b.whole) return {};
       const double difference = of_a.value - of_b.value, variance = of_a.variance + of_b.variance;
       if (variance == 0 && difference == 0) continue;
@@ -43,9 +46,9 @@ BlockScores block_scores(const Film& a, const Film& b, int edge) {
     }
   if (scores.blocks == 0) return scores;
   scores.mean_square = squares / scores.blocks;
-  // The standard errors are themselves estimated, from 2 edge² numbers: z follows Student's t distribution, whose
-  // variance is freedom / (freedom - 2).
-  const double freedom = 2.0 * edge * edge;
+  // The standard errors are themselves estimated, from one number for each group of both films: z follows Student's t
+  // distribution, whose variance is freedom / (freedom - 2).
+  const double freedom = 2.0 * edge * edge / group_size;
   scores.most = freedom / (freedom - 2) + 4 * std::sqrt(2.0 / scores.blocks);
   return scores;
 }

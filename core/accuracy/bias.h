@@ -16,7 +16,7 @@ struct BlockScores {
 };
 
 /// Both films must have the same region, and samples in both halves of every pixel; otherwise there are no blocks.
-/// edge: of a block, in pixels.
-BlockScores block_scores(const Film& a, const Film& b, int edge = 8);
+/// edge: of a block, in pixels; a multiple of 16 keeps groups whole (film/groups.h).
+BlockScores block_scores(const Film& a, const Film& b, int edge = 16);
 
 }  // namespace tyndall

@@ -1,6 +1,7 @@
 #include "core/accuracy/error.h"
 
 #include "core/accuracy/relative.h"
+#include "core/film/groups.h"
 #include "core/image/tonemap.h"
 
 #include <algorithm>
@@ -25,11 +26,12 @@ FilmMean film_mean(const Film& film) {
     return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3;
   };
   double sum = 0, variance = 0;
-  for (const FilmPixel& pixel : film.pixels) {
-    const bool whole = counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
-    sum += grey(mean(film, pixel));
-    variance += whole ? square((grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2) : infinity;
-  }
+  const auto deviation = [&](const FilmPixel& pixel) {
+    if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
+    return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
+  };
+  for (const FilmPixel& pixel : film.pixels) sum += grey(mean(film, pixel));
+  for (const double group : group_sums(film, film.region, deviation)) variance += square(group);
   const auto pixels = static_cast<double>(film.pixels.size());
   return {sum / pixels, std::sqrt(variance) / pixels};
 }

@@ -149,6 +149,12 @@ KernelSet least_kernel(const RenderScene& s) {
   return fog_or_textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
 }
 
+/// Whether the scene holds nothing that second vertices cannot be shared around: a chain starts at an event of one path
+/// and adds its light apart, and a vertex on a moving sphere is there at one time only.
+bool can_share(const RenderScene& s) {
+  return s.integrator == Integrator::mis && s.chains.ball.empty() && !s.needs.moving_spheres;
+}
+
 bool asks_for_light(Integrator integrator) {
   switch (integrator) {
     case Integrator::path:
@@ -202,6 +208,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains)
     out.chains = find_chains(flat, scene, out);
   out.kernel = least_kernel(out);
+  out.may_share = scene.render.sharing && can_share(out);
   out.film_unit = film_unit(brightest(scene));
   return out;
 }

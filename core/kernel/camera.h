@@ -36,12 +36,19 @@ TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& di
 
 inline constexpr int most_unit_pixels = 4096;
 
+/// One sample that is to be taken.
+struct CameraSample {
+  std::int32_t x, y;  ///< pixel, in full-image coordinates
+  std::uint32_t index;
+  std::int32_t slot;  ///< see Paths::slot
+};
+
 /// The samples of a unit, in the order in which lanes take them: first one sample of every pixel, then the next one of
 /// every pixel, and so on.
 struct UnitSamples {
   std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
   std::uint32_t start[most_unit_pixels];                          ///< first sample, if each pixel has its own
-  int width;                                                      ///< of the tile
+  int x0, y0, width;                                              ///< of the tile
   const std::uint32_t *first_of, *last_of;                        ///< see Unit
   std::uint32_t first;
   int pixels;
@@ -53,12 +60,15 @@ struct UnitSamples {
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
-  TYNDALL_INLINE std::uint32_t sample() const { return (first_of ? start[pixel] : first) + round; }
-  TYNDALL_INLINE void advance() {
-    if (++pixel < pixels) return;
+  TYNDALL_INLINE CameraSample take() {
+    const std::uint32_t index = (first_of ? start[pixel] : first) + round;
+    const CameraSample sample{x0 + column[pixel], y0 + row[pixel], index,
+                              2 * place(pixel) + static_cast<std::int32_t>(index & 1u)};
+    if (++pixel < pixels) return sample;
     pixel = 0;
     ++round;
     if (round == next_finish) drop_finished();
+    return sample;
   }
   /// Removes the pixels that have all their samples from the list.
   TYNDALL_INLINE void drop_finished() {
@@ -88,7 +98,7 @@ TYNDALL_INLINE void list_samples(const SceneView& s, const Unit& unit, UnitSampl
       list.row[list.pixels] = static_cast<std::uint16_t>(y - unit.tile.y0);
       ++list.pixels;
     }
-  list.width = unit.tile.x1 - unit.tile.x0;
+  list.x0 = unit.tile.x0, list.y0 = unit.tile.y0, list.width = unit.tile.x1 - unit.tile.x0;
   list.first_of = unit.first_of, list.last_of = unit.last_of;
   list.first = unit.first;
   list.pixel = 0;
@@ -113,20 +123,18 @@ struct CameraQueue {
 
 /// Fills the queue with the rays of the next samples.
 template <class F>
-[[gnu::noinline]] static void refill(CameraQueue<F>& queue, UnitSamples& samples, const SceneView& s,
-                                     const Unit& unit) {
+[[gnu::noinline]] static void refill(CameraQueue<F>& queue, auto& samples, const SceneView& s) {
   constexpr int lanes = lanes_of<F>;
   alignas(64) float x[lanes] = {}, y[lanes] = {};
   alignas(64) std::uint32_t ix[lanes] = {}, iy[lanes] = {}, index[lanes] = {};
   queue.next = queue.end = 0;
-  for (; queue.end < lanes && !samples.empty(); ++queue.end, samples.advance()) {
-    const int k = queue.end, column = samples.column[samples.pixel], row = samples.row[samples.pixel];
-    ix[k] = static_cast<std::uint32_t>(unit.tile.x0 + column);
-    iy[k] = static_cast<std::uint32_t>(unit.tile.y0 + row);
-    x[k] = static_cast<float>(ix[k]);
-    y[k] = static_cast<float>(iy[k]);
-    index[k] = samples.sample();
-    queue.slot[k] = 2 * samples.place(samples.pixel) + static_cast<std::int32_t>(index[k] & 1u);
+  for (; queue.end < lanes && !samples.empty(); ++queue.end) {
+    const int k = queue.end;
+    const CameraSample sample = samples.take();
+    ix[k] = static_cast<std::uint32_t>(sample.x), iy[k] = static_cast<std::uint32_t>(sample.y);
+    x[k] = static_cast<float>(ix[k]), y[k] = static_cast<float>(iy[k]);
+    index[k] = sample.index;
+    queue.slot[k] = sample.slot;
   }
   const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sampler);
   Pair<F> in_pixel = dice.pair(dimension::pixel);

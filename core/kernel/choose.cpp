@@ -31,7 +31,11 @@ Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }
 
 void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
                           UnitCounts& counts, EmissionSums* emission) const {
-  render_units[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, emission, counts);
+  RenderUnit render = render_units[static_cast<int>(scene.kernel)];
+  // The pixels of a coarse pass are too far apart to share.
+  if (scene.shares && unit.step == 1)
+    render = scene.kernel == KernelSet::no_fog_nor_textures ? render_shared_plain : render_shared;
+  render(scene, unit, film_unit, pixels, emission, counts);
 }
 
 KernelSet Kernels::set_for(KernelSet least) const {

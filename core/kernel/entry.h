@@ -1,5 +1,5 @@
 #pragma once
-#include "core/kernel/path.h"
+#include "core/kernel/shared_unit.h"
 
 /// The kernels' entry points as templates over the number type F. Each instruction set has a small .cpp file, which
 /// chooses F and makes a table of them.
@@ -71,10 +71,13 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
 
 // The functions that stand in the table of an instruction set. They are static, so that each file has its own: of an
 // ordinary template the linker keeps one copy for all files, and one with wide instructions would crash older CPUs.
-template <class F, KernelSet set>
+template <class F, KernelSet set, bool shares = false>
 static void render_unit_entry(const SceneView& s, const Unit& u, double film_unit, FilmPixel* p, EmissionSums* e,
                               UnitCounts& c) {
-  render_unit<F>(SceneViewFor<set>{s}, u, {1 / film_unit, p, e, c});
+  if constexpr (shares)
+    render_shared_unit<F>(SceneViewFor<set>{s}, u, {1 / film_unit, p, e, c});
+  else
+    render_unit<F>(SceneViewFor<set>{s}, u, {1 / film_unit, p, e, c});
 }
 template <class F>
 static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {
@@ -92,15 +95,19 @@ static Kernels kernels_of(const char* isa) {
           {render_unit_entry<F, KernelSet::everything>, render_unit_entry<F, KernelSet::chains_alone>,
            render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
            render_unit_entry<F, KernelSet::no_fog_nor_textures>},
+          render_unit_entry<F, KernelSet::no_chains, true>,
+          render_unit_entry<F, KernelSet::no_fog_nor_textures, true>,
           trace_entry<F>,
           first_hits_entry<F>};
 }
-/// A table in which the kernel with every model stands for each KernelSet. It gives the same pictures, a little slower,
-/// and takes a fifth of the time to compile: for references and for old processors.
+/// A table in which the kernels with every model stand for each KernelSet. They give the same pictures, a little
+/// slower, and take a fifth of the time to compile: for references and for old processors.
 template <class F>
 static Kernels full_kernel_of(const char* isa) {
   const RenderUnit render = render_unit_entry<F, KernelSet::everything>;
-  return {isa, lanes_of<F>, {render, render, render, render, render}, trace_entry<F>, first_hits_entry<F>};
+  const RenderUnit share = render_unit_entry<F, KernelSet::no_chains, true>;
+  return {
+      isa, lanes_of<F>, {render, render, render, render, render}, share, share, trace_entry<F>, first_hits_entry<F>};
 }
 
 }  // namespace tyndall

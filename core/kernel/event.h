@@ -22,6 +22,8 @@ struct Paths {
   F weight;                    ///< of the sample, see glints.h; only in scenes with chains
   std::uint32_t alive = 0;     ///< bit i: lane i follows a path
   std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps
+  /// Bit i: its first, its second vertex is one of those that are shared (share.h). 0 in kernels that do not share.
+  std::uint32_t first = 0, second = 0;
 };
 
 /// The places where a group of lanes is about to scatter: points of surfaces and points within media.

@@ -2,6 +2,9 @@
 #include "core/kernel/camera.h"
 #include "core/kernel/chain_light.h"
 #include "core/kernel/near_lights.h"
+#include "core/kernel/share.h"
+
+#include <type_traits>
 
 /// The path loop. Each lane of a group follows a path of its own; when that ends, the lane takes the next camera ray,
 /// so that no lane waits for the others.
@@ -9,13 +12,12 @@ namespace tyndall {
 
 /// Gives each free lane a camera ray, as long as there are samples.
 template <class F>
-TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples& samples, const auto& s,
-                                 const Unit& unit) {
+TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, auto& samples, const auto& s) {
   constexpr std::uint32_t full = lanes_of<F> == 32 ? 0xffffffffu : (1u << (lanes_of<F> % 32)) - 1u;
   while (p.alive != full) {
     if (queue.next == queue.end) {
       if (samples.empty()) return;
-      refill(queue, samples, s, unit);
+      refill(queue, samples, s);
     }
     std::uint32_t fresh = full & ~p.alive;
     while (__builtin_popcount(fresh) > queue.end - queue.next) fresh &= fresh - 1;
@@ -41,6 +43,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, UnitSamples
     p.density = select(m, F(one_direction), p.density);
     if (s.has_chains()) p.trail.met = select(m, IntOf<F>(-1), p.trail.met);
     if (s.has_lamps()) p.straight |= fresh;
+    p.first &= ~fresh, p.second &= ~fresh;
     p.alive |= fresh;
   }
 }
@@ -103,10 +106,12 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
 }
 
 /// Takes all active lanes one step further: to the next surface, the next event in a medium, or out of the scene.
-/// Returns which lanes go on, and sets `cut` to those that ended because of max_depth.
+/// Returns which lanes go on, and sets `cut` to those that ended because of max_depth. shared: SharedPaths, or
+/// NoSharing.
 template <class F>
 TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut, ChainQueue<F>& chains,
-                              std::uint32_t& shadow_rays) {
+                              auto& shared, std::uint32_t& shadow_rays) {
+  constexpr bool shares = std::is_same_v<std::remove_cvref_t<decltype(shared)>, SharedPaths>;
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found = no_event(p.ray);
   const F to_surface = hit.t;
@@ -125,6 +130,11 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   if (s.has_media() && any(e.medium)) meet_media(s, found, e);
   if (s.has_lamps_in_fog()) light_near_lamps(s, p, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
   const auto met = mask_or(e.surface, e.medium);
+  if constexpr (shares) {
+    const auto second = mask_and(mask_and(met, scatters_evenly(s, e)),
+                                 mask_and(equal(p.depth, IntOf<F>(1)), mask_from_bits<F>(p.first)));
+    if (any(second)) note_second(p, e, second, shared), p.second |= bits(second);
+  }
   const Vec3<F> carried = p.throughput * e.colour;
   const auto lost = lose(p, met, carried + e.point);
   // A path that carries nothing any more has ended by itself: it does not count as cut.
@@ -132,6 +142,11 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   cut = mask_and(useful, deep);
   const auto scattering = mask_and_not(useful, deep);
+  auto first = less(F(1.0f), F(0.0f));
+  if constexpr (shares) {
+    first = mask_and(mask_and(scattering, scatters_evenly(s, e)), equal(p.depth, IntOf<F>(0)));
+    if (any(first)) note_first(p, e, first, shared), p.first |= bits(first);
+  }
   if (s.light_sampling && any(scattering)) {
     const LightAsked<F> asked{choose_light(s.lights, e.point, p.dice.one(dimension::light_choice)),
                               p.dice.pair(dimension::light_point), p.flight, false};
@@ -156,7 +171,9 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
-  const auto survivors = roulette(p, lanes);
+  // Roulette never ends a path before its second vertex can be shared.
+  const auto survivors =
+      shares ? mask_or(roulette(p, mask_and_not(lanes, first)), mask_and(lanes, first)) : roulette(p, lanes);
   p.dice.next_event();
   return survivors;
 }
@@ -235,18 +252,20 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm&
   list_samples(s, unit, samples);
   CameraQueue<F> queue;
   ChainQueue<F> chains{};
+  NoSharing alone;
   Paths<F> p{};
   p.dice.sampler = s.sampler;
   // The loop goes on until no event waits for a chain. A second loop for the last of them would put their code into
   // each kernel twice.
   for (bool sampling = true; sampling || chains.count > 0;) {
-    take_samples(p, queue, samples, s, unit);
+    take_samples(p, queue, samples, s);
     sampling = p.alive != 0;
     if (sampling) {
       counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
       MaskOf<F> cut;
       std::uint32_t shadow_rays = 0;
-      const std::uint32_t survivors = bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shadow_rays)) & p.alive;
+      const std::uint32_t survivors =
+          bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, alone, shadow_rays)) & p.alive;
       counts.rays += shadow_rays;
       counts.shadow_rays += shadow_rays;
       finish(s, p, p.alive & ~survivors, bits(cut), film);

@@ -1,7 +1,7 @@
 // Compiled like the scalar kernel, so that its steps are the same to the last bit.
 #include "core/kernel/replay.h"
 
-#include "core/kernel/path.h"
+#include "core/kernel/shared_unit.h"
 
 namespace tyndall {
 namespace {
@@ -58,11 +58,40 @@ Fate fate_of(const Meeting& m, const Paths<float>& after, bool survives, bool cu
   return black || below ? Fate::absorbed : Fate::roulette;
 }
 
-/// Takes the path one step further; answers whether it goes on. `cut`: whether max_depth ended it.
-bool take_step(const SceneView& s, Paths<float>& p, bool& cut) {
+/// Takes the path one step further; answers whether it goes on. `cut`: whether max_depth ended it. shared: of a scene
+/// that shares.
+bool take_step(const SceneView& s, Paths<float>& p, bool& cut, SharedPaths& shared) {
   std::uint32_t shadow_rays = 0;
   ChainQueue<float> chains{};
-  return step(s, p, true, cut, chains, shadow_rays);
+  NoSharing alone;
+  return s.shares ? step(s, p, true, cut, chains, shared, shadow_rays)
+                  : step(s, p, true, cut, chains, alone, shadow_rays);
+}
+
+/// From its second vertex on a path that is shared is a path of its own, which came there with a grey throughput. This
+/// is what it has gathered, and what it carries, as a path of its own pixel.
+struct OwnColours {
+  Vec3f gathered{}, tint{1, 1, 1};
+
+  OwnColours(const Paths<float>& p, const SharedPaths& shared) {
+    if (!p.second) return;
+    const auto at = [&](const float(&columns)[3][SharedPaths::room]) {
+      return Vec3f{columns[0][p.slot], columns[1][p.slot], columns[2][p.slot]};
+    };
+    const Vec3f albedo = at(shared.albedo);
+    gathered = at(shared.own), tint = (1 / max_component(albedo)) * albedo;
+  }
+};
+
+/// The sample of a scene that shares, together with the samples of its group.
+Vec3f shared_sample(const SceneView& s, const Unit& unit) {
+  FilmPixel pixel{};
+  UnitCounts counts;
+  render_shared_unit<float>(s, unit, {1, &pixel, nullptr, counts});
+  const ExactSum(&sum)[3] = pixel.sum[unit.first & 1u];
+  const float lost = pixel.rejected[unit.first & 1u] ? __builtin_nanf("") : 0.0f;
+  const auto value = [&](int c) { return lost + static_cast<float>(sum[c].value()); };
+  return {value(0), value(1), value(2)};
 }
 
 /// The scene without chains. What a step in the full scene adds beyond a step in this one was added by chains.
@@ -71,11 +100,12 @@ SceneView without_chains(SceneView s) {
   return s;
 }
 
-void tell_chains(const SceneView& s, Paths<float> before, const Paths<float>& after, PathVertex& v) {
+void tell_chains(const SceneView& s, Paths<float> before, const Paths<float>& after, SharedPaths& shared,
+                 PathVertex& v) {
   if (!s.has_chains()) return;
   const Vec3f start = before.radiance;
   bool cut = false;
-  take_step(without_chains(s), before, cut);
+  take_step(without_chains(s), before, cut, shared);
   const float with = max_component(after.radiance - start), alone = max_component(before.radiance - start);
   if (with < alone)
     v.chance = with / alone;
@@ -92,23 +122,29 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
   CameraQueue<float> queue;
   Paths<float> p{};
   p.dice.sampler = s.sampler;
-  take_samples(p, queue, samples, s, unit);
+  take_samples(p, queue, samples, s);
   PathReplay path{p.ray.origin, p.ray.time, {}, {}, s.has_chains() ? p.weight : 1.0f};
+  SharedPaths shared;
   while (p.alive) {
     Meeting meeting = meet(s, p);
     bool cut = false;
     const Paths<float> before = p;
-    const bool survives = take_step(s, p, cut);
+    const Vec3f tint = OwnColours(p, shared).tint;
+    const bool survives = take_step(s, p, cut, shared);
+    const OwnColours own(p, shared);
     PathVertex& v = meeting.vertex;
-    tell_chains(s, before, p, v);
-    v.radiance = path.weight * p.radiance, v.by_chains = path.weight * v.by_chains;
+    tell_chains(s, before, p, shared, v);
+    v.throughput = tint * v.throughput;
+    v.radiance = own.gathered + own.tint * (path.weight * p.radiance), v.by_chains = path.weight * v.by_chains;
     v.fate = fate_of(meeting, p, survives, cut);
     v.inside = v.met == Met::surface && survives && p.ray.from >= 0 &&
                (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
     path.vertices.push_back(v);
     p.alive = survives ? 1 : 0;
   }
-  path.radiance = path.weight * p.radiance;
+  path.radiance = path.vertices.back().radiance;
+  path.shared = p.first != 0;
+  if (s.shares) path.radiance = shared_sample(s, unit);
   return path;
 }
 

@@ -1,5 +1,7 @@
 #include "core/kernel/scene_view.h"
 
+#include "core/kernel/sharing.h"
+
 #include <algorithm>
 
 namespace tyndall {
@@ -107,6 +109,7 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   glints_ = find_glints(v);
   v.glint_count = static_cast<int>(glints_.size());
   v.glints = glints_.data();
+  v.shares = s.may_share && is_worthwhile(probe_sharing(v));
 }
 
 }  // namespace tyndall

@@ -83,6 +83,7 @@ struct SceneView {
   Integrator integrator;
   Needs needs;
   KernelSet kernel;
+  bool shares;  ///< second vertices are shared between pixels: see sharing.h
 
   // What kernels ask before they run the code of a model.
   TYNDALL_INLINE bool has_media() const { return needs.media; }

@@ -1,5 +1,7 @@
 #include "core/render/pass.h"
 
+#include "core/film/groups.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,13 +10,16 @@ namespace tyndall {
 namespace {
 
 constexpr double unit_paths = 2048;
-constexpr int least_tile = 8, most_tile = 64;  // kernels take at most most_tile² pixels (most_unit_pixels)
+constexpr int most_tile = 64;  // kernels take at most most_tile² pixels (most_unit_pixels)
 
-/// Edge of tiles whose units have about unit_paths paths; a multiple of 8, as coarse passes sample every 8th pixel.
-int chosen_tile(std::uint32_t samples, int step) {
+/// Edge of tiles whose units have about unit_paths paths: a multiple of `least`.
+int chosen_tile(std::uint32_t samples, int step, int least) {
   const double pixels = unit_paths * step * step / std::max(1u, samples);
-  return std::clamp(static_cast<int>(std::sqrt(pixels)) / 8 * 8, least_tile, most_tile);
+  return std::clamp(static_cast<int>(std::sqrt(pixels)) / least * least, least, most_tile);
 }
+
+int rounded_down(int at, int step) { return at / step * step; }
+int divided_up(int quantity, int step) { return (quantity + step - 1) / step; }
 
 /// The memory in which a unit of work gathers its samples.
 struct UnitBuffer {
@@ -64,28 +69,31 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
 
 }  // namespace
 
-Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int skip_step, int tile)
-    : region_(region),
-      first_(first),
-      last_(last),
-      step_(step),
-      skip_step_(skip_step),
-      tile_(tile > 0 ? std::min(tile, most_tile) : chosen_tile(last - first, step)),
-      columns_((region.width() + tile_ - 1) / tile_),
-      rows_((region.height() + tile_ - 1) / tile_),
-      done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int skip_step, Tiling tiling)
+    : region_(region), first_(first), last_(last), step_(step), skip_step_(skip_step) {
+  cut(tiling, last - first);
+}
 
-Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, int tile)
-    : region_(film.region),
-      wanted_(std::move(wanted)),
-      tile_(tile > 0 ? std::min(tile, most_tile) : chosen_tile(mean_lack(film, wanted_), 1)),
-      columns_((region_.width() + tile_ - 1) / tile_),
-      rows_((region_.height() + tile_ - 1) / tile_),
-      done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling)
+    : region_(film.region), wanted_(std::move(wanted)) {
+  cut(tiling, mean_lack(film, wanted_));
+}
+
+void Pass::cut(Tiling tiling, std::uint32_t samples) {
+  // Coarse passes sample every 8th pixel. A unit that cuts a shared block in two traces all of it twice.
+  const int least = tiling.shares ? std::max(block_width, block_height) : 8;
+  tile_ = tiling.edge > 0 ? std::min(tiling.edge, most_tile) : chosen_tile(samples, step_, least);
+  left_ = rounded_down(region_.x0, tiling.shares ? block_width : 1);
+  top_ = rounded_down(region_.y0, tiling.shares ? block_height : 1);
+  columns_ = divided_up(region_.x1 - left_, tile_);
+  rows_ = divided_up(region_.y1 - top_, tile_);
+  done_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+}
 
 Region Pass::tile(int unit) const {
-  const int x = region_.x0 + unit % columns_ * tile_, y = region_.y0 + unit / columns_ * tile_;
-  return {x, y, std::min(x + tile_, region_.x1), std::min(y + tile_, region_.y1)};
+  const int x = left_ + unit % columns_ * tile_, y = top_ + unit / columns_ * tile_;
+  return {std::max(x, region_.x0), std::max(y, region_.y0), std::min(x + tile_, region_.x1),
+          std::min(y + tile_, region_.y1)};
 }
 
 bool Pass::run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& film, const std::atomic<bool>& give_up,

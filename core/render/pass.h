@@ -11,16 +11,22 @@
 /// Takes samples with all threads, so that it can be interrupted within 2 ms without losing what was computed.
 namespace tyndall {
 
+/// How a pass is cut into units of work.
+struct Tiling {
+  int edge = 0;         ///< of tiles, in pixels; 0: chosen
+  bool shares = false;  ///< the scene shares second vertices: tiles that are chosen hold whole blocks of pixels
+};
+
 /// One sweep over an image. It takes the same range of sample indices for every pixel, or brings each pixel up to a
 /// count of its own. The work is cut into units of about 2,000 paths. A unit is added to the film whole or not at all,
 /// so each pixel always has the first n of its samples, without gaps. A pass that was interrupted can go on later.
 class Pass {
  public:
-  /// Samples first … last - 1 of the region's pixels. step, skip_step: see Unit. tile: edge in pixels, 0: chosen.
-  Pass(Region region, std::uint32_t first, std::uint32_t last, int step = 1, int skip_step = 0, int tile = 0);
+  /// Samples first … last - 1 of the region's pixels. step, skip_step: see Unit.
+  Pass(Region region, std::uint32_t first, std::uint32_t last, int step = 1, int skip_step = 0, Tiling tiling = {});
 
   /// Brings each pixel of the film's region to `wanted` samples (row by row); pixels that have more keep them.
-  Pass(const Film& film, std::vector<std::uint32_t> wanted, int tile = 0);
+  Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling = {});
 
   /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then it returns
   /// within one unit. Returns whether all are done. A sample of index film.first_sample replaces what its pixel held,
@@ -37,6 +43,7 @@ class Pass {
   std::uint32_t last() const { return last_; }
 
  private:
+  void cut(Tiling tiling, std::uint32_t samples);
   Region tile(int unit) const;
   void run_unit(int unit, const Kernels& kernels, const SceneView& scene, Film& film);
   bool fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
@@ -48,6 +55,7 @@ class Pass {
   std::uint32_t first_ = 0, last_ = 0;
   std::vector<std::uint32_t> wanted_;  ///< for each pixel; empty: first_ to last_ for all
   int step_ = 1, skip_step_ = 0, tile_;
+  int left_, top_;  ///< of the first tile: at most those of the region
   int columns_, rows_;
   std::vector<std::uint8_t> done_;  ///< for each unit; written only by the thread that runs it
   std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;

@@ -29,31 +29,35 @@ PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) 
   if (sum.most_taken > sum.least_taken) level_to_ = sum.most_taken;
 }
 
-Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew) {
+Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
+                         const RenderEngine& engine) {
   if (pass_) return *pass_;
   coarse_ = level_to_ == 0 && taken_ == 0 && !coarse_done_ && options_.coarse_step > 1;
   end_ = 1;
   if (level_to_ > 0) {
     end_ = level_to_;
-    pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), options_.tile);
+    const Tiling tiling{options_.tile, engine.scene.shares};
+    pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
   } else if (coarse_) {
     pass_ = std::make_unique<Pass>(film.region, film.first_sample, film.first_sample + 1, options_.coarse_step, 0,
-                                   options_.tile);
+                                   Tiling{options_.tile});
   } else {
-    pass_ = full_pass(film, limit, paths_per_second, crew);
+    pass_ = full_pass(film, limit, paths_per_second, engine);
   }
   return *pass_;
 }
 
 std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
-                                              Crew& crew) {
+                                              const RenderEngine& engine) {
+  const Tiling tiling{options_.tile, engine.scene.shares};
   end_ = taken_ + pass_samples(options_.length, taken_, film.pixels.size(), paths_per_second);
   if (limit) end_ = std::min(end_, *limit);
-  if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &crew));
-  if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), options_.tile);
-  const int skip_step = taken_ == 0 && coarse_done_ ? options_.coarse_step : 0;  // these have their first sample
+  if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.crew));
+  if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
+  // The pixels of a coarse pass have their first sample, unless that was one without its group.
+  const int skip_step = taken_ == 0 && coarse_done_ && !tiling.shares ? options_.coarse_step : 0;
   return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
-                                options_.tile);
+                                tiling);
 }
 
 void PassSchedule::finish() {
@@ -107,7 +111,7 @@ bool Progression::reached(const Limits& limits) const {
 
 bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
                            const std::function<void()>& poll) {
-  Pass& pass = schedule_.next(film_, limits.spp, tally_.last_paths_per_second, engine.crew);
+  Pass& pass = schedule_.next(film_, limits.spp, tally_.last_paths_per_second, engine);
   const Clock::time_point start = Clock::now();
   running_from_ = options_.count_breaks ? last_write_ : start;
   const bool whole = pass.run(engine.crew, engine.kernels, engine.scene, film_, give_up, poll);

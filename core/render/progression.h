@@ -46,7 +46,7 @@ struct EstimateTimes {
 /// How a picture is made.
 struct ProgressionOptions {
   bool adaptive = false;      ///< see plan.h
-  int tile = 0;               ///< edge of a tile in pixels; 0: chosen
+  int tile = 0;               ///< see Tiling
   int coarse_step = 1;        ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
   bool count_breaks = false;  ///< the time between passes counts as rendering time, as in blocking renders
   PassLength length;
@@ -71,7 +71,7 @@ class PassSchedule {
 
   /// Returns the pass that was interrupted, or else begins a new one. limit: see Limits::spp; paths_per_second: see
   /// pass_samples().
-  Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew);
+  Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, const RenderEngine& engine);
   /// To be called when all units of the pass are done.
   void finish();
 
@@ -83,7 +83,8 @@ class PassSchedule {
   int coarse_step() const { return options_.coarse_step; }
 
  private:
-  std::unique_ptr<Pass> full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, Crew& crew);
+  std::unique_ptr<Pass> full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
+                                  const RenderEngine& engine);
 
   ProgressionOptions options_;
   std::unique_ptr<Pass> pass_;

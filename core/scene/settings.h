@@ -75,6 +75,7 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   FresnelKind fresnel = FresnelKind::exact;
   Caustics caustics = Caustics::chains;
+  bool sharing = true;
   std::uint32_t seed = 0;
   bool adaptive = false;
   bool operator==(const RenderSettings&) const = default;
@@ -90,6 +91,8 @@ inline constexpr auto fields(const RenderSettings*) {
       Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
       Field{"caustics", &RenderSettings::caustics,
             "how integrator mis finds light through glass balls and panes and off mirrors"},
+      Field{"sharing", &RenderSettings::sharing,
+            "integrator mis lets light that comes by way of walls reach eight pixels at once, where that pays"},
       Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
       Field{"adaptive", &RenderSettings::adaptive,
             "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "

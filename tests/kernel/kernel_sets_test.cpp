@@ -54,6 +54,14 @@ TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others
   CHECK(double_kernels().set_for(KernelSet::no_fog_nor_textures) == KernelSet::everything);
 }
 
+TEST_CASE("kernel sets: wide instruction sets have two kernels that share, the others one") {
+  for (const Kernels& kernels : available_kernels()) {
+    const std::string isa = kernels.isa;
+    CAPTURE(isa);
+    CHECK((kernels.render_shared != kernels.render_shared_plain) == (isa == "avx2" || isa == "avx512"));
+  }
+}
+
 TEST_CASE("kernel sets: a scene gets the least that holds its models") {
   CHECK(compile(load_scene("cornell-box").scene).kernel == KernelSet::no_fog_nor_textures);
   CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_lamps_in_fog);

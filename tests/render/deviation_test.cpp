@@ -39,10 +39,11 @@ Course follow(const Scene& scene, double impact, std::initializer_list<int> refl
   p.throughput = {F(1), F(1), F(1)};
   bool cut = false;
   ChainQueue<F> chains{};
+  NoSharing alone;
   std::uint32_t shadows = 0;
   for (int event = 0; event < 20; ++event) {
     p.dice = std::find(reflections.begin(), reflections.end(), event) != reflections.end() ? reflect : refract;
-    if (!step(view.view(), p, true, cut, chains, shadows))
+    if (!step(view.view(), p, true, cut, chains, alone, shadows))
       return {{static_cast<double>(p.ray.direction.x), static_cast<double>(p.ray.direction.y),
                static_cast<double>(p.ray.direction.z)},
               event};

@@ -146,7 +146,7 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
     const SceneViewOf view(scene);
     Film film = make_film(61, 43, whole.region, 0, scene.film_unit, !whole.emission.empty());
     const std::atomic<bool> no = false, yes = true;
-    Pass pass(whole.region, 0, 24, 1, 0, 16);
+    Pass pass(whole.region, 0, 24, 1, 0, {16});
     pass.run(crew, kernels, view.view(), film, yes);
     for (int time = 0; time < 2; ++time) CHECK(pass.run(crew, kernels, view.view(), film, no));  // then nothing is left
     CHECK(film == whole);

@@ -157,6 +157,7 @@ class SceneGenerator {
   Quad<> quad() {
     Quad<> out;
     fill(out);
+    if (dot(out.u, out.u) == 0) out.u.x = 1;
     out.v = {out.u.y + 1, -out.u.x, out.u.z - 1};
     return out;
   }

@@ -16,7 +16,7 @@ const std::string everything = R"(// A first line
   "camera": { "look_from": [278, 278, -800], "look_at": [278, 278, 0], "vup": [0, 2, 0], "vfov": 40,
               "defocus_angle": 0.5, "focus_distance": 10, "shutter": [0.25, 0.75] },
   "background": { "type": "hemispheres", "up": [1, 2, 3], "down": [0, 0, 0.5] },
-  "render": { "max_depth": 50, "spp": 200, "integrator": "path", "sampler": "random", "fresnel": "schlick", "caustics": "scatter", "seed": 4294967295, "adaptive": true },
+  "render": { "max_depth": 50, "spp": 200, "integrator": "path", "sampler": "random", "fresnel": "schlick", "caustics": "scatter", "sharing": false, "seed": 4294967295, "adaptive": true },
   "display": { "exposure": -1.5, "tone_map": "aces" },
   "objects": [
     { "name": "ball", "type": "sphere", "center": [0, 1, 0], "radius": -0.9, "material": "glass" },
@@ -63,7 +63,7 @@ TEST_CASE("read_scene: the settings") {
   CHECK(scene.camera == Camera{{278, 278, -800}, {278, 278, 0}, {0, 2, 0}, 40, 0.5, 10.0, 0.25, 0.75});
   CHECK(as<Hemispheres>(scene.background) == Hemispheres{{1, 2, 3}, {0, 0, 0.5}});
   CHECK(scene.render == RenderSettings{50, 200, Integrator::path, SamplerKind::random, FresnelKind::schlick,
-                                       Caustics::scatter, 4294967295u, true});
+                                       Caustics::scatter, false, 4294967295u, true});
   CHECK(scene.display == Display{-1.5, ToneMap::aces});
 }
 

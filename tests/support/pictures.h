@@ -19,6 +19,15 @@ inline Scene small_scene(const std::string& name, int width, int height, int spp
   return scene;
 }
 
+/// One of the Cornell boxes through a long lens, with the upper part of its walls: pixels see places that are so close
+/// together that even a small picture shares second vertices (kernel/sharing.h).
+inline Scene close_up(const std::string& name, int width, int height) {
+  Scene scene = small_scene(name, width, height, 1);
+  scene.camera.look_at = {278, 450, 555};
+  scene.camera.vfov = 8;
+  return scene;
+}
+
 /// The picture that every other way of rendering must reproduce: one thread, one go.
 inline std::vector<float> reference_picture(const Scene& scene, const std::string& isa = "") {
   RenderOptions options;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/compile.h"
+#include "core/film/groups.h"
 #include "core/render/render.h"
 #include "tests/support/statistics.h"
 
@@ -73,12 +74,14 @@ inline Film film_of(const Scene& scene, int spp, const std::string& isa = "") {
   return render(compile(scene), options).film;
 }
 
-/// Mean red radiance over the picture; every pixel is a batch. No sample may be rejected.
+/// Mean red radiance over the picture; every group of pixels is a batch, as their samples may be computed together. No
+/// sample may be rejected. The picture is made of whole blocks.
 inline Estimate radiance_of(const Film& film) {
   CHECK(totals(film).rejected == 0);
-  std::vector<double> batches;
-  for (const FilmPixel& pixel : film.pixels) batches.push_back(static_cast<double>(mean(film, pixel).x));
-  return estimate(batches);
+  CHECK(film.width % block_width == 0);
+  CHECK(film.height % block_height == 0);
+  const auto red = [&](const FilmPixel& pixel) { return static_cast<double>(mean(film, pixel).x) / group_size; };
+  return estimate(group_sums(film, film.region, red));
 }
 
 /// The same of a scene in which no path may be cut.

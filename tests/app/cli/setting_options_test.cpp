@@ -77,7 +77,7 @@ TEST_CASE("setting options: the help says what to give, what it means and what i
   const auto app = new_command("example", "");
   Changes<Example> changes;
   add_settings(*app, changes, {"open"});
-  const std::string help = parse(*app, {"--help"}).value();
+  const std::string help = parse(*app, {"--help"}).value().text;
   CHECK(help.find("--number EV") != std::string::npos);
   CHECK(help.find("how much [from the scene, else 0.5]") != std::string::npos);
   CHECK(help.find("--on-by-default on|off") != std::string::npos);

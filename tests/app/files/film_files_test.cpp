@@ -39,6 +39,16 @@ TEST_CASE("films with and without chains are told apart, where chains would be l
   CHECK_FALSE(same_samples(path, other));
 }
 
+TEST_CASE("films that share and films that do not are told apart, where sharing pays") {
+  const auto both = [](const char* name, int size) {
+    Scene shared = close_up(name, size, size), alone = shared;
+    alone.render.sharing = false;
+    return same_samples(shared, alone);
+  };
+  CHECK_FALSE(both("cornell-box", 64));
+  CHECK(both("cover", 64));
+}
+
 TEST_CASE("a film file says how caustics were found; files that do not are older than chains") {
   const auto folder = scratch_folder("caustics");
   const Film film = small_film();
@@ -49,6 +59,7 @@ TEST_CASE("a film file says how caustics were found; files that do not are older
     write_exr(folder / "new.exr", film, {}, {embedded_scene(scene, {}, film, folder / "new.exr"), ""});
     const Scene stored = read_stored_film(folder / "new.exr").scene;
     CHECK(stored.render.caustics == caustics);
+    CHECK(stored.render.sharing);
     CHECK(same_samples(stored, scene));
   }
   scene.render.caustics = Caustics::chains;
@@ -56,5 +67,6 @@ TEST_CASE("a film file says how caustics were found; files that do not are older
   const StoredFilm old = read_stored_film(folder / "old.exr");
   CHECK(old.part.film.pixels == film.pixels);
   CHECK(old.scene.render.caustics == Caustics::scatter);
+  CHECK_FALSE(old.scene.render.sharing);
   CHECK_FALSE(same_samples(old.scene, scene));
 }

@@ -1,0 +1,34 @@
+#pragma once
+#include "core/film/film.h"
+
+#include <cstddef>
+#include <vector>
+
+/// Groups of pixels whose samples are computed together in scenes that share second vertices (kernel/share.h). Their
+/// noise is not independent, so standard errors of means over pixels are found from the sums over groups.
+namespace tyndall {
+
+/// The pixels of a group lie group_spacing apart, so that neighbours do not share their noise, which would look like
+/// splotches. The groups of a block are one inside the other and fill it. Blocks start at the picture's upper left
+/// corner.
+inline constexpr int group_columns = 4, group_rows = 2, group_size = group_columns * group_rows, group_spacing = 4;
+inline constexpr int block_width = group_columns * group_spacing, block_height = group_rows * group_spacing;
+
+/// For each group that has pixels in the region, and perhaps for a few that have none, the sum of value(pixel) over the
+/// pixels of the region that belong to it. region: within that of the film.
+std::vector<double> group_sums(const Film& film, const Region& region, auto value) {
+  const int first_column = region.x0 / block_width, first_row = region.y0 / block_height;
+  const int columns = (region.x1 - 1) / block_width - first_column + 1;
+  const int rows = (region.y1 - 1) / block_height - first_row + 1;
+  constexpr int groups = group_spacing * group_spacing;  // in a block
+  std::vector<double> sums(static_cast<std::size_t>(groups * columns * rows));
+  for (int y = region.y0; y < region.y1; ++y)
+    for (int x = region.x0; x < region.x1; ++x) {
+      const int block = (y / block_height - first_row) * columns + x / block_width - first_column;
+      const int group = y % group_spacing * group_spacing + x % group_spacing;
+      sums[static_cast<std::size_t>(groups * block + group)] += value(film.at(x, y));
+    }
+  return sums;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,256 @@
+#pragma once
+#include "core/kernel/path.h"
+
+/// Renders a unit of work with shared second vertices: see share.h.
+namespace tyndall {
+
+TYNDALL_INLINE int block_start(int at, int size) { return at / size * size; }
+
+/// Goes through the groups of which a unit wants samples, as many at a time as SharedPaths hold.
+class SharedGroups {
+ public:
+  TYNDALL_INLINE SharedGroups(const SceneView& s, const Unit& unit)
+      : unit_(unit),
+        width_(s.width),
+        height_(s.height),
+        x_(block_start(unit.tile.x0, block_width)),
+        y_(block_start(unit.tile.y0, block_height)) {
+    if (unit.tile.x0 >= unit.tile.x1) y_ = unit.tile.y1;
+    enter_block();
+  }
+
+  /// Fills in the next groups. False if there are none left.
+  TYNDALL_INLINE bool next(SharedPaths& paths) {
+    paths.clear();
+    paths.groups = 0;
+    while (paths.groups < SharedPaths::most_groups && y_ < unit_.tile.y1) {
+      add_group(paths);
+      advance();
+    }
+    return paths.groups > 0;
+  }
+
+ private:
+  TYNDALL_INLINE void advance() {
+    if (++group_ < group_spacing * group_spacing) return;
+    group_ = 0;
+    if (++index_ < last_) return;
+    x_ += block_width;
+    if (x_ >= unit_.tile.x1) x_ = block_start(unit_.tile.x0, block_width), y_ += block_height;
+    enter_block();
+  }
+
+  /// Finds out which samples are wanted of any pixel of the block.
+  TYNDALL_INLINE void enter_block() {
+    first_ = index_ = unit_.first, last_ = unit_.last;
+    if (!unit_.first_of) return;
+    first_ = ~0u, last_ = 0;
+    for (int y = y_; y < y_ + block_height; ++y)
+      for (int x = x_; x < x_ + block_width; ++x) {
+        if (!in_tile(x, y)) continue;
+        const int i = place(x, y);
+        if (unit_.first_of[i] >= unit_.last_of[i]) continue;
+        if (unit_.first_of[i] < first_) first_ = unit_.first_of[i];
+        if (unit_.last_of[i] > last_) last_ = unit_.last_of[i];
+      }
+    if (first_ > last_) first_ = last_ = 0;
+    index_ = first_;
+  }
+
+  TYNDALL_INLINE int place(int x, int y) const {
+    return (y - unit_.tile.y0) * (unit_.tile.x1 - unit_.tile.x0) + x - unit_.tile.x0;
+  }
+
+  TYNDALL_INLINE bool in_tile(int x, int y) const {
+    return x >= unit_.tile.x0 && x < unit_.tile.x1 && y >= unit_.tile.y0 && y < unit_.tile.y1;
+  }
+
+  TYNDALL_INLINE bool wants(int x, int y) const {
+    if (!in_tile(x, y)) return false;
+    if (!unit_.first_of) return true;
+    const int i = place(x, y);
+    return index_ >= unit_.first_of[i] && index_ < unit_.last_of[i];
+  }
+
+  /// Adds the group if some of its pixels want this sample.
+  TYNDALL_INLINE void add_group(SharedPaths& paths) {
+    if (index_ >= last_) return;
+    const int left = x_ + group_ % group_spacing, top = y_ + group_ / group_spacing, at = paths.groups;
+    bool wanted = false;
+    for (int k = 0; k < group_size; ++k) {
+      const int x = left + k % group_columns * group_spacing, y = top + k / group_columns * group_spacing;
+      const bool wants_this = wants(x, y);
+      wanted = wanted || wants_this;
+      const int slot = k * SharedPaths::most_groups + at;
+      paths.pixel[slot] = wants_this                  ? place(x, y)
+                          : x < width_ && y < height_ ? SharedPaths::unwanted
+                                                      : SharedPaths::outside;
+    }
+    if (!wanted) return;
+    paths.x[at] = left, paths.y[at] = top, paths.index[at] = index_;
+    ++paths.groups;
+  }
+
+  const Unit& unit_;
+  int width_, height_;  ///< of the picture
+  int x_, y_;           ///< upper left corner of the block
+  int group_ = 0;       ///< within the block
+  std::uint32_t index_ = 0, first_ = 0, last_ = 0;
+};
+
+/// The samples of the groups, in the order in which lanes take them.
+struct SharedSamples {
+  const SharedPaths& paths;
+  Glints glints{nullptr, nullptr};  ///< none: only scenes with chains have some
+  int member = 0, group = 0;
+
+  TYNDALL_INLINE explicit SharedSamples(const SharedPaths& of) : paths(of) { skip(); }
+  TYNDALL_INLINE bool empty() const { return member == group_size; }
+  TYNDALL_INLINE CameraSample take() {
+    const CameraSample sample{paths.x[group] + member % group_columns * group_spacing,
+                              paths.y[group] + member / group_columns * group_spacing, paths.index[group],
+                              member * SharedPaths::most_groups + group};
+    ++group;
+    skip();
+    return sample;
+  }
+
+ private:
+  /// Goes on to the next pixel that is in the picture.
+  TYNDALL_INLINE void skip() {
+    for (; member < group_size; group = 0, ++member)
+      for (; group < paths.groups; ++group)
+        if (paths.pixel[member * SharedPaths::most_groups + group] != SharedPaths::outside) return;
+  }
+};
+
+/// Keeps what the paths in the lanes `finished` have gathered.
+template <class F>
+TYNDALL_INLINE void keep_paths(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, const UnitFilm& film,
+                               SharedPaths& shared) {
+  if (!finished) return;
+  alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>], carried[lanes_of<F>];
+  alignas(64) std::int32_t slots[lanes_of<F>];
+  store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slots, p.slot);
+  store(carried, max_component(p.throughput));
+  for (; finished; finished &= finished - 1) {
+    const int lane = __builtin_ctz(finished), slot = slots[lane], pixel = shared.pixel[slot];
+    const bool left_second = p.second >> lane & 1u;
+    auto& to = left_second ? shared.leaving : shared.own;
+    float scale = 1;
+    if (left_second) {  // the throughput with which the path came there
+      const float x = shared.albedo[0][slot], y = shared.albedo[1][slot], z = shared.albedo[2][slot];
+      const float most = x > y ? x : y;
+      scale = 1 / (most > z ? most : z);
+    }
+    to[0][slot] = scale * r[lane], to[1][slot] = scale * g[lane], to[2][slot] = scale * b[lane];
+    if (pixel < 0) continue;
+    if (film.emission && (p.straight >> lane & 1u)) {
+      const std::uint32_t half = shared.index[slot % SharedPaths::most_groups] & 1u;
+      add_emission(film.emission[pixel], half, {r[lane], g[lane], b[lane]}, film.per_unit);
+    }
+    ++film.pixels[pixel].taken;
+    if (!(cut >> lane & 1u)) continue;
+    ++film.pixels[pixel].truncated;
+    film.counts.cut_throughput.add(static_cast<double>(carried[lane]));
+  }
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> load_vector(const float (&columns)[3][SharedPaths::room], int slot) {
+  return {load<F>(columns[0] + slot), load<F>(columns[1] + slot), load<F>(columns[2] + slot)};
+}
+
+/// Density with which a path scatters from the first vertex at slot `from` to the second one at slot `to`: per area, or
+/// per volume in a medium, times a factor that is the same for all first vertices. lanes: the groups that have that
+/// second vertex.
+template <class F>
+TYNDALL_INLINE F link_density(const auto& s, const SharedPaths& p, int from, int to, MaskOf<F> lanes,
+                              UnitCounts& counts) {
+  const Vec3<F> start = load_vector<F>(p.first, from), way = load_vector<F>(p.second, to) - start;
+  const F square = max(dot(way, way), F(1e-30f)), distance = sqrt(square);
+  const Ray<F> ray{start, (F(1.0f) / distance) * way, F(0.0f), load_int<F>(p.first_from + from)};
+  // At each end a cosine on a surface; in a medium 1/4 at the start and 1 at the end.
+  F leaves = load<F>(p.first_even + from) + dot(load_vector<F>(p.first_facing, from), ray.direction);
+  F arrives = load<F>(p.second_even + to) - dot(load_vector<F>(p.second_facing, to), ray.direction);
+  if (from == to) {  // the path came this way, even if a rounded cosine says otherwise
+    leaves = max(leaves, F(1e-6f)), arrives = max(arrives, F(1e-6f));
+  } else {
+    lanes = mask_and(lanes, mask_and(less(F(0.0f), leaves), less(F(0.0f), arrives)));
+    if (!any(lanes)) return F(0.0f);
+    const auto asked = static_cast<std::uint32_t>(__builtin_popcount(bits(lanes)));
+    counts.rays += asked, counts.shadow_rays += asked;
+    lanes = mask_and_not(lanes, blocked_towards(s, ray, distance, load_int<F>(p.second_element + to), -1, lanes));
+  }
+  F density = leaves * arrives / square;
+  if (s.has_media()) density = density * pass_media(s, ray, distance, lanes);
+  return select(lanes, density, F(0.0f));
+}
+
+/// Lets what leaves the second vertices reach all first vertices of their groups: adds it to what the paths gathered.
+template <class F>
+TYNDALL_INLINE void share_second_vertices(const auto& s, SharedPaths& p, UnitCounts& counts) {
+  constexpr int row = SharedPaths::most_groups;
+  for (int group = 0; group < p.groups; group += lanes_of<F>)
+    for (int to = group; to < SharedPaths::room; to += row) {
+      const auto there = less_equal(F(0.0f), load<F>(p.second_even + to));
+      if (!any(there)) continue;
+      F density[group_size], total = F(0.0f);
+      for (int k = 0; k < group_size; ++k) {
+        density[k] = link_density<F>(s, p, group + k * row, to, there, counts);
+        total = total + density[k];
+      }
+      const F scale = select(less(F(0.0f), total), F(1.0f) / max(total, F(1e-37f)), F(0.0f));
+      const Vec3<F> leaving = scale * load_vector<F>(p.leaving, to);
+      for (int k = 0; k < group_size; ++k) {
+        const int at = group + k * row;
+        const auto reached = less(F(0.0f), density[k]);
+        if (!any(reached)) continue;
+        for (int c = 0; c < 3; ++c) {
+          const F colour = c == 0 ? leaving.x : c == 1 ? leaving.y : leaving.z, old = load<F>(p.own[c] + at);
+          store(p.own[c] + at, select(reached, mul_add(load<F>(p.albedo[c] + at), density[k] * colour, old), old));
+        }
+      }
+    }
+}
+
+/// Follows the paths of the groups.
+template <class F>
+TYNDALL_INLINE void trace_groups(const auto& s, SharedPaths& shared, const UnitFilm& film) {
+  SharedSamples samples(shared);
+  CameraQueue<F> queue;
+  ChainQueue<F> no_chains;
+  Paths<F> p{};
+  p.dice.sampler = s.sampler;
+  for (;;) {
+    take_samples(p, queue, samples, s);
+    if (!p.alive) return;
+    film.counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
+    MaskOf<F> cut;
+    std::uint32_t shadow_rays = 0;
+    const std::uint32_t survivors =
+        bits(step(s, p, mask_from_bits<F>(p.alive), cut, no_chains, shared, shadow_rays)) & p.alive;
+    film.counts.rays += shadow_rays, film.counts.shadow_rays += shadow_rays;
+    keep_paths(p, p.alive & ~survivors, bits(cut), film, shared);
+    p.alive = survivors;
+  }
+}
+
+template <class F>
+TYNDALL_INLINE void render_shared_unit(const auto& s, const Unit& unit, const UnitFilm& film) {
+  SharedPaths shared;
+  SharedGroups groups(s, unit);
+  while (groups.next(shared)) {
+    trace_groups<F>(s, shared, film);
+    share_second_vertices<F>(s, shared, film.counts);
+    for (int slot = 0; slot < SharedPaths::room; ++slot) {
+      const int pixel = shared.pixel[slot];
+      if (pixel < 0) continue;
+      const std::uint32_t half = shared.index[slot % SharedPaths::most_groups] & 1u;
+      add_sample(film.pixels[pixel], half, {shared.own[0][slot], shared.own[1][slot], shared.own[2][slot]},
+                 film.per_unit);
+    }
+  }
+}
+
+}  // namespace tyndall

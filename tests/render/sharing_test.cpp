@@ -1,0 +1,165 @@
+#include "core/kernel/sharing.h"
+
+#include "core/kernel/scene_view.h"
+#include "core/render/pass.h"
+#include "tests/support/pictures.h"
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+/// Second vertices that are shared between pixels: the light is what separate paths find, with less noise.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+Film picture_of(Scene scene, bool sharing, std::uint32_t seed, std::uint32_t spp, int tile = 0) {
+  scene.render.sharing = sharing;
+  scene.render.seed = seed;
+  const RenderScene compiled = compile(scene);
+  CHECK(SceneViewOf(compiled).view().shares == sharing);
+  RenderOptions options;
+  options.spp = spp;
+  options.tile = tile;
+  return render(compiled, options).film;
+}
+
+/// A value for each pixel or block: all three channels added.
+using Values = std::vector<double>;
+
+/// Means over blocks of `size` by `size` pixels.
+Values block_means(const Film& film, int size) {
+  const std::vector<float> rgb = resolve(film);
+  const int columns = film.width / size;
+  Values means(static_cast<std::size_t>(columns * (film.height / size)));
+  for (int y = 0; y < film.height / size * size; ++y)
+    for (int x = 0; x < columns * size; ++x)
+      for (int c = 0; c < 3; ++c)
+        means[static_cast<std::size_t>(y / size * columns + x / size)] +=
+            static_cast<double>(rgb[film.index(x, y) * 3 + static_cast<std::size_t>(c)]) / (size * size);
+  return means;
+}
+
+/// The estimate of one of the values from pictures of different seeds.
+Estimate estimate_at(const std::vector<Values>& pictures, std::size_t i) {
+  std::vector<double> values;
+  for (const Values& picture : pictures) values.push_back(picture[i]);
+  return estimate(values);
+}
+
+/// Relative variance of the means over all pictures, added up over the values.
+double noise(const std::vector<Values>& pictures) {
+  double sum = 0;
+  for (std::size_t i = 0; i < pictures[0].size(); ++i) {
+    const Estimate value = estimate_at(pictures, i);
+    sum += value.error * value.error / (value.mean * value.mean + 0.1);
+  }
+  return sum;
+}
+
+/// A room whose surfaces meet at sharp edges, with balls, fog and a colour that reflects no green at all.
+Scene room_of_everything() {
+  Scene scene = small_scene("cornell-smoke", 128, 128, 1);
+  for (Material& m : scene.materials)
+    if (Vec3d* colour = std::get_if<Vec3d>(&m.colour); colour && colour->x > 2 * colour->y) *colour = {0.65, 0, 0};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("sharing: what leaves the blocks of a picture is what separate paths find, with less noise") {
+  struct Case {
+    const char* name;
+    Scene scene;
+    double less_noise;
+  };
+  const Case cases[] = {{"diffuse room", small_scene("cornell-box", 128, 128, 1), 0.4},
+                        {"fog and a wall without green", room_of_everything(), 0.7},
+                        {"many bounces", small_scene("stress-white-room", 48, 48, 1), 0.5}};
+  for (const Case& c : cases) {
+    CAPTURE(c.name);
+    std::vector<Values> shared, alone, shared_pixels, alone_pixels;
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+      const Film with = picture_of(c.scene, true, seed, 16), without = picture_of(c.scene, false, seed + 100, 16);
+      shared.push_back(block_means(with, 16)), alone.push_back(block_means(without, 16));
+      shared_pixels.push_back(block_means(with, 1)), alone_pixels.push_back(block_means(without, 1));
+    }
+    double squares = 0, count = 0;
+    for (std::size_t i = 0; i < shared[0].size(); ++i) {
+      const Estimate with = estimate_at(shared, i), without = estimate_at(alone, i);
+      if (with.error == 0 && without.error == 0) {
+        CHECK(with.mean == doctest::Approx(without.mean).epsilon(1e-5));
+        continue;
+      }
+      const double z = (with.mean - without.mean) / std::hypot(with.error, without.error);
+      CHECK(std::abs(z) < 5.5);  // the errors themselves are known from 12 seeds only
+      squares += z * z, ++count;
+    }
+    CHECK(count > 8);
+    // With 11 degrees of freedom on each side the mean of the squares is 22/20.
+    CHECK(squares / count == doctest::Approx(1.1).epsilon(6 * std::sqrt(2 / count)));
+    CHECK(noise(shared_pixels) < c.less_noise * noise(alone_pixels));
+  }
+}
+
+TEST_CASE("sharing: a scene shares where a probe says that it pays, whatever its seed") {
+  const auto shares = [](const char* name, auto change) {
+    Scene scene = load_scene(name).scene;
+    change(scene);
+    return SceneViewOf(compile(scene)).view().shares;
+  };
+  const auto as_it_is = [](Scene&) {};
+  for (const char* name : {"cornell-box", "cornell-smoke", "stress-white-room"}) CHECK(shares(name, as_it_is));
+  for (const char* name : {"cover", "showroom", "next-week", "quads", "checkered-spheres", "stress-dense-fog"})
+    CHECK_FALSE(shares(name, as_it_is));
+  for (const std::uint32_t seed : {1u, 77u}) CHECK(shares("cornell-box", [&](Scene& s) { s.render.seed = seed; }));
+  CHECK_FALSE(shares("cornell-box", [](Scene& s) { s.render.sharing = false; }));
+  CHECK_FALSE(shares("cornell-box", [](Scene& s) { s.render.integrator = Integrator::path; }));
+  CHECK_FALSE(shares("cornell-box", [](Scene& s) { s.width = s.height = 1; }));
+}
+
+TEST_CASE("sharing: the probe is near to what sharing changes") {
+  const Scene box = small_scene("cornell-box", 256, 256, 1);
+  const RenderScene compiled = compile(box);
+  const SharingGain gain = probe_sharing(SceneViewOf(compiled).view());
+  CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4));
+  CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2));
+}
+
+TEST_CASE("sharing: pixels that lack different numbers of samples get the samples of their groups") {
+  const Scene scene = close_up("cornell-box", 37, 29);
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  REQUIRE(view.view().shares);
+  const Film few = picture_of(scene, true, 0, 2), whole = picture_of(scene, true, 0, 9);
+  std::vector<std::uint32_t> wanted(few.pixels.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i % 3 == 0 ? 9 : i % 3 == 1 ? 5 : 2;
+  Crew crew(2);
+  const std::atomic<bool> give_up = false;
+  for (const int edge : {0, 5, 16}) {
+    Film film = few;
+    Pass pass(film, wanted, {edge, true});
+    CHECK(pass.run(crew, available_kernels().back(), view.view(), film, give_up));
+    const Film middle = picture_of(scene, true, 0, 5);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const Film& expected = wanted[i] == 9 ? whole : wanted[i] == 5 ? middle : few;
+      REQUIRE(film.pixels[i] == expected.pixels[i]);
+    }
+  }
+}
+
+TEST_CASE("sharing: the wall of an integrating sphere, where all pixels see the same point") {
+  Scene scene = dark_room();
+  scene.render.integrator = Integrator::mis;
+  const double rho = 0.8, light = 0.3;
+  add(scene, sphere({0, 0, 0}, 1), lambertian(rho));
+  add(scene, sphere({0, 0, 0}, light), lamp(1));
+  aim(scene, {0, 0.2, 0.5}, {0, 0.5, 1});
+  const RenderScene compiled = compile(scene);
+  REQUIRE(SceneViewOf(compiled).view().shares);
+  // A wall point sees the lamp under the share light² of its cosine-weighted sky, and the wall itself under the rest.
+  const double f = light * light;
+  ZScores scores;
+  scores.add("wall", radiance(scene, 1024), rho * f / (1 - rho * (1 - f)), 2e-3);
+  scores.add("scalar", radiance(scene, 64, "scalar"), rho * f / (1 - rho * (1 - f)), 1e-2);
+}
