@@ -159,6 +159,7 @@ std::string sharing_text(const Report& report) {
   if (compiled.needs.moving_spheres) return "none: spheres move";
   const SceneViewOf view(compiled);
   const SharingGain gain = probe_sharing(view.view());
+  if (!gain.probed) return "none: too few paths scatter evenly at their first two vertices";
   const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
                                         gain.variance, gain.time);
   if (view.view().shares) return "on: " + probe;

@@ -9,20 +9,22 @@
 namespace tyndall {
 namespace {
 
-constexpr int across = 8;  // groups in each direction of the picture, with two samples each
+constexpr int across = 8;               // groups in each direction of the picture
+constexpr double fewest_seconds = 0.2;  // share of the paths; with fewer second vertices sharing never pays
+constexpr int deepest = 16;             // events of the probe's paths: enough to tell, and quick in white rooms
 
-/// The groups of pixels that are spread evenly over the picture.
-void spread_groups(const SceneView& s, SharedPaths& paths) {
+/// So many samples, one after another, of groups of pixels that are spread evenly over the picture.
+void spread_groups(const SceneView& s, int samples, SharedPaths& paths) {
   paths.clear();
   paths.groups = 0;
   const auto spread = [](int i, int size, int block, int offset) {
     return std::min(((2 * i + 1) * size / (2 * across)) / block * block + offset % group_spacing, size - 1);
   };
-  for (int i = 0; i < 2 * across * across; ++i) {
-    const int place = i / 2, at = paths.groups++;
+  for (int i = 0; i < samples * across * across; ++i) {
+    const int place = i / samples, at = paths.groups++;
     paths.x[at] = spread(place % across, s.width, block_width, place);
     paths.y[at] = spread(place / across, s.height, block_height, place / group_spacing);
-    paths.index[at] = static_cast<std::uint32_t>(i % 2);
+    paths.index[at] = static_cast<std::uint32_t>(i % samples);
     for (int k = 0; k < group_size; ++k) {
       const bool inside = paths.x[at] + k % group_columns * group_spacing < s.width &&
                           paths.y[at] + k / group_columns * group_spacing < s.height;
@@ -56,17 +58,30 @@ double variance(const SharedPaths& p, const float (&own)[3][SharedPaths::room]) 
   return sum;
 }
 
+/// Share of the paths whose first two vertices scatter evenly.
+double share_of_seconds(SceneView s, SharedPaths& paths) {
+  s.max_depth = std::min(s.max_depth, 1);
+  spread_groups(s, 1, paths);
+  UnitCounts counts;
+  trace_groups<float>(s, paths, {1, nullptr, nullptr, counts});
+  const auto seconds =
+      std::count_if(paths.second_even, paths.second_even + SharedPaths::room, [](float even) { return even >= 0; });
+  return static_cast<double>(seconds) / (across * across * group_size);
+}
+
 }  // namespace
 
 SharingGain probe_sharing(const SceneView& scene) {
   SceneView s = scene;
   s.seed = 0;
   const auto paths = std::make_unique<SharedPaths>();
+  if (share_of_seconds(s, *paths) < fewest_seconds) return {};
+  s.max_depth = std::min(s.max_depth, deepest);
   struct Samples {
     float own[3][SharedPaths::room];
   };
   const auto alone = std::make_unique<Samples>();
-  spread_groups(s, *paths);
+  spread_groups(s, 2, *paths);
   UnitCounts counts;
   trace_groups<float>(s, *paths, {1, nullptr, nullptr, counts});
   const auto rays_alone = static_cast<double>(counts.rays);
@@ -74,7 +89,7 @@ SharingGain probe_sharing(const SceneView& scene) {
   share_second_vertices<float>(s, *paths, counts);
   const double without = variance(*paths, alone->own);
   const double between = static_cast<double>(counts.rays) - rays_alone;
-  return {without > 0 ? variance(*paths, paths->own) / without : 1, 1 + between / rays_alone / 2};
+  return {true, without > 0 ? variance(*paths, paths->own) / without : 1, 1 + between / rays_alone / 2};
 }
 
 }  // namespace tyndall

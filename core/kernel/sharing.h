@@ -7,6 +7,7 @@ struct SceneView;
 
 /// What sharing changes in a scene, found from a thousand paths. A pure function of the scene without its seed.
 struct SharingGain {
+  bool probed = false;  ///< false: too few paths have a second vertex that could be shared
   double variance = 1;  ///< of a sample, over that without sharing
   /// Time of a sample, over that without sharing, as told by the rays: those between the paths count half, because they
   /// only ask whether something is in the way.

@@ -68,6 +68,7 @@ struct Frame {
   double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it
   std::uint64_t rejected = 0, truncated = 0;
   double cut_throughput = 0;  ///< see FilmTotals
+  bool shares = false;        ///< groups of pixels share second vertices: see SceneView
   std::size_t film_bytes = 0;
   std::string isa;
   int lanes = 1, threads = 1;

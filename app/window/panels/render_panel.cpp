@@ -26,10 +26,17 @@ const char* view_meaning(const PanelState& state) {
   return view_entry(state.view).meaning;
 }
 
+std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
+  if (!render.sharing) return "each pixel by itself";
+  if (render.integrator != Integrator::mis) return "a part of integrator mis";
+  return frame && frame->shares ? "pays here: groups of eight pixels share" : "does not pay in this scene";
+}
+
 /// The grey line beneath a setting's row.
 std::string setting_meaning(const PanelState& state, std::string_view name) {
   const RenderSettings& render = state.scene.render;
   if (name == "integrator") return word(render.integrator).help;
+  if (name == "sharing") return sharing_meaning(render, state.facts.frame.get());
   if (name == "adaptive")
     return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";
   if (name == "max_depth") return share_cut_off(state.facts.frame.get());
