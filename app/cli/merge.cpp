@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/files/film_files.h"
+#include "app/files/memory.h"
 #include "app/files/outputs.h"
 #include "app/files/stats.h"
 #include "app/text/standard_streams.h"
@@ -22,32 +23,66 @@ int write(const Film& film, const Scene& scene, const FilmLabel& label, const st
 
 }  // namespace
 
+namespace {
+
+/// What merge finds before it reads the films themselves.
+struct Parts {
+  std::vector<FilmPart> frames;
+  Scene scene;
+  FilmLabel label;
+  std::string version, of_version;  ///< of the first part that says its version, and that part's name
+};
+
+/// Throws UsageError unless the part is of the same scene, settings and version as those before.
+void check_part(const Parts& parts, const StoredFilm& part) {
+  const std::string& name = part.part.name;
+  if (part.scene.render.adaptive)
+    throw UsageError(name + ": found an adaptive render, expected a range of samples that every pixel has");
+  if (!parts.frames.empty() && !same_samples(parts.scene, part.scene))
+    throw UsageError(name + ": found a film of another scene or other settings than in " + parts.frames.front().name);
+  if (!part.label.version.empty() && !parts.version.empty() && part.label.version != parts.version)
+    throw UsageError(fmt::format("{}: found a film of version {}, expected {} as in {}", name, part.label.version,
+                                 parts.version, parts.of_version));
+}
+
+Parts read_parts(const std::vector<std::filesystem::path>& files) {
+  Parts parts;
+  for (const auto& file : files) {
+    StoredFilm part = read_stored_frame(file);
+    check_part(parts, part);
+    parts.label = parts.frames.empty() ? part.label : merged_label(parts.label, part.label);
+    if (parts.frames.empty()) parts.scene = part.scene;
+    if (parts.version.empty()) parts.version = part.label.version, parts.of_version = part.part.name;
+    parts.frames.push_back(std::move(part.part));
+  }
+  return parts;
+}
+
+MemoryPlan memory_plan(const Film& film, const Scene& scene, const std::vector<std::filesystem::path>& files,
+                       const ImageForm& form) {
+  MemoryPlan plan;
+  plan.width = film.region.width(), plan.height = film.region.height();
+  plan.emission = has_lamps(scene);
+  plan.files = files;
+  plan.form = form;
+  return plan;
+}
+
+}  // namespace
+
 int run(const MergeCommand& command) {
   check_image_names(command.outputs, command.form);
   check_outputs(outputs_of("--output", command.outputs), command.parts);
   for (const auto& file : command.outputs) check_can_write(file);
-  std::vector<FilmPart> frames;
-  std::optional<Scene> scene;
-  FilmLabel label;
-  for (const auto& file : command.parts) {
-    StoredFilm stored = read_stored_frame(file);
-    if (stored.scene.render.adaptive)
-      throw UsageError(file.string() + ": found an adaptive render, expected a range of samples that every pixel has");
-    if (scene && !same_samples(*scene, stored.scene))
-      throw UsageError(file.string() + ": found a film of another scene or other settings than in " +
-                       command.parts.front().string());
-    const std::string &version = stored.label.version, &before = label.version;
-    if (scene && !version.empty() && !before.empty() && version != before)
-      throw UsageError(fmt::format("{}: found a film of version {}, expected {} as in {}", file.string(), version,
-                                   before, command.parts.front().string()));
-    label = scene ? merged_label(label, stored.label) : stored.label;
-    if (!scene) scene = stored.scene;
-    frames.push_back(std::move(stored.part));
-  }
-  const Film film = merge(frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
+  const Parts parts = read_parts(command.parts);
+  MemoryPlan plan = memory_plan(parts.frames.front().film, parts.scene, command.outputs, command.form);
+  plan.parts = parts.frames.size() > 1;
+  plan.clean = command.denoise;
+  check_memory(plan, free_memory());
+  const Film film = merge(parts.frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
   std::optional<CleanOfFilm> clean;
-  if (command.denoise) clean = clean_view(film, *scene, command.parts.front().string());
-  return write(film, *scene, label, command.outputs, command.form, clean);
+  if (command.denoise) clean = clean_view(film, parts.scene, command.parts.front().string());
+  return write(film, parts.scene, parts.label, command.outputs, command.form, clean);
 }
 
 int run(const DenoiseCommand& command) {
@@ -58,8 +93,11 @@ int run(const DenoiseCommand& command) {
   check_outputs(outputs, {command.film});
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
-  const StoredFilm stored = read_stored_film(command.film);
-  const Film& film = stored.part.film;
+  const StoredFilm stored = read_stored_frame(command.film);
+  MemoryPlan plan = memory_plan(stored.part.film, stored.scene, command.outputs, command.form);
+  plan.clean = true;
+  check_memory(plan, free_memory());
+  const Film film = read_film_alone(command.film);
   const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
   const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);
   if (is_doubtful(clean.picture, totals(film).least_taken))

@@ -73,7 +73,7 @@ void refuse_conflicts(const RenderCommand& c) {
     throw UsageError("--denoise: found --spp " + std::to_string(*c.spp) + ", expected at least " +
                      std::to_string(least_clean_spp) + " samples a pixel");
   if (c.fresh && c.resume) throw UsageError("--fresh and --resume exclude each other: one starts over, one goes on");
-  if (c.checkpoint > 0 && kept_film(c).empty())
+  if (c.checkpoint > 0 && kept_film(c.outputs, c.form).empty())
     throw UsageError("--checkpoint needs an output that ends in .exr, and --exr-film yes");
   if (!c.samples) return;
   if (c.denoise) throw UsageError("--samples and --denoise exclude each other: a part is filtered when it is merged");

@@ -72,11 +72,15 @@ void check_if_ignored(const RenderCommand& command, const RenderSettings& settin
 }
 
 MemoryPlan memory_plan(const RenderCommand& command, const Scene& scene, const Region& region) {
-  const bool lamps = std::any_of(scene.materials.begin(), scene.materials.end(), [](const auto& material) {
-    return std::holds_alternative<Light<double>>(material.kind);
-  });
-  const bool copies = command.checkpoint > 0;  // else only renders of more than half a minute copy their film
-  return {region.width(), region.height(), lamps, command.denoise, copies, command.outputs, command.form};
+  // Without the option only renders of more than half a minute copy their film, and only if there is memory for it.
+  const bool copies = command.checkpoint > 0;
+  return {.width = region.width(),
+          .height = region.height(),
+          .emission = has_lamps(scene),
+          .clean = command.denoise,
+          .checkpoints = copies,
+          .files = command.outputs,
+          .form = command.form};
 }
 
 /// Finds everything that can be wrong before the first sample.
@@ -175,7 +179,7 @@ RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressRepor
     write_so_far(job, result);
   };
   if (job.command.checkpoint == 0) return breaks;
-  const bool kept = !kept_film(job.command).empty();
+  const bool kept = !checkpoints.file().empty();
   breaks.film_due = [&checkpoints, &report, kept, said = false]() mutable {
     if (const auto problem = checkpoints.problem()) report.say(*problem);
     if (kept || said || !checkpoints.due()) return kept && checkpoints.due();
@@ -203,9 +207,9 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
     report.show(now);
     return signals.received() == 0;
   };
-  Checkpoints checkpoints(kept_film(job.command), job.command.checkpoint, [&job](const Film& film) {
-    return embedded_in(job, film, kept_film(job.command), "", true);
-  });
+  const std::filesystem::path kept = kept_film(job.command.outputs, job.command.form);
+  Checkpoints checkpoints(kept, job.command.checkpoint,
+                          [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
   job.options.breaks = breaks_of(job, signals, report, checkpoints);
   try {
     return render(job.compiled, job.options, progress, std::move(job.begin.film));

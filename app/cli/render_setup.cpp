@@ -159,21 +159,9 @@ RenderStart start_with(StoredFilm stored, const RenderCommand& command, const Lo
 
 }  // namespace
 
-std::filesystem::path kept_film(const RenderCommand& command) {
-  if (!command.form.exr_film) return {};
-  const auto keeps = [](const std::filesystem::path& file) {
-    std::error_code error;
-    const auto type = std::filesystem::status(file, error).type();
-    return is_exr(file) &&
-           (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
-  };
-  const auto file = std::find_if(command.outputs.begin(), command.outputs.end(), keeps);
-  return file == command.outputs.end() ? std::filesystem::path() : *file;
-}
-
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels) {
-  const std::filesystem::path file = kept_film(command);
+  const std::filesystem::path file = kept_film(command.outputs, command.form);
   if (command.resume && file.empty())
     throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
   if (command.fresh || file.empty()) return {};

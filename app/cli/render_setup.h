@@ -25,9 +25,6 @@ struct RenderStart {
   std::string note;  ///< what to tell the user; "": nothing
 };
 
-/// The .exr output that films are kept in: an ordinary file, there or not yet; empty if there is none.
-std::filesystem::path kept_film(const RenderCommand& command);
-
 /// Looks at the film in the .exr output. One that fits is gone on with if it is unfinished, has just the samples that
 /// are asked for, or --resume asks for it. Throws UsageError where --resume finds no film that fits, and for an
 /// unfinished one that does not fit: it says what differs. Any other file is replaced in the end.

@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/files/memory.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "core/base/error.h"
@@ -51,6 +52,7 @@ int run(const ViewCommand& command) {
   const auto open = [request = command.scene] { return open_scene(request); };
   const LoadedScene loaded = open();
   find_kernels(command.isa);
+  check_window_memory(loaded.scene, free_memory());
   std::vector<std::filesystem::path> inputs = loaded.files;
   if (!command.reference.empty()) inputs.push_back(command.reference);
   check_outputs({{"--ui-log", command.ui_log}}, inputs);

@@ -1,10 +1,12 @@
 #include "app/files/checkpoint.h"
 
+#include "app/files/memory.h"
 #include "core/base/seconds.h"
 #include "core/image/image_io.h"
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 namespace tyndall {
@@ -22,39 +24,57 @@ bool Checkpoints::due() const {
 }
 
 void Checkpoints::take(const Film& film) {
-  finish();
+  if (writer_.joinable()) writer_.join();
   taken_ = Clock::now();
+  if (!write_in_background(film)) write(film);
+}
+
+/// False if there is no memory for a copy, or no thread. Where the system promises more memory than it has, taking it
+/// would end the program: so what is free is looked at.
+bool Checkpoints::write_in_background(const Film& film) {
+  if (copy_.pixels.empty() && free_memory().bytes < film.pixels.size() * bytes_per_pixel(!film.emission.empty()))
+    return false;
   try {
     copy_ = film;
     writing_ = true;
-    writer_ = std::thread([this] { write(); });
-  } catch (const std::exception& error) {  // no memory for the copy, or no thread
+    writer_ = std::thread([this] {
+      write(copy_);
+      writing_ = false;
+    });
+    return true;
+  } catch (const std::exception&) {
     writing_ = false;
     copy_ = {};
-    note(error.what());
+    return false;
   }
 }
 
-void Checkpoints::write() {
+void Checkpoints::write(const Film& film) {
   try {
-    write_checkpoint(file_, copy_, embedded_(copy_));
+    write_checkpoint(file_, film, embedded_(film));
     const std::lock_guard lock(mutex_);
     last_problem_.clear();
+  } catch (const std::bad_alloc&) {
+    note("not enough memory");
   } catch (const std::exception& error) {
     note(error.what());
   }
   cost_ = seconds_since(taken_);
-  writing_ = false;
 }
 
 void Checkpoints::finish() {
   if (writer_.joinable()) writer_.join();
+  copy_ = {};
 }
 
-void Checkpoints::note(const std::string& problem) {
-  const std::lock_guard lock(mutex_);
-  if (problem == last_problem_) return;
-  problem_ = last_problem_ = problem;
+void Checkpoints::note(const char* problem) {
+  try {
+    const std::lock_guard lock(mutex_);
+    if (problem == last_problem_) return;
+    problem_ = last_problem_ = problem;
+  } catch (const std::bad_alloc&) {
+    last_problem_.clear();  // no memory for the message: it is told when the next checkpoint fails, too
+  }
 }
 
 std::optional<std::string> Checkpoints::problem() {

@@ -19,7 +19,7 @@ namespace tyndall {
 /// time that the last one took: then they take at most 1 % of the time.
 inline constexpr double least_checkpoint_interval = 30, checkpoint_interval_over_cost = 100;
 
-/// Writes checkpoints into one file in the background. All functions are called on one thread.
+/// Writes checkpoints into one file. All functions are called on one thread.
 class Checkpoints {
  public:
   /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
@@ -29,19 +29,22 @@ class Checkpoints {
   Checkpoints(const Checkpoints&) = delete;
   Checkpoints& operator=(const Checkpoints&) = delete;
 
+  const std::filesystem::path& file() const { return file_; }
   /// Whether one is to be taken now: the interval is over, and the last one is written.
   bool due() const;
-  /// Copies the film and begins to write the copy. The memory of the copy is kept for the next one.
+  /// Copies the film and begins to write the copy in the background. The memory of the copy is kept for the next one.
+  /// Where there is no memory for it, the film itself is written before this returns.
   void take(const Film& film);
-  /// Waits until the last one is written.
+  /// Waits until the last one is written, and gives the memory of the copy back.
   void finish();
   /// What went wrong since the last call, once for each reason. A failed checkpoint leaves the one before it.
   std::optional<std::string> problem();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void write();
-  void note(const std::string& problem);
+  bool write_in_background(const Film& film);
+  void write(const Film& film);
+  void note(const char* problem);
 
   std::filesystem::path file_;
   std::optional<double> interval_;

@@ -46,6 +46,20 @@ std::uint64_t writing(const MemoryPlan& plan, const std::filesystem::path& file)
   return name.ends_with(".png") ? 20 : 0;
 }
 
+constexpr std::uint64_t program = 11'000'000;
+
+std::uint64_t pixels(std::int64_t width, std::int64_t height) {
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
+/// what: such as "a render of 4x3 pixels".
+void check_needed(const std::string& what, std::uint64_t needed, const FreeMemory& free) {
+  if (needed > free.bytes)
+    throw UsageError(fmt::format("{} takes {} bytes ({:.3g} GB) of memory, and {:.3g} GB are {}", what, needed,
+                                 1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free.bytes),
+                                 free.limit));
+}
+
 }  // namespace
 
 std::uint64_t memory_needed(const MemoryPlan& plan) {
@@ -53,10 +67,20 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
   const std::uint64_t picture = 12, estimate = 13, filter = plan.emission ? 153 : 129, shown = 12;
   std::uint64_t written = 0;
   for (const auto& file : plan.files) written = std::max(written, writing(plan, file));
+  const std::uint64_t copy = plan.checkpoints ? film : 0, part = plan.parts ? film : 0;
   const std::uint64_t after = picture + std::max(estimate, (plan.clean ? shown : 0) + written);
-  const std::uint64_t pixel = film + (plan.checkpoints ? film : 0) + std::max(after, plan.clean ? filter : 0);
-  constexpr std::uint64_t program = 11'000'000;
-  return program + pixel * static_cast<std::uint64_t>(plan.width) * static_cast<std::uint64_t>(plan.height);
+  const std::uint64_t pixel = film + std::max({copy + estimate, part, copy + (plan.clean ? filter : 0), after});
+  return program + pixel * pixels(plan.width, plan.height);
+}
+
+std::uint64_t window_memory_needed(std::int64_t width, std::int64_t height, bool emission) {
+  constexpr std::uint64_t pictures = 3 * 16;  // the one that is shown, the next one, and what the display holds of it
+  return program + (bytes_per_pixel(emission) + pictures) * pixels(width, height);
+}
+
+bool has_lamps(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const auto& material) { return std::holds_alternative<Light<double>>(material.kind); });
 }
 
 FreeMemory free_memory() {
@@ -81,11 +105,12 @@ void check_memory(const MemoryPlan& plan, const FreeMemory& free) {
   if (plan.width * plan.height > max_image_pixels || (png && (3 * plan.width + 1) * plan.height >= 1 << 30))
     throw UsageError(
         fmt::format("found an image of {} pixels, expected at most 2^28, which is what image files hold", size));
-  const std::uint64_t needed = memory_needed(plan);
-  if (needed > free.bytes)
-    throw UsageError(fmt::format("a render of {} pixels takes {} bytes ({:.3g} GB) of memory, and {:.3g} GB are {}",
-                                 size, needed, 1e-9 * static_cast<double>(needed),
-                                 1e-9 * static_cast<double>(free.bytes), free.limit));
+  check_needed((plan.parts ? "merging films of " : "a render of ") + size + " pixels", memory_needed(plan), free);
+}
+
+void check_window_memory(const Scene& scene, const FreeMemory& free) {
+  check_needed(fmt::format("a window of {}x{} pixels", scene.width, scene.height),
+               window_memory_needed(scene.width, scene.height, has_lamps(scene)), free);
 }
 
 }  // namespace tyndall

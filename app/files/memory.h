@@ -4,21 +4,28 @@
 #include <cstdint>
 #include <string>
 
-/// How much memory a render takes, and how much there is: known before it is taken.
+/// How much memory rendering, merging or filtering takes, and how much there is: known before it is taken.
 namespace tyndall {
 
-/// What the memory of a render depends on.
+/// What memory depends on. All commands hold one film, and write files of it.
 struct MemoryPlan {
-  std::int64_t width = 0, height = 0;  ///< of what is rendered
+  std::int64_t width = 0, height = 0;  ///< of the film
   bool emission = false;               ///< whether the film records emission: the scene has lamps
   bool clean = false;                  ///< whether the picture is filtered
   bool checkpoints = false;            ///< whether the film is copied while it is rendered
+  bool parts = false;                  ///< whether another film is added to it
   std::vector<std::filesystem::path> files;
   ImageForm form{};
 };
 
-/// The most memory that the process has during such a render, bytes. The scene and its textures are not counted.
+/// Whether films of the scene record emission.
+bool has_lamps(const Scene& scene);
+
+/// The most memory that the process then has, bytes. The scene and its textures are not counted.
 std::uint64_t memory_needed(const MemoryPlan& plan);
+
+/// The least memory that a window takes that renders a picture of this size, bytes.
+std::uint64_t window_memory_needed(std::int64_t width, std::int64_t height, bool emission);
 
 /// Memory that this process could still take, bytes, and what limits it, such as "the machine" or "ulimit -v".
 struct FreeMemory {
@@ -27,8 +34,10 @@ struct FreeMemory {
 };
 FreeMemory free_memory();
 
-/// Throws UsageError, which says how many bytes the render takes, if it does not fit into the memory that is free; and
+/// Throws UsageError, which says how many bytes the picture takes, if it does not fit into the memory that is free; and
 /// if it has more pixels than image files can hold.
 void check_memory(const MemoryPlan& plan, const FreeMemory& free);
+/// The same for a window.
+void check_window_memory(const Scene& scene, const FreeMemory& free);
 
 }  // namespace tyndall

@@ -29,6 +29,18 @@ bool is_stream(const std::filesystem::path& file) {
   return file == "-" || std::filesystem::is_fifo(file, error);
 }
 
+std::filesystem::path kept_film(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
+  if (!form.exr_film) return {};
+  const auto keeps = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const auto type = std::filesystem::status(file, error).type();
+    return is_exr(file) &&
+           (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
+  };
+  const auto file = std::find_if(outputs.begin(), outputs.end(), keeps);
+  return file == outputs.end() ? std::filesystem::path() : *file;
+}
+
 namespace {
 
 /// The file's name, or for standard output one that ends in its format.

@@ -30,6 +30,10 @@ bool is_exr(const std::filesystem::path& file);
 /// True for standard output ("-") and named pipes, which can be written once.
 bool is_stream(const std::filesystem::path& file);
 
+/// The file among the outputs of a render that films are kept in: an EXR with its film that is an ordinary file, there
+/// or not yet; empty if there is none.
+std::filesystem::path kept_film(const std::vector<std::filesystem::path>& outputs, const ImageForm& form);
+
 /// Throws IoError unless the file could be written now: its folder exists and takes new files. Leaves nothing behind.
 void check_can_write(const std::filesystem::path& file);
 

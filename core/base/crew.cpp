@@ -1,5 +1,6 @@
 #include "core/base/crew.h"
 
+#include "core/base/crew_memory.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
 
@@ -41,13 +42,35 @@ void Crew::for_each(int count, const std::function<void(int)>& job, const std::f
   if (!poll) done_.wait(lock, finished);
   while (poll && !done_.wait_for(lock, std::chrono::milliseconds(50), finished)) {
     lock.unlock();
-    poll();
+    try {
+      poll();
+    } catch (...) {  // the threads still use what would be gone
+      next_ = count;
+      lock.lock();
+      done_.wait(lock, finished);
+      failure_ = nullptr;
+      throw;
+    }
     lock.lock();
   }
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
+namespace {
+
+/// Of each thread; null on threads that belong to no crew.
+thread_local std::shared_ptr<void>* memory_of_thread = nullptr;
+
+}  // namespace
+
+std::shared_ptr<void>& crew_memory() {
+  assert(memory_of_thread && "only from within a job");
+  return *memory_of_thread;
+}
+
 void Crew::work(const StopToken& stop) {
+  std::shared_ptr<void> memory;
+  memory_of_thread = &memory;
   for (std::uint64_t seen = 0;;) {
     std::unique_lock lock(mutex_);
     if (!wake_.wait(lock, stop, [&] { return round_ != seen; })) return;

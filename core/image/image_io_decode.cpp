@@ -45,6 +45,7 @@ Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::ui
   check_enough(
       file, bytes.size(),
       least_bytes(kind, bytes, static_cast<std::uint64_t>(image.width), static_cast<std::uint64_t>(image.height)));
+  if (kind == ImageKind::png) check_png(file, bytes);
   const std::unique_ptr<stbi_uc, Release> pixels(
       stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 3));
   if (!pixels) cannot_read(file, std::string("damaged: ") + stbi_failure_reason());

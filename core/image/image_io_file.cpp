@@ -1,5 +1,7 @@
 #include "core/image/image_io_file.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -17,11 +19,11 @@ std::string error_text(int number) { return std::generic_category().message(numb
 }  // namespace
 
 void cannot_read(const std::filesystem::path& file, const std::string& why) {
-  throw ImageFileError(file.string() + ": cannot read: " + why);
+  throw ImageFileError(file.string() + ": cannot read: " + printable(why));
 }
 
 void cannot_write(const std::filesystem::path& file, const std::string& why) {
-  throw ImageFileError(file.string() + ": cannot write: " + why);
+  throw ImageFileError(file.string() + ": cannot write: " + printable(why));
 }
 
 namespace {

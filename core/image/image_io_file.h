@@ -43,8 +43,14 @@ Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::ui
 /// JPEG: RGB or grey, also progressive. What is damaged is refused, not guessed.
 Rgb8Image read_jpeg(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
+// Encoders by kind: whole files. All throw std::bad_alloc.
+std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb);
+std::vector<std::uint8_t> encode_hdr(int width, int height, const float* rgb);
+
 /// The number in the first 4 of these bytes, highest byte first.
 std::uint32_t get_u32(std::span<const std::uint8_t> from);
+/// Throws unless every chunk of a PNG ends within the file: stb takes as much memory as their lengths say.
+void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png);
 /// The text with that keyword in a PNG's iTXt chunks.
 std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,
                                     const std::string& keyword);

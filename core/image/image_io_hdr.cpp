@@ -2,12 +2,9 @@
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
 
-#include <stb_image_write.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <new>
 
 namespace tyndall {
 
@@ -33,15 +30,7 @@ void write_hdr(const std::filesystem::path& file, const LinearImage& image) {
   check_writable(file, image);
   std::vector<float> rgb = image.rgb;
   for (std::size_t i = 0; i < rgb.size(); i += 3) prepare_pixel(&rgb[i]);
-  std::vector<std::uint8_t> bytes;
-  const auto append = [](void* to, void* data, int size) {
-    const auto* from = static_cast<const std::uint8_t*>(data);
-    static_cast<std::vector<std::uint8_t>*>(to)->insert(static_cast<std::vector<std::uint8_t>*>(to)->end(), from,
-                                                        from + size);
-  };
-  if (stbi_write_hdr_to_func(append, &bytes, image.width, image.height, 3, rgb.data()) == 0) {
-    throw std::bad_alloc();
-  }
+  const std::vector<std::uint8_t> bytes = encode_hdr(image.width, image.height, rgb.data());
   WholeFile out(file);
   out.write(bytes);
   out.commit();

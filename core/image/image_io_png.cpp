@@ -2,8 +2,6 @@
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
 
-#include <stb_image_write.h>
-
 #include <array>
 #include <cassert>
 #include <limits>
@@ -57,17 +55,11 @@ void put_text(Bytes& to, std::string_view keyword, const std::string& text) {
   put_chunk(to, "iTXt", data + text);
 }
 
-Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, const Bytes& rgb) {
+Bytes checked_png(const std::filesystem::path& file, const LinearImage& image, const Bytes& rgb) {
   const std::int64_t row = std::int64_t{3} * image.width;
   if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(file, "too many pixels for PNG");
-  Bytes png;
-  const auto append = [](void* to, void* data, int size) {
-    const auto* bytes = static_cast<const std::uint8_t*>(data);
-    static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), bytes, bytes + size);
-  };
-  const int good =
-      stbi_write_png_to_func(append, &png, image.width, image.height, 3, rgb.data(), static_cast<int>(row));
-  if (good == 0 || png.size() < header_end) throw std::bad_alloc();
+  Bytes png = encode_png(image.width, image.height, rgb.data());
+  if (png.size() < header_end) throw std::bad_alloc();
   return png;
 }
 
@@ -76,9 +68,9 @@ Bytes encode_png(const std::filesystem::path& file, const LinearImage& image, co
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
                const Embedded& embedded, std::optional<DitherOrigin> dither) {
   check_writable(file, image);
-  const Bytes png = encode_png(file, image,
-                               dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                                      : tone_map(image.rgb, exposure, curve));
+  const Bytes png = checked_png(file, image,
+                                dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
+                                       : tone_map(image.rgb, exposure, curve));
   Bytes extra;
   put_chunk(extra, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);
@@ -109,6 +101,16 @@ std::optional<std::string> text_of(const std::filesystem::path& file, std::strin
 }
 
 }  // namespace
+
+void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
+  for (std::size_t at = signature_size; png.size() - at >= 12;) {
+    const std::size_t length = get_u32(png.subspan(at));
+    if (length > png.size() - at - 12) break;
+    if (get_u32(png.subspan(at + 4)) == 0x49454e44u) return;  // IEND
+    at += length + 12;
+  }
+  cannot_read(file, "damaged: the PNG ends in the middle");
+}
 
 std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,
                                     const std::string& keyword) {

@@ -1,9 +1,11 @@
 #include "core/render/pass.h"
 
+#include "core/base/crew_memory.h"
 #include "core/film/groups.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace tyndall {
@@ -25,6 +27,7 @@ int divided_up(int quantity, int step) { return (quantity + step - 1) / step; }
 struct UnitBuffer {
   std::vector<FilmPixel> pixels;
   std::vector<EmissionSums> emission;
+  std::vector<std::uint32_t> first, last;  ///< see list_lacking
 
   void clear(std::size_t size, bool with_emission) {
     pixels.assign(size, {});
@@ -35,8 +38,9 @@ struct UnitBuffer {
 
 /// The buffer of a thread, kept from unit to unit: after its first unit a thread allocates nothing.
 UnitBuffer& buffer() {
-  thread_local UnitBuffer unit;
-  return unit;
+  std::shared_ptr<void>& memory = crew_memory();
+  if (!memory) memory = std::make_shared<UnitBuffer>();
+  return *static_cast<UnitBuffer*>(memory.get());
 }
 
 /// How many samples the pixels lack on average of those that are wanted.
@@ -130,13 +134,12 @@ bool Pass::fill_tile(int unit, const Kernels& kernels, const SceneView& scene, F
                      const std::atomic<bool>& give_up) {
   const Region where = tile(unit);
   UnitBuffer& unit_film = buffer();
-  thread_local std::vector<std::uint32_t> first, last;
   for (;;) {
-    if (!list_lacking(film, wanted_, where, first, last)) return true;
+    if (!list_lacking(film, wanted_, where, unit_film.first, unit_film.last)) return true;
     if (give_up.load(std::memory_order_relaxed)) return false;
-    unit_film.clear(first.size(), !film.emission.empty());
+    unit_film.clear(unit_film.first.size(), !film.emission.empty());
     UnitCounts counts;
-    const Unit lacking{where, 1, 0, 0, 0, first.data(), last.data()};
+    const Unit lacking{where, 1, 0, 0, 0, unit_film.first.data(), unit_film.last.data()};
     kernels.render_unit(scene, lacking, film.unit, unit_film.pixels.data(), counts, unit_film.emission_or_null());
     add_unit(where, false, film);
     add_counts(counts);

@@ -5,6 +5,8 @@
 #include "core/scene/check.h"
 #include "core/scene/json_tree.h"
 
+#include <dirent.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -68,11 +70,20 @@ fs::path scenes_folder() {
   return assets.empty() ? fs::path() : assets / "scenes";
 }
 
+struct FolderCloser {
+  void operator()(DIR* folder) const { closedir(folder); }
+};
+
+/// (Not by std::filesystem, whose iterator ends the program when memory runs out.)
 std::vector<std::string> built_in_names() {
+  constexpr std::string_view ending = ".json";
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(scenes_folder(), error))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  const std::unique_ptr<DIR, FolderCloser> entries(opendir(scenes_folder().c_str()));
+  for (const dirent* entry = nullptr; entries && (entry = readdir(entries.get())) != nullptr;) {
+    const std::string_view name = entry->d_name;
+    if (name.size() > ending.size() && name.ends_with(ending))
+      names.emplace_back(name.substr(0, name.size() - ending.size()));
+  }
   std::sort(names.begin(), names.end());
   return names;
 }

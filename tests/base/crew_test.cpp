@@ -78,3 +78,19 @@ TEST_CASE("crew: a crew that never worked, and one that just did, end cleanly") 
     busy.for_each(5, [](int) {});
   }
 }
+
+TEST_CASE("crew: where the poll throws, that comes out when no job runs any more") {
+  Crew crew(2);
+  std::atomic<int> running = 0, begun = 0;
+  const auto job = [&](int) {
+    ++running, ++begun;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    --running;
+  };
+  CHECK_THROWS_WITH(crew.for_each(100'000, job, [] { throw std::runtime_error("poll"); }), "poll");
+  CHECK(running == 0);
+  CHECK(begun < 100'000);
+  int after = 0;
+  crew.for_each(1, [&](int) { ++after; });
+  CHECK(after == 1);
+}

@@ -103,3 +103,19 @@ TEST_CASE("hostile files: a small one that says it is large takes no memory") {
   refuses(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\2\0\0\0\0\0\0\0", 33) +
           std::string(1000, 'x'));
 }
+
+TEST_CASE("hostile files: a PNG with a chunk that says it is longer than the file is refused before it is decoded") {
+  const fs::path file = scratch_folder("hostile_chunk") / "a.png";
+  write_png(file, ramp(), 0, ToneMap::srgb, {});
+  std::string bytes = read_text(file);
+  bytes[bytes.find("IDAT") - 4] = 0x3f;  // the highest byte of its length: 1 GB
+  write_text(file, bytes);
+  CHECK_THROWS_WITH_AS(read_rgb8(file), (file.string() + ": cannot read: damaged: the PNG ends in the middle").c_str(),
+                       ImageFileError);
+}
+
+TEST_CASE("hostile files: what a file says of itself comes out in one line") {
+  const fs::path file = scratch_folder("hostile_lines") / "a.exr";
+  write_text(file, std::string("\x76\x2f\x31\x01\2\0\0\0a\nb\0string\0\xff\xff\xff\x7fxx", 25));
+  if (has_openexr()) CHECK_FALSE(survives(file));
+}

@@ -83,3 +83,30 @@ TEST_CASE("memory: a renderer that cannot publish its picture says so, and goes 
   CHECK(renderer.wait_for([&](const Frame& f) { return f.edit == edit; })->width == 200);
   CHECK(renderer->problem() == nullptr);
 }
+
+TEST_CASE("memory: whichever request is refused while a renderer follows an edit, it renders the next one") {
+  Scene scene = read_scene(text, "a.json", ".");
+  WatchedRenderer renderer(1, "scalar");
+  const auto shows = [&](std::uint64_t edit, std::uint32_t spp) {
+    const auto latest = renderer->latest();
+    return latest && latest->edit == edit && latest->spp >= spp;
+  };
+  int refused = 0;
+  for (int number = 1; number <= 400; ++number) {
+    scene.camera.vfov += 0.01;
+    {
+      const AllocationRefusal refusal = AllocationRefusal::of_number(number);
+      std::uint64_t edit = 0;
+      try {
+        edit = renderer->submit(scene);
+      } catch (const std::bad_alloc&) {
+      }
+      while (refusal.refused() == 0 && !shows(edit, 8)) std::this_thread::sleep_for(std::chrono::microseconds(100));
+      refused += refusal.refused();
+    }
+    scene.camera.vfov += 0.01;
+    const std::uint64_t edit = renderer->submit(scene);
+    renderer.wait_for([&](const Frame& f) { return f.edit == edit; });
+  }
+  CHECK(refused > 100);
+}

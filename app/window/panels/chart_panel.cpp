@@ -163,7 +163,7 @@ void read_out(Ui& ui, const Plot& plot) {
 void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   const float s = ui.scale;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton("chart", size);
+  ImGui::InvisibleButton("chart", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});  // ImGui ends at nothing
   const LiveAccuracy& accuracy = *state.facts.accuracy;
   log_item(ui, "chart", accuracy.curves(Half::current).current().method);
   compat::push_font(ui.fonts.small);

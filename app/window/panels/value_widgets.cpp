@@ -200,7 +200,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
     log_item(ui, row.name + "." + id, "typing");
     return typed;
   }
-  ImGui::InvisibleButton(id, {width, ImGui::GetFrameHeight()});
+  ImGui::InvisibleButton(id, {std::max(width, 1.0f), ImGui::GetFrameHeight()});
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated()) ui.drag.start = value, ui.drag.moved = false;
   if (ImGui::IsItemActive()) follow_mouse(ui);

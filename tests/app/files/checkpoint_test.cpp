@@ -1,6 +1,7 @@
 #include "app/files/checkpoint.h"
 
 #include "core/image/image_io.h"
+#include "tests/support/allocations.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
@@ -38,6 +39,21 @@ TEST_CASE("checkpoints: the film as it was when it was taken is written, unfinis
   CHECK(read_film(file) == film_of(9));
   CHECK_FALSE(checkpoints.problem());
   CHECK(count_files(folder) == 1);
+}
+
+TEST_CASE("checkpoints: without memory for a copy the film itself is written, before the render goes on" *
+          doctest::skip(!has_openexr())) {
+  const fs::path file = scratch_folder("checkpoint_memory") / "a.exr";
+  Checkpoints checkpoints(file, 0, embedded);
+  const Film film = film_of(4);
+  {
+    const auto refusal = test::AllocationRefusal::of_size(film.pixels.size() * sizeof(FilmPixel));
+    checkpoints.take(film);
+    CHECK(refusal.refused() == 1);
+    CHECK(checkpoints.due());
+  }
+  CHECK(read_film(file) == film);
+  CHECK_FALSE(checkpoints.problem());
 }
 
 TEST_CASE("checkpoints: due after the interval; without one after 30 seconds at the earliest" *

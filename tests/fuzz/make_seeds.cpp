@@ -1,0 +1,105 @@
+// Writes what fuzzing starts from: make_seeds FOLDER, which gets a folder for each format.
+#include "core/image/image_io.h"
+#include "tests/support/jpeg_files.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+
+#include <fstream>
+#include <iostream>
+
+using namespace tyndall;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int width = 12, height = 9;
+
+LinearImage ramp() {
+  LinearImage image{width, height, {}};
+  for (int i = 0; i < 3 * width * height; ++i) image.rgb.push_back(static_cast<float>(i) / 200);
+  return image;
+}
+
+/// Creates the folder of a format.
+fs::path of(const fs::path& folder, const char* format) {
+  fs::create_directories(folder / format);
+  return folder / format;
+}
+
+/// One channel, tiled or in rows.
+void write_plain_exr(const fs::path& file, Imf::Compression compression, bool tiled) {
+  const LinearImage image = ramp();
+  Imf::Header header(width, height);
+  header.compression() = compression;
+  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::HALF));
+  std::vector<half> values(image.rgb.begin(), image.rgb.end());
+  Imf::FrameBuffer pixels;
+  for (std::size_t i = 0; i < 3; ++i)
+    pixels.insert(std::string(1, "RGB"[i]),
+                  Imf::Slice::Make(Imf::HALF, values.data() + i, header.dataWindow(), 3 * sizeof(half)));
+  if (tiled) {
+    header.setTileDescription(Imf::TileDescription(8, 8));
+    Imf::TiledOutputFile out(file.c_str(), header);
+    out.setFrameBuffer(pixels);
+    out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
+  } else {
+    Imf::OutputFile out(file.c_str(), header);
+    out.setFrameBuffer(pixels);
+    out.writePixels(height);
+  }
+}
+
+Film small_film(bool emission, bool planned) {
+  Film film = make_film(6, 4, {1, 0, 5, 4}, 0, 2, emission);
+  for (FilmPixel& pixel : film.pixels) {
+    for (std::uint32_t i = 0; i < 4; ++i) add_sample(pixel, i & 1u, {0.5f, 0.25f, 1}, 1 / film.unit);
+    pixel.taken = 4;
+  }
+  if (planned) film.planned.assign(1, {2, 8});
+  return film;
+}
+
+void write_films(const fs::path& folder) {
+  const Embedded notes{"{\"tyndall\": 1}", "{}", {"0.1.0", "scalar", true}};
+  write_checkpoint(folder / "plain.exr", small_film(false, false), notes);
+  write_checkpoint(folder / "emission.exr", small_film(true, false), notes);
+  write_checkpoint(folder / "planned.exr", small_film(true, true), notes);
+  write_exr(folder / "whole.exr", small_film(true, false), {}, notes);
+}
+
+void write_seeds(const fs::path& folder) {
+  const Embedded notes = {"{\"tyndall\": 1, \"objects\": []}", "{}", {}};
+  write_png(of(folder, "png") / "a.png", ramp(), 0, ToneMap::srgb, notes);
+  write_pfm(of(folder, "pfm") / "a.pfm", ramp());
+  write_hdr(of(folder, "hdr") / "a.hdr", ramp());
+  for (int i = 0; i < Imf::NUM_COMPRESSION_METHODS; ++i)
+    for (const bool tiled : {false, true})
+      write_plain_exr(of(folder, "exr") / (std::to_string(i) + (tiled ? "tiled" : "rows")),
+                      static_cast<Imf::Compression>(i), tiled);
+  write_films(of(folder, "film"));
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 3 * width * height; ++i) pixels.push_back(static_cast<std::uint8_t>(i));
+  for (const int channels : {1, 3})
+    for (const bool progressive : {false, true}) {
+      const fs::path file =
+          of(folder, "jpeg") / (std::to_string(channels) + (progressive ? "progressive" : "sequential"));
+      std::ofstream(file, std::ios::binary) << test::jpeg_bytes(width, height, pixels, {channels, progressive, false});
+    }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 2) return 2;
+  try {
+    write_seeds(words[1]);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

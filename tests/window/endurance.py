@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Sends random input to a window, and fails if it ends or its memory grows.
+
+Usage: endurance.py PROCESS WINDOW ORIGINAL SCENE MINUTES
+
+Every half a minute the input stops and the scene is written anew, as an editor does: the window reads it. The memory
+that it has then is comparable. Of these figures, after the first sixth of the time, the slope must be 0 within its
+standard error, or so small that it is less than 1 % of the memory in the whole time.
+"""
+import math
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import time
+
+# No letters that save or quit; digits and signs reach the fields that a click has opened.
+KEYS = """a b c d e f g h i j k l m n o p r t u v w x y z 1 2 3 4 5 6 7 8 9 0 minus period Tab Escape Return space BackSpace
+Delete Insert Home End Left Right Up Down Prior Next F1 slash bracketleft bracketright ctrl+z ctrl+y ctrl+shift+z ctrl+k
+ctrl+d ctrl+a shift+Tab ctrl+Right""".split()
+
+
+class Input:
+    """Random input through one xdotool."""
+
+    def __init__(self, window):
+        self.tool = subprocess.Popen(["xdotool", "-"], stdin=subprocess.PIPE, text=True)
+        self.window = window
+
+    def send(self, *words):
+        self.tool.stdin.write(" ".join(map(str, words)) + "\n")
+        self.tool.stdin.flush()
+
+    def step(self):
+        kind = random.random()
+        x, y = random.randrange(1000), random.randrange(900)
+        if kind < 0.4:
+            self.send("mousemove", "--window", self.window, x, y)
+        elif kind < 0.6:
+            self.send("click", random.choice([1, 1, 1, 3, 4, 5]))
+        elif kind < 0.7:
+            button = random.choice([1, 1, 2, 3])
+            self.send("mousedown", button)
+            for _ in range(random.randrange(6)):
+                self.send("mousemove", "--window", self.window, random.randrange(1000), random.randrange(900))
+            self.send("mouseup", button)
+        elif kind < 0.99:
+            self.send("key", random.choice(KEYS))
+        else:
+            self.send("windowsize", self.window, random.randrange(300, 1000), random.randrange(200, 900))
+
+
+def memory(process):
+    """kB of the process that are in memory; 0: it has ended."""
+    try:
+        lines = pathlib.Path(f"/proc/{process}/status").read_text().split("\n")
+        return next((int(line.split()[1]) for line in lines if line.startswith("VmRSS")), 0)
+    except OSError:
+        return 0
+
+
+def slope(points):
+    """Of kB over seconds, and its standard error: least squares. At least three points."""
+    n = len(points)
+    mean_x, mean_y = sum(x for x, _ in points) / n, sum(y for _, y in points) / n
+    spread = sum((x - mean_x) ** 2 for x, _ in points)
+    value = sum((x - mean_x) * (y - mean_y) for x, y in points) / spread
+    rest = sum((y - mean_y - value * (x - mean_x)) ** 2 for x, y in points)
+    return value, math.sqrt(rest / (n - 2) / spread)
+
+
+def calm(tool, original, scene):
+    """Brings the window to the scene as it was at the start."""
+    tool.send("key", "Escape")
+    tool.send("key", "Escape")
+    tool.send("windowsize", tool.window, 1000, 900)
+    for _ in range(40):
+        tool.send("key", "ctrl+z")
+    new = scene.with_suffix(".new")
+    shutil.copy(original, new)
+    new.rename(scene)
+    time.sleep(5)
+
+
+def main():
+    process, window = sys.argv[1], sys.argv[2]
+    original, scene, minutes = pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4]), float(sys.argv[5])
+    seed = random.randrange(1 << 32)
+    random.seed(seed)
+    print("seed", seed, flush=True)
+    tool, start, points, steps = Input(window), time.monotonic(), [], 0
+    while (now := time.monotonic() - start) < 60 * minutes:
+        until = time.monotonic() + 25
+        while time.monotonic() < until:
+            tool.step()
+            steps += 1
+            time.sleep(0.02)
+            if memory(process) == 0:
+                print(f"the window ended after {now:.0f} s and {steps} steps")
+                return 1
+        calm(tool, original, scene)
+        points.append((time.monotonic() - start, memory(process)))
+        print(f"{points[-1][0]:6.0f} s  {steps:6} steps  {points[-1][1]} kB", flush=True)
+    points = points[len(points) // 6:]
+    if len(points) < 3:
+        print("too short to tell a slope")
+        return 1
+    value, error = slope(points)
+    level = sum(y for _, y in points) / len(points)
+    growth = value * 60 * minutes / level
+    print(f"memory {level:.0f} kB, slope {value:.3f} +- {error:.3f} kB/s, {100 * growth:.2f} % in {minutes:g} minutes")
+    return 0 if abs(growth) < 0.01 or abs(value) < 2 * error else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
