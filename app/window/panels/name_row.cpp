@@ -35,7 +35,7 @@ bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::
     changed = typed_name(ui, hint, width, value);
     log_item(ui, row.name, "typing");
   } else {
-    ImGui::InvisibleButton("name", {width, ImGui::GetFrameHeight()});
+    ImGui::InvisibleButton("name", {std::max(width, 1.0f), ImGui::GetFrameHeight()});
     if (ImGui::IsItemClicked() || begin) {
       if (begin) ImGui::SetScrollHereY();
       ui.edit = {};

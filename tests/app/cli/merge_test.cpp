@@ -60,7 +60,8 @@ std::string problem_of(const std::vector<fs::path>& parts, const fs::path& outpu
   command.parts = parts;
   command.outputs = {output};
   try {
-    REQUIRE(run(command) == 0);
+    const int code = run(command);
+    REQUIRE(code == 0);
     return "";
   } catch (const std::exception& error) {
     return error.what();
@@ -82,9 +83,13 @@ struct WrongSet {
 
 constexpr int kinds = 13;
 
-/// A set of which one shard is wrong, in the way of that number.
-WrongSet wrong_set(const fs::path& folder, int kind, std::mt19937& random) {
-  WrongSet set{"", write_set(folder, random), {}, true};
+/// A set of which one shard is wrong, in the way of that number: a copy of a right one, with a change.
+WrongSet wrong_set(const std::vector<fs::path>& right, const fs::path& folder, int kind, std::mt19937& random) {
+  WrongSet set{"", {}, {}, true};
+  for (const fs::path& file : right) {
+    set.parts.push_back(folder / file.filename());
+    fs::copy_file(file, set.parts.back());
+  }
   const std::size_t at = 1 + random() % (set.parts.size() - 2);
   const std::string name = set.parts[at].filename().string();
   Shard shard;
@@ -170,10 +175,12 @@ WrongSet wrong_set(const fs::path& folder, int kind, std::mt19937& random) {
 TEST_SUITE("merge command" * doctest::skip(!has_openexr())) {
   TEST_CASE("merge: two hundred sets with a wrong shard are refused, with its name and that of another") {
     std::mt19937 random(21);
+    std::vector<std::vector<fs::path>> right;
+    for (int i = 0; i < 5; ++i) right.push_back(write_set(scratch_folder("merge_right" + std::to_string(i)), random));
     int refused = 0, harmless = 0;
     for (int round = 0; refused < 200; ++round) {
       const fs::path folder = scratch_folder("merge_wrong"), output = folder / "m.pfm";
-      const WrongSet set = wrong_set(folder, round % kinds, random);
+      const WrongSet set = wrong_set(right[random() % right.size()], folder, round % kinds, random);
       const std::string message = problem_of(set.parts, output);
       CAPTURE(set.kind);
       CAPTURE(message);
