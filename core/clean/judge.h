@@ -24,14 +24,41 @@ TYNDALL_INLINE void add_pixels(F values, int x, RowSum& sum) {
   store(slot, load<F>(slot) + values);
 }
 
+/// What a channel of both halves shows in the 3 x 3 pixels around each lane's pixel.
+template <class F>
+struct Surroundings {
+  F others;  ///< mean of the pixels but the middle one
+  F noise;   ///< variance of the mean of both halves of a pixel
+};
+
+template <class F>
+TYNDALL_INLINE Surroundings<F> look_around(const FilterView& v, int channel, int y, int x) {
+  F sum = F(0.0f), squares = F(0.0f);
+  for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k)
+    for (int i = -1; i <= 1; ++i) {
+      const std::ptrdiff_t at = k * v.stride + x + i;
+      const F a = load<F>(v.half[channel] + at), b = load<F>(v.half[3 + channel] + at);
+      sum = sum + (a + b);
+      squares = mul_add(a - b, a - b, squares);
+    }
+  const std::ptrdiff_t at = y * v.stride + x;
+  const F pixels = pixels_around<F>(v, y, x, 1),
+          own = load<F>(v.half[channel] + at) + load<F>(v.half[3 + channel] + at);
+  return {max(F(0.5f) * (sum - own) / max(pixels - F(1.0f), F(1.0f)), F(0.0f)), F(0.25f) * squares / pixels};
+}
+
 /// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
 /// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
-/// is brighter than those around, the level is raised towards its own mean, the more its two halves agree.
+/// is brighter than those around, the level is raised towards its own mean, the more its two halves agree. Where it is
+/// darker than the noise around explains, as at the rim of a glass ball, the level is lowered towards it.
 template <class F>
-TYNDALL_INLINE F known_level(F a, F b, F around) {
+TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, const Surroundings<F>& around) {
   const F both = a + b, apart = F(2.0f) * (a - b);
   const F agreed = max(neg_mul_add(apart, apart, both * both) / max(both * both, F(1e-30f)), F(0.0f));
-  return mul_add(agreed, max(F(0.5f) * both - around, F(0.0f)), around);
+  const F above = neg_mul_add(F(1.0f), around.others, F(0.5f) * both), square = above * above;
+  const F real = max(neg_mul_add(F(4.0f), around.noise, square) / max(square, F(1e-30f)), F(0.0f));
+  const F share = select(less(F(0.0f), above), agreed, splat<F>(v.trust_in_dark) * real);
+  return mul_add(share, above, around.others);
 }
 
 /// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because
@@ -43,7 +70,6 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
     for (int output = 0; output < outputs; ++output)
       fetch(v, v.half[output], y + 2, x), fetch(v, v.filtered[output], y + 1, x);
     const std::ptrdiff_t at = y * v.stride + x;
-    const F others = pixels_around<F>(v, y, x, 1) - F(1.0f);
     F bias = F(0.0f), noise = F(0.0f), picture[3];
     for (int c = 0; c < 3; ++c) {
       const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
@@ -51,9 +77,8 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
       const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
       pa = select(finite, pa, a), pb = select(finite, pb, b);
       picture[c] = F(0.5f) * (pa + pb);
-      const F raw = sum_around<F>(v, v.half[c], y, x) + sum_around<F>(v, v.half[3 + c], y, x) - (a + b);
-      const F around = max(F(0.5f) * raw / max(others, F(1.0f)), F(0.0f));
-      const F level = max(min(picture[c], known_level(a, b, around)), F(0.0f));
+      const F known = known_level(v, a, b, look_around<F>(v, c, y, x));
+      const F level = max(min(picture[c], known), F(0.0f));
       const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
       bias = mul_add((pa - a) * (pb - b), per, bias);
       noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);

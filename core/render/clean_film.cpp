@@ -33,6 +33,21 @@ CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads,
   return picture;
 }
 
+namespace {
+
+void put_rgba(const CleanPicture& picture, Crew& crew, std::vector<float>& rgba) {
+  const auto width = static_cast<std::size_t>(picture.width);
+  rgba.resize(4 * width * static_cast<std::size_t>(picture.height));
+  crew.for_each(picture.height, [&](int y) {
+    const float* from = picture.rgb.data() + 3 * width * static_cast<std::size_t>(y);
+    float* to = rgba.data() + 4 * width * static_cast<std::size_t>(y);
+    for (std::size_t x = 0; x < width; ++x, from += 3, to += 4)
+      to[0] = from[0], to[1] = from[1], to[2] = from[2], to[3] = 1;
+  });
+}
+
+}  // namespace
+
 void LiveClean::set_wanted(bool wanted) {
   if (wanted == wanted_) return;
   wanted_ = wanted;
@@ -61,18 +76,14 @@ bool LiveClean::make(const Progression& picture, const RenderEngine& engine, con
     last_seconds_ = seconds_since(start);
     spent_ += last_seconds_;
     if (!whole) return false;
-    auto frame = std::make_shared<CleanFrame>();
-    frame->rgba.resize(4 * picture_.pixel_error.size());
-    for (std::size_t i = 0; i < picture_.pixel_error.size(); ++i) {
-      std::copy_n(picture_.rgb.data() + 3 * i, 3, frame->rgba.data() + 4 * i);
-      frame->rgba[4 * i + 3] = 1;
-    }
-    frame->pixel_error = picture_.pixel_error;
+    const std::shared_ptr<CleanFrame> frame = frames_.take();
+    put_rgba(picture_, engine.crew, frame->rgba);
+    std::swap(frame->pixel_error, picture_.pixel_error);
     frame->relative_error = picture_.relative_error;
     frame->spp = picture.taken();
     frame->doubtful = is_doubtful(picture_, frame->spp);
     frame->seconds = picture.tally().seconds + spent_;
-    latest_ = std::move(frame);
+    latest_ = frame;
   } catch (const std::bad_alloc&) {
     latest_ = nullptr;  // the picture is shown as it is
   }

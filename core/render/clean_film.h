@@ -1,6 +1,6 @@
 #pragma once
 #include "core/clean/clean.h"
-#include "core/render/frame.h"
+#include "core/render/pictures.h"
 #include "core/render/progression.h"
 
 #include <cstdint>
@@ -78,6 +78,7 @@ class LiveClean {
  private:
   FilmCleaner cleaner_;
   CleanPicture picture_;
+  CleanFrameMemory frames_;
   std::shared_ptr<const CleanFrame> latest_;
   bool wanted_ = false;
   std::uint32_t made_of_ = 0;  ///< samples a pixel that the newest one was made from; 0: none was made yet

@@ -40,20 +40,6 @@ void fill_row(std::vector<float>& rgba, int width, int height, int y, int step) 
 
 }  // namespace
 
-std::shared_ptr<Frame> FrameMemory::take() {
-  constexpr std::size_t most = 2;
-  auto frame = std::make_unique<Frame>();
-  {
-    const std::lock_guard lock(spare_->mutex);
-    if (!spare_->rgba.empty()) frame->rgba = std::move(spare_->rgba.back()), spare_->rgba.pop_back();
-  }
-  return {frame.release(), [spare = spare_](Frame* done) {
-            const std::unique_ptr<Frame> owner(done);
-            const std::lock_guard lock(spare->mutex);
-            if (spare->rgba.size() < most) spare->rgba.push_back(std::move(done->rgba));
-          }};
-}
-
 void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba) {
   rgba.resize(4 * film.pixels.size());
   const int width = film.region.width(), height = film.region.height();

@@ -17,20 +17,36 @@ namespace tyndall {
 /// colours in between (bilinear). The film stays as it is.
 void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
 
-/// Keeps the memory of frames that nobody uses any more for new ones: to get fresh memory from the system takes longer
-/// than to draw a picture into it.
-class FrameMemory {
+/// Keeps the memory of what nobody uses any more for new ones: to get fresh memory from the system takes longer than to
+/// draw a picture into it. kept: the members whose memory is kept.
+template <class T, std::vector<float> T::*... kept>
+class MemoryOf {
  public:
-  /// A new frame whose `rgba` may hold an old picture. When its last owner drops it, its memory comes back here.
-  std::shared_ptr<Frame> take();
+  /// A new one whose kept members may hold an old picture. When its last owner drops it, its memory comes back here.
+  std::shared_ptr<T> take() {
+    constexpr std::size_t most = 2;
+    auto made = std::make_unique<T>();
+    {
+      const std::lock_guard lock(spare_->mutex);
+      if (!spare_->left.empty()) move_kept(spare_->left.back(), *made), spare_->left.pop_back();
+    }
+    return {made.release(), [spare = spare_](T* done) {
+              const std::unique_ptr<T> owner(done);
+              const std::lock_guard lock(spare->mutex);
+              if (spare->left.size() < most) move_kept(*done, spare->left.emplace_back());
+            }};
+  }
 
  private:
   struct Spare {
     std::mutex mutex;
-    std::vector<std::vector<float>> rgba;
+    std::vector<T> left;  ///< empty but for the kept members
   };
+  static void move_kept(T& from, T& to) { ((to.*kept = std::move(from.*kept)), ...); }
   std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
 };
+using FrameMemory = MemoryOf<Frame, &Frame::rgba>;
+using CleanFrameMemory = MemoryOf<CleanFrame, &CleanFrame::rgba, &CleanFrame::pixel_error>;
 
 /// A picture that has the same grey everywhere.
 std::vector<float> grey_rgba(std::size_t pixels, float grey);

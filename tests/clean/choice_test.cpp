@@ -123,3 +123,17 @@ TEST_CASE("choice: a tiny lamp behind glass hardly shines on the dark pixels bes
       if (x != 32 || y != 24) beside = std::max(beside, error_at(picture, p, x, y));
   CHECK(beside < 0.12);
 }
+
+TEST_CASE("choice: a dark line between bright pixels counts for its own darkness where there are samples enough") {
+  const auto truth = [](int x, int) { return x == 32 ? Vec3f{0.03f, 0.03f, 0.03f} : Vec3f{0.9f, 0.9f, 0.9f}; };
+  Picture p = picture(truth, grey_floor, [](int, int) { return 0.4f; });
+  p.input.spp = 4;
+  const double few = clean(p).relative_error;
+  p.input.spp = 16;
+  const CleanPicture many = clean(p);
+  double all = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) all += error_at(many, p, x, y) / (width * height);
+  CHECK(many.relative_error * many.relative_error == doctest::Approx(all).epsilon(0.5));
+  CHECK(few < 0.9 * many.relative_error);
+}
