@@ -25,6 +25,7 @@ LEVELS = [
     ["app/files", "app/manual"],
     ["app/curves"],
     ["app/report"],
+    ["app/comparison"],
     ["app/window/system"],
     ["app/window/document"],
     ["app/window/tools"],

@@ -3,8 +3,6 @@
 #include "app/report/heat_map.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/bias.h"
-#include "core/accuracy/error.h"
-#include "core/accuracy/flip.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -13,14 +11,6 @@
 
 namespace tyndall {
 namespace {
-
-struct Comparison {
-  int width = 0, height = 0;
-  ImageError error;
-  double flip = 0;  ///< mean
-  std::vector<float> flip_map;
-  std::optional<BlockScores> blocks;  ///< if both files hold films of one region
-};
 
 /// If both are EXR files with films: scores that tell whether they differ by more than their noise.
 std::optional<BlockScores> compare_films(const CompareCommand& command) {
@@ -31,20 +21,7 @@ std::optional<BlockScores> compare_films(const CompareCommand& command) {
   return scores.blocks > 0 ? std::optional(scores) : std::nullopt;
 }
 
-Comparison compare(const CompareCommand& command) {
-  const LinearImage image = read_image(command.image), reference = read_image(command.reference);
-  const auto size = [](const LinearImage& i) { return std::to_string(i.width) + "x" + std::to_string(i.height); };
-  if (image.width != reference.width || image.height != reference.height)
-    throw UsageError(command.image.string() + ": found " + size(image) + " pixels, expected " + size(reference) +
-                     " as in " + command.reference.string());
-  Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}, compare_films(command)};
-  result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
-  for (const float value : result.flip_map) result.flip += static_cast<double>(value);
-  result.flip /= static_cast<double>(result.flip_map.size());
-  return result;
-}
-
-std::string json_text(const Comparison& c) {
+std::string json_text(const Comparison& c, const std::optional<BlockScores>& blocks) {
   const auto channels = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
   nlohmann::ordered_json json;
   json["width"] = c.width;
@@ -56,12 +33,12 @@ std::string json_text(const Comparison& c) {
   json["flip"] = c.flip;
   json["mean_image"] = channels(c.error.mean_image);
   json["mean_reference"] = channels(c.error.mean_reference);
-  if (c.blocks)
-    json["blocks"] = {{"count", c.blocks->blocks},
-                      {"mean_square_z", c.blocks->mean_square},
-                      {"worst_z", c.blocks->worst},
-                      {"limit", c.blocks->most},
-                      {"only_noise", c.blocks->noise()}};
+  if (blocks)
+    json["blocks"] = {{"count", blocks->blocks},
+                      {"mean_square_z", blocks->mean_square},
+                      {"worst_z", blocks->worst},
+                      {"limit", blocks->most},
+                      {"only_noise", blocks->noise()}};
   return json.dump(2) + "\n";
 }
 
@@ -75,7 +52,7 @@ std::string row(const char* name, double value, const char* note) {
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
-std::string table(const Comparison& c) {
+std::string table(const Comparison& c, const std::optional<BlockScores>& blocks) {
   const Vec3d a = c.error.mean_image, b = c.error.mean_reference;
   const std::string means = fmt::format(
       "mean     image         reference\n"
@@ -85,34 +62,52 @@ std::string table(const Comparison& c) {
       a.x, b.x, a.y, b.y, a.z, b.z);
   return row("MSE", c.error.mse, "") + row("RMSE", c.error.rmse, "") +
          row("relMSE", c.error.rel_mse, "depends on the unit of radiance") + row("PSNR", c.error.psnr, "dB, sRGB") +
-         row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (c.blocks ? blocks_text(*c.blocks) : "") + means;
+         row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (blocks ? blocks_text(*blocks) : "") + means;
 }
 
-/// Whether all checks pass; prints which errors are too large. An error that is not a number always is.
-bool passes(const CompareCommand& command, const Comparison& c) {
+/// A line for each picture, and the reports. Returns the exit code.
+int compare_with_baseline(const CompareCommand& command) {
+  check_outputs({{"--report", command.report}, {"--junit", command.junit}}, command.baseline.images);
+  for (const auto& file : {command.report, command.junit})
+    if (!file.empty()) check_can_write(file);
+  if (command.update) {
+    std::string text;
+    for (const std::string& name : update_baseline(command.baseline)) text += name + "  kept\n";
+    write_standard_output(text);
+    return 0;
+  }
+  const std::vector<CheckedPicture> pictures = check_baseline(command.baseline);
+  std::string text;
   bool good = true;
-  const auto check = [&good](const char* name, double value, const std::optional<double>& limit) {
-    if (!limit || value <= *limit) return;
-    complain(fmt::format("check failed: {} is {:.6g}, expected at most {:.6g}", name, value, *limit));
-    good = false;
-  };
-  check("RMSE", c.error.rmse, command.max_rmse);
-  check("relMSE", c.error.rel_mse, command.max_rel_mse);
-  check("FLIP", c.flip, command.max_flip);
-  return good;
+  for (const CheckedPicture& picture : pictures) {
+    const auto& c = picture.comparison;
+    text += fmt::format("{:<6} {}", picture.failures.empty() ? "ok" : "FAILED", picture.name);
+    text +=
+        c ? fmt::format("  FLIP {:.4g}  relMSE {:.4g}  RMSE {:.4g}\n", c->flip, c->error.rel_mse, c->error.rmse) : "\n";
+    for (const std::string& failure : picture.failures) complain(picture.name + ": " + failure);
+    good = good && picture.failures.empty();
+  }
+  if (!command.report.empty()) write_html_report(command.report, pictures);
+  if (!command.junit.empty()) write_text_file(command.junit, junit_report(pictures));
+  write_standard_output(text);
+  return good ? 0 : 1;
 }
 
 }  // namespace
 
 int run(const CompareCommand& command) {
+  if (!command.baseline.folder.empty()) return compare_with_baseline(command);
   check_outputs({{"--heatmap", command.heatmap}}, {command.image, command.reference});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
-  const Comparison comparison = compare(command);
+  const Comparison comparison = compare_images(command.image, command.reference);
+  const std::optional<BlockScores> blocks = compare_films(command);
   if (!command.heatmap.empty())
     write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb,
               {});
-  write_standard_output(command.json ? json_text(comparison) : table(comparison));
-  return passes(command, comparison) ? 0 : 1;
+  write_standard_output(command.json ? json_text(comparison, blocks) : table(comparison, blocks));
+  const std::vector<std::string> failures = too_large(comparison, command.limits);
+  for (const std::string& failure : failures) complain("check failed: " + failure);
+  return failures.empty() ? 0 : 1;
 }
 
 }  // namespace tyndall

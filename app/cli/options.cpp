@@ -12,10 +12,48 @@ namespace {
 using Text = const std::string&;
 using Words = const std::vector<std::string>&;
 
+void add_baseline_options(CLI::App& app, CompareCommand& command) {
+  app.option_defaults()->group("Baseline (a folder of pictures that renders should go on looking like)");
+  add_value(app, "--baseline", "DIR",
+            "compare each image with the one of its name in this folder, by the\n"
+            "tolerances that are kept there, else --max-flip 0.02",
+            [&](Text t) { command.baseline.folder = t; });
+  app.add_flag(
+      "--update", command.update,
+      "put the images into the folder, and the limits of --max-... as their\ntolerances; without limits these stay");
+  add_value(app, "--report", "FILE.html", "write one page with numbers, both pictures behind a slider, and FLIP",
+            [&](Text t) { command.report = read_file_name(t, ".html"); });
+  add_value(app, "--junit", "FILE.xml", "write the results as JUnit does",
+            [&](Text t) { command.junit = read_file_name(t, ".xml"); });
+}
+
+/// Puts the images where they belong. Throws UsageError for too few or too many, and for options that do not go
+/// together.
+void finish_compare(const CLI::App& app, const std::vector<std::string>& images, CompareCommand& command) {
+  const bool baseline = !command.baseline.folder.empty();
+  require(app, !images.empty(), "IMAGE");
+  if (baseline) {
+    command.baseline.images.assign(images.begin(), images.end());
+    command.baseline.limits = command.limits;
+    if (!command.heatmap.empty() || command.json)
+      throw UsageError("--baseline goes with --report and --junit, not with --heatmap or --json");
+    if (command.update && (!command.report.empty() || !command.junit.empty()))
+      throw UsageError("--update compares nothing, so it writes no report");
+    return;
+  }
+  require(app, images.size() > 1, "REFERENCE");
+  if (images.size() > 2)
+    throw UsageError("unexpected argument " + in_quotes(images[2]) + " (see tyndall compare --help)");
+  if (command.update || !command.report.empty() || !command.junit.empty())
+    throw UsageError("--update, --report and --junit need --baseline");
+  command.image = images[0];
+  command.reference = images[1];
+}
+
 Command read_compare(Words words) {
   CompareCommand command;
   const auto app =
-      new_command("compare IMAGE REFERENCE [options]",
+      new_command("compare IMAGE REFERENCE | IMAGE... --baseline DIR [options]",
                   "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
                   "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
                   "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
@@ -24,9 +62,12 @@ Command read_compare(Words words) {
                   "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
                   "whether the difference is more than noise.",
                   "Exit code 1: an error is above its --max-..., or not a number.");
-  std::string image, reference;
-  add_argument(*app, "IMAGE", "PNG, JPEG, PFM, HDR or EXR", image);
-  add_argument(*app, "REFERENCE", "image that it should look like, of the same size", reference);
+  std::vector<std::string> images;
+  add_arguments(*app, "IMAGE REFERENCE",
+                "PNG, JPEG, PFM, HDR or EXR; the second one is what the first should\n"
+                "look like, of the same size. With --baseline: any number of images,\n"
+                "and folders of them",
+                images);
   add_value(*app, "--heatmap", "FILE.png", "write FLIP of each pixel, in colours, with their scale beneath",
             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
   app->add_flag("--json", command.json, "print JSON");
@@ -34,14 +75,12 @@ Command read_compare(Words words) {
   const auto limit = [&app](const char* name, const char* help, std::optional<double>& value) {
     add_value(*app, name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
   };
-  limit("--max-rmse", "fail if RMSE is above X", command.max_rmse);
-  limit("--max-relmse", "fail if relMSE is above X", command.max_rel_mse);
-  limit("--max-flip", "fail if FLIP is above X", command.max_flip);
+  limit("--max-rmse", "fail if RMSE is above X", command.limits.rmse);
+  limit("--max-relmse", "fail if relMSE is above X", command.limits.rel_mse);
+  limit("--max-flip", "fail if FLIP is above X", command.limits.flip);
+  add_baseline_options(*app, command);
   if (auto help = parse(*app, words)) return PrintCommand{*help};
-  require(*app, !image.empty(), "IMAGE");
-  require(*app, !reference.empty(), "REFERENCE");
-  command.image = image;
-  command.reference = reference;
+  finish_compare(*app, images, command);
   return command;
 }
 

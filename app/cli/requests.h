@@ -1,4 +1,5 @@
 #pragma once
+#include "app/comparison/baseline.h"
 #include "app/files/outputs.h"
 #include "app/files/scene_request.h"
 #include "app/manual/page.h"
@@ -44,9 +45,12 @@ struct RenderCommand {
 };
 
 struct CompareCommand {
-  std::filesystem::path image, reference;
-  std::filesystem::path heatmap;  ///< empty: none
-  std::optional<double> max_rmse, max_rel_mse, max_flip;
+  std::filesystem::path image, reference;  ///< without a baseline
+  std::filesystem::path heatmap;           ///< empty: none
+  BaselineRequest baseline;                ///< without a folder: none
+  bool update = false;                     ///< the baseline becomes like the images
+  std::filesystem::path report, junit;     ///< of the baseline; empty: none
+  Tolerance limits;
   bool json = false;
 };
 

@@ -1,0 +1,46 @@
+#pragma once
+#include "app/comparison/comparison.h"
+
+#include <map>
+
+/// A folder of pictures that renders should go on looking like, for other people's tests: each with its tolerances.
+///
+/// The folder holds the pictures by name and the file tolerances.json:
+///   { "box.png": { "max_flip": 0.02 }, "fog.exr": { "max_relmse": 0.001, "max_flip": 0.05 } }
+namespace tyndall {
+
+inline constexpr double usual_flip = 0.02;  ///< the tolerance of a picture for which none was ever given
+
+/// One picture and what became of it.
+struct CheckedPicture {
+  std::string name;                        ///< of the file, without its folder
+  std::filesystem::path image, reference;  ///< reference: in the baseline; image: empty if it was not rendered
+  Tolerance limits;
+  std::optional<Comparison> comparison;  ///< absent if there was nothing to compare
+  std::vector<std::string> failures;     ///< none: it passed
+  double seconds = 0;                    ///< that the comparison took
+};
+
+struct BaselineRequest {
+  std::filesystem::path folder;
+  /// Pictures, or folders of them. Of a folder all pictures are taken, and those of the baseline that it lacks fail.
+  std::vector<std::filesystem::path> images;
+  Tolerance limits;  ///< in place of those that are kept
+};
+
+/// Compares each picture with the one of its name. What goes wrong with one is its failure, and the others go on.
+/// Throws UsageError where the folder or its tolerances cannot be read, or two pictures have one name.
+std::vector<CheckedPicture> check_baseline(const BaselineRequest& request);
+
+/// Copies the pictures into the folder and keeps the limits as their tolerances; where none are given, those that are
+/// kept stay. Returns the names. Throws UsageError, IoError.
+std::vector<std::string> update_baseline(const BaselineRequest& request);
+
+/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP. Writes pictures of its own
+/// beside `file` for a moment. Throws ImageFileError.
+void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures);
+
+/// A report in the form that JUnit gave to continuous integration.
+std::string junit_report(const std::vector<CheckedPicture>& pictures);
+
+}  // namespace tyndall

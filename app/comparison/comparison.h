@@ -1,0 +1,33 @@
+#pragma once
+#include "core/accuracy/bias.h"
+#include "core/accuracy/error.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// How far a picture is from the one it should look like, and whether that is too far.
+namespace tyndall {
+
+/// The largest errors that pass; absent: not looked at.
+struct Tolerance {
+  std::optional<double> rmse, rel_mse, flip;
+  bool none() const { return !rmse && !rel_mse && !flip; }
+  bool operator==(const Tolerance&) const = default;
+};
+
+struct Comparison {
+  int width = 0, height = 0;
+  ImageError error;
+  double flip = 0;              ///< mean
+  std::vector<float> flip_map;  ///< of each pixel, top row first
+};
+
+/// Reads and compares two images. Throws UsageError if their sizes differ, ImageFileError.
+Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference);
+
+/// What is too large, each like "RMSE is 0.2, expected at most 0.1". An error that is not a number always is.
+std::vector<std::string> too_large(const Comparison& comparison, const Tolerance& limits);
+
+}  // namespace tyndall
