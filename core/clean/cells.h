@@ -28,7 +28,9 @@ struct Strip {
 template <class F>
 TYNDALL_INLINE F fold(const float* row) {
   constexpr int n = lanes_of<F>;
-  const auto pair = [&](int i) { return pair_sums(load<F>(row + i * n), load<F>(row + (i + 1) * n)); };
+  const auto pair = [&](int i) {
+    return pair_sums(load<F>(row + std::ptrdiff_t{i} * n), load<F>(row + std::ptrdiff_t{i + 1} * n));
+  };
   return pair_sums(pair_sums(pair(0), pair(2)), pair_sums(pair(4), pair(6)));
 }
 
@@ -78,11 +80,11 @@ TYNDALL_INLINE void sum_rows(const FilterView& v, int sums, int group, Strip<F>&
   for (int s = 0; s < sums; ++s) {
     if (v.pairs[s].i != held) {
       held = v.pairs[s].i;
-      for (int y = 0; y < cell_edge; ++y) own[y] = load<F>(strip.column[held] + y * n);
+      for (int y = 0; y < cell_edge; ++y) own[y] = load<F>(strip.column[held] + std::ptrdiff_t{y} * n);
     }
     const float* other = strip.column[v.pairs[s].j];
     F sum = own[0] * load<F>(other);
-    for (int y = 1; y < cell_edge; ++y) sum = mul_add(own[y], load<F>(other + y * n), sum);
+    for (int y = 1; y < cell_edge; ++y) sum = mul_add(own[y], load<F>(other + std::ptrdiff_t{y} * n), sum);
     store(strip.part[s] + group * n, sum);
   }
 }
@@ -130,7 +132,7 @@ TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
     const int sums = shines ? all_sums : plain_sums;
     for (int group = 0; group < cell_edge; ++group) {
       const int x = x0 + group * n;
-      fill_group<F>(v, x, y0, x < v.width ? rows : 0, shines, strip.across + group * n, strip);
+      fill_group<F>(v, x, y0, x < v.width ? rows : 0, shines, strip.across + std::ptrdiff_t{group} * n, strip);
       sum_rows<F>(v, sums, group, strip);
     }
     for (int s = 0; s < sums; ++s) store(row + s * v.cell_stride + first, fold<F>(strip.part[s]));

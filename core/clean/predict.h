@@ -16,21 +16,22 @@ TYNDALL_INLINE void copy_row(const float* from, float* to) { __builtin_memcpy(to
 
 /// Copies a cell's pixels from a plane. Those to the right of the picture get what is there: they are not used.
 TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int rows, float* to) {
-  for (int y = 0; y < cell_edge; ++y) copy_row(plane + least(y, rows - 1) * stride, to + y * cell_edge);
+  for (int y = 0; y < cell_edge; ++y) copy_row(plane + least(y, rows - 1) * stride, to + std::ptrdiff_t{y} * cell_edge);
 }
 
 /// Fills the terms that are the same in each cell.
 TYNDALL_INLINE void fill_places(CellTerms& cell) {
   for (int pixel = 0; pixel < cell_pixels; ++pixel) {
+    const int x = pixel % cell_edge, y = pixel / cell_edge;
     cell.of[0][pixel] = 1;
-    cell.of[1][pixel] = (static_cast<float>(pixel % cell_edge) - middle_of_cell) * per_block;
-    cell.of[2][pixel] = (static_cast<float>(pixel / cell_edge) - middle_of_cell) * per_block;
+    cell.of[1][pixel] = (static_cast<float>(x) - middle_of_cell) * per_block;
+    cell.of[2][pixel] = (static_cast<float>(y) - middle_of_cell) * per_block;
   }
 }
 
 /// Fills the others.
 TYNDALL_INLINE void fill_terms(const FilterView& v, int cell_x, int cell_y, CellTerms& cell) {
-  const std::ptrdiff_t at = cell_y * cell_edge * v.stride + cell_x * cell_edge;
+  const std::ptrdiff_t at = std::ptrdiff_t{cell_y} * cell_edge * v.stride + std::ptrdiff_t{cell_x} * cell_edge;
   cell.rows = least(cell_edge, v.height - cell_y * cell_edge);
   for (int k = 0; k < seen_features; ++k) take_cell(v.seen[k] + at, v.stride, cell.rows, cell.of[3 + k]);
   cell.shines = v.shines[(cell_y + 1) * v.cell_stride + cell_x + 1] != 0;
@@ -77,7 +78,7 @@ TYNDALL_INLINE void predict_pixels(const CellTerms& cell, const CellBlocks& bloc
   for (int i = 1; i < plain_terms; ++i) term[i] = load<F>(cell.of[i] + pixel);
   for (int k = 0; k < 4; ++k) weight[k] = load<F>(tent[k] + pixel);
   for (int output = 0; output < outputs; ++output) {
-    const float(*emission)[cell_pixels] = cell.of + emission_column + output / 3 * emission_terms;
+    const float(*emission)[cell_pixels] = cell.of + emission_column + std::ptrdiff_t{output / 3} * emission_terms;
     F total = F(0.0f);
     for (int k = 0; k < 4; ++k) {
       const float* c = blocks.of[k][output];
@@ -148,7 +149,7 @@ TYNDALL_INLINE void put_cell(const FilterView& v, int x0, int y0, int rows, cons
     float* to = (output < outputs ? v.filtered[output] : v.level) + y0 * v.stride + x0;
     for (int y = 0; y < rows; ++y)
       if (columns == cell_edge)
-        copy_row(out[output] + y * cell_edge, to + y * v.stride);
+        copy_row(out[output] + std::ptrdiff_t{y} * cell_edge, to + y * v.stride);
       else
         for (int x = 0; x < columns; ++x) to[y * v.stride + x] = out[output][y * cell_edge + x];
   }
