@@ -40,6 +40,7 @@ constexpr ActionEntry entries[] = {
     {Action::panels, "hide the panels", {key_tab}},
     {Action::full_screen, "full screen", {key_f11}, {}, "", true},
     {Action::quit, "close the window", {'Q', true}},
+    {Action::palette, "all actions by name", {'K', true}},
     {Action::help, "this table", {key_f1}, {'H'}},
 };
 

@@ -28,6 +28,7 @@ enum class Action {
   full_screen,
   quit,
   help,
+  palette,
   grab,
   add,
   duplicate,

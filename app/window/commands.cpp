@@ -12,6 +12,10 @@ void Commands::take(const InputEvents& events) {
   for (const KeyPress& press : events.keys) {
     const auto command = command_of_key(press.key, press.modifiers);
     const bool answers = command && command->action == Action::deselect;
+    if (palette_.take_key(press.key)) {
+      pacing_.on_event();
+      continue;
+    }
     if (!press.typing && !asks() && objects_.has_keys() && objects_.take_key(press.key)) continue;
     if (objects_.active() && !answers) continue;
     if (!command || (press.typing && !asks()) || (asks() && !answers)) continue;
@@ -53,6 +57,9 @@ void Commands::act(const KeyCommand& command) {
     case Action::full_screen:
       platform_.toggle_full_screen();
       break;
+    case Action::palette:
+      open_palette();
+      break;
     case Action::quit:
       ask_to_close();
       break;
@@ -92,6 +99,22 @@ void Commands::step(Action action) {
   else
     session_.editor().redo();
   objects_.after_step(before);
+}
+
+void Commands::open_palette() {
+  std::vector<PaletteItem> items;
+  palette_commands_.clear();
+  for (const ActionEntry& entry : actions()) {
+    if (entry.action == Action::palette) continue;
+    items.push_back({entry.name, entry.key.code != 0 ? text_of(entry.key) : ""});
+    palette_commands_.push_back({entry.action});
+  }
+  for (int k = 0; k < view_count; ++k) {
+    items.push_back({std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : ""});
+    palette_commands_.push_back({Action::view, k});
+  }
+  palette_.open(std::move(items));
+  pacing_.on_event();
 }
 
 void Commands::reset_camera() {
@@ -145,6 +168,7 @@ void Commands::escape() {
     panels_.close_popup = true;
     return;
   }
+  if (palette_.is_open()) return palette_.close();
   if (objects_.escape()) return;
   if (asks())
     dialog_.kind = Dialog::Kind::none;
@@ -157,6 +181,8 @@ void Commands::escape() {
 }
 
 void Commands::draw(Ui& ui, const Rect& area) {
+  const int chosen = palette_.draw(ui, area);
+  if (chosen >= 0) later_ = [this, command = palette_commands_[static_cast<std::size_t>(chosen)]] { act(command); };
   if (shows_help_) draw_help(ui, area, shows_help_);
   const ReferenceWish wish = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
   if (wish.file) session_.references().open(*wish.file);

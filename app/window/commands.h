@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/actions.h"
 #include "app/window/closing.h"
+#include "app/window/menus/palette.h"
 #include "app/window/object_tools.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
@@ -10,6 +11,7 @@
 #include "app/window/tools/gestures.h"
 
 #include <functional>
+#include <vector>
 
 /// What happens when the user presses a key, drops a file or answers a question.
 namespace tyndall {
@@ -49,7 +51,7 @@ class Commands {
   void carry_out();
 
   /// Whether a question waits for an answer.
-  bool asks() const { return dialog_.kind != Dialog::Kind::none; }
+  bool asks() const { return dialog_.kind != Dialog::Kind::none || palette_.is_open(); }
   bool shows_panels() const { return shows_panels_; }
 
  private:
@@ -57,6 +59,7 @@ class Commands {
   void reset_camera();
   void frame_selection();
   void step(Action action);
+  void open_palette();
   void save();
   void save_as();
   void escape();
@@ -68,6 +71,8 @@ class Commands {
   Gestures& gestures_;
   ObjectTools& objects_;
   Dialog dialog_;
+  Palette palette_;
+  std::vector<KeyCommand> palette_commands_;  ///< what its lines do
   Closing closing_;
   std::function<void()> later_;  ///< what carry_out() does; empty: nothing
   int shown_view_ = 0;

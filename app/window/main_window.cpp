@@ -160,7 +160,9 @@ void MainWindow::fill_panels() {
   panels_.scene = session_.editor().scene();
   panels_.facts.frame = picture_.shown();
   panels_.facts.saved = &session_.editor().document().origin->saved;
-  panels_.facts.title = session_.editor().document().origin->title;
+  const std::string& title = session_.editor().document().origin->title;
+  if (panels_.facts.title != title) forget_scene(panels_);
+  panels_.facts.title = title;
   panels_.facts.threads = session_.renderers().threads();
   panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
   panels_.facts.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;

@@ -23,8 +23,8 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
 /// "ball", else "ball 2" and so on: the first that no object has. A number at the end of the wish counts on.
 std::string free_name(const Scene& scene, const std::string& wish);
 
-/// After undo or redo: what is selected then. Paths that lead to the same objects as before stay; where objects came,
-/// those are selected.
+/// After undo or redo: what is selected then. Objects that are still there stay selected, wherever they stand now; if
+/// none is, those that came are.
 ObjectPaths selection_after(const Scene& before, const Scene& after, const ObjectPaths& selected);
 
 }  // namespace tyndall

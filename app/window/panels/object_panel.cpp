@@ -117,6 +117,13 @@ void drop_lost_selection(PanelState& state) {
   state.also.erase(state.also.begin());
 }
 
+void forget_scene(PanelState& state) {
+  state.selected.clear();
+  state.also.clear();
+  state.objects = {};
+  state.backgrounds = {};
+}
+
 void object_panel(Ui& ui, PanelState& state) {
   if (find_object(state.scene, state.selected)) {
     if (state.rename) ui.folded.erase(title_of(state.scene, state.selected));

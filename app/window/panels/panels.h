@@ -7,6 +7,7 @@
 #include "core/scene/load.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,13 @@ struct PanelFacts {
   int threads = 1;
 };
 
+/// How the list of objects is shown.
+struct ObjectsView {
+  std::string search;           ///< only objects with this text are listed; "": all
+  std::set<ObjectPath> turned;  ///< groups that are folded though they are small, or open though they are large
+  ObjectPath shown;             ///< the selected object that the list has scrolled to
+};
+
 /// What goes into the panels and comes out of them in each drawing.
 struct PanelState {
   PanelFacts facts;
@@ -47,7 +55,9 @@ struct PanelState {
   bool rename = false;           ///< the name of the selected object is to be typed
   bool close_popup = false;      ///< a list or a picker that is open closes in the next drawing
   BackgroundMemory backgrounds;
-  int view = 0;  ///< see view_entry()
+  ObjectsView objects;
+  ObjectPath shown;  ///< the selected object that the column has jumped to
+  int view = 0;      ///< see view_entry()
   Wishes wishes;
 };
 
@@ -55,6 +65,8 @@ struct PanelState {
 std::vector<ObjectPath> all_selected(const PanelState& state);
 /// Forgets selected objects that the scene does not have.
 void drop_lost_selection(PanelState& state);
+/// Forgets what was selected, searched for and remembered of another scene.
+void forget_scene(PanelState& state);
 
 /// All sections in the column, the chart at its foot.
 void draw_column(Ui& ui, PanelState& state, const Rect& column);

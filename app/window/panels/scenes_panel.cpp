@@ -1,12 +1,12 @@
+#include "app/window/panels/list_rows.h"
 #include "app/window/panels/panels.h"
+#include "app/window/panels/wheel.h"
 #include "app/window/system/imgui_compat.h"
 
 #include <algorithm>
 
 namespace tyndall {
-namespace {
 
-/// A line of a list, with a grey word on the right. Returns whether it was clicked.
 bool list_line(Ui& ui, const std::string& name, const std::string& label, const std::string& word, bool on) {
   const float right = ImGui::GetWindowContentRegionMax().x;
   const bool pressed = ImGui::Selectable(("##" + name).c_str(), on, 0, {0, ImGui::GetTextLineHeight()});
@@ -21,14 +21,14 @@ bool list_line(Ui& ui, const std::string& name, const std::string& label, const 
   return pressed;
 }
 
-/// Begins a list that is eight lines high at most, and scrolls when it has more.
 bool begin_list(Ui& ui, const char* name, std::size_t lines) {
   const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
   const float height = line * static_cast<float>(std::clamp<std::size_t>(lines, 1, 8)) + 8 * ui.scale;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::ink);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * ui.scale, 6 * ui.scale});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * ui.scale, 4 * ui.scale});
-  return ImGui::BeginChild(name, {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  return ImGui::BeginChild(name, {0, height}, false,
+                           ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollWithMouse);
 }
 
 void end_list() {
@@ -37,54 +37,17 @@ void end_list() {
   ImGui::PopStyleColor();
 }
 
-struct ObjectLine {
-  ObjectPath path;
-  std::string label, word;
-};
-
-void add_lines(const Scene& scene, const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectLine>& out) {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    path.push_back(static_cast<int>(i));
-    const Material* material = material_of(scene, objects[i]);
-    out.push_back({path, std::string(2 * (path.size() - 1), ' ') + title_of(scene, path),
-                   material ? material->name : kind_name(objects[i])});
-    if (const Group* group = std::get_if<Group>(&objects[i].kind); group && path.size() < 3)
-      add_lines(scene, group->objects, path, out);
-    path.pop_back();
-  }
-}
-
-}  // namespace
-
-void objects_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Objects", "click in the picture, or here")) return;
-  ui.scope = "objects.";
-  std::vector<ObjectLine> lines;
-  ObjectPath path;
-  add_lines(state.scene, state.scene.objects, path, lines);
-  if (begin_list(ui, "objects", lines.size())) {
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(lines.size()));
-    while (clipper.Step())
-      for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
-        const ObjectLine& line = lines[static_cast<std::size_t>(k)];
-        const bool on = line.path == state.selected;
-        if (list_line(ui, std::to_string(k), line.label, line.word, on)) state.selected = on ? ObjectPath{} : line.path;
-      }
-  }
-  end_list();
-  ui.scope.clear();
-}
-
 void scenes_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Scenes", "or drop a file")) return;
   ui.scope = "scenes.";
-  if (begin_list(ui, "scenes", state.facts.scenes.size()))
+  if (begin_list(ui, "scenes", state.facts.scenes.size())) {
+    scroll_list(ui);
     for (const BuiltIn& scene : state.facts.scenes) {
       const bool on = scene.name == state.facts.title;
       if (list_line(ui, scene.name, scene.name, "", on)) state.wishes.open = scene.name;
       tooltip(ui, scene.title);
     }
+  }
   end_list();
   ui.scope.clear();
 }
@@ -99,7 +62,10 @@ void draw_column(Ui& ui, PanelState& state, const Rect& column) {
   const float body = column.height() - (fixed_chart ? foot : 0.0f);
   ImGui::SetNextWindowPos({column.x0, column.y0});
   ImGui::SetNextWindowSize({column.width(), body});
-  if (ImGui::Begin("##column", nullptr, flags)) {
+  const bool other = state.shown != state.selected && !state.selected.empty() && state.objects.shown != state.selected;
+  state.shown = state.selected;
+  if (ImGui::Begin("##column", nullptr, flags | ImGuiWindowFlags_NoScrollWithMouse)) {
+    if (other) ImGui::SetScrollY(0);  // selected in the picture: its values are at the top
     object_panel(ui, state);
     camera_panel(ui, state);
     image_panel(ui, state);
@@ -108,6 +74,7 @@ void draw_column(Ui& ui, PanelState& state, const Rect& column) {
     background_panel(ui, state);
     objects_panel(ui, state);
     scenes_panel(ui, state);
+    scroll_column(ui);
   }
   ImGui::End();
   if (!fixed_chart) return;

@@ -54,6 +54,9 @@ void tooltip(Ui& ui, const std::string& text) {
     ui.wake_in = std::min(ui.wake_in, delay - waited);
     return;
   }
+  // Beside the column or menu and not over it, so that it hides nothing that the hand goes to next.
+  const float left = ImGui::GetWindowPos().x - 8 * ui.scale, room = 330 * ui.scale;
+  if (left > room) ImGui::SetNextWindowPos({left, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1, 0});
   compat::push_font(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(300 * ui.scale);

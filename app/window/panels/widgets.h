@@ -41,6 +41,13 @@ struct HoveredItem {
   double since = 0;
 };
 
+/// Which window the wheel scrolls.
+struct WheelOwner {
+  ImGuiID owner = 0;  ///< that scrolled last; 0: none
+  double last = -10;  ///< when, seconds
+  bool used = false;  ///< in this drawing, by a list
+};
+
 /// What all controls share. One per window; lives as long as it.
 struct Ui {
   Fonts fonts;
@@ -52,6 +59,7 @@ struct Ui {
   TextEdit edit;
   NumberDrag drag;
   HoveredItem hovered;
+  WheelOwner wheel;
   double wake_in = 1e300;        ///< seconds until something appears by itself
   bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
   std::string problem;           ///< why a typed value was refused: one line; "": it was not

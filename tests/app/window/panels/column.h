@@ -35,7 +35,7 @@ class Column {
     imgui_.frame([&] {
       ui.problem.clear();
       state.wishes = {};
-      draw_column(ui, state, {0, 0, 372, 2400});
+      draw_column(ui, state, {0, 0, 372, height});
       log_.end_of_widgets();
       if (!ui.problem.empty()) problem = ui.problem;
       if (state.wishes.open) opened = *state.wishes.open;
@@ -91,6 +91,7 @@ class Column {
   Ui ui;
   PanelState state;
   Scene saved;  ///< what the file holds
+  float height = 2400;
   std::string problem, opened;
   bool split = false, exported = false, asked = false;
 

@@ -1,0 +1,41 @@
+#pragma once
+#include "app/window/panels/widgets.h"
+
+#include <string>
+#include <vector>
+
+/// The palette: every action by its name.
+namespace tyndall {
+
+/// A line of the palette.
+struct PaletteItem {
+  std::string label;  ///< "save as"
+  std::string key;    ///< "Ctrl + Shift + S"; "": it has none
+};
+
+/// The numbers of the items whose labels hold all words of the text, in any order and in small letters or capitals;
+/// those that begin with the text come first.
+std::vector<int> matching_items(const std::vector<PaletteItem>& items, const std::string& text);
+
+/// A box over the picture in which the user types part of an action's name and chooses one with the arrow keys and
+/// Enter, or by a click.
+class Palette {
+ public:
+  void open(std::vector<PaletteItem> items);
+  void close() { items_.clear(); }
+  bool is_open() const { return !items_.empty(); }
+
+  /// Up and down move the mark; key: GLFW's number. Returns whether it was meant for the palette.
+  bool take_key(int key);
+  /// Draws it; it closes by a click beside it or when something was chosen. Returns the number of what was chosen; -1:
+  /// nothing.
+  int draw(Ui& ui, const Rect& area);
+
+ private:
+  std::vector<PaletteItem> items_;
+  char text_[64] = {};
+  int mark_ = 0;
+  bool fresh_ = false, moved_ = false;
+};
+
+}  // namespace tyndall

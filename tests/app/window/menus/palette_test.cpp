@@ -1,0 +1,81 @@
+#include "app/window/menus/palette.h"
+
+#include "tests/app/window/panels/null_imgui.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+const std::vector<PaletteItem> items{
+    {"save the scene", "Ctrl + S"}, {"save as", ""}, {"add a lamp", ""}, {"undo", "Ctrl + Z"}};
+
+/// The palette over a picture.
+struct Drawn {
+  NullImGui imgui;
+  Ui ui;
+  Palette palette;
+  int chosen = -1;
+
+  Drawn() {
+    palette.open(items);
+    for (int k = 0; k < 3; ++k) draw();
+  }
+  void draw() {
+    imgui.frame([&] {
+      const int now = palette.draw(ui, {0, 0, 900, 700});
+      if (now >= 0) chosen = now;
+    });
+  }
+  void type(const char* text) {
+    for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
+    draw();
+  }
+  void enter() {
+    compat::key(ImGui::GetIO(), ImGuiKey_Enter, true);
+    draw();
+    compat::key(ImGui::GetIO(), ImGuiKey_Enter, false);
+    draw();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("items are found by all words, in any order and case; those that begin so come first") {
+  CHECK(matching_items(items, "") == std::vector<int>{0, 1, 2, 3});
+  CHECK(matching_items(items, "SAVE") == std::vector<int>{0, 1});
+  CHECK(matching_items(items, "scene save") == std::vector<int>{0});
+  CHECK(matching_items(items, "a") == std::vector<int>{2, 0, 1});
+  CHECK(matching_items(items, "nothing").empty());
+}
+
+TEST_CASE("typing and Enter choose the first that fits, the arrow keys another one") {
+  Drawn first;
+  first.type("save");
+  first.enter();
+  CHECK(first.chosen == 0);
+  CHECK_FALSE(first.palette.is_open());
+  Drawn second;
+  second.type("save");
+  CHECK(second.palette.take_key(264));  // down
+  second.draw();
+  second.enter();
+  CHECK(second.chosen == 1);
+  Drawn none;
+  none.type("nothing");
+  none.enter();
+  CHECK(none.chosen == -1);
+  CHECK(none.palette.is_open());
+}
+
+TEST_CASE("a click beside the palette closes it") {
+  Drawn drawn;
+  compat::mouse_pos(ImGui::GetIO(), 5, 690);
+  drawn.draw();
+  compat::mouse_button(ImGui::GetIO(), 0, true);
+  drawn.draw();
+  CHECK_FALSE(drawn.palette.is_open());
+  CHECK(drawn.chosen == -1);
+  CHECK_FALSE(drawn.palette.take_key(264));
+}

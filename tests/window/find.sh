@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Finding things: the palette does what its lines say, by keys and by mouse; what is selected in the picture is shown in
+# the column; Esc closes the innermost thing first; types are chosen from a list.
+. "$(dirname "$0")/_lib.sh"
+
+write_scene scene.json 0.2
+start scene.json
+settle
+
+# By name and Enter: the view changes; digits typed there are no shortcuts.
+chord ctrl k
+type_text 'nor'
+key Return
+wait_until has_value image.view.normal on
+wait_until has_keyboard shortcuts
+chord ctrl k
+type_text 1
+wait_until has_value palette 1
+key Escape
+wait_for '^gone palette$'
+has_value image.view.normal on || fail 'a digit in the palette changed the view'
+key 1
+wait_until has_value image.view.beauty on
+
+# By mouse.
+lines=$(here)
+chord ctrl k
+type_text 'add lamp'
+wait_for '^widget palette.add_a_lamp ' "$lines"
+click palette.add_a_lamp
+wait_for '^widget picture .* Lamp 2$' "$lines"
+chord ctrl z
+wait_for '^gone Lamp_2.name' "$lines"
+settle
+
+# The type of the ball from a list; Esc closes the list, not the selection.
+click picture 50 45
+wait_for '^widget picture .* Ball$'
+settle
+lines=$(here)
+click Ball.type
+wait_for '^widget Ball.type.dielectric ' "$lines"
+key Escape
+wait_for '^gone Ball.type.dielectric' "$lines"
+has_value Ball.type metal || fail "the type is $(value Ball.type)"
+lines=$(here)
+click Ball.type
+wait_for '^widget Ball.type.fog_within ' "$lines"
+click Ball.type.fog_within
+wait_until has_value Ball.type 'fog within'
+wait_for '^widget objects.4 ' "$lines"
+lines=$(here)
+chord ctrl z
+wait_for '^gone objects.4$' "$lines"
+wait_until has_value Ball.type metal
+settle
+finish
