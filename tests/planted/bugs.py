@@ -21,7 +21,7 @@ BUGS = [
     ("base", "what a job throws is lost", "core/base/crew.cpp", "if (failure && !failure_) failure_ = failure;", "", "base/crew", LIBRARY),
     # shapes
     ("shapes", "a sphere's far side is its near one", "core/shapes/sphere.h", "return {middle - half, middle + half, less", "return {middle - half, middle - half, less", "shapes/sphere", TESTS),
-    ("shapes", "a swapped side of the sphere that a ray leaves", "core/shapes/sphere.h", "equal(from & IntOf<F>(3), IntOf<F>(1))", "equal(from & IntOf<F>(3), IntOf<F>(0))", "shapes/sphere", TESTS),
+    ("shapes", "a swapped side of the sphere that a ray leaves", "core/shapes/sphere.h", "equal(from & IntOf<F>(3), IntOf<F>(1))", "equal(from & IntOf<F>(3), IntOf<F>(0))", "shapes/sphere kernel/trace", LIBRARY),
     ("shapes", "a quad without its second edge", "core/shapes/quad.h", "abs(affine_point(quad, 1, p))", "abs(affine_point(quad, 0, p))", "shapes/quad", TESTS),
     ("shapes", "swapped faces of a box", "core/shapes/box.h", "select(is_y, I(2), I(4))", "select(is_y, I(4), I(2))", "shapes/box", TESTS),
     ("shapes", "flat boxes are missed", "core/shapes/box.h", "{{t0, t1, less_equal(t0, t1)}", "{{t0, t1, less(t0, t1)}", "shapes/box", TESTS),
