@@ -29,7 +29,7 @@ SMALL = {
 LIMITS = {"--samples", "--replay"}  # options of render that exclude --spp
 PLACEHOLDERS = {
     "SCENE": "cornell-box", "IMAGE": "a.exr", "REFERENCE": "b.exr", "PART": "a.exr b.exr", "PART...": "a.exr b.exr",
-    "FILM.exr": "fog.exr",
+    "FILM.exr": "fog.exr", "DIR": "kept",
     "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
     "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
 }
@@ -50,7 +50,7 @@ def commands_of(text):
 
 def replace_placeholders(command):
     """Without what is optional ("[NAME…]"), and with something real for words in capitals."""
-    command = re.sub(r" \[[^\]\d]*[A-Z][^\]]*\]", "", command).replace("PART…", "PART")
+    command = re.sub(r" \[[^\]\d]*[A-Z][^\]]*\]", "", command).replace("PART…", "PART").replace("IMAGE…", "IMAGE")
     return " ".join(PLACEHOLDERS.get(word, word) for word in command.split(" "))
 
 
@@ -94,6 +94,7 @@ class Commands:
         try:
             for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4"), ("fog", "0:4")):
                 self.output(["render", "cornell-smoke", "--samples", samples, *small, "-o", name + ".exr"])
+            self.output(["compare", "a.exr", "--baseline", "kept", "--update"])
         except subprocess.CalledProcessError:
             self.with_exr = False  # a build without OpenEXR
         self.fake = scratch / "root"
@@ -134,7 +135,7 @@ class Commands:
         name = words[0] if words and words[0] in self.help else None
         if name and len(words) == 1 and name not in ("view", "scenes"):
             return  # the text speaks of a command
-        needs_exr = not self.with_exr and any(".exr" in word for word in words)
+        needs_exr = not self.with_exr and any(".exr" in word or word == "kept" for word in words)
         if "…" in words or any("{" in word for word in words) or needs_exr or (name and is_long(words)):
             for option in sorted(options_of(" ".join(words)) - options_of(self.help[name or "view"])):
                 yield f"{option} is no option of tyndall {name or 'view'}"
@@ -145,7 +146,7 @@ class Commands:
         if renders and not LIMITS & set(words):
             small = small + ["--spp", "1"]
         checks = name == "verify" or any(word.startswith("--max-") for word in words)
-        opens_window = not through_run and (not words or name == "view" or (not name and words[0][0] != "-"))
+        opens_window = not through_run and (not words or name == "view" or (not name and words[0] != "help" and words[0][0] != "-"))
         yield from self.run([*program, *words, *small], {3} if opens_window else {0, 1} if checks else {0})
 
     def run(self, command, expected):

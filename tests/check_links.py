@@ -58,7 +58,11 @@ def check_names(page, root):
             if not any((folder / code).exists() for folder in (root, page.parent)):
                 yield f"{code}: there is no such file"
         elif re.fullmatch(r"[a-z]+/[a-z_]+", code) and not any((f / code).exists() for f in (root, page.parent)):
-            if (tests / code.split("/")[0]).is_dir() and not (tests / (code + "_test.cpp")).exists():
+            room, name = code.split("/")
+            files = [code + end for end in ("_test.cpp", ".sh", "_slow.sh", "_nightly.sh")]
+            lists = (tests / "CMakeLists.txt").read_text()
+            listed = re.search(rf"NAME {code}\b|_test\({name} ", lists)
+            if (tests / room).is_dir() and not listed and not any((tests / file).exists() for file in files):
                 yield f"{code}: there is no such test"
 
 
