@@ -156,6 +156,13 @@ void Commands::select_view(int index) {
   pacing_.on_new_start(clock_seconds());
 }
 
+void Commands::end_split() {
+  if (session_.method(Half::kept) == session_.method(Half::current))
+    session_.set_split(false);
+  else
+    dialog_ = {Dialog::Kind::halves, {}, true};
+}
+
 void Commands::ask_to_close() {
   closing_.begin(dialog_);
   pacing_.on_event();
@@ -186,13 +193,16 @@ void Commands::draw(Ui& ui, const Rect& area) {
   if (shows_help_) draw_help(ui, area, shows_help_);
   const ReferenceWish wish = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
   if (wish.file) session_.references().open(*wish.file);
-  if (wish.keep) session_.keep_as_reference();
+  if (wish.render) session_.render_reference();
   if (wish.drop) session_.references().drop();
   const auto file = draw_dialog(ui, area, dialog_, session_.editor().document());
   if (file) session_.editor().save(*file);
   if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true};
   const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
   if (take) later_ = [this, take = *take] { session_.editor().answer_about_file(take); };
+  if (dialog_.kind == Dialog::Kind::halves && !session_.renderers().split()) dialog_.kind = Dialog::Kind::none;
+  const auto half = draw_halves_dialog(ui, area, dialog_, session_.method(Half::kept), session_.method(Half::current));
+  if (half) later_ = [this, half = *half] { session_.keep_half(half); };
   if (closing_.draw(ui, area, dialog_))
     later_ = [this] {
       session_.editor().go_to_unsaved();

@@ -41,6 +41,8 @@ class Commands {
   void ask_to_close();
   /// The window may go.
   bool closed() const { return closing_.done(); }
+  /// Ends the split view; asks which half to keep where they differ.
+  void end_split();
   /// Asks which picture errors are measured against.
   void ask_reference() { tyndall::ask_reference(dialog_); }
   /// Draws the help table and the question that waits for an answer, and does what was answered.

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -15,6 +16,9 @@
 
 namespace tyndall {
 namespace {
+
+/// Seconds for which the screen stays as it is, because the picture of the newest edit is about to come.
+constexpr double longest_await = 0.04;
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
@@ -54,14 +58,16 @@ int MainWindow::run() {
     alarm_.rang = false;
     if (platform_.take_close_wish()) commands_.ask_to_close();
     const InputEvents events = platform_.take_events();
+    if (input_since_ <= 0) input_since_ = events.first;
     if (events.any || session_.collect()) pacing_.on_event();
     for (const KeyPress& press : events.keys)
       if (log_) log_->line("key " + std::to_string(press.key));
     commands_.take(events);
     const double now = clock_seconds();
     if (session_.collect_errors()) pacing_.wake_at(now);
-    send(now);
-    if (pacing_.wait(now) <= 0 || picture_due(now)) draw(now);
+    const bool due = picture_due(now);
+    if (!due) send(now);
+    if (due || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
   }
   platform_.hide();  // a comparison or a snapshot may still take a second
   return end_of_signal();
@@ -80,11 +86,17 @@ int MainWindow::end_of_signal() {
   return 128 + signal;
 }
 
-void MainWindow::send(double now) {
+/// Hands the newest scene to the renderer if its time has come. Returns whether that is a new edit.
+bool MainWindow::send(double now) {
   session_.send(now);
   const std::uint64_t edit = session_.renderers().edit(Half::current);
-  if (edit != paced_edit_) pacing_.on_edit(paced_edit_ = edit, now);
+  if (edit == paced_edit_) return false;
+  pacing_.on_edit(paced_edit_ = edit, now);
+  return true;
 }
+
+/// Whether the picture of an edit is so near that drawing the window before would only hold it up.
+bool MainWindow::awaits_picture(double now) const { return now < awaits_until_; }
 
 bool MainWindow::picture_due(double now) const {
   const auto frame = picture_.unseen();
@@ -108,7 +120,7 @@ double MainWindow::waiting_time(double now) {
   const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
   alarm_.due = due;
   const auto frame = picture_.unseen();
-  double wait = pacing_.wait(now);
+  double wait = std::max(pacing_.wait(now), awaits_until_ - now);
   if (frame)
     wait = std::min(wait, std::max(0.0, (frame->finished ? pacing_.next_drawing() : due) - now));
   else if (due > now)
@@ -132,6 +144,7 @@ void MainWindow::draw(double now) {
   pacing_.on_drawing();
   if (hidden()) {
     platform_.skip_frame();
+    send(now);
     return pacing_.on_drawn(now);
   }
   update_scale();
@@ -148,12 +161,23 @@ void MainWindow::draw(double now) {
   const Layout layout =
       make_layout(static_cast<float>(size.width), static_cast<float>(size.height), shown ? shown->width : scene.width,
                   shown ? shown->height : scene.height, ui_.scale, commands_.shows_panels());
+  const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
+  session_.renderers().set_shown_pixels(std::llround(layout.image.width() * layout.image.height() * dots * dots));
+  session_.set_input_time(std::exchange(input_since_, 0));
   fill_panels();
   draw_interface(layout);
   use_mouse_and_keys(layout, now);
   apply_panels(now);
+  session_.set_input_time(0);
+  if (!fresh && send(now)) {
+    awaits_until_ = now + longest_await;
+    return platform_.drop_frame();
+  }
   picture_.show(platform_, layout.image);
+  if (fresh) picture_.note_shown();
   finish_drawing(now, cpu_before, fresh);
+  awaits_until_ = 0;
+  if (fresh && send(clock_seconds())) awaits_until_ = clock_seconds() + longest_await;
 }
 
 void MainWindow::fill_panels() {
@@ -218,7 +242,7 @@ void MainWindow::apply_panels(double now) {
   if (wishes.open) session_.editor().open(*wishes.open);
   if (wishes.export_chart) session_.export_chart();
   if (wishes.split) {
-    session_.set_split(*wishes.split);
+    *wishes.split ? session_.set_split(true) : commands_.end_split();
     pacing_.on_new_start(now);
   }
   if (wishes.clean) {
@@ -230,7 +254,6 @@ void MainWindow::apply_panels(double now) {
   if (wishes.action) commands_.act({static_cast<Action>(*wishes.action)});
   if (wishes.threads) session_.set_threads(*wishes.threads);
   commands_.select_view(shows_errors(panels_.view) && !session_.can_show_errors() ? 0 : panels_.view);
-  send(now);
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();

@@ -46,7 +46,8 @@ class MainWindow {
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
   void apply_panels(double now);
-  void send(double now);
+  bool send(double now);
+  bool awaits_picture(double now) const;
   void keep_message(double now);
   int end_of_signal();
   void finish_drawing(double now, double cpu_before, bool fresh);
@@ -65,6 +66,8 @@ class MainWindow {
   ObjectTools objects_;
   Commands commands_;
   std::uint64_t paced_edit_ = 0;  ///< newest edit that pacing_ knows of
+  double input_since_ = 0;        ///< when the oldest input came that no drawing has seen; 0: there is none
+  double awaits_until_ = 0;       ///< until then nothing is drawn but the picture of an edit that was just sent
 };
 
 }  // namespace tyndall

@@ -167,4 +167,20 @@ std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& d
   return take;
 }
 
+std::optional<Half> draw_halves_dialog(Ui& ui, const Rect& area, Dialog& dialog, const std::string& method_a,
+                                       const std::string& method_b) {
+  if (dialog.kind != Dialog::Kind::halves) return {};
+  begin_dialog(ui, area);
+  ImGui::TextUnformatted("Which half do you keep?");
+  ImGui::Dummy({0, 4 * ui.scale});
+  std::optional<Half> kept;
+  if (small_button(ui, "dialog.a", "A   " + method_a)) kept = Half::kept;
+  ImGui::SameLine();
+  if (small_button(ui, "dialog.b", "B   " + method_b)) kept = Half::current;
+  ImGui::SameLine();
+  if (small_button(ui, "dialog.cancel", "Cancel") || kept) dialog.kind = Dialog::Kind::none;
+  end_dialog();
+  return kept;
+}
+
 }  // namespace tyndall

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/curves/curve.h"
+#include "app/window/accuracy/half.h"
 #include "app/window/document/document.h"
 #include "app/window/document/message.h"
 #include "app/window/panels/widgets.h"
@@ -48,7 +49,7 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
 
 /// A question that waits for an answer.
 struct Dialog {
-  enum class Kind { none, comments, save_as, replace, reference, close, changed_file } kind = Kind::none;
+  enum class Kind { none, comments, save_as, replace, reference, close, changed_file, halves } kind = Kind::none;
   char name[512] = {};  ///< of the file that is typed
   bool fresh = false;   ///< it was opened in this drawing
 };
@@ -61,10 +62,14 @@ std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialo
 /// Asks whether to take what another program has written into the open file, or to keep the edits. Returns true: take.
 std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
 
+/// Asks which half of a split view to keep. method_a, method_b: how the halves are rendered.
+std::optional<Half> draw_halves_dialog(Ui& ui, const Rect& area, Dialog& dialog, const std::string& method_a,
+                                       const std::string& method_b);
+
 /// What the user chose when asked for a reference; at most one of these.
 struct ReferenceWish {
   std::optional<std::filesystem::path> file;  ///< read this one
-  bool keep = false;                          ///< the picture on the screen
+  bool render = false;                        ///< render one
   bool drop = false;                          ///< measure against nothing
 };
 

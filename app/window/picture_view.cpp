@@ -27,6 +27,11 @@ void PictureView::take() {
   take_half(Half::kept, left_);
 }
 
+void PictureView::note_shown() {
+  if (right_.frame) session_.renderers().note_shown(Half::current, right_.frame->pass);
+  if (left_.frame) session_.renderers().note_shown(Half::kept, left_.frame->pass);
+}
+
 bool PictureView::shows_halves() const {
   return (session_.renderers().split() && !session_.accuracy().map()) || shows_raw_beside();
 }
@@ -87,7 +92,8 @@ void PictureView::upload() {
   if (!session_.renderers().split() && !shows_raw_beside()) left_ = {};
   const auto map = session_.accuracy().map();
   const auto& frame = right_.frame;
-  if (map && map != right_.uploaded) right_.display->upload(map->width, map->height, map->rgba);
+  if (map && map != right_.uploaded)
+    right_.display->upload({map->rgba, map->width, map->height, 1, map->width, map->height});
   if (map)
     right_.uploaded = map;
   else if (frame)
@@ -105,7 +111,10 @@ void PictureView::upload_picture(Side& side, const std::shared_ptr<const Frame>&
   const auto filtered = clean ? clean_of(frame) : nullptr;
   const auto shown = filtered ? std::shared_ptr<const void>(filtered) : frame;
   if (shown == side.uploaded) return;
-  side.display->upload(frame->width, frame->height, filtered ? filtered->rgba : frame->rgba);
+  if (filtered)
+    side.display->upload({filtered->rgba, frame->width, frame->height, 1, frame->width, frame->height});
+  else
+    side.display->upload({frame->rgba, frame->columns, frame->rows, frame->spacing, frame->width, frame->height});
   side.uploaded = shown;
 }
 

@@ -21,6 +21,8 @@ class PictureView {
   std::shared_ptr<const Frame> unseen() const;
   /// Puts the newest frames on the screen, with the next drawing, and tells the session.
   void take();
+  /// The drawing is on the screen: tells the renderers.
+  void note_shown();
   /// The frame that is on the screen, of the right half in a split view; null: there is none.
   const std::shared_ptr<const Frame>& shown() const { return right_.frame; }
 

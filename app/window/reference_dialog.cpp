@@ -10,7 +10,9 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
   if (dialog.kind != Dialog::Kind::reference) return {};
   begin_dialog(ui, area);
   ImGui::TextUnformatted("Measure the error against");
-  note(ui, "an image of this scene and size, best an EXR of another seed", false);
+  note(ui,
+       "an image of this scene and size, best an EXR of another seed; or one that is rendered now with another seed",
+       false);
   ImGui::Dummy({0, 2 * ui.scale});
   ImGui::SetNextItemWidth(420 * ui.scale);
   if (dialog.fresh) ImGui::SetKeyboardFocusHere();
@@ -21,7 +23,7 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
   ReferenceWish wish;
   const bool load = small_button(ui, "dialog.load", "Load");
   ImGui::SameLine();
-  wish.keep = small_button(ui, "dialog.keep", "Use this picture");
+  wish.render = small_button(ui, "dialog.render", "Render one");
   ImGui::SameLine();
   if (has_reference) {
     wish.drop = small_button(ui, "dialog.drop", "No reference");
@@ -30,7 +32,7 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
   const bool cancel = small_button(ui, "dialog.cancel", "Cancel");
   if ((enter || load) && dialog.name[0] != '\0') wish.file = dialog.name;
   dialog.fresh = false;
-  if (cancel || wish.keep || wish.drop || wish.file) dialog.kind = Dialog::Kind::none;
+  if (cancel || wish.render || wish.drop || wish.file) dialog.kind = Dialog::Kind::none;
   end_dialog();
   return wish;
 }

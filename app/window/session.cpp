@@ -5,6 +5,7 @@
 #include "app/window/document/snapshot.h"
 #include "app/window/system/preferences.h"
 #include "core/base/error.h"
+#include "core/render/mailbox.h"
 
 #include <algorithm>
 #include <thread>
@@ -27,10 +28,17 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       accuracy_(wake),
       renderers_(thread_count(options.threads), options.isa, std::move(on_frame)),
       editor_(options.scene, options.reload,
-              {[this] { timer_.on_change(clock_seconds()); }, [this] { accuracy_.clear(), set_split(false); }, wake},
+              {[this] { timer_.on_change(input_time_ > 0 ? input_time_ : clock_seconds()); },
+               [this] { accuracy_.clear(), set_split(false); },
+               [isa = options.isa](const LoadedScene& loaded) { return read_opened_film(loaded, isa); },
+               [this](std::shared_ptr<Film> film) {
+                 opened_film_ = std::move(film);
+                 timer_.on_change(clock_seconds());
+               },
+               wake},
               loading_, messages_, log),
       kept_(state_folder()),
-      references_(editor_, accuracy_, messages_),
+      references_(editor_, accuracy_, messages_, wake),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
       loading_(wake),
@@ -40,6 +48,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
   restore_edits(!options.scene_named);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
+  if (options.scene.source.empty()) editor_.open_film(options.scene);
 }
 
 /// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
@@ -94,11 +103,15 @@ bool Session::send(double now) {
 }
 
 void Session::submit(double now) {
-  const std::shared_ptr<const Scene>& scene = shared_scene();
-  const RendererPair::Begun begun = renderers_.submit(scene);
+  const std::shared_ptr<const Scene> scene = shared_scene();
+  std::shared_ptr<Film> film = std::exchange(opened_film_, nullptr);
+  if (film && !same_picture(*scene, editor_.document().origin->saved)) film = nullptr;  // it was edited meanwhile
+  const RendererPair::Begun begun = renderers_.submit(scene, std::move(film));
   if (begun.current) accuracy_.set_scene(Half::current, scene);
   if (begun.kept) accuracy_.set_scene(Half::kept, renderers_.kept_scene(*scene));
-  if (log_ && begun.current) log_->submitted(renderers_.edit(Half::current), timer_.changed_at());
+  const bool camera_only = sent_ && !change_between(*sent_, *scene).others;
+  sent_ = scene;
+  if (log_ && begun.current) log_->submitted(renderers_.edit(Half::current), timer_.changed_at(), camera_only);
   timer_.on_send(now);
 }
 
@@ -111,6 +124,7 @@ bool Session::collect() {
   bool came = loading_.collect();
   came = saving_.collect() || came;
   came = editor_.collect() || came;
+  came = references_.collect() || came;
   const auto problem = renderers_.problem();
   if (!problem || problem->edit <= problem_edit_) return came;
   problem_edit_ = problem->edit;
@@ -120,7 +134,8 @@ bool Session::collect() {
 
 bool Session::at_rest() const {
   const bool known = !timer_.waits() && !editor_.file_changed();
-  return known && renderers_.finished() && loading_.idle() && saving_.idle() && !accuracy_.busy();
+  return known && renderers_.finished() && !references_.busy() && loading_.idle() && saving_.idle() &&
+         !accuracy_.busy();
 }
 
 void Session::pause(bool paused) {
@@ -167,6 +182,12 @@ void Session::set_split(bool split) {
   }
 }
 
+void Session::keep_half(Half half) {
+  Scene scene = half == Half::kept ? renderers_.kept_scene(editor_.scene()) : editor_.scene();
+  set_split(false);
+  editor_.edit(std::move(scene), 0);
+}
+
 std::string Session::method(Half half) const {
   const RenderSettings& settings = half == Half::kept ? renderers_.kept_settings() : editor_.scene().render;
   return method_of(settings, editor_.document().origin->saved.render);
@@ -176,11 +197,12 @@ bool Session::can_show_errors() const {
   return accuracy_.split() || (accuracy_.reference() && accuracy_.fit(Half::current) != ReferenceFit::other_size);
 }
 
-void Session::keep_as_reference() {
+void Session::render_reference() {
   const auto frame = renderers_.latest(Half::current);
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
-  references_.set(std::make_shared<const Reference>(reference_of(*frame, editor_.scene())));
+  constexpr std::uint32_t least = 64;
+  references_.render({editor_.scene(), std::max(least, frame->spp), renderers_.threads(), isa_});
 }
 
 void Session::snapshot() {

@@ -32,13 +32,17 @@ class Session {
   References& references() { return references_; }
   MessageLine& messages() { return messages_; }
   const RendererPair& renderers() const { return renderers_; }
+  RendererPair& renderers() { return renderers_; }
   const LiveAccuracy& accuracy() const { return accuracy_; }
 
   /// Hands the newest scene to the renderers when its time has come, see SendTimer. Returns whether it did.
   bool send(double now);
   /// When send() will not wait any longer for a picture; infinite: nothing is to be sent.
   double send_time() const { return timer_.latest(); }
-  /// A frame is on the screen: for the chart.
+  /// When the input came that the next edits are due to, in clock seconds; latencies are counted from then on. 0: they
+  /// are not due to input.
+  void set_input_time(double time) { input_time_ = time; }
+  /// A frame is about to be drawn: for the chart.
   void shown(Half half, const std::shared_ptr<const Frame>& frame);
   /// Takes what was measured in the background. Whether it is to be shown before the next picture comes.
   bool collect_errors() { return accuracy_.collect(); }
@@ -74,13 +78,16 @@ class Session {
   /// Side by side: on the left the settings that the scene has now, on the right those that it will have, each for as
   /// many core-seconds. Both start anew.
   void set_split(bool split);
+  /// Ends the split view and goes on with the settings of that half; those of the left one are an edit.
+  void keep_half(Half half);
 
   /// "mis · sobol": how a half is rendered.
   std::string method(Half half) const;
   /// Whether there is something to measure the picture against.
   bool can_show_errors() const;
-  /// The picture that is on the screen becomes the reference.
-  void keep_as_reference();
+  /// Renders a reference of the scene on the screen in the background, with as many samples as the picture has and
+  /// other random numbers: its own ones would make its error look smaller than it is.
+  void render_reference();
   /// Writes the picture as numbered files into the current folder, in the background.
   void snapshot();
   /// Writes the chart's curves as numbered files beside the snapshots, in the background.
@@ -91,6 +98,9 @@ class Session {
   const std::shared_ptr<const Scene>& shared_scene();
   void restore_edits(bool of_any_scene);
 
+  double input_time_ = 0;
+  std::shared_ptr<Film> opened_film_;  ///< of the scene that was opened, until it goes to the renderer
+  std::shared_ptr<const Scene> sent_;  ///< to the renderers, last
   UiLog* log_;
   std::string isa_;  ///< "": the best
   MessageLine messages_;

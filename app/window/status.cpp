@@ -1,4 +1,5 @@
 #include "app/curves/convergence.h"
+#include "app/report/contents.h"
 #include "app/text/progress.h"
 #include "app/window/overlays.h"
 #include "app/window/system/imgui_compat.h"
@@ -37,6 +38,13 @@ std::string measured(const ErrorCurve* run, std::uint64_t edit) {
   return known ? percent(std::sqrt(std::max(run->points.back().rel_mse, 0.0))) : "?";
 }
 
+/// What a scene lacks to be seen; "": nothing. Without light every error is 0 %, which says nothing.
+std::string missing_in(const Scene& scene) {
+  const Contents contents = contents_of(scene);
+  if (contents.lights > 0 || contents.background != "none") return "";
+  return scene.objects.empty() ? "empty scene: add an object and a lamp" : "no light in this scene: add a lamp";
+}
+
 /// What is said of the errors: of the clean view first, as that is shown.
 void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& state, std::vector<StatusCell>& cells) {
   if (frame.clean) {
@@ -58,8 +66,13 @@ std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, 
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
-    add_errors(*frame, run, state, cells);
-    cells.push_back({"to 1 %", time_left(*frame, run), 2});
+    const std::string missing = missing_in(document.scene);
+    if (missing.empty()) {
+      add_errors(*frame, run, state, cells);
+      cells.push_back({"to 1 %", time_left(*frame, run), 2});
+    } else {
+      cells.push_back({"", missing, 1, true});
+    }
     cells.push_back({"", fmt::format("{:.{}f} Mrays/s", frame->mrays_per_s, frame->mrays_per_s < 10 ? 1 : 0), 3});
     cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),
                      std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});

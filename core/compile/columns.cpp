@@ -12,7 +12,9 @@ namespace {
 
 constexpr double radians = pi / 180;
 
+/// Without a lens the focus does not matter, and so must not round anything another way.
 double focus_distance(const Camera& camera) {
+  if (camera.defocus_angle == 0) return length(camera.look_from - camera.look_at);
   return camera.focus_distance.value_or(length(camera.look_from - camera.look_at));
 }
 

@@ -80,6 +80,7 @@ void Director::follow(const Orders& orders) {
   view_ = orders.view;
   clean_.set_wanted(orders.clean);
   limit_ = orders.limit;
+  shown_pixels_ = orders.shown_pixels;
   if (orders.threads > 0 && orders.threads != crew_->size())
     tell_if_it_fails(orders.edit, [&] { crew_ = std::make_unique<Crew>(orders.threads); });
   if (orders.scene) {
@@ -89,7 +90,8 @@ void Director::follow(const Orders& orders) {
     start_over(budget_);
   }
   answer_films();
-  if (orders.redraw && shown_.compiled && picture_.has_picture()) publish();
+  const bool taken_over = orders.scene && orders.film && !first_picture_ms_;
+  if ((orders.redraw || taken_over) && shown_.compiled && picture_.has_picture()) publish();
 }
 
 /// Makes the ordered scene the one that is rendered. If it cannot be compiled, everything stays as it was, and the
@@ -103,7 +105,7 @@ void Director::take_scene(const Orders& orders) {
     const double budget = picture_budget(camera_only, seconds_between(shown_.submitted, next.submitted));
     std::swap(shown_, next);
     try {
-      start_over(budget);
+      if (!go_on_from(orders.film.get())) start_over(budget);
     } catch (...) {
       std::swap(shown_, next);
       throw;
@@ -118,10 +120,25 @@ void Director::take_scene(const Orders& orders) {
   }
 }
 
+/// Takes over the samples of a film of the scene. False if there are none, or they are of another size.
+bool Director::go_on_from(Film* film) {
+  const RenderScene& scene = *shown_.compiled;
+  const Region whole{0, 0, scene.width, scene.height};
+  if (!film || film->width != scene.width || film->height != scene.height || !(film->region == whole) ||
+      film->first_sample != 0 || film->unit != scene.film_unit)
+    return false;
+  picture_.go_on(std::move(*film), progression_options(*shown_.scene, 1));
+  picture_.estimate_now(*crew_);
+  rare_paths_.start_over();
+  clean_.start_over();
+  first_picture_ms_.reset();
+  return true;
+}
+
 void Director::start_over(double budget) {
   const RenderScene& scene = *shown_.compiled;
   const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
-  const int step = first_pictures_.step_for(pixels, budget);
+  const int step = first_pictures_.step_for(pixels, budget, shown_pixels_);
   picture_.start(scene, {0, 0, scene.width, scene.height}, 0, progression_options(*shown_.scene, step));
   rare_paths_.start_over();
   clean_.start_over();
@@ -131,7 +148,14 @@ void Director::start_over(double budget) {
 void Director::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
   rare_paths_.look(shown_, picture_);
+  const bool first = !first_picture_ms_;
   publish();
+  if (first) give_way();
+}
+
+/// The first picture of an edit is on its way to the screen: until it is there, the processors are for that.
+void Director::give_way() {
+  if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
 }
 
 /// Filters the picture as it is now. An edit or another order interrupts this; then it is tried again later.
@@ -142,8 +166,8 @@ void Director::make_clean() {
 void Director::publish() {
   const std::shared_ptr<Frame> frame = frame_memory_.take();
   const Clock::time_point start = Clock::now();
-  views_.draw(view_, picture_, engine(), mail_.give_up(), frame->rgba);
-  if (view_ != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), 1, *crew_, frame->beauty);
+  const PictureGrid grid = views_.draw(view_, picture_, engine(), mail_.give_up(), frame->rgba);
+  if (view_ != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *crew_, frame->beauty);
   const Clock::time_point drawn = Clock::now();
   first_pictures_.note_drawing(seconds_between(start, drawn));
   if (!first_picture_ms_) first_picture_ms_ = 1000 * seconds_between(shown_.submitted, drawn);
@@ -152,10 +176,14 @@ void Director::publish() {
   frame->edit = shown_.edit;
   frame->pass = ++frames_;
   frame->width = film.width, frame->height = film.height;
+  frame->columns = grid.columns, frame->rows = grid.rows, frame->spacing = grid.spacing;
   frame->view = view_;
   frame->clean = clean_.latest();
   frame->awaits_clean = clean_is_due();
-  if (view_ == View::noise && frame->clean) frame->rgba = noise_rgba(frame->clean->pixel_error);
+  if (view_ == View::noise && frame->clean) {
+    frame->rgba = noise_rgba(frame->clean->pixel_error);
+    frame->columns = film.width, frame->rows = film.height, frame->spacing = 1;
+  }
   frame->step = picture_.step();
   frame->spp = picture_.taken();
   frame->relative_error = picture_.error();

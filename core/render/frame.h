@@ -48,7 +48,11 @@ struct Frame {
   std::uint64_t edit = 0;  ///< number of the edit (Renderer::submit) that it shows
   std::uint64_t pass = 0;  ///< counts up with every frame
   int width = 0, height = 0;
-  std::vector<float> rgba;  ///< 4 floats a pixel, top row first, linear; holes of a coarse pass are filled
+  /// 4 floats a pixel, linear, columns x rows of them, top row first: every pixel or, of a coarse pass, fewer.
+  std::vector<float> rgba;
+  /// The pixel (x, y) of `rgba` is what is seen in the middle of the picture's pixel (spacing x, spacing y).
+  int columns = 0, rows = 0;
+  float spacing = 1;
   /// The picture itself, in the same form, while `view` is another one. Empty while `view` is beauty or only a coarse
   /// pass is there.
   std::vector<float> beauty;

@@ -1,5 +1,7 @@
 #include "core/render/mailbox.h"
 
+#include "core/base/seconds.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -10,6 +12,12 @@ constexpr std::uint32_t default_limit = 4096;  // samples a pixel, where the sce
 
 std::uint32_t limit_of(const Scene& scene) {
   return static_cast<std::uint32_t>(scene.render.spp.value_or(static_cast<int>(default_limit)));
+}
+
+/// Whether both cameras see the same. A camera without a lens has everything in focus, wherever it is focused.
+bool same_view(const Camera& a, Camera b) {
+  if (a.defocus_angle == 0 && b.defocus_angle == 0) b.focus_distance = a.focus_distance;
+  return a == b;
 }
 
 }  // namespace
@@ -25,7 +33,7 @@ SceneChange change_between(const Scene& before, const Scene& after) {
   render.spp = render_a.spp;
   const bool same = width_a == width_b && height_a == height_b && background_a == background_b && render_a == render &&
                     textures_a == textures_b && materials_a == materials_b && objects_a == objects_b;
-  return {!(camera_a == camera_b), !same};
+  return {!same_view(camera_a, camera_b), !same};
 }
 
 void Mailbox::wake(bool give_up) {
@@ -33,14 +41,15 @@ void Mailbox::wake(bool give_up) {
   news_.notify_one();
 }
 
-std::uint64_t Mailbox::submit(std::shared_ptr<const Scene> scene) {
+std::uint64_t Mailbox::submit(std::shared_ptr<const Scene> scene, std::shared_ptr<Film> film) {
   const std::lock_guard lock(mutex_);
   orders_.redraw |= limit_ != limit_of(*scene);  // each frame tells whether it is finished
   limit_ = limit_of(*scene);
-  const bool same = newest_ && change_between(*newest_, *scene).none();
+  const bool same = !film && newest_ && change_between(*newest_, *scene).none();
   newest_ = std::move(scene);
   if (!same) {
     orders_.scene = newest_;
+    orders_.film = std::move(film);
     orders_.submitted = Clock::now();
     ++orders_.edit;
   }
@@ -87,6 +96,28 @@ void Mailbox::set_threads(int threads) {
   wake(true);
 }
 
+void Mailbox::set_shown_pixels(std::int64_t pixels) {
+  const std::lock_guard lock(mutex_);
+  orders_.shown_pixels = pixels;  // of use with the next picture
+}
+
+void Mailbox::note_shown(std::uint64_t pass) {
+  const std::lock_guard lock(mutex_);
+  if (pass <= shown_pass_) return;
+  shown_pass_ = pass;
+  shown_at_ = Clock::now();
+  wake(false);
+}
+
+std::optional<double> Mailbox::wait_until_shown(std::uint64_t pass) {
+  constexpr auto patience = std::chrono::milliseconds(50);
+  std::unique_lock lock(mutex_);
+  if (shown_pass_ == 0) return {};
+  news_.wait_for(lock, patience, [&] { return shown_pass_ >= pass || give_up_; });
+  if (shown_pass_ < pass) return {};
+  return seconds_between(posted_at_, shown_at_);
+}
+
 std::future<Film> Mailbox::ask_for_film() {
   const std::lock_guard lock(mutex_);
   auto answer = films_.emplace_back().get_future();
@@ -123,6 +154,7 @@ Orders Mailbox::take() {
   Orders taken = orders_;
   taken.limit = limit();
   orders_.scene = nullptr;
+  orders_.film = nullptr;
   orders_.restart = orders_.redraw = false;
   orders_.threads = 0;
   give_up_ = false;
@@ -138,6 +170,7 @@ void Mailbox::post(std::shared_ptr<Frame> frame) {
   const std::lock_guard lock(mutex_);
   frame->finished = frame->spp >= limit_ && !frame->awaits_clean;
   latest_ = std::move(frame);
+  posted_at_ = Clock::now();
 }
 
 void Mailbox::post(RenderProblem problem) {

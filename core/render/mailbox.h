@@ -12,6 +12,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 /// Where the threads that use a Renderer and the renderer's own thread meet.
@@ -31,14 +32,16 @@ SceneChange change_between(const Scene& before, const Scene& after);
 /// All that has been asked of the renderer since its thread last looked.
 struct Orders {
   std::shared_ptr<const Scene> scene;  ///< the newest one, if it has not been taken before; else null
+  std::shared_ptr<Film> film;          ///< samples that it has already; null: none
   std::uint64_t edit = 0;              ///< number of that scene
   Clock::time_point submitted;         ///< when it came
   bool restart = false;
   bool redraw = false;  ///< the view or the limit has changed: the present samples have to be shown again
   View view = View::beauty;
-  bool clean = false;       ///< whether the clean view is wanted
-  std::uint32_t limit = 0;  ///< samples a pixel at which to stop; at most 1 while the renderer is paused
-  int threads = 0;          ///< how many to use; 0: as many as before
+  bool clean = false;             ///< whether the clean view is wanted
+  std::uint32_t limit = 0;        ///< samples a pixel at which to stop; at most 1 while the renderer is paused
+  int threads = 0;                ///< how many to use; 0: as many as before
+  std::int64_t shown_pixels = 0;  ///< see Renderer::set_shown_pixels
 };
 
 /// Messages between any number of callers and the one thread that renders. A newer scene replaces one that has not been
@@ -49,7 +52,8 @@ class Mailbox {
 
   /// Gives the renderer another scene. Returns the number of the edit; a scene that changes nothing of what is rendered
   /// keeps the number of the one before.
-  std::uint64_t submit(std::shared_ptr<const Scene> scene);
+  /// film: see Renderer; with one the scene is always taken.
+  std::uint64_t submit(std::shared_ptr<const Scene> scene, std::shared_ptr<Film> film = nullptr);
   /// Stops after the pass that is under way, or goes on.
   void pause(bool paused);
   bool paused() const;
@@ -57,6 +61,8 @@ class Mailbox {
   void set_view(View view);
   void set_clean(bool clean);
   void set_threads(int threads);
+  void set_shown_pixels(std::int64_t pixels);
+  void note_shown(std::uint64_t pass);
   std::future<Film> ask_for_film();
   std::shared_ptr<const Frame> latest() const;
   std::shared_ptr<const RenderProblem> problem() const;
@@ -70,10 +76,17 @@ class Mailbox {
   /// Takes what was asked for, and lowers the flag to give up.
   Orders take();
   std::vector<std::promise<Film>> take_film_requests();
+  /// Waits until the frame of that pass is on the screen, until something else is asked for, or 50 ms. Returns the
+  /// seconds that it took from the frame's posting to the screen, if it is there. Does not wait if no caller has ever
+  /// told of a frame on the screen.
+  std::optional<double> wait_until_shown(std::uint64_t pass);
   /// True as soon as a caller wants something that cannot wait for the end of the pass that is under way.
   const std::atomic<bool>& give_up() const { return give_up_; }
   /// Makes the thread that renders leave its pass and look at its stop token.
-  void interrupt() { give_up_ = true; }
+  void interrupt() {
+    give_up_ = true;
+    news_.notify_one();
+  }
   /// Hands a frame out. Sets whether it is finished, as the limit may have changed since the frame was begun.
   void post(std::shared_ptr<Frame> frame);
   void post(RenderProblem problem);
@@ -93,6 +106,9 @@ class Mailbox {
   std::uint32_t limit_ = 0;
   bool paused_ = false;
   std::vector<std::promise<Film>> films_;
+
+  std::uint64_t shown_pass_ = 0;  ///< Frame::pass of the newest frame on the screen; 0: nobody tells
+  Clock::time_point shown_at_, posted_at_;
 
   std::shared_ptr<const Frame> latest_;
   std::shared_ptr<const RenderProblem> problem_;

@@ -22,34 +22,55 @@ Vec3f get(const std::vector<float>& rgba, std::size_t pixel) {
   return {from[0], from[1], from[2]};
 }
 
-Vec3f mix(Vec3f a, Vec3f b, float t) { return a + t * (b - a); }
+/// How bright a colour looks, in [0, 1): differences of it tell edges in light and in shadow.
+float look_of(Vec3f colour) {
+  const float light = std::max(0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z, 0.0f);
+  return std::isfinite(light) ? light / (1 + light) : 1.0f;
+}
 
-/// Fills row y between the sampled pixels, which have their colours already.
-void fill_row(std::vector<float>& rgba, int width, int height, int y, int step) {
-  const int top = y / step * step, bottom = std::min(top + step, (height - 1) / step * step);
-  const float down = static_cast<float>(y - top) / static_cast<float>(step);
-  for (int x = 0; x < width; ++x) {
-    if (x % step == 0 && y == top) continue;
-    const int left = x / step * step, right = std::min(left + step, (width - 1) / step * step);
-    const float across = static_cast<float>(x - left) / static_cast<float>(step);
-    const Vec3f above = mix(get(rgba, offset(width, left, top)), get(rgba, offset(width, right, top)), across);
-    const Vec3f below = mix(get(rgba, offset(width, left, bottom)), get(rgba, offset(width, right, bottom)), across);
-    put(rgba, offset(width, x, y), mix(above, below, down));
-  }
+/// The colour in the middle of four: the mean of the opposite pair that is clearly more alike, else of all four.
+Vec3f between(Vec3f a, Vec3f opposite_a, Vec3f b, Vec3f opposite_b) {
+  const float across_a = std::abs(look_of(a) - look_of(opposite_a)),
+              across_b = std::abs(look_of(b) - look_of(opposite_b));
+  if (2 * across_a < across_b) return 0.5f * (a + opposite_a);
+  if (2 * across_b < across_a) return 0.5f * (b + opposite_b);
+  return 0.25f * (a + opposite_a + b + opposite_b);
+}
+
+/// A picture of twice as many columns and rows, whose new pixels go on along edges.
+std::vector<float> doubled(const std::vector<float>& from, int columns, int rows, Crew& crew) {
+  std::vector<float> to(4 * from.size());
+  const auto old = [&](int x, int y) {
+    return get(from, offset(columns, std::clamp(x, 0, columns - 1), std::clamp(y, 0, rows - 1)));
+  };
+  const auto middle = [&](int x, int y) { return between(old(x, y), old(x + 1, y + 1), old(x + 1, y), old(x, y + 1)); };
+  crew.for_each(rows, [&](int y) {
+    for (int x = 0; x < columns; ++x) {
+      const Vec3f here = old(x, y), corner = middle(x, y);
+      put(to, offset(2 * columns, 2 * x, 2 * y), here);
+      put(to, offset(2 * columns, 2 * x + 1, 2 * y), between(here, old(x + 1, y), middle(x, y - 1), corner));
+      put(to, offset(2 * columns, 2 * x, 2 * y + 1), between(here, old(x, y + 1), middle(x - 1, y), corner));
+      put(to, offset(2 * columns, 2 * x + 1, 2 * y + 1), corner);
+    }
+  });
+  return to;
 }
 
 }  // namespace
 
-void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba) {
-  rgba.resize(4 * film.pixels.size());
+void beauty_rgba(const Film& film, Crew& crew, std::vector<float>& rgba) { coarse_rgba(film, 1, crew, rgba); }
+
+PictureGrid coarse_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba) {
   const int width = film.region.width(), height = film.region.height();
-  crew.for_each((height + step - 1) / step, [&](int row) {
-    for (int x = 0; x < width; x += step) {
-      const std::size_t at = offset(width, x, row * step);
-      put(rgba, at, mean(film, film.pixels[at]));
-    }
+  const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
+  rgba.resize(4 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  crew.for_each(rows, [&](int y) {
+    for (int x = 0; x < columns; ++x)
+      put(rgba, offset(columns, x, y), mean(film, film.pixels[offset(width, x * step, y * step)]));
   });
-  if (step > 1) crew.for_each(height, [&](int y) { fill_row(rgba, width, height, y, step); });
+  if (step < 3) return {columns, rows, static_cast<float>(step)};
+  rgba = doubled(rgba, columns, rows, crew);
+  return {2 * columns, 2 * rows, 0.5f * static_cast<float>(step)};
 }
 
 std::vector<float> grey_rgba(std::size_t pixels, float grey) {
@@ -70,10 +91,11 @@ std::vector<float> noise_rgba(const std::vector<float>& errors) {
 }
 
 std::vector<float> samples_rgba(const Film& film) {
-  const auto most = static_cast<float>(std::max(1u, totals(film).most_taken));
+  const auto all = static_cast<float>(std::max<std::uint64_t>(1, totals(film).samples));
+  const float twice_mean = 2 * all / static_cast<float>(film.pixels.size());
   std::vector<float> rgba(4 * film.pixels.size());
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-    const float share = static_cast<float>(film.pixels[i].taken) / most;
+    const float share = std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f);
     put(rgba, i, {share, share, share});
   }
   return rgba;

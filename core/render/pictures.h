@@ -13,9 +13,17 @@
 /// shown.
 namespace tyndall {
 
-/// Writes the means of a film into `rgba`. step > 1: only every step-th pixel in x and y has samples; the others get
-/// colours in between (bilinear). The film stays as it is.
-void beauty_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
+/// Writes the means of a film into `rgba`, every pixel.
+void beauty_rgba(const Film& film, Crew& crew, std::vector<float>& rgba);
+
+/// Where the pixels of a picture are that has fewer than its film: see Frame.
+struct PictureGrid {
+  int columns = 0, rows = 0;
+  float spacing = 1;
+};
+/// Writes the means of a film of which only every step-th pixel in x and y has samples. From a step of 3 on the picture
+/// has twice as many columns and rows: what is between samples goes on along edges. step >= 1.
+PictureGrid coarse_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
 
 /// Keeps the memory of what nobody uses any more for new ones: to get fresh memory from the system takes longer than to
 /// draw a picture into it. kept: the members whose memory is kept.
@@ -55,7 +63,7 @@ std::vector<float> grey_rgba(std::size_t pixels, float grey);
 std::vector<float> noise_rgba(const Film& film);
 std::vector<float> noise_rgba(const std::vector<float>& errors);
 
-/// The number of samples of each pixel as grey: the pixel with most samples is white.
+/// The number of samples of each pixel as grey: the mean is the grey of 0.5, twice the mean and more are white.
 std::vector<float> samples_rgba(const Film& film);
 
 /// How many rays a path through each pixel takes: the mean over cells of 4 x 4 pixels. Their first 4 samples are

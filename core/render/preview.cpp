@@ -8,22 +8,31 @@ namespace tyndall {
 double picture_budget(bool only_camera, double since) { return only_camera ? 0.016 : since < 0.3 ? 0.033 : 0.075; }
 
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before) {
-  if (!(paths_per_second > 0)) return 8;
+  constexpr int most = 8;
+  if (!(paths_per_second > 0)) return most;
   const double wanted = std::sqrt(static_cast<double>(pixels) / (paths_per_second * budget));
-  // The last step fits if the ideal step lies between its half and itself. It is also kept a little beyond these
-  // limits, so that the sharpness does not flicker: up to a factor of 1.1 where keeping it makes the picture late, and
-  // up to 1.4 where it only makes the picture coarser than necessary.
-  const bool fits = wanted <= 1.1 * before && (before == 1 || wanted > before / 2.0 / 1.4);
-  if (before > 0 && fits) return before;
-  int step = 1;
-  while (step < 8 && step < wanted) step *= 2;
-  return step;
+  const auto step_of = [](double ideal) {
+    return static_cast<int>(std::ceil(std::clamp(ideal, 1.0, static_cast<double>(most))));
+  };
+  if (before < 1 || wanted > 1.1 * before) return step_of(wanted);
+  return std::min(before, step_of(1.25 * wanted));
 }
 
-int FirstPictures::step_for(std::int64_t pixels, double budget) {
-  // Drawing counts against the budget, but never takes more than three quarters of it from the samples.
-  step_ = preview_step(pixels, paths_per_second_, std::max(budget - drawing_seconds_, budget / 4), step_);
-  return step_;
+int step_of_shown(std::int64_t pixels, std::int64_t shown) {
+  if (shown <= 0) return 1;
+  return static_cast<int>(
+      std::ceil(std::clamp(std::sqrt(static_cast<double>(pixels) / static_cast<double>(shown)), 1.0, 8.0)));
+}
+
+int FirstPictures::step_for(std::int64_t pixels, double budget, std::int64_t shown) {
+  // Drawing and showing count, but never take more than three quarters of the time from the samples.
+  const double left = std::min(budget, 1.6 * budget - showing_seconds_) - drawing_seconds_;
+  step_ = preview_step(pixels, paths_per_second_, std::max(left, budget / 4), step_);
+  return std::max(step_, step_of_shown(pixels, shown));
+}
+
+void FirstPictures::note_showing(double seconds) {
+  showing_seconds_ = showing_seconds_ > 0 ? std::sqrt(showing_seconds_ * seconds) : seconds;
 }
 
 void FirstPictures::note_pass(double paths_per_second) {

@@ -10,27 +10,34 @@ namespace tyndall {
 /// seconds from the edit before; below 0.3 both count as one movement.
 double picture_budget(bool only_camera, double since);
 
-/// The step of a first picture, 8, 4, 2 or 1: it samples every step-th pixel in x and y, so that `pixels / step²` paths
-/// take about `budget` seconds at `paths_per_second` (<= 0: unknown). before: the last answer. It is kept as long as
-/// the ideal step is at most 1.1 times coarser or 1.4 times finer; otherwise the sharpness would flicker while
-/// something is dragged.
+/// The step of a first picture, 1 to 8: it samples every step-th pixel in x and y, so that `pixels / step²` paths take
+/// about `budget` seconds at `paths_per_second` (<= 0: unknown). before: the last answer, 0: none. It is kept while it
+/// is at most 1.1 times too fine, and until a step that is 1.25 times coarser than the ideal one is finer; otherwise
+/// the sharpness would flicker while something is dragged.
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before);
+
+/// The finest step with which a picture of so many pixels samples at most one of them for each pixel that is shown.
+/// shown: <= 0: unknown, all are.
+int step_of_shown(std::int64_t pixels, std::int64_t shown);
 
 /// What the renderer has learnt from the first pictures of earlier edits, and what follows for the next edit.
 class FirstPictures {
  public:
-  /// Every how many pixels the first picture of an edit samples. budget: see picture_budget.
-  int step_for(std::int64_t pixels, double budget);
+  /// Every how many pixels the first picture of an edit samples. budget: see picture_budget; shown: see step_of_shown.
+  int step_for(std::int64_t pixels, double budget, std::int64_t shown = 0);
   /// A pass of one sample a pixel had that speed. Such passes are slower than longer ones, so only they tell how long
   /// the next edit's first pass takes.
   void note_pass(double paths_per_second);
   /// It took that long to make a picture from the film.
   void note_drawing(double seconds) { drawing_seconds_ = seconds; }
+  /// A first picture was on the screen so long after it had been made. The whole time from the edit to the screen is
+  /// kept to 1.6 times the budget.
+  void note_showing(double seconds);
 
  private:
   double paths_per_second_ = 0;  ///< 0: unknown
-  double drawing_seconds_ = 0;
-  int step_ = 1;
+  double drawing_seconds_ = 0, showing_seconds_ = 0;
+  int step_ = 0;
 };
 
 }  // namespace tyndall

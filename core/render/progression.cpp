@@ -103,6 +103,12 @@ void Progression::begin(PassSchedule schedule, const ProgressionOptions& options
   next_estimate_ = options.estimates.seconds;
 }
 
+void Progression::estimate_now(Crew& crew) {
+  if (taken() < 2) return;
+  estimate_ = estimate_error(film_, &crew);
+  estimate_of_ = taken();
+}
+
 bool Progression::reached(const Limits& limits) const {
   if (limits.spp && taken() >= *limits.spp) return true;
   if (taken() == 0) return false;

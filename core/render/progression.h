@@ -111,6 +111,9 @@ class Progression {
   /// Goes on with a film that was rendered from the same scene with the same `adaptive`.
   void go_on(Film film, const ProgressionOptions& options);
 
+  /// Estimates the error of the film that go_on() took, if it has two samples a pixel.
+  void estimate_now(Crew& crew);
+
   /// Whether the picture is finished.
   bool reached(const Limits& limits) const;
   /// Takes samples until the next pass is complete, and returns true. If `give_up` is set meanwhile it returns false

@@ -38,7 +38,9 @@ Renderer::~Renderer() {
 
 std::uint64_t Renderer::submit(Scene scene) { return submit(std::make_shared<const Scene>(std::move(scene))); }
 
-std::uint64_t Renderer::submit(std::shared_ptr<const Scene> scene) { return state_->mail.submit(std::move(scene)); }
+std::uint64_t Renderer::submit(std::shared_ptr<const Scene> scene, std::shared_ptr<Film> film) {
+  return state_->mail.submit(std::move(scene), std::move(film));
+}
 
 std::shared_ptr<const Frame> Renderer::latest() const { return state_->mail.latest(); }
 
@@ -55,6 +57,10 @@ void Renderer::set_view(View view) { state_->mail.set_view(view); }
 void Renderer::set_clean(bool clean) { state_->mail.set_clean(clean); }
 
 void Renderer::set_threads(int threads) { state_->mail.set_threads(threads); }
+
+void Renderer::set_shown_pixels(std::int64_t pixels) { state_->mail.set_shown_pixels(pixels); }
+
+void Renderer::note_shown(std::uint64_t pass) { state_->mail.note_shown(pass); }
 
 Film Renderer::film() const { return state_->mail.ask_for_film().get(); }
 

@@ -30,7 +30,9 @@ class Renderer {
   /// (equal but for names and display) restarts nothing and keeps the number of the current edit.
   std::uint64_t submit(Scene scene);
   /// The same for a scene that the caller goes on using: it is shared, not copied.
-  std::uint64_t submit(std::shared_ptr<const Scene> scene);
+  /// film: samples of this scene that were taken before, by the same version and instruction set; the picture goes on
+  /// from them, and the film is used up. Null: none; one that is not of the scene's size counts as none.
+  std::uint64_t submit(std::shared_ptr<const Scene> scene, std::shared_ptr<Film> film = nullptr);
   /// The newest frame; null before the first.
   std::shared_ptr<const Frame> latest() const;
   /// What is wrong with the newest edit if its scene cannot be compiled; else null.
@@ -44,6 +46,11 @@ class Renderer {
   /// Whether frames carry a clean view; off at first.
   void set_clean(bool clean);
   void set_threads(int threads);
+  /// How many pixels of a screen the picture takes: a first picture does not sample more. <= 0: as many as it has.
+  void set_shown_pixels(std::int64_t pixels);
+  /// The frame of that pass is on the screen. Once this was called, the renderer gives way to the screen: after the
+  /// first frame of an edit it goes on when that was shown, or after 50 ms.
+  void note_shown(std::uint64_t pass);
 
   /// A copy of the film, for example for snapshots. Waits for the end of the pass that is under way, so that all pixels
   /// have as many samples as they are to have. Empty before the first full pass.

@@ -17,24 +17,34 @@ void Views::find_due_costs(const RenderEngine& engine, const std::atomic<bool>& 
   costs_due_ = false;
 }
 
-void Views::draw(View view, const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up,
-                 std::vector<float>& rgba) {
+/// The view of noise or of samples. While there is nothing to tell yet, the old one stays.
+void Views::draw_counts(View view, const Progression& picture, std::vector<float>& rgba) {
+  const Film& film = picture.film();
+  const std::uint32_t least = view == View::noise ? 2 : 1;  // samples that tell something
+  if (picture.taken() >= least) {
+    counts_ = view == View::noise ? noise_rgba(film) : samples_rgba(film);
+    counts_of_ = view;
+  }
+  const bool known = counts_of_ == view && counts_.size() == 4 * film.pixels.size();
+  rgba = known ? counts_ : grey_rgba(film.pixels.size(), 0.5f);
+}
+
+PictureGrid Views::draw(View view, const Progression& picture, const RenderEngine& engine,
+                        const std::atomic<bool>& give_up, std::vector<float>& rgba) {
   const Film& film = picture.film();
   const std::size_t pixels = film.pixels.size();
+  const PictureGrid every_pixel{film.region.width(), film.region.height(), 1};
   switch (view) {
     case View::beauty:
-      beauty_rgba(film, picture.step(), engine.crew, rgba);
-      return;
+      return coarse_rgba(film, picture.step(), engine.crew, rgba);
     case View::noise:
-      rgba = picture.taken() == 0 ? grey_rgba(pixels, 1) : noise_rgba(film);
-      return;
     case View::samples:
-      rgba = picture.taken() == 0 ? grey_rgba(pixels, 0) : samples_rgba(film);
-      return;
+      draw_counts(view, picture, rgba);
+      return every_pixel;
     case View::cost:
       find_due_costs(engine, give_up);
       rgba = costs_.size() == pixels ? relative_rgba(costs_) : grey_rgba(pixels, 0);
-      return;
+      return every_pixel;
     case View::albedo:
     case View::normal:
     case View::depth:
@@ -42,6 +52,7 @@ void Views::draw(View view, const Progression& picture, const RenderEngine& engi
   }
   if (first_hits_.empty()) first_hits_ = find_first_hits(engine.kernels, engine.scene, engine.crew);
   rgba = first_hit_rgba(first_hits_, view);
+  return every_pixel;
 }
 
 }  // namespace tyndall

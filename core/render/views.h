@@ -16,12 +16,17 @@ class Views {
   /// follow each other closely interrupt the search, and the view would stay grey.
   void change_scene();
   /// Draws the view of the picture into `rgba`. If it first has to find costs, it stops early when `give_up` is set.
-  void draw(View view, const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up,
-            std::vector<float>& rgba);
+  /// Noise and samples show the old picture of them until there is a new one.
+  PictureGrid draw(View view, const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up,
+                   std::vector<float>& rgba);
 
  private:
   void find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up);
 
+  void draw_counts(View view, const Progression& picture, std::vector<float>& rgba);
+
+  std::vector<float> counts_;         ///< the newest picture of noise or samples
+  View counts_of_ = View::beauty;     ///< which of the two
   std::vector<FirstHit> first_hits_;  ///< empty: not found yet
   std::vector<float> costs_;          ///< those of an older scene while costs_due_ is set
   bool costs_due_ = true;

@@ -26,20 +26,20 @@ TEST_CASE("preview: the step that fits the time, coarse while nothing is known")
   CHECK(preview_step(full_hd, -1, 0.1, 0) == 8);
   CHECK(preview_step(full_hd, 1e12, 0.016, 0) == 1);
   CHECK(preview_step(full_hd, 1, 0.016, 0) == 8);
-  for (const int step : {1, 2, 4, 8}) {
+  for (int step = 1; step <= 8; ++step) {
     CHECK(preview_step(full_hd, speed_for(0.99 * step), 1, 0) == step);
-    CHECK(preview_step(full_hd, speed_for(0.51 * step), 1, 0) == step);
+    CHECK(preview_step(full_hd, speed_for(step - 0.95), 1, 0) == step);
   }
   CHECK(preview_step(full_hd, speed_for(2) / 0.016, 0.026, 0) == 2);
   CHECK(preview_step(1, 1e3, 0.016, 0) == 1);
 }
 
 TEST_CASE("preview: a step that was chosen is kept until another one fits clearly better") {
-  for (const int step : {1, 2, 4, 8}) {
+  for (int step = 1; step <= 8; ++step) {
     CHECK(preview_step(full_hd, speed_for(1.09 * step), 1, step) == step);
-    if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.39), 1, step) == step);
-    if (step < 8) CHECK(preview_step(full_hd, speed_for(1.11 * step), 1, step) == 2 * step);
-    if (step > 1) CHECK(preview_step(full_hd, speed_for(step / 2.0 / 1.41), 1, step) < step);
+    if (step > 1) CHECK(preview_step(full_hd, speed_for((step - 1) / 1.24), 1, step) == step);
+    if (step < 8) CHECK(preview_step(full_hd, speed_for(1.11 * step), 1, step) > step);
+    if (step > 1) CHECK(preview_step(full_hd, speed_for((step - 1) / 1.26), 1, step) == step - 1);
   }
   CHECK(preview_step(full_hd, speed_for(0.01), 1, 1) == 1);
   CHECK(preview_step(full_hd, speed_for(1000), 1, 8) == 8);
@@ -58,16 +58,42 @@ TEST_CASE("preview: speeds that flicker by a fifth never make the step flicker")
   }
 }
 
+TEST_CASE("preview: no more pixels are sampled than are shown") {
+  CHECK(step_of_shown(full_hd, 0) == 1);
+  CHECK(step_of_shown(full_hd, full_hd) == 1);
+  CHECK(step_of_shown(1600 * 1000, 908 * 568) == 2);
+  CHECK(step_of_shown(full_hd, full_hd / 4) == 2);
+  CHECK(step_of_shown(full_hd, full_hd / 4 - 1) == 3);
+  CHECK(step_of_shown(full_hd, 1) == 8);
+  FirstPictures pictures;
+  pictures.note_pass(1e12);
+  CHECK(pictures.step_for(full_hd, 0.016) == 1);
+  CHECK(pictures.step_for(full_hd, 0.016, full_hd / 3) == 2);
+}
+
 TEST_CASE("preview: the next edit's step follows from the speed of the first pictures before it") {
   FirstPictures pictures;
   CHECK(pictures.step_for(full_hd, 0.016) == 8);  // nothing is known yet
   pictures.note_pass(full_hd / 0.016);
+  CHECK(pictures.step_for(full_hd, 0.016) == 2);
+  pictures.note_pass(full_hd / 0.016 * 4);
   CHECK(pictures.step_for(full_hd, 0.016) == 1);
+  for (int k = 0; k < 40; ++k) pictures.note_pass(full_hd / 0.016);
   pictures.note_drawing(0.008);  // drawing leaves half of the time for samples
   CHECK(pictures.step_for(full_hd, 0.016) == 2);
   pictures.note_drawing(1);  // however long drawing takes, samples get a quarter of the time
   CHECK(pictures.step_for(full_hd, 0.016) == 2);
   pictures.note_drawing(0);
   pictures.note_pass(full_hd / 0.016 / 256);  // after a single slow pass the speed is the geometric mean of both
+  CHECK(pictures.step_for(full_hd, 0.016) == 4);
+}
+
+TEST_CASE("preview: a slow screen makes first pictures coarser, a quick one does not") {
+  FirstPictures pictures;
+  pictures.note_pass(full_hd / 0.016 / 3.9);
+  CHECK(pictures.step_for(full_hd, 0.016) == 2);
+  pictures.note_showing(0.009);
+  CHECK(pictures.step_for(full_hd, 0.016) == 2);
+  for (int k = 0; k < 20; ++k) pictures.note_showing(0.020);
   CHECK(pictures.step_for(full_hd, 0.016) == 4);
 }

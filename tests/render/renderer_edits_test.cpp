@@ -60,7 +60,7 @@ TEST_CASE("edits: of 1000 cameras in the middle of passes nothing is left in the
   CHECK(rgb_of(*renderer->latest()) == reference_picture(scene));
 }
 
-TEST_CASE("edits: a coarse first picture fills the image between samples of the final one") {
+TEST_CASE("edits: a coarse first picture has samples of the final one, and what lies between them") {
   Scene scene = small_scene("showroom", 200, 150, 1);
   WatchedRenderer renderer(1);
   const std::uint64_t edit = renderer->submit(scene);
@@ -69,21 +69,52 @@ TEST_CASE("edits: a coarse first picture fills the image between samples of the 
   CHECK(first->step == 8);  // nothing is known about the machine's speed yet
   CHECK(first->spp == 0);
   CHECK_FALSE(first->finished);
+  CHECK(first->spacing == 4);
+  CHECK(first->columns == 50);
+  CHECK(first->rows == 38);
+  CHECK(last->spacing == 1);
+  CHECK(last->columns == 200);
   const std::vector<float> coarse = rgb_of(*first), fine = rgb_of(*last);
-  const auto pixel = [&](const std::vector<float>& rgb, int x, int y) {
-    const std::size_t at = static_cast<std::size_t>(y * 200 + x) * 3;
+  const auto pixel = [](const std::vector<float>& rgb, int columns, int x, int y) {
+    const std::size_t at = static_cast<std::size_t>(y * columns + x) * 3;
     return Vec3f{rgb[at], rgb[at + 1], rgb[at + 2]};
   };
   for (int y = 0; y < 150; y += 8)
     for (int x = 0; x < 200; x += 8) {
-      REQUIRE(pixel(coarse, x, y) == pixel(fine, x, y));
+      REQUIRE(pixel(coarse, 50, x / 4, y / 4) == pixel(fine, 200, x, y));
       if (x + 8 >= 200 || y + 8 >= 150) continue;
-      const Vec3f a = pixel(fine, x, y), b = pixel(fine, x + 8, y), c = pixel(fine, x, y + 8),
-                  d = pixel(fine, x + 8, y + 8);
-      const Vec3f middle = 0.25f * (a + b + c + d), seen = pixel(coarse, x + 4, y + 4);
-      REQUIRE(length(middle - seen) < 1e-5f * (1 + length(middle)));
+      const Vec3f a = pixel(fine, 200, x, y), b = pixel(fine, 200, x + 8, y), c = pixel(fine, 200, x, y + 8),
+                  d = pixel(fine, 200, x + 8, y + 8), seen = pixel(coarse, 50, x / 4 + 1, y / 4 + 1);
+      const Vec3f middle = 0.25f * (a + b + c + d), one = 0.5f * (a + d), other = 0.5f * (b + c);
+      const float off = std::min({length(middle - seen), length(one - seen), length(other - seen)});
+      REQUIRE(off < 1e-5f * (1 + length(middle)));
     }
-  for (int x = 193; x < 200; ++x) REQUIRE(pixel(coarse, x, 0) == pixel(coarse, 192, 0));  // past the last column
+}
+
+TEST_CASE("edits: a camera without a lens can be focused anywhere without starting over, one with a lens cannot") {
+  WatchedRenderer renderer;
+  Scene scene = plain(2);
+  const std::uint64_t edit = renderer->submit(scene);
+  scene.camera.focus_distance = 3;
+  CHECK(renderer->submit(scene) == edit);
+  renderer.wait_finished(edit);
+  CHECK(rgb_of(*renderer->latest()) == reference_picture(scene));
+  scene.camera.defocus_angle = 1;
+  CHECK(renderer->submit(scene) == edit + 1);
+  scene.camera.focus_distance = 4;
+  CHECK(renderer->submit(scene) == edit + 2);
+}
+
+TEST_CASE("edits: first pictures sample no more pixels than are shown") {
+  Scene scene = small_scene("showroom", 64, 64, 2);
+  WatchedRenderer renderer;
+  renderer->set_shown_pixels(16 * 16);
+  for (int i = 0; i < 4; ++i) {
+    scene.camera.look_from.x += 0.01;
+    const std::uint64_t edit = renderer->submit(scene);
+    renderer.wait_finished(edit);
+    CHECK(renderer.wait_for([&](const Frame& f) { return f.edit == edit; })->step >= 4);
+  }
 }
 
 TEST_CASE("edits: what is equal, or differs in name and display only, restarts nothing") {

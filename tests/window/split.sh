@@ -57,9 +57,19 @@ for threads in 2 1; do
     grep -q "^$name," scene-chart-*"$((3 - threads)).csv" || fail "no curve $name"
   done
 
+  # Leaving asks which half to keep; Esc keeps both.
   lines=$(here)
   click render.split.off
+  wait_for '^widget dialog.a ' "$lines"
+  cp "$screen/Xvfb_screen0" question.xwd
+  key Escape
+  wait_for '^gone dialog.a' "$lines"
+  lines=$(here)
+  click render.split.off
+  wait_for '^widget dialog.a ' "$lines"
+  click dialog.a
   wait_for '^gone split.a' "$lines"
+  wait_until has_value render.integrator.path on
   threads_are_gone() { [ "$(tasks)" -le "$((before + 1))" ]; }
   wait_until threads_are_gone
   finish

@@ -3,12 +3,14 @@
 #include "app/text/numbers.h"
 #include "app/text/values.h"
 #include "core/accuracy/estimate.h"
+#include "core/compile/compile.h"
 #include "core/image/image_io_file.h"
+#include "core/render/render.h"
 #include "core/scene/load.h"
 
 #include <cmath>
 #include <exception>
-#include <optional>
+#include <utility>
 
 namespace tyndall {
 
@@ -66,13 +68,23 @@ bool shows_no_scene(const fs::path& file) {
   return image_kind(read_bytes(file, 16)) != ImageKind::unknown && !read_embedded_scene(file);
 }
 
-Reference reference_of(const Frame& frame, const Scene& scene) {
-  const double noise = std::isfinite(frame.relative_error) ? frame.relative_error * frame.relative_error : 0;
-  return {{frame.width, frame.height, picture_of(frame)},
-          noise,
-          "the picture at " + format_count(frame.spp) + " spp",
-          scene,
-          true};
+std::optional<Reference> rendered_reference(const ReferenceOrder& order,
+                                            const std::function<bool(std::uint32_t spp)>& progress) {
+  Scene scene = order.scene;
+  scene.render.seed ^= 1;  // another one that is as valid
+  RenderOptions options;
+  options.threads = order.threads;
+  options.isa = order.isa;
+  options.spp = order.spp;
+  options.adaptive = scene.render.adaptive;
+  const RenderResult result =
+      render(compile(scene), options, [&](const RenderProgress& now) { return progress(now.spp); });
+  if (result.interrupted) return {};
+  FinishedPicture picture = finished_picture(result);
+  const double error = picture.estimate.relative_error;
+  return Reference{std::move(picture.image), std::isfinite(error) ? error * error : 0,
+                   "this scene at " + format_count(order.spp) + " spp, seed " + std::to_string(scene.render.seed),
+                   std::move(scene), true};
 }
 
 ReferenceFit fit_of(const Reference& reference, const Scene& scene) {

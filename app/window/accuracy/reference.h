@@ -3,7 +3,10 @@
 #include "core/image/image_io.h"
 #include "core/render/renderer.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 
 /// References: pictures that are taken for the truth when errors are measured.
@@ -13,7 +16,7 @@ namespace tyndall {
 struct Reference {
   LinearImage image;
   double rel_mse = 0;         ///< its own noise, the part of measured errors that is due to it; 0: not known
-  std::string about;          ///< "sky.exr", "the picture at 512 spp"
+  std::string about;          ///< "sky.exr", "this scene at 512 spp, seed 1"
   Scene scene;                ///< what it shows: the scene in its file, else the one that it was loaded for
   bool known_method = false;  ///< the scene's method is that of the picture
 };
@@ -25,8 +28,17 @@ Reference read_reference(const std::filesystem::path& file, const Document& docu
 /// Whether this is an image that holds no scene.
 bool shows_no_scene(const std::filesystem::path& file);
 
-/// The picture that is on the screen. frame: its `view` may be any, its `spp` is not 0.
-Reference reference_of(const Frame& frame, const Scene& scene);
+/// How a reference is rendered.
+struct ReferenceOrder {
+  Scene scene;            ///< with the picture's seed: another one is taken
+  std::uint32_t spp = 1;  ///< samples a pixel
+  int threads = 1;
+  std::string isa;  ///< "": the best
+};
+/// Renders the scene with random numbers that are not those of the picture. progress: called now and then with the
+/// samples so far; returns false to stop, then there is no result.
+std::optional<Reference> rendered_reference(const ReferenceOrder& order,
+                                            const std::function<bool(std::uint32_t spp)>& progress);
 
 /// Throws UsageError unless the sizes are equal.
 void check_size(const std::string& name, const LinearImage& image, const Scene& scene);

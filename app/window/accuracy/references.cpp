@@ -1,5 +1,8 @@
 #include "app/window/accuracy/references.h"
 
+#include "app/text/numbers.h"
+
+#include <exception>
 #include <utility>
 
 namespace tyndall {
@@ -19,7 +22,57 @@ void References::open_dropped(const std::filesystem::path& file) {
   });
 }
 
+void References::drop() {
+  stop();
+  accuracy_.set_reference(nullptr);
+}
+
+void References::render(const ReferenceOrder& order) {
+  const std::uint64_t number = ++order_;
+  scene_ = order.scene;
+  wanted_ = order.spp;
+  rendered_ = told_ = 0;
+  messages_.say_until_done("rendering a reference with another seed …");
+  rendering_.run([this, order, number]() -> JobQueue::Result {
+    double next = 0;
+    const auto progress = [&](std::uint32_t spp) {
+      rendered_ = spp;
+      if (clock_seconds() >= next) next = clock_seconds() + 0.5, wake_();
+      return order_ == number;
+    };
+    std::shared_ptr<const Reference> made;
+    try {
+      if (auto reference = rendered_reference(order, progress))
+        made = std::make_shared<const Reference>(std::move(*reference));
+    } catch (const std::exception& error) {
+      return [this, text = std::string(error.what())] { messages_.say("no reference: " + text, true); };
+    }
+    return [this, made, number] {
+      if (made && order_ == number) set(made);
+    };
+  });
+}
+
+bool References::collect() {
+  if (!busy()) return false;
+  const ReferenceFit fit = fit_of({{scene_.width, scene_.height, {}}, 0, "", scene_, true}, editor_.scene());
+  const bool other = fit == ReferenceFit::other_scene || fit == ReferenceFit::other_size;
+  if (other && told_ < wanted_) {
+    stop();
+    messages_.say("no reference: the scene was changed");
+    told_ = wanted_;  // it is told once
+  }
+  const std::uint32_t now = rendered_;
+  if (now > told_) {
+    told_ = now;
+    messages_.say_until_done("rendering a reference with another seed: " + format_count(now) + " of " +
+                             format_count(wanted_) + " spp");
+  }
+  return rendering_.collect();
+}
+
 void References::set(std::shared_ptr<const Reference> reference) {
+  stop();
   messages_.say("reference: " + reference->about);
   accuracy_.set_reference(std::move(reference));
 }

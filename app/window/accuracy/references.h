@@ -2,7 +2,10 @@
 #include "app/window/accuracy/live_accuracy.h"
 #include "app/window/document/editor.h"
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 /// How references come into the window: from files, and from the screen.
@@ -11,8 +14,10 @@ namespace tyndall {
 /// Loads the reference that the user chooses, and tells the user which one is in use.
 class References {
  public:
-  References(Editor& editor, LiveAccuracy& accuracy, MessageLine& messages)
-      : editor_(editor), accuracy_(accuracy), messages_(messages) {}
+  /// wake: called from any thread when collect() has something to do.
+  References(Editor& editor, LiveAccuracy& accuracy, MessageLine& messages, const std::function<void()>& wake)
+      : editor_(editor), accuracy_(accuracy), messages_(messages), wake_(wake), rendering_(wake) {}
+  ~References() { stop(); }
 
   /// Reads an image of the document, in the background.
   void open(const std::filesystem::path& file);
@@ -20,14 +25,29 @@ class References {
   /// reference, all else is opened as a scene.
   void open_dropped(const std::filesystem::path& file);
   void set(std::shared_ptr<const Reference> reference);
-  void drop() { accuracy_.set_reference(nullptr); }
+  void drop();
+  /// Renders one in the background, instead of one that is being rendered. Errors are true when it is there, not
+  /// before.
+  void render(const ReferenceOrder& order);
+  /// Whether one is being rendered.
+  bool busy() const { return !rendering_.idle(); }
+  /// Takes what was rendered, tells how far it is, and stops if the scene is another one now. Whether anything came.
+  bool collect();
 
  private:
+  void stop() { ++order_; }
   JobQueue::Result read(const std::filesystem::path& file, const Document& document);
 
   Editor& editor_;
   LiveAccuracy& accuracy_;
   MessageLine& messages_;
+  std::function<void()> wake_;
+  std::atomic<std::uint64_t> order_ = 0;     ///< counts up; what is rendered for an older number stops
+  std::atomic<std::uint32_t> rendered_ = 0;  ///< samples a pixel so far
+  std::uint32_t told_ = 0;                   ///< of these, in the newest message
+  Scene scene_;                              ///< of what is rendered
+  std::uint32_t wanted_ = 0;                 ///< samples a pixel of it
+  JobQueue rendering_;                       // declared last, because it uses the others
 };
 
 }  // namespace tyndall

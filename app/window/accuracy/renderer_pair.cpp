@@ -19,10 +19,10 @@ RendererPair::~RendererPair() {
   share_.share_with(nullptr);  // before the second renderer is destroyed
 }
 
-RendererPair::Begun RendererPair::submit(const std::shared_ptr<const Scene>& scene) {
+RendererPair::Begun RendererPair::submit(const std::shared_ptr<const Scene>& scene, std::shared_ptr<Film> film) {
   Begun begun;
   const std::uint64_t before = edit_;
-  edit_ = renderer_.submit(scene);
+  edit_ = renderer_.submit(scene, std::move(film));
   begun.current = edit_ != before;
   begun.kept = second_ && submit_kept(*scene);
   return begun;
@@ -39,6 +39,7 @@ void RendererPair::begin_split(const Scene& scene) {
   second_ = std::make_shared<Renderer>(Renderer::Options{threads_, isa_}, on_frame_);
   second_->set_view(view_);
   second_->set_clean(clean_);
+  second_->set_shown_pixels(shown_pixels_);
   kept_edit_ = 0;
   submit_kept(scene);
   renderer_.restart();
@@ -71,6 +72,20 @@ void RendererPair::pause(bool paused) {
 void RendererPair::set_threads(int threads) {
   threads_ = threads;
   share_.set_threads(threads);
+}
+
+void RendererPair::set_shown_pixels(std::int64_t pixels) {
+  if (pixels == shown_pixels_) return;
+  shown_pixels_ = pixels;
+  renderer_.set_shown_pixels(pixels);
+  if (second_) second_->set_shown_pixels(pixels);
+}
+
+void RendererPair::note_shown(Half half, std::uint64_t pass) {
+  if (half == Half::current)
+    renderer_.note_shown(pass);
+  else if (second_)
+    second_->note_shown(pass);
 }
 
 void RendererPair::set_view(View view) {

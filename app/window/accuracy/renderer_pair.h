@@ -28,7 +28,8 @@ class RendererPair {
     bool current = false, kept = false;
   };
   /// Hands a scene to both. A scene with the same picture as the one before restarts nothing.
-  Begun submit(const std::shared_ptr<const Scene>& scene);
+  /// film: samples of it that are there already, see Renderer; null: none.
+  Begun submit(const std::shared_ptr<const Scene>& scene, std::shared_ptr<Film> film = nullptr);
   /// Throws away the samples of both renderers and starts over.
   void restart();
 
@@ -46,6 +47,10 @@ class RendererPair {
   bool paused() const { return paused_; }
   void set_threads(int threads);
   int threads() const { return threads_; }
+  /// How many pixels of the screen a picture takes.
+  void set_shown_pixels(std::int64_t pixels);
+  /// A half's frame of that pass is on the screen, see Renderer.
+  void note_shown(Half half, std::uint64_t pass);
   void set_view(View view);
   /// Whether frames carry a clean view.
   void set_clean(bool clean);
@@ -72,6 +77,7 @@ class RendererPair {
   std::function<void()> on_frame_;
   int threads_;
   bool paused_ = false, clean_ = false;
+  std::int64_t shown_pixels_ = 0;
   View view_ = View::beauty;
   std::atomic<std::uint64_t> edit_ = 0;
   RenderSettings kept_;  ///< of the left half

@@ -83,7 +83,7 @@ void Editor::answer_about_file(bool take) {
   messages_.say("kept your edits; saving replaces what " + document().origin->title + " holds");
 }
 
-void Editor::show(Document next, bool own_file) {
+void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
   ++changes_;
   const bool same = same_picture(next.scene, scene());
   if (own_file && next.scene == scene()) {
@@ -98,7 +98,9 @@ void Editor::show(Document next, bool own_file) {
   }
   watch();
   messages_.say((own_file ? "read again: " : "opened ") + document().origin->title +
+                (film.word.empty() ? "" : "; " + film.word) +
                 (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left));
+  if (film.film) events_.film_opened(film.film);
 }
 
 void Editor::read_in_background(const std::function<JobQueue::Result()>& read) {
@@ -113,7 +115,18 @@ void Editor::read_in_background(const std::function<JobQueue::Result()>& read) {
 
 void Editor::open(const std::string& what) {
   read_in_background([this, what]() -> JobQueue::Result {
-    return [this, next = document_of(load_scene(what))] { show(next, false); };
+    const LoadedScene loaded = load_scene(what);
+    return [this, next = document_of(loaded), film = events_.film_of(loaded)] { show(next, false, film); };
+  });
+}
+
+void Editor::open_film(const LoadedScene& scene) {
+  read_in_background([this, scene, before = changes_]() -> JobQueue::Result {
+    return [this, before, film = events_.film_of(scene)] {
+      if (changes_ != before || film.word.empty()) return;
+      messages_.say("opened " + document().origin->title + "; " + film.word);
+      if (film.film) events_.film_opened(film.film);
+    };
   });
 }
 

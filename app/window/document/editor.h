@@ -3,6 +3,7 @@
 #include "app/window/document/history.h"
 #include "app/window/document/job_queue.h"
 #include "app/window/document/message.h"
+#include "app/window/document/opened_film.h"
 #include "core/scene/load.h"
 
 #include <atomic>
@@ -21,9 +22,11 @@ bool same_picture(const Scene& a, const Scene& b);
 
 /// What an editor calls when something has happened.
 struct EditorEvents {
-  std::function<void()> picture_changed;  ///< the scene renders to another picture now
-  std::function<void()> other_scene;      ///< another scene was opened; told before picture_changed
-  std::function<void()> wake;             ///< collect() has something to do; called from any thread
+  std::function<void()> picture_changed;                   ///< the scene renders to another picture now
+  std::function<void()> other_scene;                       ///< another scene was opened; told before picture_changed
+  std::function<OpenedFilm(const LoadedScene&)> film_of;   ///< reads the film of an opened image; in the background
+  std::function<void(std::shared_ptr<Film>)> film_opened;  ///< of the scene that is shown now; told after the others
+  std::function<void()> wake;                              ///< collect() has something to do; called from any thread
 };
 
 /// The open document: takes edits, undoes, opens, saves, and reads the file again when another program has written it.
@@ -57,6 +60,8 @@ class Editor {
 
   /// Opens a file or a built-in scene, in the background. what: as the command line takes it.
   void open(const std::string& what);
+  /// Reads the film of the first scene, if that was opened from an image, in the background.
+  void open_film(const LoadedScene& scene);
   /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced.
   void save(const std::filesystem::path& file);
 
@@ -73,7 +78,7 @@ class Editor {
   bool file_changed() const { return file_changed_; }
 
  private:
-  void show(Document document, bool own_file);
+  void show(Document document, bool own_file, const OpenedFilm& film = {});
   void step(bool moved, const Scene& before, const char* otherwise);
   void watch();
   void reload();

@@ -49,54 +49,76 @@ GLuint make_texture(GLint filter) {
   return texture;
 }
 
+int whole(float v) { return static_cast<int>(std::lround(v)); }
+
+/// Copies a part of the framebuffer that is read to a place in the window. from: x0, y0, x1, y1.
+void copy(const std::array<int, 4>& from, const Rect& to, int framebuffer_height, GLenum filter) {
+  glBlitFramebuffer(from[0], from[1], from[2], from[3], whole(to.x0), framebuffer_height - whole(to.y0), whole(to.x1),
+                    framebuffer_height - whole(to.y1), GL_COLOR_BUFFER_BIT, filter);
+}
+
 }  // namespace
 
-FrameDisplay::FrameDisplay()
-    : program_(link_program()), light_(make_texture(GL_NEAREST)), bytes_(make_texture(GL_LINEAR)) {
+FrameDisplay::FrameDisplay() : program_(link_program()) {
   scale_at_ = glGetUniformLocation(program_, "scale");
   curve_at_ = glGetUniformLocation(program_, "curve");
   dither_at_ = glGetUniformLocation(program_, "dither");
   glGenVertexArrays(1, &vertices_);
-  glGenFramebuffers(1, &target_);
+  make(whole_);
+  make(coarse_);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &greatest_);
 }
 
 FrameDisplay::~FrameDisplay() {
-  glDeleteFramebuffers(1, &target_);
+  for (const Surface* surface : {&whole_, &coarse_}) {
+    glDeleteFramebuffers(1, &surface->target);
+    glDeleteTextures(1, &surface->light);
+    glDeleteTextures(1, &surface->bytes);
+  }
   glDeleteVertexArrays(1, &vertices_);
-  glDeleteTextures(1, &light_);
-  glDeleteTextures(1, &bytes_);
   glDeleteProgram(program_);
 }
 
-void FrameDisplay::resize(int width, int height) {
-  if (width > greatest_ || height > greatest_)
-    throw IoError("the picture is larger than the display can show: " + std::to_string(width) + "x" +
-                  std::to_string(height) + ", at most " + std::to_string(greatest_) + " pixels each way");
-  glBindTexture(GL_TEXTURE_2D, light_);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
-  glBindTexture(GL_TEXTURE_2D, bytes_);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-  glBindFramebuffer(GL_FRAMEBUFFER, target_);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, bytes_, 0);
-  const bool whole = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!whole) throw IoError("the display cannot hold the picture");
-  width_ = width;
-  height_ = height;
+void FrameDisplay::make(Surface& surface) {
+  surface.light = make_texture(GL_NEAREST);
+  surface.bytes = make_texture(GL_LINEAR);
+  glGenFramebuffers(1, &surface.target);
 }
 
-void FrameDisplay::upload(int width, int height, const std::vector<float>& rgba) {
-  if (width != width_ || height != height_) resize(width, height);
-  glBindTexture(GL_TEXTURE_2D, light_);
+void FrameDisplay::resize(Surface& surface, int columns, int rows) const {
+  if (columns > greatest_ || rows > greatest_)
+    throw IoError("the picture is larger than the display can show: " + std::to_string(columns) + "x" +
+                  std::to_string(rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
+  glBindTexture(GL_TEXTURE_2D, surface.light);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
+  glBindTexture(GL_TEXTURE_2D, surface.bytes);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, columns, rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glBindFramebuffer(GL_FRAMEBUFFER, surface.target);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, surface.bytes, 0);
+  const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (!complete) throw IoError("the display cannot hold the picture");
+  surface.columns = columns;
+  surface.rows = rows;
+}
+
+void FrameDisplay::upload(const ShownPicture& picture) {
+  Surface& surface = picture.spacing > 1 ? coarse_ : whole_;
+  if (picture.columns != surface.columns || picture.rows != surface.rows)
+    resize(surface, picture.columns, picture.rows);
+  glBindTexture(GL_TEXTURE_2D, surface.light);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, rgba.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, surface.columns, surface.rows, GL_RGBA, GL_FLOAT, picture.rgba.data());
+  shown_ = &surface;
+  spacing_ = picture.spacing;
+  width_ = picture.width;
+  height_ = picture.height;
   fresh_ = true;
 }
 
 void FrameDisplay::tone_map(const Look& look) {
-  glBindFramebuffer(GL_FRAMEBUFFER, target_);
-  glViewport(0, 0, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, shown_->target);
+  glViewport(0, 0, shown_->columns, shown_->rows);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glUseProgram(program_);
@@ -104,7 +126,7 @@ void FrameDisplay::tone_map(const Look& look) {
   glUniform1i(curve_at_, static_cast<int>(look.tone_map));
   glUniform1i(dither_at_, look.dither ? 1 : 0);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, light_);
+  glBindTexture(GL_TEXTURE_2D, shown_->light);
   glBindVertexArray(vertices_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
@@ -113,19 +135,41 @@ void FrameDisplay::tone_map(const Look& look) {
   fresh_ = false;
 }
 
+/// Where the texture has to be drawn so that its places are over the pixels that they stand for.
+Rect FrameDisplay::place_of_picture(const Rect& where) const {
+  if (spacing_ <= 1) return where;
+  const float across = where.width() / static_cast<float>(width_), down = where.height() / static_cast<float>(height_);
+  const float first = 0.5f * (1 - spacing_);  // where the first place begins, in pixels of the image
+  const float x0 = where.x0 + first * across, y0 = where.y0 + first * down;
+  return {x0, y0, x0 + spacing_ * across * static_cast<float>(shown_->columns),
+          y0 + spacing_ * down * static_cast<float>(shown_->rows)};
+}
+
+/// Beyond the last places of a coarse picture their colours go on to the edge of the image.
+void FrameDisplay::fill_rim(const Rect& where, const Rect& place, int framebuffer_height) const {
+  const int right = shown_->columns, bottom = shown_->rows;
+  if (place.x1 < where.x1)
+    copy({right - 1, 0, right, bottom}, {place.x1, place.y0, where.x1, place.y1}, framebuffer_height, GL_NEAREST);
+  if (place.y1 < where.y1)
+    copy({0, bottom - 1, right, bottom}, {place.x0, place.y1, std::max(place.x1, where.x1), where.y1},
+         framebuffer_height, GL_NEAREST);
+}
+
 void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Look& look, const Rect& clip) {
   if (empty() || where.width() < 1 || where.height() < 1) return;
   if (fresh_ || !(look == look_)) tone_map(look);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
-  const auto whole = [](float v) { return static_cast<int>(std::lround(v)); };
-  const int x0 = whole(where.x0), x1 = whole(where.x1), top = framebuffer_height - whole(where.y0),
-            bottom = framebuffer_height - whole(where.y1);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, shown_->target);
+  const Rect place = place_of_picture(where);
   // Whole multiples show the pixels as they are.
-  const bool multiple = (x1 - x0) % width_ == 0 && (top - bottom) % height_ == 0;
+  const bool multiple = spacing_ <= 1 && (whole(place.x1) - whole(place.x0)) % width_ == 0 &&
+                        (whole(place.y1) - whole(place.y0)) % height_ == 0;
+  const Rect seen{std::max(clip.x0, where.x0), std::max(clip.y0, where.y0), std::min(clip.x1, where.x1),
+                  std::min(clip.y1, where.y1)};
   glEnable(GL_SCISSOR_TEST);
-  glScissor(whole(clip.x0), framebuffer_height - whole(clip.y1), std::max(0, whole(clip.x1) - whole(clip.x0)),
-            std::max(0, whole(clip.y1) - whole(clip.y0)));
-  glBlitFramebuffer(0, 0, width_, height_, x0, top, x1, bottom, GL_COLOR_BUFFER_BIT, multiple ? GL_NEAREST : GL_LINEAR);
+  glScissor(whole(seen.x0), framebuffer_height - whole(seen.y1), std::max(0, whole(seen.x1) - whole(seen.x0)),
+            std::max(0, whole(seen.y1) - whole(seen.y0)));
+  copy({0, 0, shown_->columns, shown_->rows}, place, framebuffer_height, multiple ? GL_NEAREST : GL_LINEAR);
+  if (spacing_ > 1) fill_rim(where, place, framebuffer_height);
   glDisable(GL_SCISSOR_TEST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }

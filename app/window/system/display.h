@@ -15,7 +15,16 @@ struct Look {
   bool operator==(const Look&) const = default;
 };
 
-/// Puts frames on the screen with OpenGL 3.3: a float texture, tone-mapped once into a texture of bytes, which is all
+/// A picture to be shown: linear RGBA, 4 floats for each of columns x rows places. Place (x, y) is the middle of the
+/// pixel (spacing x, spacing y) of an image of width x height pixels.
+struct ShownPicture {
+  const std::vector<float>& rgba;
+  int columns = 0, rows = 0;
+  float spacing = 1;
+  int width = 0, height = 0;
+};
+
+/// Puts pictures on the screen with OpenGL 3.3: a float texture, tone-mapped once into a texture of bytes, which is all
 /// that is copied while nothing new comes. Lives within the window's context.
 class FrameDisplay {
  public:
@@ -25,20 +34,31 @@ class FrameDisplay {
   FrameDisplay(const FrameDisplay&) = delete;
   FrameDisplay& operator=(const FrameDisplay&) = delete;
 
-  /// Takes a new picture, 4 floats a pixel. Throws IoError if it is larger than the display can show.
-  void upload(int width, int height, const std::vector<float>& rgba);
-  /// Draws the frame into `where`, in pixels of the framebuffer, y down, as far as it is within `clip`; tone-maps first
-  /// if frame or look are new.
+  /// Takes a new picture. Throws IoError if it is larger than the display can show.
+  void upload(const ShownPicture& picture);
+  /// Draws the image into `where`, in pixels of the framebuffer, y down, as far as it is within `clip`; tone-maps first
+  /// if picture or look are new. Between the places of a coarse picture colours are blended.
   void draw(const Rect& where, int framebuffer_height, const Look& look, const Rect& clip);
-  bool empty() const { return width_ == 0; }
+  bool empty() const { return shown_ == nullptr; }
 
  private:
-  void resize(int width, int height);
+  /// Textures for pictures of one size; whole and coarse pictures have their own, as they take turns.
+  struct Surface {
+    unsigned light = 0, bytes = 0, target = 0;
+    int columns = 0, rows = 0;
+  };
+  void make(Surface& surface);
+  void resize(Surface& surface, int columns, int rows) const;
   void tone_map(const Look& look);
+  Rect place_of_picture(const Rect& where) const;
+  void fill_rim(const Rect& where, const Rect& place, int framebuffer_height) const;
 
-  unsigned program_ = 0, vertices_ = 0, light_ = 0, bytes_ = 0, target_ = 0;
+  unsigned program_ = 0, vertices_ = 0;
+  Surface whole_, coarse_;
+  Surface* shown_ = nullptr;
+  float spacing_ = 1;
+  int width_ = 0, height_ = 0;  ///< of the image
   int scale_at_ = -1, curve_at_ = -1, dither_at_ = -1, greatest_ = 0;
-  int width_ = 0, height_ = 0;
   Look look_;
   bool fresh_ = false;
 };

@@ -32,6 +32,13 @@ std::pair<int, int> screen_room() {
   return width > 0 && height > 0 ? std::pair{width, height} : std::pair{1280, 800};
 }
 
+/// Whether the processors draw: then nothing is gained by waiting for the screen's next refresh.
+bool draws_in_software() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer = name ? name : "";
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+}
+
 GLFWwindow* open_window(int image_width, int image_height) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -65,7 +72,7 @@ Platform::Platform(int image_width, int image_height) : state_(std::make_unique<
     glfwTerminate();
     throw IoError("no window: OpenGL's functions cannot be loaded");
   }
-  glfwSwapInterval(1);
+  glfwSwapInterval(draws_in_software() ? 0 : 1);
   glfwSetWindowUserPointer(state_->window, state_.get());
   glfwSetWindowSizeLimits(state_->window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
   ImGui::CreateContext();
@@ -172,6 +179,11 @@ void Platform::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(state_->window);
+  end_input_frame(state_->window);
+}
+
+void Platform::drop_frame() {
+  ImGui::EndFrame();
   end_input_frame(state_->window);
 }
 

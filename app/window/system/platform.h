@@ -48,6 +48,8 @@ class Platform {
   void begin_frame();
   void clear();
   void end_frame();
+  /// Ends the frame without showing it: what it did to controls and scene counts, the screen stays as it is.
+  void drop_frame();
   /// No frame is drawn because nobody would see it: what waits for one goes on.
   void skip_frame();
   /// To be called after the fonts were loaded again: they are drawn from then on.

@@ -12,8 +12,6 @@
 #include <utility>
 
 namespace tyndall {
-namespace {}  // namespace
-
 double quantile(std::vector<double>& values, double q) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -28,6 +26,8 @@ UiLog::UiLog(const std::filesystem::path& file) {
 
 UiLog::~UiLog() {
   summary("latency", latencies_);
+  summary("latency camera", camera_latencies_);
+  summary("latency other", other_latencies_);
   summary("cpu picture", cpu_picture_);
   summary("cpu plain", cpu_plain_);
   if (stream_ != stdout) std::fclose(stream_);
@@ -71,8 +71,8 @@ void UiLog::end_of_widgets() {
   ++drawing_;
 }
 
-void UiLog::submitted(std::uint64_t edit, double now) {
-  if (!submits_.emplace(edit, now).second) return;
+void UiLog::submitted(std::uint64_t edit, double since, bool camera_only) {
+  if (!submits_.emplace(edit, Submit{since, camera_only}).second) return;
   line("submit " + std::to_string(edit));
 }
 
@@ -81,8 +81,10 @@ void UiLog::shown(const Frame& frame, double now) {
   pass_ = frame.pass;
   const std::uint64_t edit = frame.edit;
   const auto found = submits_.find(edit);
-  const double ms = found != submits_.end() ? 1e3 * (now - found->second) : 0;
+  const bool known = found != submits_.end();
+  const double ms = known ? 1e3 * (now - found->second.since) : 0;
   if (edit != shown_) latencies_.push_back(ms);
+  if (edit != shown_ && known) (found->second.camera_only ? camera_latencies_ : other_latencies_).push_back(ms);
   shown_ = edit;
   if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
   line("frame " + std::to_string(edit) +

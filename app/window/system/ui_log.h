@@ -19,8 +19,9 @@ namespace tyndall {
 ///   widget NAME X0 Y0 X1 Y1 VALUE    a control appeared, moved or has a new value; window coordinates
 ///   gone NAME                        it is no longer there
 ///   submit EDIT                      the scene went to the renderer
-///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the edit; FIRST_MS: what the
-///                                    renderer took for the edit's first picture
+///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the oldest input that has led
+///   to
+///                                    it; FIRST_MS: what the renderer took for the edit's first picture
 ///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
 ///   state rendering|paused|finished
 ///   reading CURVE: SECONDS RELMSE    what the chart says under the mouse
@@ -39,7 +40,9 @@ namespace tyndall {
 ///   size WIDTH HEIGHT                of the window
 ///   rest                             all of it was shown and the picture is finished: nothing will be drawn, rendered,
 ///                                    read or measured for the next second unless something happens
-/// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms.
+/// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms;
+/// latencies are those of edits' first pictures, of all edits and of those that moved only the camera, or something
+/// else.
 class UiLog {
  public:
   /// file: "-" is standard output. Throws IoError.
@@ -54,7 +57,8 @@ class UiLog {
   std::optional<Rect> find(const std::string& name) const;
   /// After all widgets of a drawing: tells which have gone.
   void end_of_widgets();
-  void submitted(std::uint64_t edit, double now);
+  /// since: clock second of the oldest input that has led to the edit.
+  void submitted(std::uint64_t edit, double since, bool camera_only);
   /// now: seconds, after the picture was put on the screen.
   void shown(const Frame& frame, double now);
   void drawn(double cpu_seconds, bool picture);
@@ -76,8 +80,12 @@ class UiLog {
   std::FILE* stream_ = nullptr;
   std::map<std::string, Widget> widgets_;
   std::map<std::string, std::string> last_;
-  std::map<std::uint64_t, double> submits_;  ///< of the edit that is shown and newer ones
-  std::vector<double> latencies_, cpu_picture_, cpu_plain_;
+  struct Submit {
+    double since = 0;
+    bool camera_only = false;
+  };
+  std::map<std::uint64_t, Submit> submits_;  ///< of the edit that is shown and newer ones
+  std::vector<double> latencies_, camera_latencies_, other_latencies_, cpu_picture_, cpu_plain_;
   std::uint64_t drawing_ = 1, shown_ = 0, pass_ = 0;
   bool resting_ = false;  ///< "rest" is the last line
 };

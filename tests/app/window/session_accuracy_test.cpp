@@ -9,23 +9,29 @@ using namespace tyndall;
 using test::OpenedSession;
 namespace fs = std::filesystem;
 
-TEST_CASE("the picture on the screen as reference: of other scenes after an edit, the old one again after undo") {
+TEST_CASE(
+    "a reference is rendered with another seed; it is of other scenes after an edit, the old one again after undo") {
   OpenedSession opened("reference");
   REQUIRE(opened.finishes());
   const LiveAccuracy& accuracy = opened.session->accuracy();
   CHECK_FALSE(opened.session->can_show_errors());
-  opened.session->keep_as_reference();
-  CHECK(accuracy.fit(Half::current) == ReferenceFit::same_samples);
+  opened.session->render_reference();
+  CHECK_FALSE(accuracy.is_true());  // nothing is called true before it is there
+  REQUIRE(opened.comes_true([&] { return accuracy.is_true(); }));
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::fits);
+  CHECK(accuracy.reference()->about == "this scene at 64 spp, seed 1");
   CHECK(opened.session->can_show_errors());
   opened.set_fuzz(0.5);
   REQUIRE(opened.finishes());
   CHECK(accuracy.fit(Half::current) == ReferenceFit::other_scene);
   opened.session->editor().undo();
   Scene scene = opened.session->editor().scene();
-  scene.render.seed = 4;
+  scene.render.seed = 1;
   opened.session->editor().edit(scene, 0);
   REQUIRE(opened.finishes());
-  CHECK(accuracy.fit(Half::current) == ReferenceFit::fits);
+  CHECK(accuracy.fit(Half::current) == ReferenceFit::same_samples);
+  opened.session->editor().undo();
+  REQUIRE(opened.finishes());
   opened.session->shown(Half::current, opened.session->renderers().latest(Half::current));
   REQUIRE(opened.comes_true([&] { return accuracy.pair().flip.has_value(); }));
   opened.session->references().drop();
@@ -85,4 +91,20 @@ TEST_CASE("a split view keeps the settings on its left, and follows edits of the
   session.editor().open(fs::absolute("other.json").string());
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
   CHECK_FALSE(session.renderers().split());
+}
+
+TEST_CASE("a reference that is being rendered is given up when the scene changes") {
+  OpenedSession opened("reference_stops");
+  REQUIRE(opened.finishes());
+  Scene scene = opened.session->editor().scene();
+  scene.width = scene.height = 512;
+  scene.render.spp = 1;
+  opened.session->editor().edit(scene, 0);
+  REQUIRE(opened.finishes());
+  opened.session->render_reference();
+  opened.set_fuzz(0.5);
+  REQUIRE(opened.comes_true(
+      [&] { return opened.session->messages().current().text == "no reference: the scene was changed"; }));
+  REQUIRE(opened.comes_true([&] { return !opened.session->references().busy(); }));
+  CHECK_FALSE(opened.session->accuracy().reference());
 }

@@ -11,7 +11,8 @@ namespace {
 Document document() {
   auto origin = std::make_shared<Origin>();
   origin->title = "showroom.json";
-  return {Scene(), origin};
+  origin->saved.background = Vec3d{1, 1, 1};
+  return {origin->saved, origin};
 }
 
 std::string text_of(const std::vector<StatusCell>& cells) {
@@ -108,4 +109,20 @@ TEST_CASE("without room the least important cells go first, and the state always
   CHECK(fitting_cells(cells, widths, 199) == std::vector<std::size_t>{0, 1, 3});
   CHECK(fitting_cells(cells, widths, 60).front() == 0);
   CHECK(fitting_cells(cells, widths, 0) == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("a scene without light says what it lacks, and not that its error is 0 %") {
+  Frame frame;
+  frame.spp = 4;
+  Document dark = document();
+  dark.scene.background = Vec3d{0, 0, 0};
+  std::string text = text_of(status_cells(&frame, {}, dark, {}));
+  CHECK_MESSAGE(text.find("=empty scene: add an object and a lamp;") != std::string::npos, text);
+  CHECK(text.find("error") == std::string::npos);
+  dark.scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
+  dark.scene.objects = {Object{"", Solid3d{Sphere<>{{0, 0, -2}, 1, {}}, 0}, {}}};
+  text = text_of(status_cells(&frame, {}, dark, {}));
+  CHECK_MESSAGE(text.find("=no light in this scene: add a lamp;") != std::string::npos, text);
+  dark.scene.materials[0].kind = Light<>{};
+  CHECK(text_of(status_cells(&frame, {}, dark, {})).find("error=") != std::string::npos);
 }

@@ -121,18 +121,19 @@ TEST_CASE("a film's own noise is known") {
   CHECK(read_reference(file, document).rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-3));
 }
 
-TEST_CASE("the picture on the screen as a reference, whichever view is on") {
-  Frame frame;
-  frame.width = 1, frame.height = 2, frame.spp = 1024;
-  frame.relative_error = 0.1;
-  frame.view = View::noise;
-  frame.rgba = {9, 9, 9, 1, 9, 9, 9, 1};
-  frame.beauty = {1, 2, 3, 1, 4, 5, 6, 1};
-  Scene scene;
-  scene.width = 1, scene.height = 2;
-  const Reference reference = reference_of(frame, scene);
-  CHECK(reference.image.rgb == std::vector<float>{1, 2, 3, 4, 5, 6});
-  CHECK(reference.rel_mse == doctest::Approx(0.01));
-  CHECK(reference.about == "the picture at 1,024 spp");
-  CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
+TEST_CASE("a reference is rendered with other random numbers, and can be stopped") {
+  Document document = small_document("simple-light");
+  ReferenceOrder order{document.scene, 8, 1, ""};
+  const auto reference = rendered_reference(order, [](std::uint32_t) { return true; });
+  REQUIRE(reference);
+  CHECK(fit_of(*reference, document.scene) == ReferenceFit::fits);
+  CHECK(reference->scene.render.seed == 1);
+  CHECK(reference->rel_mse > 0);
+  CHECK(reference->about == "this scene at 8 spp, seed 1");
+  order.scene = reference->scene;
+  const auto other = rendered_reference(order, [](std::uint32_t) { return true; });
+  REQUIRE(other);
+  CHECK(other->scene.render.seed == 0);
+  CHECK(other->image.rgb != reference->image.rgb);
+  CHECK_FALSE(rendered_reference(order, [](std::uint32_t) { return false; }));
 }

@@ -18,8 +18,8 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
       if (drawing == 0) log.widget("a name", {0, 0, 1, 1}, "x");
       log.end_of_widgets();
     }
-    log.submitted(1, 10);
-    log.submitted(2, 10.5);
+    log.submitted(1, 10, false);
+    log.submitted(2, 10.5, true);
     Frame frame;
     frame.edit = 1;
     frame.step = 8;
@@ -48,6 +48,8 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
         "mouse none\nbuttons 0 0 0\nkeyboard shortcuts\nmouse 12 34\nbuttons 1 0 0\nkeyboard control\n"
         "buttons 0 0 0\nwheel -1\nrest\nkey 82\nrest\n"
         "latency n 2 p50 20.0 p95 100.0 p99 100.0 max 100.0 ms\n"
+        "latency camera n 1 p50 100.0 p95 100.0 p99 100.0 max 100.0 ms\n"
+        "latency other n 1 p50 20.0 p95 20.0 p99 20.0 max 20.0 ms\n"
         "cpu picture n 1 p50 2.0 p95 2.0 p99 2.0 max 2.0 ms\ncpu plain n 0 p50 0.0 p95 0.0 p99 0.0 max 0.0 ms\n");
   CHECK_THROWS_AS(UiLog("/no/such/folder/log"), std::exception);
 }
