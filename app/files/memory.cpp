@@ -74,7 +74,9 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
 }
 
 std::uint64_t window_memory_needed(std::int64_t width, std::int64_t height, bool emission) {
-  constexpr std::uint64_t pictures = 3 * 16;  // the one that is shown, the next one, and what the display holds of it
+  constexpr std::uint64_t picture = 16,
+                          pictures =
+                              3 * picture;  // the one that is shown, the next one, and what the display holds of it
   return program + (bytes_per_pixel(emission) + pictures) * pixels(width, height);
 }
 

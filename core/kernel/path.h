@@ -105,6 +105,21 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
   queue.count += __builtin_popcount(bits(lanes));
 }
 
+/// Asks for chains, at random, from events that scatter evenly.
+template <class F>
+TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, ChainQueue<F>& chains,
+                                   std::uint32_t& shadow_rays) {
+  const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
+  const auto spreads = mask_or(e.medium, evenly);
+  if (any(spreads)) e.asks = chain_probability(s, e.point);
+  const auto drawn = less(p.dice.one_alone(dimension::chain_asked), e.asks);
+  const auto asking = mask_and(mask_and(scattering, drawn), spreads);
+  if constexpr (ChainQueue<F>::waits)
+    enqueue(chains, p, e, asking);
+  else if (any(asking))
+    p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
+}
+
 /// Takes all active lanes one step further: to the next surface, the next event in a medium, or out of the scene.
 /// Returns which lanes go on, and sets `cut` to those that ended because of max_depth. shared: SharedPaths, or
 /// NoSharing.
@@ -152,17 +167,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
                               p.dice.pair(dimension::light_point), p.flight, false};
     p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
   }
-  if (s.has_chains()) {
-    const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
-    const auto spreads = mask_or(e.medium, evenly);
-    if (any(spreads)) e.asks = chain_probability(s, e.point);
-    const auto drawn = less(p.dice.one_alone(dimension::chain_asked), e.asks);
-    const auto asking = mask_and(mask_and(scattering, drawn), spreads);
-    if constexpr (ChainQueue<F>::waits)
-      enqueue(chains, p, e, asking);
-    else if (any(asking))
-      p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
-  }
+  if (s.has_chains()) ask_for_chains(s, p, e, scattering, chains, shadow_rays);
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
   if (p.straight) {
     const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));

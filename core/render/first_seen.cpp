@@ -132,7 +132,8 @@ struct FirstSeenFinder {
       for (int i = 0; i < count; ++i) {
         FirstSeen all{{sum[i][0], sum[i][1], sum[i][2]}, {sum[i][3], sum[i][4], sum[i][5]}, sum[i][depth_plane]};
         float sharp = sum[i][sharp_plane];
-        for (const FirstHit* hit = hits + i * parts; hit < hits + (i + 1) * parts; ++hit) {
+        const FirstHit* const first = hits + static_cast<std::ptrdiff_t>(i) * parts;
+        for (const FirstHit* hit = first; hit < first + parts; ++hit) {
           all.albedo.x += hit->albedo.x, all.albedo.y += hit->albedo.y, all.albedo.z += hit->albedo.z;
           all.normal.x += hit->normal.x, all.normal.y += hit->normal.y, all.normal.z += hit->normal.z;
           all.nearness += hit->element < 0 ? 0 : 1 / (1 + hit->depth * per_depth);

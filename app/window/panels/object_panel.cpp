@@ -85,10 +85,9 @@ void full_section(Ui& ui, PanelState& state) {
   const Object* object = find_object(state.scene, path);
   const std::string title = title_of(state.scene, path), also = std::to_string(state.also.size());
   if (!section(ui, title, state.also.empty() ? kinds_of(state.scene, *object) : "and " + also + " more")) return;
-  const std::string scope_name = title;
   const Solid3d* solid = std::get_if<Solid3d>(&object->kind);
   if (solid) material_rows(ui, state, solid->material, false);
-  const Scope scope(ui, scope_name);
+  const Scope scope(ui, title);
   if (solid) surface_rows(ui, state, path);
   Object& now = *find_object(state.scene, path);  // another type may have moved it in its list
   const Object* saved = saved_object(state, path);
