@@ -20,13 +20,14 @@ std::vector<double> group_sums(const Film& film, const Region& region, auto valu
   const int first_column = region.x0 / block_width, first_row = region.y0 / block_height;
   const int columns = (region.x1 - 1) / block_width - first_column + 1;
   const int rows = (region.y1 - 1) / block_height - first_row + 1;
-  constexpr std::size_t groups = group_spacing * group_spacing;  // in a block
+  constexpr std::size_t spacing = group_spacing, groups = spacing * spacing;  // in a block
   std::vector<double> sums(groups * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x) {
-      const auto block =
-          static_cast<std::size_t>((y / block_height - first_row) * columns + x / block_width - first_column);
-      const auto group = static_cast<std::size_t>(y % group_spacing * group_spacing + x % group_spacing);
+      const auto row = static_cast<std::size_t>(y / block_height - first_row);
+      const std::size_t block =
+          row * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block_width - first_column);
+      const std::size_t group = static_cast<std::size_t>(y) % spacing * spacing + static_cast<std::size_t>(x) % spacing;
       sums[groups * block + group] += value(film.at(x, y));
     }
   return sums;
