@@ -157,12 +157,12 @@ std::string sharing_text(const Report& report) {
   if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
   if (!compiled.chains.ball.empty()) return "none: light by chains cannot be shared";
   if (compiled.needs.moving_spheres) return "none: spheres move";
-  const SceneViewOf view(compiled);
+  const SceneViewOf view(compiled, ViewFor::first_hits);
   const SharingGain gain = probe_sharing(view.view());
   if (!gain.probed) return "none: too few paths scatter evenly at their first two vertices";
   const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
                                         gain.variance, gain.time);
-  if (view.view().shares) return "on: " + probe;
+  if (is_worthwhile(gain)) return "on: " + probe;
   return "none: " + probe + fmt::format("; it pays where the product is at most {}", worthwhile_product);
 }
 

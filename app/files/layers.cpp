@@ -28,7 +28,7 @@ std::vector<Layer> layers_of(const RenderScene& scene, const Film& film, const K
       {"Albedo", {"R", "G", "B"}, {}, true}, {"Ns", {"X", "Y", "Z"}, {}}, {"Depth", {"Z"}, {}}};
   for (Layer& layer : layers) layer.values.reserve(layer.channels.size() * film.pixels.size());
   std::vector<float>&albedo = layers[0].values, &normal = layers[1].values, &depth = layers[2].values;
-  const SceneViewOf view(scene);
+  const SceneViewOf view(scene, ViewFor::first_hits);
   for (int y = region.y0; y < region.y1; y += rows) {
     const Region strip{region.x0, y, region.x1, std::min(y + rows, region.y1)};
     std::vector<FirstHit> hits(static_cast<std::size_t>(strip.width()) * static_cast<std::size_t>(strip.height()));

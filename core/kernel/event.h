@@ -18,7 +18,7 @@ struct Paths {
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
   FogFlight<F> flight;         ///< the flight to where the ray starts; only in scenes with lamps in fog
   ChainTrail<F> trail;         ///< what it met since it scattered last; only in scenes with chains
-  IntOf<F> slot;               ///< 2 · pixel within the tile + half
+  IntOf<F> slot;               ///< 2 · pixel within the tile + half; place in SharedPaths in kernels that share
   F weight;                    ///< of the sample, see glints.h; only in scenes with chains
   std::uint32_t alive = 0;     ///< bit i: lane i follows a path
   std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps

@@ -38,7 +38,7 @@ void add_own_leaving(const SharedPaths& p, float (&own)[3][SharedPaths::room]) {
   for (int c = 0; c < 3; ++c)
     for (int slot = 0; slot < SharedPaths::room; ++slot) {
       own[c][slot] = p.own[c][slot];
-      if (p.second_even[slot] >= 0) own[c][slot] += p.albedo[c][slot] * p.leaving[c][slot];
+      if (p.second.even[slot] >= 0) own[c][slot] += p.albedo[c][slot] * p.leaving[c][slot];
     }
 }
 
@@ -65,7 +65,7 @@ double share_of_seconds(SceneView s, SharedPaths& paths) {
   UnitCounts counts;
   trace_groups<float>(s, paths, {1, nullptr, nullptr, counts});
   const auto seconds =
-      std::count_if(paths.second_even, paths.second_even + SharedPaths::room, [](float even) { return even >= 0; });
+      std::count_if(paths.second.even, paths.second.even + SharedPaths::room, [](float even) { return even >= 0; });
   return static_cast<double>(seconds) / (across * across * group_size);
 }
 

@@ -70,7 +70,7 @@ ChainView view_of(const Chains& c) {
 
 }  // namespace
 
-SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
+SceneViewOf::SceneViewOf(const RenderScene& s, ViewFor purpose) : view_{} {
   for (const TextureColumns& t : s.textures) textures_.push_back(view_of(t));
   SceneView& v = view_;
   v.width = s.width, v.height = s.height;
@@ -106,6 +106,7 @@ SceneViewOf::SceneViewOf(const RenderScene& s) : view_{} {
   v.light_sampling = s.light_sampling, v.integrator = s.integrator;
   v.needs = s.needs;
   v.kernel = s.kernel;
+  if (purpose == ViewFor::first_hits) return;
   glints_ = find_glints(v);
   v.glint_count = static_cast<int>(glints_.size());
   v.glints = glints_.data();

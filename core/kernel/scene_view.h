@@ -108,10 +108,14 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE bool has_chains() const { return asks_chains && chains.pairs > 0; }
 };
 
+/// What a view is for. One that takes no samples, but only asks what rays meet, is made without looking for glints and
+/// without probing whether sharing pays, which takes milliseconds.
+enum class ViewFor { samples, first_hits };
+
 /// Points into `scene`, which must stay as it is while the view is used.
 class SceneViewOf {
  public:
-  explicit SceneViewOf(const RenderScene& scene);
+  explicit SceneViewOf(const RenderScene& scene, ViewFor purpose = ViewFor::samples);
   const SceneView& view() const { return view_; }
 
  private:

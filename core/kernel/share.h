@@ -23,10 +23,22 @@ TYNDALL_INLINE MaskOf<F> scatters_evenly(const auto& s, const Event<F>& e) {
   return mask_or(surface, mask_and(e.medium, equal(e.g, F(0.0f))));
 }
 
-/// The samples of some groups, one of each member, and what is shared of their paths. Each array has a row for each
-/// member, in which groups lie side by side: lanes work on groups.
+/// How many groups lanes work on side by side. Each array below has a row for each member of a group.
+inline constexpr int most_shared_groups = 256, shared_room = group_size * most_shared_groups;
+
+/// The first or the second vertices of paths.
+struct SharedVertices {
+  alignas(64) float point[3][shared_room];
+  alignas(64) float facing[3][shared_room];  ///< normal of the side on which it scatters; 0 in a medium
+  /// 0 on a surface, minus infinity where there is no vertex. In a medium what stands for a surface's cosine: 1/4 at
+  /// first vertices, 1 at second ones.
+  alignas(64) float even[shared_room];
+  alignas(64) std::int32_t surface[shared_room];  ///< Ray::from of first vertices; element of second ones, or -1
+};
+
+/// The samples of some groups, one of each member, and what is shared of their paths.
 struct SharedPaths {
-  static constexpr int most_groups = 256, room = group_size * most_groups;
+  static constexpr int most_groups = most_shared_groups, room = shared_room;
   static constexpr std::int32_t unwanted = -1, outside = -2;  ///< of the unit's tile; of the picture
 
   int groups = 0;
@@ -36,21 +48,15 @@ struct SharedPaths {
   alignas(64) std::int32_t pixel[room];  ///< where its sample goes: index within the tile; unwanted or outside: nowhere
 
   alignas(64) float own[3][room];  ///< radiance of the path but for what leaves its second vertex
-  // The first vertex: where it is, the side on which it scatters (0 in a medium), its albedo.
-  alignas(64) float first[3][room], first_facing[3][room], albedo[3][room];
-  alignas(64) float first_even[room];  ///< 0 on a surface, 1/4 in a medium, minus infinity where there is no vertex
-  alignas(64) std::int32_t first_from[room];
-  // The second vertex.
-  alignas(64) float second[3][room], second_facing[3][room];
-  alignas(64) float second_even[room];  ///< 0 on a surface, 1 in a medium, minus infinity where there is no vertex
-  alignas(64) std::int32_t second_element[room];
-  alignas(64) float leaving[3][room];  ///< radiance that leaves it
+  SharedVertices first, second;
+  alignas(64) float albedo[3][room];   ///< of the first vertex
+  alignas(64) float leaving[3][room];  ///< radiance that leaves the second vertex
 
   TYNDALL_INLINE void clear() {
     for (int i = 0; i < room; ++i) {
       pixel[i] = outside;
       own[0][i] = own[1][i] = own[2][i] = 0;
-      first_even[i] = second_even[i] = -__builtin_inff();
+      first.even[i] = second.even[i] = -__builtin_inff();
     }
   }
 };
@@ -58,34 +64,33 @@ struct SharedPaths {
 /// The paths of the kernels that do not share.
 struct NoSharing {};
 
-/// Stores the values of some lanes at their slots.
-template <class F, int columns>
-TYNDALL_INLINE void put(float(*const (&to)[columns]), const F (&values)[columns], const std::int32_t* slot,
-                        std::uint32_t lanes) {
+/// Notes the vertices at which the paths in `lanes` are. in_medium: see SharedVertices::even. colour: goes to
+/// `colours`.
+template <class F>
+TYNDALL_INLINE void note_vertices(const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, float in_medium,
+                                  IntOf<F> surface, Vec3<F> colour, SharedVertices& to,
+                                  float (&colours)[3][shared_room]) {
+  constexpr int columns = 10;
+  const Vec3<F> facing = select(e.medium, zero3<F>(), e.incident.facing);
+  const F even = select(e.medium, splat<F>(in_medium), F(0.0f));
+  const F values[columns] = {e.point.x, e.point.y, e.point.z, facing.x, facing.y,
+                             facing.z,  colour.x,  colour.y,  colour.z, even};
+  float* const all[columns] = {to.point[0],  to.point[1], to.point[2], to.facing[0], to.facing[1],
+                               to.facing[2], colours[0],  colours[1],  colours[2],   to.even};
   alignas(64) float value[columns][lanes_of<F>];
+  alignas(64) std::int32_t slots[lanes_of<F>], surfaces[lanes_of<F>];
   for (int k = 0; k < columns; ++k) store(value[k], values[k]);
-  for (; lanes; lanes &= lanes - 1) {
-    const int lane = __builtin_ctz(lanes);
-    for (int k = 0; k < columns; ++k) to[k][slot[lane]] = value[k][lane];
+  store(slots, p.slot), store(surfaces, surface);
+  for (std::uint32_t left = bits(lanes); left; left &= left - 1) {
+    const int lane = __builtin_ctz(left), slot = slots[lane];
+    for (int k = 0; k < columns; ++k) all[k][slot] = value[k][lane];
+    to.surface[slot] = surfaces[lane];
   }
 }
 
-/// Notes the first vertices of the paths in `lanes`.
 template <class F>
 TYNDALL_INLINE void note_first(const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, SharedPaths& shared) {
-  alignas(64) std::int32_t slot[lanes_of<F>], from[lanes_of<F>];
-  store(slot, p.slot), store(from, e.from);
-  const Vec3<F> facing = select(e.medium, zero3<F>(), e.incident.facing), albedo = p.throughput * e.colour;
-  const F values[] = {e.point.x, e.point.y, e.point.z, facing.x, facing.y,
-                      facing.z,  albedo.x,  albedo.y,  albedo.z, select(e.medium, F(0.25f), F(0.0f))};
-  float* const to[] = {shared.first[0],        shared.first[1],        shared.first[2],  shared.first_facing[0],
-                       shared.first_facing[1], shared.first_facing[2], shared.albedo[0], shared.albedo[1],
-                       shared.albedo[2],       shared.first_even};
-  put<F>(to, values, slot, bits(lanes));
-  for (std::uint32_t left = bits(lanes); left; left &= left - 1) {
-    const int lane = __builtin_ctz(left);
-    shared.first_from[slot[lane]] = from[lane];
-  }
+  note_vertices<F>(p, e, lanes, 0.25f, e.from, p.throughput * e.colour, shared.first, shared.albedo);
 }
 
 /// Notes the second vertices of the paths in `lanes`, and what the paths have gathered before them. From here on these
@@ -93,19 +98,8 @@ TYNDALL_INLINE void note_first(const Paths<F>& p, const Event<F>& e, MaskOf<F> l
 /// that no colour is lost that another path's first vertex may reflect.
 template <class F>
 TYNDALL_INLINE void note_second(Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, SharedPaths& shared) {
-  alignas(64) std::int32_t slot[lanes_of<F>], element[lanes_of<F>];
-  store(slot, p.slot), store(element, select(e.surface, e.at.element, IntOf<F>(-1)));
-  const Vec3<F> facing = select(e.medium, zero3<F>(), e.incident.facing);
-  const F values[] = {e.point.x, e.point.y,    e.point.z,    facing.x,     facing.y,
-                      facing.z,  p.radiance.x, p.radiance.y, p.radiance.z, select(e.medium, F(1.0f), F(0.0f))};
-  float* const to[] = {shared.second[0],        shared.second[1],        shared.second[2], shared.second_facing[0],
-                       shared.second_facing[1], shared.second_facing[2], shared.own[0],    shared.own[1],
-                       shared.own[2],           shared.second_even};
-  put<F>(to, values, slot, bits(lanes));
-  for (std::uint32_t left = bits(lanes); left; left &= left - 1) {
-    const int lane = __builtin_ctz(left);
-    shared.second_element[slot[lane]] = element[lane];
-  }
+  const IntOf<F> element = select(e.surface, e.at.element, IntOf<F>(-1));
+  note_vertices<F>(p, e, lanes, 1.0f, element, p.radiance, shared.second, shared.own);
   const F grey = max_component(p.throughput);
   p.throughput = select(lanes, Vec3<F>{grey, grey, grey}, p.throughput);
   p.radiance = select(lanes, zero3<F>(), p.radiance);

@@ -42,19 +42,17 @@ class SharedGroups {
 
   /// Finds out which samples are wanted of any pixel of the block.
   TYNDALL_INLINE void enter_block() {
-    first_ = index_ = unit_.first, last_ = unit_.last;
+    index_ = unit_.first, last_ = unit_.last;
     if (!unit_.first_of) return;
-    first_ = ~0u, last_ = 0;
+    index_ = ~0u, last_ = 0;
     for (int y = y_; y < y_ + block_height; ++y)
       for (int x = x_; x < x_ + block_width; ++x) {
         if (!in_tile(x, y)) continue;
         const int i = place(x, y);
         if (unit_.first_of[i] >= unit_.last_of[i]) continue;
-        if (unit_.first_of[i] < first_) first_ = unit_.first_of[i];
+        if (unit_.first_of[i] < index_) index_ = unit_.first_of[i];
         if (unit_.last_of[i] > last_) last_ = unit_.last_of[i];
       }
-    if (first_ > last_) first_ = last_ = 0;
-    index_ = first_;
   }
 
   TYNDALL_INLINE int place(int x, int y) const {
@@ -92,10 +90,10 @@ class SharedGroups {
   }
 
   const Unit& unit_;
-  int width_, height_;  ///< of the picture
-  int x_, y_;           ///< upper left corner of the block
-  int group_ = 0;       ///< within the block
-  std::uint32_t index_ = 0, first_ = 0, last_ = 0;
+  int width_, height_;                  ///< of the picture
+  int x_, y_;                           ///< upper left corner of the block
+  int group_ = 0;                       ///< within the block
+  std::uint32_t index_ = 0, last_ = 0;  ///< sample, and the end of those that are wanted in the block
 };
 
 /// The samples of the groups, in the order in which lanes take them.
@@ -167,12 +165,12 @@ TYNDALL_INLINE Vec3<F> load_vector(const float (&columns)[3][SharedPaths::room],
 template <class F>
 TYNDALL_INLINE F link_density(const auto& s, const SharedPaths& p, int from, int to, MaskOf<F> lanes,
                               UnitCounts& counts) {
-  const Vec3<F> start = load_vector<F>(p.first, from), way = load_vector<F>(p.second, to) - start;
+  const Vec3<F> start = load_vector<F>(p.first.point, from), way = load_vector<F>(p.second.point, to) - start;
   const F square = max(dot(way, way), F(1e-30f)), distance = sqrt(square);
-  const Ray<F> ray{start, (F(1.0f) / distance) * way, F(0.0f), load_int<F>(p.first_from + from)};
+  const Ray<F> ray{start, (F(1.0f) / distance) * way, F(0.0f), load_int<F>(p.first.surface + from)};
   // At each end a cosine on a surface; in a medium 1/4 at the start and 1 at the end.
-  F leaves = load<F>(p.first_even + from) + dot(load_vector<F>(p.first_facing, from), ray.direction);
-  F arrives = load<F>(p.second_even + to) - dot(load_vector<F>(p.second_facing, to), ray.direction);
+  F leaves = load<F>(p.first.even + from) + dot(load_vector<F>(p.first.facing, from), ray.direction);
+  F arrives = load<F>(p.second.even + to) - dot(load_vector<F>(p.second.facing, to), ray.direction);
   if (from == to) {  // the path came this way, even if a rounded cosine says otherwise
     leaves = max(leaves, F(1e-6f)), arrives = max(arrives, F(1e-6f));
   } else {
@@ -180,7 +178,7 @@ TYNDALL_INLINE F link_density(const auto& s, const SharedPaths& p, int from, int
     if (!any(lanes)) return F(0.0f);
     const auto asked = static_cast<std::uint32_t>(__builtin_popcount(bits(lanes)));
     counts.rays += asked, counts.shadow_rays += asked;
-    lanes = mask_and_not(lanes, blocked_towards(s, ray, distance, load_int<F>(p.second_element + to), -1, lanes));
+    lanes = mask_and_not(lanes, blocked_towards(s, ray, distance, load_int<F>(p.second.surface + to), -1, lanes));
   }
   F density = leaves * arrives / square;
   if (s.has_media()) density = density * pass_media(s, ray, distance, lanes);
@@ -193,7 +191,7 @@ TYNDALL_INLINE void share_second_vertices(const auto& s, SharedPaths& p, UnitCou
   constexpr int row = SharedPaths::most_groups;
   for (int group = 0; group < p.groups; group += lanes_of<F>)
     for (int to = group; to < SharedPaths::room; to += row) {
-      const auto there = less_equal(F(0.0f), load<F>(p.second_even + to));
+      const auto there = less_equal(F(0.0f), load<F>(p.second.even + to));
       if (!any(there)) continue;
       F density[group_size], total = F(0.0f);
       for (int k = 0; k < group_size; ++k) {

@@ -104,11 +104,13 @@ std::vector<float> samples_rgba(const Film& film) {
 std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
                               const std::atomic<bool>& give_up) {
   constexpr int edge = 4, samples = 4;
+  SceneView alone = scene;
+  alone.shares = false;  // what a pixel's own paths cost, not those of its groups
   std::vector<float> costs(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
   const auto find = [&](const Region& cell) {
     FilmPixel pixels[edge * edge] = {};
     UnitCounts counts;
-    kernels.render_unit(scene, {.tile = cell, .first = 0, .last = samples}, 1, pixels, counts);
+    kernels.render_unit(alone, {.tile = cell, .first = 0, .last = samples}, 1, pixels, counts);
     const float cost = static_cast<float>(counts.rays) / static_cast<float>(samples * cell.width() * cell.height());
     for (int y = cell.y0; y < cell.y1; ++y)
       for (int x = cell.x0; x < cell.x1; ++x) costs[offset(scene.width, x, y)] = cost;

@@ -67,7 +67,7 @@ Film Renderer::film() const { return state_->mail.ask_for_film().get(); }
 Renderer::Pick Renderer::pick(int x, int y) const {
   const std::shared_ptr<const RenderScene> scene = state_->mail.compiled();
   if (!scene || x < 0 || y < 0 || x >= scene->width || y >= scene->height) return {};
-  const SceneViewOf view(*scene);
+  const SceneViewOf view(*scene, ViewFor::first_hits);
   FirstHit hit;
   scalar_kernels().first_hits(view.view(), {x, y, x + 1, y + 1}, &hit);
   if (hit.element < 0) return {};
