@@ -1,5 +1,6 @@
 #pragma once
 #include "core/clean/blur.h"
+#include "core/film/groups.h"
 
 /// How wrong a filtered picture is, and how much another picture should be mixed in, told by the two halves A and B of
 /// the samples. A filter turns A into PA and B into PB, without looking at the other half. If I is the truth, P is
@@ -14,6 +15,14 @@ namespace tyndall::filter {
 inline constexpr int window_reach = 6;  ///< a choice is made from 13 x 13 pixels …
 inline constexpr int hole_reach = 1;  ///< … without the middle 3 x 3: with its own residuals, they would not tell the
                                       ///< error of what was chosen any more
+
+/// Whether pixels that are k columns (or rows) away from the middle may share its noise, if the rows (or columns) do so
+/// too. spacing: of pixels that share second vertices, see FilterView; 0: none do.
+template <int spacing>
+constexpr bool in_hole(int k) {
+  const int away = k < 0 ? -k : k, beyond = spacing > 0 ? away % spacing : away;
+  return beyond <= hole_reach || (spacing > 0 && beyond >= spacing - hole_reach);
+}
 
 template <class F>
 TYNDALL_INLINE void take_rival(const FilterView& v, Rival rival, int y, int x0, int count, ChunkOfHalves& to) {
@@ -112,30 +121,49 @@ TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   clear_behind(v.distance + y * v.stride, v.width);
 }
 
+/// How many pixels of the window around (x, y) decide: all in the picture but those in the hole; lane i is for x + i.
+template <int spacing, class F>
+TYNDALL_INLINE F deciding_pixels(const FilterView& v, int y, int x) {
+  const F last = splat<F>(static_cast<float>(v.width - 1)), at = places<F>(x);
+  const bool far_from_sides = x >= window_reach && x + lanes_of<F> + window_reach <= v.width;
+  F columns = F(0.0f), rows = F(0.0f);
+#pragma GCC unroll 13
+  for (int k = -window_reach; k <= window_reach; ++k) {
+    if (in_hole<spacing>(k)) continue;
+    const F there = at + splat<F>(static_cast<float>(k));
+    if (far_from_sides)
+      columns = columns + F(1.0f);
+    else
+      columns = columns + select(mask_or(less(there, F(0.0f)), less(last, there)), F(0.0f), F(1.0f));
+    if (y + k >= 0 && y + k < v.height) rows = rows + F(1.0f);
+  }
+  const F all_columns = covered(at, window_reach, v.width),
+          all_rows = covered(splat<F>(static_cast<float>(y)), window_reach, v.height);
+  return max(all_rows * columns + rows * (all_columns - columns), F(1.0f));
+}
+
 /// Sums over the columns of a window: of all its rows, and of those that the hole has no part of.
 struct WindowColumns {
   static constexpr int gain = 0, squares = 1, distance = 2, sums = 3;
   alignas(64) float all[sums][chunk + 64], outer[sums][chunk + 64];  // from x0 - row_margin on
 };
 
-/// Adds rows of gains, their squares and distances to sums.
+/// Adds a row of gains, their squares and distances to sums.
 template <class F>
-TYNDALL_INLINE void add_rows(const FilterView& v, int first, int last, std::ptrdiff_t x, F (&sum)[3]) {
-  for (int k = most(first, 0); k <= least(last, v.height - 1); ++k) {
-    const F gain = load<F>(v.gain + k * v.stride + x);
-    sum[0] = sum[0] + gain;
-    sum[1] = mul_add(gain, gain, sum[1]);
-    sum[2] = sum[2] + load<F>(v.distance + k * v.stride + x);
-  }
+TYNDALL_INLINE void add_row(const FilterView& v, std::ptrdiff_t at, F (&sum)[3]) {
+  const F gain = load<F>(v.gain + at);
+  sum[0] = sum[0] + gain;
+  sum[1] = mul_add(gain, gain, sum[1]);
+  sum[2] = sum[2] + load<F>(v.distance + at);
 }
 
-template <class F>
+template <int spacing, class F>
 TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, WindowColumns& columns) {
   for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
     F outer[3] = {F(0.0f), F(0.0f), F(0.0f)}, inner[3] = {F(0.0f), F(0.0f), F(0.0f)};
-    add_rows(v, y - window_reach, y - hole_reach - 1, x0 + x, outer);
-    add_rows(v, y + hole_reach + 1, y + window_reach, x0 + x, outer);
-    add_rows(v, y - hole_reach, y + hole_reach, x0 + x, inner);
+#pragma GCC unroll 13
+    for (int k = -window_reach; k <= window_reach; ++k)
+      if (y + k >= 0 && y + k < v.height) add_row(v, (y + k) * v.stride + x0 + x, in_hole<spacing>(k) ? inner : outer);
     fetch(v, v.gain, y + window_reach + 1, x0 + x);
     fetch(v, v.distance, y + window_reach + 1, x0 + x);
     for (int s = 0; s < 3; ++s) {
@@ -147,41 +175,39 @@ TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, W
 
 /// The sum over the window around x. It is added up anew for each x, because a running sum, from which a bright pixel
 /// is subtracted, would keep that pixel's rounding.
-template <class F>
+template <int spacing, class F>
 TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
   const float *all = columns.all[sum] + row_margin + x, *outer = columns.outer[sum] + row_margin + x;
   F total = F(0.0f);
-  for (int k = -window_reach; k <= window_reach; ++k)
-    total = total + load<F>((k < -hole_reach || k > hole_reach ? all : outer) + k);
+  for (int k = -window_reach; k <= window_reach; ++k) total = total + load<F>((in_hole<spacing>(k) ? outer : all) + k);
   return total;
 }
 
 /// The share of the rival with which the mixture has the least error, in [0, 1]. doubt: the gain counts only beyond so
 /// many of its standard errors; 0 for the raw picture, which is right on average in any scene.
-template <class F>
+template <int spacing, class F>
 TYNDALL_INLINE F share_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0, int x) {
-  const F pixels =
-      max(pixels_around<F>(v, y, x0 + x, window_reach) - pixels_around<F>(v, y, x0 + x, hole_reach), F(1.0f));
-  const F gain = window_sum<F>(columns, WindowColumns::gain, x) / pixels;
-  const F squares = window_sum<F>(columns, WindowColumns::squares, x) / pixels;
-  const F distance = window_sum<F>(columns, WindowColumns::distance, x) / pixels;
+  const F pixels = deciding_pixels<spacing, F>(v, y, x0 + x);
+  const F gain = window_sum<spacing, F>(columns, WindowColumns::gain, x) / pixels;
+  const F squares = window_sum<spacing, F>(columns, WindowColumns::squares, x) / pixels;
+  const F distance = window_sum<spacing, F>(columns, WindowColumns::distance, x) / pixels;
   const F error = sqrt(max(neg_mul_add(gain, gain, squares), F(0.0f)) / pixels);
   const F share = neg_mul_add(splat<F>(doubt), error, gain) / max(distance, F(1e-12f));
   return min(max(share, F(0.0f)), F(1.0f));
 }
 
-template <class F>
-TYNDALL_INLINE void mix_of(const FilterView& v, Rival rival, int y) {
+template <int spacing, class F>
+TYNDALL_INLINE void mix_spaced(const FilterView& v, Rival rival, int y) {
   const float doubt = rival == Rival::raw ? 0.0f : 0.5f;
   ChunkOfHalves q;
   WindowColumns columns;
   for (int x0 = 0; x0 < v.width; x0 += chunk) {
     const int count = least(chunk, v.width - x0);
     take_rival<F>(v, rival, y, x0, count, q);
-    sum_columns<F>(v, y, x0, count, columns);
+    sum_columns<spacing, F>(v, y, x0, count, columns);
     for (int x = 0; x < count; x += lanes_of<F>) {
       const std::ptrdiff_t at = y * v.stride + x0 + x;
-      const F share = share_of_rival<F>(v, columns, doubt, y, x0, x);
+      const F share = share_of_rival<spacing, F>(v, columns, doubt, y, x0, x);
       F level = F(0.0f);
       for (int output = 0; output < outputs; ++output) {
         const F p = load<F>(v.filtered[output] + at);
@@ -193,6 +219,11 @@ TYNDALL_INLINE void mix_of(const FilterView& v, Rival rival, int y) {
     }
   }
   clear_behind(v.level + y * v.stride, v.width);
+}
+
+template <class F>
+TYNDALL_INLINE void mix_of(const FilterView& v, Rival rival, int y) {
+  v.shared ? mix_spaced<group_spacing, F>(v, rival, y) : mix_spaced<0, F>(v, rival, y);
 }
 
 }  // namespace tyndall::filter

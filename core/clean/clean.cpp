@@ -126,6 +126,7 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   FilterView v;
   v.width = input.width, v.height = input.height, v.stride = work.stride();
   v.floor = 0.01f / input.scale / input.scale;
+  v.shared = input.shared;
   v.trust_in_dark = input.spp >= 16 ? 1.0f : 0.0f;
   for (int k = 0; k < outputs; ++k) {
     v.half[k] = input.halves.plane(k), v.filtered[k] = work.plane(k);

@@ -70,6 +70,7 @@ struct CleanInput {
   int width = 0, height = 0;
   float scale = 1;                      ///< a power of two: radiance is that times the numbers in the planes
   double spp = 0;                       ///< samples a pixel, on average
+  bool shared = false;                  ///< groups of pixels share second vertices, and so their noise: film/groups.h
   Planes halves;                        ///< 6: red, green, blue of A and B
   Planes emission;                      ///< likewise, or none
   std::vector<std::uint8_t> dark_rows;  ///< 1: the row's emission is 0; empty: not known of any

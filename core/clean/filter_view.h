@@ -42,6 +42,7 @@ struct FilterView {
   std::ptrdiff_t stride = 0;
   float floor = 0;                            ///< what is added to squared levels, in squared units of the planes
   float trust_in_dark = 0;                    ///< 1 with so many samples that a pixel is hardly dark by chance, else 0
+  bool shared = false;                        ///< groups of pixels share their noise: see film/groups.h
   const float* half[outputs];                 ///< A and B: red, green, blue
   const float* emission[2 * emission_terms];  ///< likewise; null: not recorded
   const std::uint8_t* dark_rows;              ///< 1 where a row's emission is 0; null: not known

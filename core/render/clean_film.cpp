@@ -13,6 +13,7 @@ FilmCleaner::FilmCleaner(const Kernels& kernels) : cleaner_(find_target(kernels.
 bool FilmCleaner::run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up,
                       CleanPicture& out) {
   if (!read_film(film, engine.crew, give_up, input_)) return false;
+  input_.shared = engine.scene.shares;
   const bool seen = seen_.parts > 0 && seen_.region == film.region && seen_.parts == parts_of_pixels(seen_, input_.spp);
   if (!seen) {
     change_scene();
