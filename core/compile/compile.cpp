@@ -82,7 +82,13 @@ struct SlotFiller {
     out.quads.element.push_back(element);
   }
   void operator()(const Box<>& b) const {
-    out.boxes.map.push_back(box_map(b, placement, out.origin));
+    const Affine& map = out.boxes.map.emplace_back(box_map(b, placement, out.origin));
+    for (int row = 0; row < 3; ++row) {
+      const auto first = static_cast<std::size_t>(3 * row);
+      const Vec3f r = map.row[row];
+      out.boxes.column[first].push_back(r.x), out.boxes.column[first + 1].push_back(r.y);
+      out.boxes.column[first + 2].push_back(r.z), out.boxes.column[9 + row].push_back(map.offset[row]);
+    }
     out.boxes.element.push_back(element);
   }
 };
@@ -236,7 +242,7 @@ const char* name_of(KernelSet set) {
 std::size_t bytes_of(const RenderScene& s) {
   const std::size_t sphere = 5 * sizeof(float), element = 6 * sizeof(float) + sizeof(std::vector<int>) + sizeof(int);
   std::size_t bytes = sizeof s + sphere * s.spheres.x.size() + (sphere + 12) * s.moving_spheres.x.size();
-  bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + s.boxes.map.size());
+  bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + 2 * s.boxes.map.size());
   bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();
   if (s.bvh)
     bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +

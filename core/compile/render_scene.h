@@ -59,6 +59,8 @@ struct Spheres {
 struct Flats {
   std::vector<Affine> map;
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
+  /// Boxes only: the numbers of `map` once more, in columns: x, y, z of the rows, then the offsets.
+  std::vector<float> column[affine_numbers];
   int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (hull.h)
 };
 

@@ -2,7 +2,7 @@
 #include "core/kernel/primitives.h"
 
 /// Takes a single ray through a part of the tree that few other lanes enter. All lanes then work for this one ray: each
-/// tests another box of a node, or another sphere of a leaf. The arithmetic is the same, and so are the hits.
+/// tests another box of a node, or another sphere or box of a leaf. The arithmetic is the same, and so are the hits.
 namespace tyndall {
 
 /// A ray in the form that the slab test needs: it reaches the plane at coordinate e of an axis at the distance
@@ -97,8 +97,8 @@ struct LoneRay {
     return false;
   }
 
-  /// Each lane has tested another sphere: takes the closest hit of those that beat `best`, of equal ones the one with
-  /// the lower element. valid: bit i is set if lane i held a sphere.
+  /// Each lane has tested another primitive: takes the closest hit of those that beat `best`, of equal ones the one
+  /// with the lower element. valid: bit i is set if lane i held a primitive.
   TYNDALL_INLINE void take_best(const Hit<R>& each, std::uint32_t valid) {
     const std::uint32_t better = valid & ~bits(equal(each.element, best.element));
     if (!better) return;
@@ -130,6 +130,22 @@ struct LoneRay {
     }
   }
 
+  TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last) {
+    using I = IntOf<R>;
+    for (int i = first; i < last; i += lanes_of<R>) {
+      const int count = last - i < lanes_of<R> ? last - i : lanes_of<R>;
+      const auto column = [&](int k) __attribute__((always_inline)) { return load_some<R>(b.column[k] + i, count); };
+      AffineLanes<R> map;
+      for (int k = 0; k < 3; ++k)
+        map.row[k] = {column(3 * k), column(3 * k + 1), column(3 * k + 2)}, map.offset[k] = column(9 + k);
+      const I element = load_some_int<R>(b.element + i, count), side = ray.from - I(4) * element;
+      const auto here = mask_and(less(I(-1), side), less(side, I(24)));
+      Hit<R> each = best;
+      test_box(map, element, Start<R>{here, mask_and(here, equal(ray.from & I(3), I(0)))}, ray, asked, each);
+      take_best(each, (1u << count) - 1u);
+    }
+  }
+
   TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf) {
     asked.near = splat<R>(near);
     const int last = leaf.first + leaf.count;
@@ -137,8 +153,10 @@ struct LoneRay {
       test_spheres<false>(s.spheres, leaf.first, last);
     else if (leaf.kind == PrimitiveKind::moving_sphere)
       test_spheres<true>(s.moving_spheres, leaf.first, last);
+    else if (leaf.kind == PrimitiveKind::box)
+      test_boxes(s.boxes, leaf.first, last);
     else
-      tyndall::test_leaf(s, leaf, ray, asked, best);
+      test_quads(s.quads, leaf.first, last, ray, asked, best);
   }
 
   TYNDALL_INLINE void run(const SceneView& s) {

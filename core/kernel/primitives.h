@@ -91,28 +91,32 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
   }
 }
 
+/// map: as for box_slabs(). element: of the box's first face.
+template <class F, class Q>
+TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, const Ray<F>& ray, const Q& asked,
+                             Hit<F>& best) {
+  const BoxSlabs<F> slabs = box_slabs(map, ray.origin, ray.direction);
+  Interval<F> line = slabs.inside;
+  if (any(start.here)) line = leave_box(line, start);
+  if (!any(line.hit)) return;
+  const auto entering = less(F(0.0f), line.near);
+  const F t = select(entering, line.near, line.far);
+  if constexpr (Q::shadow) {
+    const IntOf<F> face = asked.aim - element;  // one of its own faces?
+    const auto aimed = mask_and(less(IntOf<F>(-1), face), less(face, IntOf<F>(6)));
+    if (any(aimed)) line.hit = mask_and_not(line.hit, mask_and(aimed, equal(face, box_face(slabs, entering))));
+  }
+  const auto better = beats(t, element, line.hit, best, asked);
+  if (!any(better)) return;
+  best.t = select(better, t, best.t);
+  best.element = select(better, element + box_face(slabs, entering), best.element);
+}
+
 template <class F, class Q>
 TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Q& asked,
                                Hit<F>& best) {
-  for (int i = first; i < last; ++i) {
-    const std::int32_t element = b.element[i];
-    const BoxSlabs<F> slabs = box_slabs(b.map[i], ray.origin, ray.direction);
-    const Start<F> start = start_on<F>(ray.from, element, 6);
-    Interval<F> line = slabs.inside;
-    if (any(start.here)) line = leave_box(line, start);
-    if (!any(line.hit)) continue;
-    const auto entering = less(F(0.0f), line.near);
-    const F t = select(entering, line.near, line.far);
-    if constexpr (Q::shadow) {
-      const IntOf<F> face = asked.aim - IntOf<F>(element);  // one of its own faces?
-      const auto aimed = mask_and(less(IntOf<F>(-1), face), less(face, IntOf<F>(6)));
-      if (any(aimed)) line.hit = mask_and_not(line.hit, mask_and(aimed, equal(face, box_face(slabs, entering))));
-    }
-    const auto better = beats(t, IntOf<F>(element), line.hit, best, asked);
-    if (!any(better)) continue;
-    best.t = select(better, t, best.t);
-    best.element = select(better, IntOf<F>(element) + box_face(slabs, entering), best.element);
-  }
+  for (int i = first; i < last; ++i)
+    test_box(b.map[i], splat_int<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, asked, best);
 }
 
 template <class F, class Q>

@@ -21,7 +21,9 @@ SphereView view_of(const Spheres& s) {
 
 FlatView view_of(const Flats& f) {
   const int count = static_cast<int>(f.map.size());
-  return {count, count - f.bounding, f.map.data(), f.element.data()};
+  FlatView v{count, count - f.bounding, f.map.data(), f.element.data(), {}};
+  for (int k = 0; k < affine_numbers; ++k) v.column[k] = f.column[k].data();
+  return v;
 }
 
 TextureView view_of(const TextureColumns& t) {

@@ -19,6 +19,7 @@ struct FlatView {
   int hiding = 0;  ///< so many from the first on can be in the way of shadow rays; the others bound the scene
   const Affine* map;
   const std::int32_t* element;
+  const float* column[affine_numbers];  ///< boxes only: see Flats
 };
 struct TextureView {
   std::int32_t kind;

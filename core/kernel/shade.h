@@ -100,12 +100,13 @@ TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F
   return colour_at(static_cast<const std::variant_alternative_t<first, Kinds>*>(nullptr), t, at);
 }
 
-/// Colour of a texture at a point. surface: gives the uv coordinates for image textures; null in a medium.
+/// Colour of a texture at a point, in the lanes that want it. surface: gives the uv coordinates for image textures;
+/// null in a medium.
 template <class F>
-TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point,
+TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
                                       const SurfacePoint<F>* surface) {
-  return colour_of_kind<0, F>(t,
-                              {point, along(splat<F>(t.offset), splat<F>(t.scale), point), s.gradients, {&s, surface}});
+  const Vec3<F> scaled = along(splat<F>(t.offset), splat<F>(t.scale), point);
+  return colour_of_kind<0, F>(t, {point, scaled, wanted, s.gradients, {&s, surface}});
 }
 
 /// `colour`, or the texture's colour in lanes whose `index` is not -1.
@@ -114,7 +115,7 @@ TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, M
                                 const SurfacePoint<F>* surface) {
   for (int k = 0; k < s.texture_count; ++k) {
     const auto here = mask_and(lanes, equal(index, IntOf<F>(k)));
-    if (any(here)) colour = select(here, texture_colour(s, s.textures[k], point, surface), colour);
+    if (any(here)) colour = select(here, texture_colour(s, s.textures[k], point, here, surface), colour);
   }
   return colour;
 }

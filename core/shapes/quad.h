@@ -29,6 +29,7 @@ struct Affine {
   Vec3f row[3];
   float offset[3] = {0, 0, 0};
 };
+inline constexpr int affine_numbers = 12;
 
 template <class F>
 TYNDALL_INLINE F affine_point(const Affine& a, int row, Vec3<F> p) {
@@ -39,6 +40,23 @@ template <class F>
 TYNDALL_INLINE F affine_direction(const Affine& a, int row, Vec3<F> d) {
   const Vec3f r = a.row[row];
   return mul_add(splat<F>(r.x), d.x, mul_add(splat<F>(r.y), d.y, splat<F>(r.z) * d.z));
+}
+
+/// Three affine functions for each lane.
+template <class F>
+struct AffineLanes {
+  Vec3<F> row[3];
+  F offset[3];
+};
+template <class F>
+TYNDALL_INLINE F affine_point(const AffineLanes<F>& a, int row, Vec3<F> p) {
+  const Vec3<F> r = a.row[row];
+  return mul_add(r.x, p.x, mul_add(r.y, p.y, mul_add(r.z, p.z, a.offset[row])));
+}
+template <class F>
+TYNDALL_INLINE F affine_direction(const AffineLanes<F>& a, int row, Vec3<F> d) {
+  const Vec3<F> r = a.row[row];
+  return mul_add(r.x, d.x, mul_add(r.y, d.y, r.z * d.z));
 }
 
 template <class F>

@@ -74,22 +74,58 @@ TYNDALL_INLINE F gradient_noise(Vec3<F> p, const float* gradients) {
   return sum;
 }
 
-/// |Σ noise(2^i p) / 2^i| over seven octaves. The Next Week, section 5.6 "Introducing Turbulence".
+inline constexpr int octaves = 7;
+
+/// The octaves of turbulence for few lanes: each of these lanes' points takes as many lanes as there are octaves, so
+/// that all lanes work. wanted: a bit for each lane; the numbers of the others mean nothing. noise: octave by octave.
 template <class F>
-TYNDALL_INLINE F turbulence(Vec3<F> p, const float* gradients) {
+TYNDALL_INLINE void find_few_octaves(Vec3<F> p, std::uint32_t wanted, const float* gradients,
+                                     float (&noise)[octaves][lanes_of<F>]) {
+  constexpr int lanes = lanes_of<F>, row = 8, points = lanes / row;
+  alignas(64) float from[3][lanes], x[lanes], y[lanes], z[lanes], made[lanes], frequency[lanes];
+  store(from[0], p.x), store(from[1], p.y), store(from[2], p.z);
+  for (int i = 0; i < lanes; ++i) frequency[i] = static_cast<float>(1 << i % row);
+  while (wanted) {
+    int lane[points], count = 0;
+    for (; wanted && count < points; wanted &= wanted - 1) lane[count++] = __builtin_ctz(wanted);
+    for (int i = 0; i < lanes; ++i) {
+      const int point = lane[i / row < count ? i / row : 0];
+      x[i] = from[0][point], y[i] = from[1][point], z[i] = from[2][point];
+    }
+    const Vec3<F> finer = load<F>(frequency) * Vec3<F>{load<F>(x), load<F>(y), load<F>(z)};
+    store(made, gradient_noise(finer, gradients));
+    for (int i = 0; i < count; ++i)
+      for (int octave = 0; octave < octaves; ++octave) noise[octave][lane[i]] = made[row * i + octave];
+  }
+}
+
+/// |Σ noise(2^i p) / 2^i| over seven octaves. The Next Week, section 5.6 "Introducing Turbulence". lanes: those whose
+/// turbulence is wanted. It is the same for any company.
+template <class F>
+TYNDALL_INLINE F turbulence(Vec3<F> p, MaskOf<F> lanes, const float* gradients) {
   F sum = F(0.0f);
   float weight = 1.0f, frequency = 1.0f;
-  for (int octave = 0; octave < 7; ++octave, weight *= 0.5f, frequency *= 2.0f)
+  if constexpr (lanes_of<F> >= 8) {
+    const std::uint32_t wanted = bits(lanes);
+    if (__builtin_popcount(wanted) <= lanes_of<F> / 8 * (octaves - 2)) {
+      alignas(64) float noise[octaves][lanes_of<F>] = {};
+      find_few_octaves(p, wanted, gradients, noise);
+      for (int octave = 0; octave < octaves; ++octave, weight *= 0.5f)
+        sum = mul_add(F(weight), load<F>(noise[octave]), sum);
+      return abs(sum);
+    }
+  }
+  for (int octave = 0; octave < octaves; ++octave, weight *= 0.5f, frequency *= 2.0f)
     sum = mul_add(F(weight), gradient_noise(F(frequency) * p, gradients), sum);
   return abs(sum);
 }
 
 /// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_turn: scale · z
-/// / 2π.
+/// / 2π. lanes: those whose value is wanted.
 template <class F>
-TYNDALL_INLINE F noise_grey(NoiseStyle style, Vec3<F> p, F z_turn, const float* gradients) {
+TYNDALL_INLINE F noise_grey(NoiseStyle style, Vec3<F> p, F z_turn, MaskOf<F> lanes, const float* gradients) {
   if (style == NoiseStyle::perlin) return F(0.5f) * (F(1.0f) + gradient_noise(p, gradients));
-  const F t = turbulence(p, gradients);
+  const F t = turbulence(p, lanes, gradients);
   if (style == NoiseStyle::turbulence) return t;
   const F turn = mul_add(t, F(static_cast<float>(10 / (2 * pi))), z_turn);
   const F wave = sin_cos_turn(turn - floor(turn)).sin;  // can pass 1 by a rounding
@@ -99,7 +135,7 @@ TYNDALL_INLINE F noise_grey(NoiseStyle style, Vec3<F> p, F z_turn, const float* 
 template <class F, class Uv>
 TYNDALL_INLINE Vec3<F> colour_at(const Noise<F>*, const auto& columns, const TexturePoint<F, Uv>& at) {
   const F turn = mul_add(splat<F>(columns.z_scale), at.point.z, splat<F>(columns.z_offset));
-  const F grey = noise_grey(columns.style, at.scaled, turn, at.gradients);
+  const F grey = noise_grey(columns.style, at.scaled, turn, at.wanted, at.gradients);
   return {grey, grey, grey};
 }
 

@@ -10,6 +10,7 @@ template <class F, class Uv>
 struct TexturePoint {
   Vec3<F> point;           ///< in the compiled scene's coordinates
   Vec3<F> scaled;          ///< columns.scale · point + columns.offset
+  MaskOf<F> wanted;        ///< which lanes want the colour
   const float* gradients;  ///< 3·256 floats for noise; null in scenes without it
   Uv uv;
 };

@@ -70,7 +70,7 @@ double reference(const TextureKinds<double>& kind, Vec3d p, const float* gradien
   const auto& noise = std::get<Noise<>>(kind);
   const double k = noise.style == Noise<>::Style::marble ? 1 : noise.scale;
   if (noise.style == Noise<>::Style::perlin) return 0.5 * (1 + gradient_noise(k * p, gradients));
-  const double t = turbulence(k * p, gradients);
+  const double t = turbulence(k * p, true, gradients);
   return noise.style == Noise<>::Style::turbulence ? t : 0.5 * (1 + std::sin(noise.scale * p.z + 10 * t));
 }
 
