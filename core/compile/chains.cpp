@@ -249,7 +249,7 @@ Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene&
     }
     filler.add_pair(pairs[i]);
   }
-  build_alias_table(filler.out.choice);
+  build_light_tree(filler.out.choice);
   return std::move(filler.out);
 }
 

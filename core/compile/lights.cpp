@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -73,31 +75,127 @@ double brightness_of(const Material& m) {
   return colour ? std::max({colour->x, colour->y, colour->z}) : 1.0;
 }
 
+/// Builds a LightTree from the top.
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const Lights& lights) : lights_(lights) {
+    for (int k = 0; k < lights.count(); ++k) order_.push_back(k);
+    tree_.leaf.resize(order_.size());
+  }
+
+  LightTree build() {
+    add_pair(-1);
+    std::vector<Range> ranges{{0, 0, order_.size(), 0}};
+    while (!ranges.empty()) {
+      const Range range = ranges.back();
+      ranges.pop_back();
+      fill(range);
+      if (range.end - range.begin == 1) continue;
+      const std::size_t middle = split(range);
+      const std::size_t first = add_pair(static_cast<std::int32_t>(range.node));
+      tree_.child[range.node] = static_cast<std::int32_t>(first);
+      ranges.push_back({first + 1, middle, range.end, range.depth + 1});
+      ranges.push_back({first, range.begin, middle, range.depth + 1});
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  /// The node whose lights are order_[begin] ... order_[end - 1].
+  struct Range {
+    std::size_t node, begin, end;
+    int depth;
+  };
+  /// A box around balls, and their power.
+  struct Sum {
+    Vec3d low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    double power = 0;
+    void add(Vec3d center, double reach, double more) {
+      low = {std::min(low.x, center.x - reach), std::min(low.y, center.y - reach), std::min(low.z, center.z - reach)};
+      high = {std::max(high.x, center.x + reach), std::max(high.y, center.y + reach),
+              std::max(high.z, center.z + reach)};
+      power += more;
+    }
+    double cost() const { return power * dot(high - low, high - low); }
+  };
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr int deepest_by_cost = 48;  // below, ranges are halved, so that no tree is deeper than 80
+
+  Vec3d center(std::int32_t light) const {
+    const auto k = static_cast<std::size_t>(light);
+    return {lights_.center[0][k], lights_.center[1][k], lights_.center[2][k]};
+  }
+  void add(std::int32_t light, Sum& sum) const {
+    const auto k = static_cast<std::size_t>(light);
+    sum.add(center(light), std::sqrt(static_cast<double>(lights_.reach2[k])), static_cast<double>(lights_.power[k]));
+  }
+
+  std::size_t add_pair(std::int32_t parent) {
+    const std::size_t first = tree_.power.size();
+    for (std::vector<float>* column :
+         {&tree_.center[0], &tree_.center[1], &tree_.center[2], &tree_.power, &tree_.reach2})
+      column->resize(first + 2);
+    tree_.child.resize(first + 2, -1), tree_.parent.resize(first + 2, parent);
+    return first;
+  }
+
+  void fill(const Range& range) {
+    const auto put = [&](Vec3d middle, double power, double reach2) {
+      tree_.center[0][range.node] = static_cast<float>(middle.x);
+      tree_.center[1][range.node] = static_cast<float>(middle.y);
+      tree_.center[2][range.node] = static_cast<float>(middle.z);
+      tree_.power[range.node] = static_cast<float>(power), tree_.reach2[range.node] = static_cast<float>(reach2);
+    };
+    if (range.end - range.begin == 1) {
+      const std::int32_t light = order_[range.begin];
+      const auto k = static_cast<std::size_t>(light);
+      tree_.child[range.node] = -1 - light, tree_.leaf[k] = static_cast<std::int32_t>(range.node);
+      return put(center(light), static_cast<double>(lights_.power[k]), static_cast<double>(lights_.reach2[k]));
+    }
+    Sum all;
+    for (std::size_t i = range.begin; i < range.end; ++i) add(order_[i], all);
+    const Vec3d half = 0.5 * (all.high - all.low);
+    put(all.low + half, all.power, dot(half, half));
+  }
+
+  /// Orders a range along its longest axis and returns where its second part begins.
+  std::size_t split(const Range& range) {
+    const auto first = order_.begin() + static_cast<std::ptrdiff_t>(range.begin),
+               last = order_.begin() + static_cast<std::ptrdiff_t>(range.end);
+    Sum centers;
+    for (auto i = first; i < last; ++i) centers.add(center(*i), 0, 0);
+    const Vec3d extent = centers.high - centers.low;
+    const auto along_axis = [&](std::int32_t light) {
+      const Vec3d c = center(light);
+      return extent.x >= extent.y && extent.x >= extent.z ? c.x : extent.y >= extent.z ? c.y : c.z;
+    };
+    std::sort(first, last, [&](std::int32_t a, std::int32_t b) {
+      return along_axis(a) < along_axis(b) || (along_axis(a) == along_axis(b) && a < b);
+    });
+    const std::size_t count = range.end - range.begin;
+    if (range.depth >= deepest_by_cost) return range.begin + count / 2;
+    std::vector<double> right(count);
+    Sum sum;
+    for (std::size_t i = count - 1; i > 0; --i) add(first[static_cast<std::ptrdiff_t>(i)], sum), right[i] = sum.cost();
+    Sum left;
+    std::size_t best = count / 2;
+    double least = infinity;
+    for (std::size_t i = 1; i < count; ++i) {
+      add(first[static_cast<std::ptrdiff_t>(i) - 1], left);
+      if (left.cost() + right[i] < least) least = left.cost() + right[i], best = i;
+    }
+    return range.begin + best;
+  }
+
+  const Lights& lights_;
+  std::vector<std::int32_t> order_;
+  LightTree tree_;
+};
+
 }  // namespace
 
-void build_alias_table(Lights& out) {
-  const std::size_t n = out.power.size();
-  double sum = 0;
-  for (const float p : out.power) sum += static_cast<double>(p);
-  std::vector<double> scaled(n);
-  std::vector<std::size_t> small, large;
-  out.probability.resize(n), out.keep.assign(n, 1), out.alias.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    out.probability[i] = static_cast<float>(static_cast<double>(out.power[i]) / sum);
-    out.alias[i] = static_cast<std::int32_t>(i);
-    scaled[i] = static_cast<double>(out.power[i]) / sum * static_cast<double>(n);
-    (scaled[i] < 1 ? small : large).push_back(i);
-  }
-  while (!small.empty() && !large.empty()) {
-    const std::size_t s = small.back(), l = large.back();
-    small.pop_back();
-    out.keep[s] = static_cast<float>(scaled[s]);
-    out.alias[s] = static_cast<std::int32_t>(l);
-    scaled[l] -= 1 - scaled[s];
-    if (scaled[l] >= 1) continue;
-    large.pop_back();
-    small.push_back(l);
-  }
+void build_light_tree(Lights& lights) {
+  if (lights.count() > most_lights_by_contribution) lights.tree = TreeBuilder(lights).build();
 }
 
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
@@ -112,7 +210,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
   elements.light.assign(elements.material.size(), -1);
   for (int k = 0; k < out.count(); ++k)
     elements.light[static_cast<std::size_t>(out.element[static_cast<std::size_t>(k)])] = k;
-  build_alias_table(out);
+  build_light_tree(out);
   return out;
 }
 

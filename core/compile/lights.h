@@ -10,8 +10,9 @@ namespace tyndall {
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
                       Vec3d origin, Elements& elements);
 
-/// Fills probability, keep and alias from power. M. Vose, A Linear Algorithm for Generating Random Numbers with a Given
-/// Distribution, 1991.
-void build_alias_table(Lights& lights);
+/// Fills `tree` from center, power and reach2 if there are more than most_lights_by_contribution. Ranges are split
+/// where the sum of both sides' power times squared extent is least. After A. Conty Estevez, C. Kulla, Importance
+/// Sampling of Many Lights with Adaptive Tree Splitting, PACMCGIT 1(2), 2018; lights here shine to all sides.
+void build_light_tree(Lights& lights);
 
 }  // namespace tyndall

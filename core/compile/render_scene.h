@@ -110,6 +110,16 @@ struct MediumColumns {
   std::int32_t texture = -1;
 };
 
+/// A binary tree of lights, by which one of many is chosen. Columns by node. Node 0 is the root, node 1 is not used,
+/// and the children of a node are neighbours: 2 k and 2 k + 1.
+struct LightTree {
+  std::vector<float> center[3];      ///< of a ball that holds the node's lights
+  std::vector<float> power, reach2;  ///< sum of the lights' powers; squared radius of the ball
+  std::vector<std::int32_t> child;   ///< >= 0: the first child; < 0: leaf of light -1 - child
+  std::vector<std::int32_t> parent;
+  std::vector<std::int32_t> leaf;  ///< by light: its node
+};
+
 /// Emitting primitives: spheres, quads, faces of boxes. Columns by light.
 struct Lights {
   enum Kind : std::int32_t { rectangle, parallelogram, sphere };  ///< rectangle: edges at right angles
@@ -121,9 +131,7 @@ struct Lights {
   std::vector<float> center[3];  ///< a point in the middle, for choosing a light
   std::vector<float> power;      ///< area times the largest component of the radiance
   std::vector<float> reach2;     ///< squared radius of a ball around center that holds the light
-  /// Choice by power alone, for many lights: Vose's alias table.
-  std::vector<float> probability, keep;
-  std::vector<std::int32_t> alias;
+  LightTree tree;                ///< empty with at most most_lights_by_contribution
   int count() const { return static_cast<int>(kind.size()); }
 };
 inline constexpr int most_lights_by_contribution = 16;

@@ -43,13 +43,20 @@ TextureView view_of(const TextureColumns& t) {
 LightView view_of(const Lights& l) {
   LightView v{};
   v.count = l.count();
-  v.kind = l.kind.data(), v.element = l.element.data(), v.alias = l.alias.data();
+  v.kind = l.kind.data(), v.element = l.element.data();
   for (int i = 0; i < 3; ++i) {
     v.corner[i] = l.corner[i].data(), v.edge_u[i] = l.edge_u[i].data(), v.edge_v[i] = l.edge_v[i].data();
     v.normal[i] = l.normal[i].data(), v.center[i] = l.center[i].data();
   }
   v.length_u = l.length_u.data(), v.length_v = l.length_v.data(), v.area = l.area.data(), v.power = l.power.data();
-  v.reach2 = l.reach2.data(), v.probability = l.probability.data(), v.keep = l.keep.data();
+  v.reach2 = l.reach2.data();
+  const LightTree& tree = l.tree;
+  v.tree = {{tree.center[0].data(), tree.center[1].data(), tree.center[2].data()},
+            tree.power.data(),
+            tree.reach2.data(),
+            tree.child.data(),
+            tree.parent.data(),
+            tree.leaf.data()};
   return v;
 }
 

@@ -30,11 +30,16 @@ struct TextureView {
   const float* texels;
 };
 
+struct LightTreeView {
+  const float *center[3], *power, *reach2;
+  const std::int32_t *child, *parent, *leaf;
+};
 struct LightView {
   int count = 0;
-  const std::int32_t *kind, *element, *alias;
+  const std::int32_t *kind, *element;
   const float *corner[3], *edge_u[3], *edge_v[3], *normal[3], *center[3];
-  const float *length_u, *length_v, *area, *power, *reach2, *probability, *keep;
+  const float *length_u, *length_v, *area, *power, *reach2;
+  LightTreeView tree;
 };
 
 struct ChainView {

@@ -86,6 +86,8 @@ std::vector<NamedScene> scenes() {
   list.push_back({"showroom", built_in("showroom", 320, 180)});
   list.push_back({"stress-white-room", built_in("stress-white-room", 200, 150)});
   list.push_back({"46-spheres", forty_six_spheres()});
+  for (const int lamps : {10, 100, 1000, 10000})
+    list.push_back({"lamps-" + std::to_string(lamps), floor_beneath_lamps(lamps)});
   return list;
 }
 

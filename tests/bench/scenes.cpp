@@ -103,4 +103,30 @@ Scene field_of_spheres(int count) {
   return scene;
 }
 
+Scene floor_beneath_lamps(int count) {
+  Scene scene;
+  scene.width = 160, scene.height = 90;
+  scene.camera = {.look_from = {0, 1.1, 9}, .look_at = {0, 0, 7}, .vfov = 50};
+  scene.background = Vec3d{0, 0, 0};
+  scene.render.max_depth = 3;
+  scene.materials = {Material{"floor", Vec3d{0.6, 0.6, 0.6}, Lambertian<>{}}};
+  for (int k = 0; k < 4; ++k)
+    scene.materials.push_back(Material{"", std::ldexp(1.0, k) * Vec3d{30, 25, 20}, Light<>{}});
+  Object floor;
+  floor.kind = Solid3d{Quad<>{{-10, 0, -10}, {20, 0, 0}, {0, 0, 20}}, 0};
+  scene.objects = {floor};
+  std::mt19937 random(7);
+  const auto place = [&](double height) {
+    const double x = 18 * uniform(random) - 9, z = 18 * uniform(random) - 9;
+    return Vec3d{x, height, z};
+  };
+  for (int i = 0; i < 12; ++i) scene.objects.push_back(sphere(place(0.5), 0.5));
+  for (int i = 0; i < count; ++i) {
+    const double height = 1.2 + 1.5 * uniform(random), size = 0.5 + uniform(random);
+    scene.objects.push_back(sphere(place(height), 0.3 * size / std::sqrt(count)));
+    std::get<Solid3d>(scene.objects.back().kind).material = 1 + i % 4;
+  }
+  return scene;
+}
+
 }  // namespace tyndall::bench

@@ -27,4 +27,8 @@ Scene forty_six_spheres();
 /// ones strewn around them, all apart, under the sky. A pure function of the count.
 Scene field_of_spheres(int count);
 
+/// A floor and twelve balls beneath `count` lamps as small as fireflies, which the camera does not see; they give about
+/// as much light for any count. 160x90.
+Scene floor_beneath_lamps(int count);
+
 }  // namespace tyndall::bench
