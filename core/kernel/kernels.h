@@ -24,6 +24,7 @@ struct Unit {
 struct UnitCounts {
   std::uint64_t rays = 0;         ///< all rays that were traced
   std::uint64_t shadow_rays = 0;  ///< those of them that only asked whether something is in the way
+  std::uint64_t steps = 0;        ///< how often all lanes together were taken a step further
   ExactSum cut_throughput;        ///< sum over paths that max_depth cut off: their throughput's brightest channel
 };
 

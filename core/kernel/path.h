@@ -266,7 +266,7 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm&
     take_samples(p, queue, samples, s);
     sampling = p.alive != 0;
     if (sampling) {
-      counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
+      counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++counts.steps;
       MaskOf<F> cut;
       std::uint32_t shadow_rays = 0;
       const std::uint32_t survivors =

@@ -223,7 +223,7 @@ TYNDALL_INLINE void trace_groups(const auto& s, SharedPaths& shared, const UnitF
   for (;;) {
     take_samples(p, queue, samples, s);
     if (!p.alive) return;
-    film.counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive));
+    film.counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++film.counts.steps;
     MaskOf<F> cut;
     std::uint32_t shadow_rays = 0;
     const std::uint32_t survivors =

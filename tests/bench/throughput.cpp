@@ -49,6 +49,21 @@ Job make_job(Scene scene, Method method, const Kernels& kernels, double seconds)
   return job;
 }
 
+/// Share of the lanes that follow a path, on average over the steps that lanes take together.
+double lanes_alive(const Job& job) {
+  constexpr int edge = 16;
+  const SceneViewOf view(job.scene);
+  UnitCounts counts;
+  std::vector<FilmPixel> pixels;
+  for (int y = 0; y < job.scene.height; y += edge)
+    for (int x = 0; x < job.scene.width; x += edge) {
+      const Region tile{x, y, std::min(x + edge, job.scene.width), std::min(y + edge, job.scene.height)};
+      pixels.assign(static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height()), {});
+      job.kernels.render_unit(view.view(), {.tile = tile, .first = 0, .last = 8}, 1, pixels.data(), counts);
+    }
+  return static_cast<double>(counts.rays - counts.shadow_rays) / static_cast<double>(counts.steps) / job.kernels.lanes;
+}
+
 Json row_of(const std::string& name, const Job& job) {
   const double seconds = median(job.seconds), rays = static_cast<double>(job.rays);
   Json row;
@@ -61,6 +76,7 @@ Json row_of(const std::string& name, const Job& job) {
   row["msamples_per_s"] = job.samples() / seconds * 1e-6;
   row["mrays_per_s"] = rays / seconds * 1e-6;
   row["rays_per_sample"] = rays / job.samples();
+  row["lanes_alive"] = lanes_alive(job);
   row["seconds"] = job.seconds;
   return row;
 }
@@ -78,7 +94,8 @@ Json measure_throughput(const Settings& settings) {
                {"lanes", "lanes", 0},
                {"msamples_per_s", "Msamples/s", 2},
                {"mrays_per_s", "Mrays/s", 1},
-               {"rays_per_sample", "rays/sample", 2}});
+               {"rays_per_sample", "rays/sample", 2},
+               {"lanes_alive", "lanes alive", 2}});
   std::vector<NamedScene> scenes = book_scenes();
   scenes.push_back({"46-spheres", forty_six_spheres()});
   for (const NamedScene& named : scenes) {
