@@ -7,6 +7,7 @@
 #include <chrono>
 #include <mutex>
 #include <set>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -22,6 +23,16 @@ TEST_CASE("crew: every index is called exactly once, in every round") {
       CHECK(std::all_of(calls.begin(), calls.end() - 1, [](const auto& n) { return n == 1; }));
       CHECK(calls.back() == 0);
     }
+  }
+}
+
+TEST_CASE("crew: threads that all reach for the next index at once get different ones") {
+  Crew crew(4);
+  constexpr int count = 200'000;
+  for (int round = 0; round < 30; ++round) {
+    std::atomic<int> calls = 0;
+    crew.for_each(count, [&](int) { calls.fetch_add(1, std::memory_order_relaxed); });
+    REQUIRE(calls == count);
   }
 }
 
@@ -88,6 +99,26 @@ TEST_CASE("crew: where the poll throws, that comes out when no job runs any more
     --running;
   };
   CHECK_THROWS_WITH(crew.for_each(100'000, job, [] { throw std::runtime_error("poll"); }), "poll");
+  CHECK(running == 0);
+  CHECK(begun < 100'000);
+  int after = 0;
+  crew.for_each(1, [&](int) { ++after; });
+  CHECK(after == 1);
+}
+
+TEST_CASE("crew: what a job throws comes out when no job runs any more, once, and no further ones begin") {
+  Crew crew(2);
+  std::atomic<int> running = 0, begun = 0;
+  const auto job = [&](int i) {
+    ++running, ++begun;
+    if (i == 3) {
+      --running;
+      throw std::runtime_error("job 3");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --running;
+  };
+  CHECK_THROWS_WITH(crew.for_each(100'000, job), "job 3");
   CHECK(running == 0);
   CHECK(begun < 100'000);
   int after = 0;

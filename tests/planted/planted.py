@@ -1,122 +1,141 @@
 #!/usr/bin/env python3
-"""Plants the bugs of bugs.py, one by one, in a copy of the sources, and says which of them the tests catch.
+"""Plants the bugs of bugs.py, one by one, and says which of them the tests catch.
 
-Usage: planted.py ROOT WORK [WORDS]   ROOT: of the sources; WORK: a folder for the copy and its build, which is kept and
-makes the next run quicker; WORDS: only bugs whose room or description holds one of these
+Usage: planted.py ROOT BUILD WORK [WORDS]
+ROOT: of the sources; BUILD: where they are built, with the tests; WORK: a folder for files; WORDS: only bugs whose
+room or description holds one of these
 
-For each bug the files that depend on it are built, and the tests named beside it run; where those pass, all quick tests of
-core. Only the scalar kernels are built, because bugs lie in sources that all of them share. Exit code 1: a bug survived,
-or does not fit the sources any more, or the tests fail without any.
+A bug is a changed copy of one file, which is found before the file itself. Only what the bug names is compiled with it:
+the tests that must catch it, which run up to the first failure, and the sources of the library that they see it by; all
+else comes from BUILD. The same objects without the bug must pass. Of the kernels the scalar ones are used, because bugs
+lie in sources that all of them share. Exit code 1: a bug survived, or does not fit the sources any more, or tests fail
+without any.
 """
+import concurrent.futures
+import json
 import os
 import pathlib
 import shlex
-import shutil
 import subprocess
 import sys
 import time
 
-from bugs import BUGS, LIBRARY
+from bugs import BUGS
 
-OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g0", "-DTYNDALL_WINDOW=OFF", "-DTYNDALL_SIMD=OFF",
-           "-DTYNDALL_QUICK_BUILD=OFF", "-DTYNDALL_WERROR=OFF"]
-COPIED = ["CMakeLists.txt", "core", "app", "assets", "shaders", "tests", "third_party", "LICENSE"]
-LONGEST_TEST = 300  # seconds; a test that hangs has caught its bug
+# Where it is decided which kernels are used: compiled anew, so that it is the scalar ones.
+CHOICE = ["core/base/target.cpp", "core/kernel/choose.cpp", "core/clean/clean.cpp"]
+LONGEST_TEST = 600  # seconds; a test that hangs has caught its bug
+JOBS = int(os.environ.get("TYNDALL_PLANTED_JOBS", os.cpu_count()))
 
 
 def run(command, folder, **options):
     return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
 
 
-class Copy:
-    """A copy of the sources and its build."""
+def must(command, folder):
+    result = run(command, folder)
+    if result.returncode != 0:
+        sys.exit(f"planted: {shlex.join(command)} failed:\n{result.stdout[-4000:]}")
+    return result.stdout
 
-    def __init__(self, root, work):
-        self.tree, self.build = work / "tree", work / "build"
-        self.tree.mkdir(parents=True, exist_ok=True)
-        for name in COPIED:
-            self.update(root / name, self.tree / name)
-        self.must(["cmake", "-S", str(self.tree), "-B", str(self.build), "-G", "Ninja"] + OPTIONS, self.tree)
-        self.link = self.link_command()
 
-    def update(self, source, target):
-        """Copies what differs, so that what does not is not built again."""
-        if source.is_dir():
-            target.mkdir(exist_ok=True)
-            wanted = {p.name for p in source.iterdir() if p.name != "__pycache__"}
-            for old in list(target.iterdir()):
-                if old.name not in wanted:
-                    shutil.rmtree(old) if old.is_dir() else old.unlink()
-            for name in wanted:
-                self.update(source / name, target / name)
-        elif not target.exists() or target.read_bytes() != source.read_bytes():
-            shutil.copyfile(source, target)
+class Build:
+    """What is built already, and how more is compiled and linked."""
 
-    def must(self, command, folder):
-        result = run(command, folder)
-        if result.returncode != 0:
-            sys.exit(f"planted: {shlex.join(command)} failed:\n{result.stdout[-4000:]}")
+    def __init__(self, root, build, work):
+        self.root, self.build, self.work = root, build, work
+        self.overlay = work / "overlay"
+        (work / "clean").mkdir(parents=True, exist_ok=True)
+        (work / "planted").mkdir(exist_ok=True)
+        entries = json.loads((build / "compile_commands.json").read_text())
+        commands = {os.path.relpath(entry["file"], root): entry["command"] for entry in entries}
+        self.of_library = self.command(commands["core/targets/scalar.cpp"])
+        self.of_tests = self.command(commands["tests/main.cpp"])
+        line = must(["ninja", "-t", "commands", "core_tests"], build).strip().splitlines()[-1]
+        left_out = ("_test.cpp", "libtyndall_app")
+        self.link = [word for word in shlex.split(line.split("&&")[1]) if not any(part in word for part in left_out)]
 
-    def link_command(self):
-        lines = run(["ninja", "-t", "commands", "core_tests"], self.build).stdout.strip().splitlines()
-        return shlex.split(lines[-1].split("&&")[1])
+    def command(self, text):
+        """A command without its source and its object, and without instruction sets; assertions are on."""
+        words = shlex.split(text)
+        words = words[:words.index("-o")] + ["-O1", "-Wno-error", "-UNDEBUG"]
+        return [word for word in words if not word.startswith(("-DTYNDALL_HAVE_", "-DNDEBUG"))]
 
-    def objects(self, tests):
-        """The objects of the tests' program that are not tests, and those of `tests`."""
-        wanted = {f"tests/CMakeFiles/core_tests.dir/{test}_test.cpp.o" for test in tests}
-        return [word for word in self.link if word.endswith(".o") and ("_test.cpp" not in word or word in wanted)]
+    def compile(self, source, planted):
+        """Compiles a file of the root, with what lies in the overlay if `planted`. Returns the object."""
+        target = self.work / ("planted" if planted else "clean") / (source.replace("/", "_") + ".o")
+        if not planted and target.exists() and target in self.made:
+            return target
+        words = list(self.of_tests if source.startswith("tests/") else self.of_library)
+        file = self.root / source
+        if planted:
+            words.insert(next(i for i, word in enumerate(words) if word.startswith("-")), f"-I{self.overlay}")
+            file = self.overlay / source if (self.overlay / source).exists() else file
+        must(words + ["-o", str(target), "-c", str(file)], self.build)
+        self.made.add(target)
+        return target
 
-    def ninja(self, targets):
-        return run(["ninja", "-j", os.environ.get("TYNDALL_PLANTED_JOBS", str(os.cpu_count()))] + targets, self.build)
+    made = set()  # objects of this run; those of another may be of older sources
 
-    def test(self, tests, library):
-        """Builds and runs tests. Returns what failed, or None if nothing did."""
-        objects = self.objects(tests)
-        built = self.ninja(objects + (["libtyndall_core.a"] if library else []))
-        if built.returncode != 0:
-            sys.exit("planted: the bug cannot be compiled:\n" + built.stdout[-4000:])
-        words = [word for word in self.link if not word.endswith(".o")]
+    def test(self, sources, planted):
+        """Compiles these files and runs the tests among them. Returns what failed, or None if nothing did."""
+        choice = [source for source in CHOICE if source not in sources]
+        with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+            objects = list(pool.map(lambda source: self.compile(source, planted), sources))
+            objects += list(pool.map(lambda source: self.compile(source, False), choice))
+        words = list(self.link)
         at = words.index("-o") + 1
-        words[at] = str(self.build / "planted_tests")
-        self.must(words[:at + 1] + objects + words[at + 1:], self.build)
+        words[at] = str(self.work / "tests")
+        # The first definition counts: that of these objects, not the library's.
+        words[at + 1:at + 1] = ["-Wl,--allow-multiple-definition"] + [str(o) for o in objects]
+        must(words, self.build)
         try:
-            result = run([words[at]], self.build, timeout=LONGEST_TEST)
+            result = run([words[at], "--abort-after=1"], self.work, timeout=LONGEST_TEST)
         except subprocess.TimeoutExpired:
             return "a test that does not end"
         if result.returncode == 0:
             return None
-        names = [line.removeprefix("TEST CASE:").strip() for line in result.stdout.splitlines() if line.startswith("TEST CASE:")]
-        return names[0] if names else f"exit code {result.returncode}"
+        for line in result.stdout.splitlines():
+            if line.startswith("TEST CASE:"):
+                return line.removeprefix("TEST CASE:").strip()
+        return f"exit code {result.returncode}"
 
-    def test_all(self):
-        built = self.ninja(["core_tests"])
-        if built.returncode != 0:
-            sys.exit("planted: core_tests cannot be built:\n" + built.stdout[-4000:])
-        result = run(["tests/core_tests"], self.build, timeout=20 * LONGEST_TEST)
-        return None if result.returncode == 0 else "another quick test"
+    def plant(self, file, text):
+        changed = self.overlay / file
+        for old in self.overlay.rglob("*"):
+            if old.is_file():
+                old.unlink()
+        changed.parent.mkdir(parents=True, exist_ok=True)
+        changed.write_text(text)
+
+
+def sources_of(bug):
+    """What is compiled with the bug: its tests, the named sources of the library, and the file itself if it is one."""
+    file, tests, library = bug[2], bug[5].split(), bug[6].split() if len(bug) > 6 else []
+    return [f"tests/{test}_test.cpp" for test in tests] + library + ([file] if file.endswith(".cpp") else [])
 
 
 def main():
-    root, words = pathlib.Path(sys.argv[1]).resolve(), sys.argv[3:]
-    copy = Copy(root, pathlib.Path(sys.argv[2]).resolve())
+    root, build, work = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+    words = sys.argv[4:]
+    built = Build(root, build, work)
     chosen = [bug for bug in BUGS if not words or any(word in bug[0] or word in bug[1] for word in words)]
-    for room, what, file, old, *_ in chosen:
-        if (copy.tree / file).read_text().count(old) != 1:
-            sys.exit(f"planted: {file} does not hold once what is to be changed for \"{what}\"; bugs.py has to follow it")
-    clean = copy.test(sorted({test for bug in chosen for test in bug[5].split()}), LIBRARY)
-    if clean:
-        sys.exit(f"planted: without any bug this fails: {clean}")
-    caught = 0
-    for number, (room, what, file, old, new, tests, library) in enumerate(chosen, 1):
-        source, start = copy.tree / file, time.monotonic()
-        text = source.read_text()
-        try:
-            source.write_text(text.replace(old, new))
-            by = copy.test(tests.split(), library) or copy.test_all()
-        finally:
-            source.write_text(text)
+    passed, caught = set(), 0
+    for number, bug in enumerate(chosen, 1):
+        room, what, file, old, new = bug[:5]
+        text, sources, start = (root / file).read_text(), sources_of(bug), time.monotonic()
+        if text.count(old) != 1:
+            sys.exit(f"planted: {file} does not hold once what \"{what}\" changes; bugs.py has to follow it")
+        if tuple(sources) not in passed:
+            clean = built.test(sources, False)
+            if clean:
+                sys.exit(f"planted: without the bug \"{what}\" this fails: {clean}")
+            passed.add(tuple(sources))
+        built.plant(file, text.replace(old, new))
+        by = built.test(sources, True)
         caught += by is not None
-        print(f"{number:2} {room:10} {what}: {'caught by: ' + by if by else 'SURVIVED'} ({time.monotonic() - start:.0f} s)", flush=True)
+        result = f"caught by: {by}" if by else "SURVIVED"
+        print(f"{number:2} {room:10} {what}: {result} ({time.monotonic() - start:.0f} s)", flush=True)
     print(f"{caught} of {len(chosen)} planted bugs were caught")
     return 0 if caught == len(chosen) else 1
 
