@@ -4,13 +4,13 @@
 Usage: simulate.py [SAMPLES]   SAMPLES: per pixel, 1024 by default
 
 A farm takes: start + samples / (rate * machines) + writing a part, on all machines at once, and then, on one machine, the
-merge, which reads one part after the other. The numbers below are processor seconds of one core of the machine of
-tests/bench/README.md; RATE is cornell-smoke on two cores, START what a queue takes to begin a job.
+merge, which reads one part after the other. START, what a queue takes to begin a job, is assumed. The others were measured on
+the machine of tests/bench/README.md: processor seconds of one core; RATE is cornell-smoke on two cores.
 """
 import sys
 
 RATE = 21.8e6  # samples a second of one machine
-START = 2.0  # seconds
+START = 2.0  # seconds, assumed
 WRITE = 0.5  # seconds per megapixel: film and layers of one part, compressed
 MERGE_FIXED, MERGE_PART = 0.6, 0.62  # seconds per megapixel: writing the sum; reading and adding one part
 SIZES = [("720p", 1280 * 720), ("1080p", 1920 * 1080), ("4K", 3840 * 2160), ("8K", 7680 * 4320)]
