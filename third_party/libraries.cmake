@@ -28,14 +28,15 @@ target_include_directories(tyndall_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
 
 # Highway: used through its headers; its small library is linked for its assertions in Debug builds.
 option(TYNDALL_SIMD "kernels for wide instruction sets; OFF: the scalar ones alone, which compile quickly" ON)
-if(TYNDALL_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND PkgConfig_FOUND)
+set(x86_64 "^(x86_64|AMD64|amd64)$")
+if(TYNDALL_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "${x86_64}|^(aarch64|arm64)$" AND PkgConfig_FOUND)
   pkg_check_modules(HIGHWAY QUIET IMPORTED_TARGET GLOBAL libhwy>=1.0)
 endif()
 if(TARGET PkgConfig::HIGHWAY)
   add_library(tyndall_simd INTERFACE)
   target_link_libraries(tyndall_simd INTERFACE PkgConfig::HIGHWAY)
 elseif(TYNDALL_SIMD)
-  message(STATUS "Highway >= 1.0 (libhwy-dev) not found or not x86-64: only the scalar kernel is built")
+  message(STATUS "Highway >= 1.0 (libhwy-dev) not found, or neither x86-64 nor 64-bit ARM: only the scalar kernel is built")
 endif()
 
 # OpenEXR.

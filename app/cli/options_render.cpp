@@ -3,6 +3,7 @@
 #include "app/cli/render_setup.h"
 #include "app/cli/setting_options.h"
 #include "core/base/crew.h"
+#include "core/base/target.h"
 #include "core/render/clean_film.h"
 
 namespace tyndall {
@@ -101,9 +102,11 @@ void add_machine_options(CLI::App& app, int& threads, std::string& isa) {
 }
 
 void add_isa(CLI::App& app, std::string& isa) {
-  const std::vector<std::string> names{"scalar", "sse4", "avx2", "avx512"};
+  std::vector<std::string> names;
+  for (int target = 0; target < target_count; ++target) names.emplace_back(name_of(static_cast<Target>(target)));
   const auto read = [&isa, names](Text t) { isa = names[read_name(t, names)]; };
-  add_value(app, "--isa", "NAME", "scalar, sse4, avx2 or avx512 [the best that this CPU runs]", read, names);
+  add_value(app, "--isa", "NAME", "scalar; sse4, avx2, avx512 (x86-64); neon (ARM) [the best that this CPU runs]", read,
+            names);
 }
 
 void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form) {

@@ -22,27 +22,17 @@ std::string compiler_text() {
   return name.substr(0, name.find_last_not_of(' ') + 1) + ", " + library + ", " TYNDALL_BUILD;
 }
 
-/// What this build has code for.
-constexpr char built_targets[] =
-    "scalar"
-#if defined(TYNDALL_HAVE_SSE4)
-    " sse4"
-#endif
-#if defined(TYNDALL_HAVE_AVX2)
-    " avx2"
-#endif
-#if defined(TYNDALL_HAVE_AVX512)
-    " avx512"
-#endif
-    ;
+std::string names_of(const std::vector<Target>& targets) {
+  std::string names;
+  for (const Target target : targets) names += (names.empty() ? "" : " ") + std::string(name_of(target));
+  return names;
+}
 
 }  // namespace
 
 std::string version_text() {
-  std::string runs;
-  for (const Target target : available_targets()) runs += (runs.empty() ? "" : " ") + std::string(name_of(target));
-  return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + built_targets +
-         "; this CPU runs " + runs + "\nlibraries  " TYNDALL_LIBRARIES "\n";
+  return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + names_of(built_targets()) +
+         "; this CPU runs " + names_of(available_targets()) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
 }
 
 }  // namespace tyndall

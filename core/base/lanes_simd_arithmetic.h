@@ -171,13 +171,23 @@ TYNDALL_INLINE Uints select(Mask m, Uints a, Uints b) {
   return a;
 }
 
+// Where one of the two is not a number, or both are zeros of either sign, ARM's own instructions choose otherwise than
+// base/lanes.h promises and x86 does.
 TYNDALL_INLINE Floats min(Floats a, Floats b) {
+#if HWY_ARCH_ARM
+  return select(a < b, a, b);
+#else
   a.v = hn::Min(a.v, b.v);
   return a;
+#endif
 }
 TYNDALL_INLINE Floats max(Floats a, Floats b) {
+#if HWY_ARCH_ARM
+  return select(b < a, a, b);
+#else
   a.v = hn::Max(a.v, b.v);
   return a;
+#endif
 }
 TYNDALL_INLINE Floats abs(Floats a) {
   a.v = hn::Abs(a.v);

@@ -36,24 +36,54 @@ bool runs_avx512() {
 }
 #endif
 
+/// Whether this CPU runs a target that this build has.
+bool runs(Target target) {
+  switch (target) {
+#if defined(TYNDALL_HAVE_SSE4)
+    case Target::sse4:
+      return runs_sse4();
+#endif
+#if defined(TYNDALL_HAVE_AVX2)
+    case Target::avx2:
+      return runs_avx2();
+#endif
+#if defined(TYNDALL_HAVE_AVX512)
+    case Target::avx512:
+      return runs_avx512();
+#endif
+    default:
+      return true;  // one number at a time runs everywhere, and every 64-bit ARM processor has NEON
+  }
+}
+
 }  // namespace
 
 const char* name_of(Target target) {
-  constexpr const char* names[target_count] = {"scalar", "sse4", "avx2", "avx512"};
+  constexpr const char* names[target_count] = {"scalar", "sse4", "avx2", "avx512", "neon"};
   return names[static_cast<int>(target)];
 }
 
-std::vector<Target> available_targets() {
-  std::vector<Target> list{Target::scalar};
+std::vector<Target> built_targets() {
+  return {
+    Target::scalar,
 #if defined(TYNDALL_HAVE_SSE4)
-  if (runs_sse4()) list.push_back(Target::sse4);
+        Target::sse4,
 #endif
 #if defined(TYNDALL_HAVE_AVX2)
-  if (runs_avx2()) list.push_back(Target::avx2);
+        Target::avx2,
 #endif
 #if defined(TYNDALL_HAVE_AVX512)
-  if (runs_avx512()) list.push_back(Target::avx512);
+        Target::avx512,
 #endif
+#if defined(TYNDALL_HAVE_NEON)
+        Target::neon,
+#endif
+  };
+}
+
+std::vector<Target> available_targets() {
+  std::vector<Target> list = built_targets();
+  std::erase_if(list, [](Target target) { return !runs(target); });
   return list;
 }
 

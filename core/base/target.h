@@ -9,14 +9,18 @@
 /// targets to functions. Which target is used is decided here, while the program runs, in the same way for every room.
 namespace tyndall {
 
-/// From the narrowest to the widest. The numbers are used as indices into the rooms' tables.
-enum class Target { scalar, sse4, avx2, avx512 };
-inline constexpr int target_count = 4;
+/// From the narrowest to the widest: those of x86-64, then that of 64-bit ARM. The numbers are used as indices into the
+/// rooms' tables.
+enum class Target { scalar, sse4, avx2, avx512, neon };
+inline constexpr int target_count = 5;
 
 /// The name that users write after --isa, for example "avx2".
 const char* name_of(Target target);
 
-/// The targets that this build has code for and this CPU can run, narrowest first; Target::scalar is always the first.
+/// The targets that this build has code for, narrowest first; Target::scalar is always the first.
+std::vector<Target> built_targets();
+
+/// Those of them that this CPU can run.
 std::vector<Target> available_targets();
 
 /// The available target of that name, for "" the widest one; nothing if there is none.

@@ -29,6 +29,11 @@ constexpr FilterSteps (*filters[target_count])() = {
 #else
     nullptr,
 #endif
+#if defined(TYNDALL_HAVE_NEON)
+    neon_filter,
+#else
+    nullptr,
+#endif
 };
 
 /// The products of columns that cells sum, in the order that product_sum() and channel_sum() expect.

@@ -86,5 +86,6 @@ FilterSteps scalar_filter();
 FilterSteps sse4_filter();
 FilterSteps avx2_filter();
 FilterSteps avx512_filter();
+FilterSteps neon_filter();
 
 }  // namespace tyndall::filter

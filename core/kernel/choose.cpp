@@ -23,6 +23,11 @@ constexpr Kernels (*tables[target_count])() = {
 #else
     nullptr,
 #endif
+#if defined(TYNDALL_HAVE_NEON)
+    neon_kernels,
+#else
+    nullptr,
+#endif
 };
 
 Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }

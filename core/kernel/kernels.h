@@ -56,7 +56,7 @@ struct FirstHit {
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512" or "double"
+  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
   int lanes;        ///< how many paths run together
   RenderUnit render_units[kernel_sets];  ///< by KernelSet; the full kernel for each set that was not compiled
   /// For scenes that share second vertices (sharing.h): with all models but chains, and without fog and textures.
@@ -79,6 +79,7 @@ Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
+Kernels neon_kernels();
 /// The same source over double, to see what rounding costs the others. It reads the same columns of floats and draws
 /// the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
 Kernels double_kernels();

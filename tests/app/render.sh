@@ -109,7 +109,7 @@ expect 0 "$tyndall" render stress-light-and-fuzz --size 16x16 --spp 4 -q -o rare
 complains 'not converged: rare bright paths'
 
 # Every available instruction set works.
-for isa in scalar sse4 avx2 avx512; do
+for isa in scalar sse4 avx2 avx512 neon; do
   if "$tyndall" render cornell-box "${small[@]}" --isa "$isa" -q -o isa.pfm --stats isa.json 2>/dev/null; then
     same "--isa $isa" "$(json isa.json isa)" "\"$isa\""
     expect 0 "$tyndall" compare isa.pfm a.pfm --max-relmse 0.05

@@ -4,7 +4,7 @@
 
 quick=(furnace/lambertian furnace/glass furnace/hollow fuzzy-ball/fuzz1-b0.99 coloured-glass/n1.5-density1-b0.5
   smoke-ball/inside-density1 square-lamp/corner-h1 small-lamp motion)
-for isa in scalar sse4 avx2 avx512; do
+for isa in scalar sse4 avx2 avx512 neon; do
   "$tyndall" render cornell-box --size 8x8 --spp 1 -q -o probe.pfm --isa $isa 2>probe.err || continue
   expect 0 "$tyndall" verify "${quick[@]}" --isa $isa
   grep -q '0 rejected' out || fail "$isa: $(cat out)"

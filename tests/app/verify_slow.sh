@@ -8,7 +8,7 @@ check() {
   grep FAIL out
 }
 
-for isa in scalar sse4 avx2 avx512; do
+for isa in scalar sse4 avx2 avx512 neon; do
   "$tyndall" render cornell-box --size 8x8 --spp 1 -q -o probe.pfm --isa $isa 2>probe.err && check --isa $isa
 done
 for integrator in path nee mis; do check --integrator $integrator --sampler random --seed 1000000; done

@@ -14,5 +14,6 @@ struct LanesReport {
 LanesReport lanes_report_sse4();
 LanesReport lanes_report_avx2();
 LanesReport lanes_report_avx512();
+LanesReport lanes_report_neon();
 
 }  // namespace tyndall::test

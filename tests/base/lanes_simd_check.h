@@ -57,7 +57,7 @@ void check_masks(Differences& d, const Inputs& in, F f) {
     check_floats(d, in, [](auto a, auto b, auto) { return copy_sign(a, b); });
     check_floats(d, in, [](auto a, auto, auto) { return floor(a) + decltype(a)(0.0f); });  // either zero will do
     // Fused or not, as the target has it; never anything else.
-#if defined(__FMA__)
+#if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
     const auto fused = [](float a, float b, float c) { return __builtin_fmaf(a, b, c); };
 #else
     const auto fused = [](float a, float b, float c) { return a * b + c; };

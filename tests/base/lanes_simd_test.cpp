@@ -37,4 +37,7 @@ TEST_CASE("lanes: every wide operation does what it does on float, lane by lane"
 #if defined(TYNDALL_HAVE_AVX512)
   check_lanes("avx512", 32, test::lanes_report_avx512);
 #endif
+#if defined(TYNDALL_HAVE_NEON)
+  check_lanes("neon", 4, test::lanes_report_neon);
+#endif
 }

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The program for 64-bit ARM: cross compiled without a warning, and run by qemu-user. Its scalar kernels give the bits of
+# this processor's scalar ones, NEON those of the instruction sets that fuse multiplication and addition like it, the lanes do
+# what they do one by one, and "tyndall verify" passes. Takes an hour or two.
+. "$(dirname "$0")/_common.sh"
+scratch=$PWD
+skip() { echo "skipped: $*"; exit 77; }
+command -v aarch64-linux-gnu-g++ >probe || skip 'the cross compiler is missing (g++-aarch64-linux-gnu)'
+qemu=$(command -v qemu-aarch64-static || command -v qemu-aarch64) || skip 'qemu-user is missing (qemu-user-static)'
+"$tyndall" version | grep -q '^kernels .* runs .* avx2' || skip 'there is nothing to compare with: this processor has no AVX2'
+cd "$source_root" || exit 1
+libraries=$PWD/build/arm64-libraries
+third_party/arm64_libraries.sh "$libraries" || skip 'the libraries cannot be fetched'
+cmake --preset arm64 >"$scratch/cmake.log" 2>&1 || { cat "$scratch/cmake.log"; fail 'cmake'; finish; }
+cmake --build build/arm64 >"$scratch/build.log" 2>&1 || { tail -50 "$scratch/build.log"; fail 'building'; finish; }
+cd "$scratch" || exit 1
+grep -n 'warning:' build.log && fail 'the compiler warns'
+on_arm() { "$qemu" -L "$libraries" "$@"; }
+arm=$source_root/build/arm64/tyndall
+on_arm "$arm" version | grep -q '^kernels  *scalar neon; this CPU runs scalar neon$' || fail "version: $(on_arm "$arm" version)"
+
+# hash SCENE ISA [PROGRAM...]: of a small picture.
+hash() {
+  local scene=$1 isa=$2
+  shift 2
+  "$@" render "$scene" --size 32x24 --samples 0:8 --isa "$isa" -t 1 -q -o picture.pfm --stats picture.json || fail "$scene, $isa"
+  json picture.json image_hash
+}
+pictures=0
+for scene in $("$tyndall" scenes | awk '{ print $1 }'); do
+  same "$scene, scalar" "$(hash "$scene" scalar on_arm "$arm")" "$(hash "$scene" scalar "$tyndall")"
+  same "$scene, neon" "$(hash "$scene" neon on_arm "$arm")" "$(hash "$scene" avx2 "$tyndall")"
+  pictures=$((pictures + 2))
+done
+echo "$pictures pictures compared"
+[ "$pictures" -gt 100 ] || fail 'too few scenes'
+
+on_arm "$source_root/build/arm64/tests/core_tests" --source-file='*/tests/base/*,*/tests/kernel/kernel_sets_test.cpp,*/tests/clean/*' >tests.log ||
+  { cat tests.log; fail 'unit tests'; }
+for isa in neon scalar; do
+  on_arm "$arm" verify -q --isa $isa >verify.log || { cat verify.log; fail "verify, $isa"; }
+  tail -2 verify.log
+done
+finish
