@@ -138,6 +138,24 @@ TEST_CASE("sphere: rays that know where they start leave it rightly at every sca
   CHECK(leave(1e6).self_hits > 0.1 * count);
 }
 
+TEST_CASE("sphere: the way through it keeps its digits where a ray on its inside only grazes it") {
+  Engine engine(3);
+  double worst_known = 0, worst_plain = 0;  // relative errors of the distance to the far side
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d outward = direction(engine), other = direction(engine);
+    const Vec3d across = other - dot(other, outward) * outward;
+    const Vec3f p = rounded(outward), d = unit((1 / length(across)) * across - 1e-3 * outward);
+    const double chord = -2 * dot(exact(d), exact(p)) / length(exact(p));
+    const std::int32_t from = 4 * 17 + static_cast<std::int32_t>(Side::inward);
+    const Interval<float> plain = sphere_interval(-p, 1.0f, d);
+    const Interval<float> known = leave_sphere(plain, -p, d, from, start_on<float>(from, 17, 1));
+    worst_known = std::max(worst_known, std::abs(known.far / chord - 1));
+    worst_plain = std::max(worst_plain, std::abs(plain.far / chord - 1));
+  }
+  CHECK(worst_known < 2e-4);
+  CHECK(worst_plain > 1e-2);  // what it would be without knowing that the start lies on the sphere
+}
+
 TEST_CASE("sphere: a start within it meets the far side alone; a start elsewhere is as usual") {
   const Vec3f to_center{0, 0.3f, 0.2f};
   const Interval<float> line = sphere_interval<float>(to_center, 1.0f, {0, 0, 1});
