@@ -189,7 +189,7 @@ RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressRepor
         "on");
     return false;
   };
-  breaks.take_film = [&checkpoints](const Film& film) { checkpoints.take(film); };
+  breaks.take_film = [&checkpoints](const Film& film, Crew& crew) { checkpoints.take(film, crew); };
   return breaks;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 
 #ifdef TYNDALL_WINDOW
+#include "app/window/system/preferences.h"
 #include "app/window/window.h"
 #endif
 
@@ -46,13 +47,23 @@ bool is_set(const char* variable) {
   return value && *value;
 }
 
+void check_memory(const Scene& scene) {
+#ifdef TYNDALL_WINDOW
+  const std::filesystem::path file = preferences_file();
+  check_memory({scene.width, scene.height, has_lamps(scene), read_preferences(file).clean}, free_memory(),
+               "write \"clean off\" into " + file.string());
+#else
+  check_memory(WindowPlan{scene.width, scene.height, has_lamps(scene)}, free_memory(), "");
+#endif
+}
+
 }  // namespace
 
 int run(const ViewCommand& command) {
   const auto open = [request = command.scene] { return open_scene(request); };
   const LoadedScene loaded = open();
   find_kernels(command.isa);
-  check_window_memory(loaded.scene, free_memory());
+  check_memory(loaded.scene);
   std::vector<std::filesystem::path> inputs = loaded.files;
   if (!command.reference.empty()) inputs.push_back(command.reference);
   check_outputs({{"--ui-log", command.ui_log}}, inputs);

@@ -10,6 +10,37 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
+
+/// Copies a film into another one, whose memory is used again. All threads copy parts of it, as rendering waits for it.
+void copy(const Film& film, Film& to, Crew& crew) {
+  constexpr std::size_t strip = 4096;  // pixels
+  std::vector<FilmPixel> pixels = std::move(to.pixels);
+  std::vector<EmissionSums> emission = std::move(to.emission);
+  pixels.resize(film.pixels.size());
+  emission.resize(film.emission.size());
+  const auto copy_strip = [&](int number) {
+    const std::size_t first = strip * static_cast<std::size_t>(number);
+    const auto part = [first](const auto& from, auto& into) {
+      const std::size_t begin = std::min(first, from.size()), count = std::min(strip, from.size() - begin);
+      std::copy_n(from.data() + begin, count, into.data() + begin);
+    };
+    part(film.pixels, pixels);
+    part(film.emission, emission);
+  };
+  crew.for_each(static_cast<int>((film.pixels.size() + strip - 1) / strip), copy_strip);
+  to = {.width = film.width,
+        .height = film.height,
+        .region = film.region,
+        .first_sample = film.first_sample,
+        .unit = film.unit,
+        .cut_throughput = film.cut_throughput,
+        .pixels = std::move(pixels),
+        .emission = std::move(emission),
+        .planned = film.planned};
+}
+
+}  // namespace
 
 Checkpoints::Checkpoints(std::filesystem::path file, std::optional<double> interval,
                          std::function<Embedded(const Film&)> embedded)
@@ -20,22 +51,22 @@ Checkpoints::~Checkpoints() { finish(); }
 bool Checkpoints::due() const {
   if (writing_) return false;
   const double usual = std::max(least_checkpoint_interval, checkpoint_interval_over_cost * cost_);
-  return seconds_since(taken_) >= interval_.value_or(usual);
+  return seconds_since(taken_) + cost_ + checkpoint_look_interval >= interval_.value_or(usual);
 }
 
-void Checkpoints::take(const Film& film) {
+void Checkpoints::take(const Film& film, Crew& crew) {
   if (writer_.joinable()) writer_.join();
   taken_ = Clock::now();
-  if (!write_in_background(film)) write(film);
+  if (!write_in_background(film, crew)) write(film);
 }
 
 /// False if there is no memory for a copy, or no thread. Where the system promises more memory than it has, taking it
 /// would end the program: so what is free is looked at.
-bool Checkpoints::write_in_background(const Film& film) {
+bool Checkpoints::write_in_background(const Film& film, Crew& crew) {
   if (copy_.pixels.empty() && free_memory().bytes < film.pixels.size() * bytes_per_pixel(!film.emission.empty()))
     return false;
   try {
-    copy_ = film;
+    copy(film, copy_, crew);
     writing_ = true;
     writer_ = std::thread([this] {
       write(copy_);

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/crew.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
 
@@ -15,11 +16,17 @@
 /// costs one interval, not the render.
 namespace tyndall {
 
-/// Without an interval of the user's, checkpoints are this far apart at least, seconds; and at least so many times the
-/// time that the last one took: then they take at most 1 % of the time.
-inline constexpr double least_checkpoint_interval = 30, checkpoint_interval_over_cost = 100;
+/// Without an interval of the user's, it is this long at least, seconds; and at least so many times the time that the
+/// last checkpoint took: as the next one begins that much earlier, they then take at most 1 % of the time.
+inline constexpr double least_checkpoint_interval = 30, checkpoint_interval_over_cost = 101;
+/// Seconds that may pass until somebody asks again whether a checkpoint is due (see RenderBreaks).
+inline constexpr double checkpoint_look_interval = 0.05;
 
 /// Writes checkpoints into one file. All functions are called on one thread.
+///
+/// What a kill costs is at most one interval: the time from a film's copy to the moment at which the copy of a later
+/// one is on the disk. So each checkpoint begins earlier by what the last one took; one that takes longer than the last
+/// costs so much more.
 class Checkpoints {
  public:
   /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
@@ -30,11 +37,11 @@ class Checkpoints {
   Checkpoints& operator=(const Checkpoints&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
-  /// Whether one is to be taken now: the interval is over, and the last one is written.
+  /// Whether one is to be begun now, so that it is written when the interval is over. False while one is written.
   bool due() const;
-  /// Copies the film and begins to write the copy in the background. The memory of the copy is kept for the next one.
-  /// Where there is no memory for it, the film itself is written before this returns.
-  void take(const Film& film);
+  /// Copies the film, with all threads, and begins to write the copy in the background. The memory of the copy is kept
+  /// for the next one. Where there is no memory for it, the film itself is written before this returns.
+  void take(const Film& film, Crew& crew);
   /// Waits until the last one is written, and gives the memory of the copy back.
   void finish();
   /// What went wrong since the last call, once for each reason. A failed checkpoint leaves the one before it.
@@ -42,7 +49,7 @@ class Checkpoints {
 
  private:
   using Clock = std::chrono::steady_clock;
-  bool write_in_background(const Film& film);
+  bool write_in_background(const Film& film, Crew& crew);
   void write(const Film& film);
   void note(const char* problem);
 

@@ -12,7 +12,11 @@
 #include "core/scene/load.h"
 #include "core/scene/place.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <variant>
 
 namespace tyndall {
@@ -116,9 +120,34 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
   return print_json(json);
 }
 
+namespace {
+
+constexpr std::string_view several = "several: ";
+
+/// The names in one text of a label, which is a name or what both_of() made of several.
+std::set<std::string> names_in(std::string_view text) {
+  std::set<std::string> names;
+  if (text.starts_with(several)) text.remove_prefix(several.size());
+  for (;;) {
+    const std::size_t comma = text.find(", ");
+    names.emplace(text.empty() ? "unknown" : text.substr(0, comma));
+    if (comma == text.npos) return names;
+    text.remove_prefix(comma + 2);
+  }
+}
+
+std::string both_of(const std::string& a, const std::string& b) {
+  if (a == b) return a;
+  std::set<std::string> names = names_in(a);
+  names.merge(names_in(b));
+  if (names.size() == 1) return *names.begin();
+  return fmt::format("{}{}", several, fmt::join(names, ", "));
+}
+
+}  // namespace
+
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
-  const auto both = [](const std::string& x, const std::string& y) { return x == y ? x : std::string("several"); };
-  return {both(a.version, b.version), both(a.isa, b.isa), a.unfinished || b.unfinished};
+  return {both_of(a.version, b.version), both_of(a.isa, b.isa), a.unfinished || b.unfinished};
 }
 
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads,

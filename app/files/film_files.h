@@ -36,7 +36,8 @@ bool same_samples(Scene a, Scene b);
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image);
 
-/// The label of a film that is added from two others.
+/// The label of a film that is added from two others. Where their instruction sets differ it names all of them, such as
+/// "several: avx2, scalar"; the same for versions.
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b);
 
 /// The clean view of a film, and how long that took.

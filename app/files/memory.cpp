@@ -40,10 +40,10 @@ std::uint64_t less(std::uint64_t limit, std::uint64_t used) {
 
 /// Bytes a pixel that writing a file takes beside film and picture. Measured, like the numbers of memory_needed().
 std::uint64_t writing(const MemoryPlan& plan, const std::filesystem::path& file) {
-  const std::string name = file == "-" ? "." + plan.form.format : file.string();
-  if (is_exr(name)) return 52 + (plan.clean ? 16 : 0);  // layers, one of them also in 16 bits
-  if (name.ends_with(".hdr")) return 26;
-  return name.ends_with(".png") ? 20 : 0;
+  const std::string ending = image_ending(file, plan.form);
+  if (ending == ".exr") return 52 + (plan.clean ? 16 : 0);  // layers, one of them also in 16 bits
+  if (ending == ".hdr") return 26;
+  return ending == ".png" ? 20 : 0;
 }
 
 constexpr std::uint64_t program = 11'000'000;
@@ -52,12 +52,13 @@ std::uint64_t pixels(std::int64_t width, std::int64_t height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-/// what: such as "a render of 4x3 pixels".
-void check_needed(const std::string& what, std::uint64_t needed, const FreeMemory& free) {
+/// what: such as "a render of 4x3 pixels". advice: what could be done.
+void check_needed(const std::string& what, std::uint64_t needed, const FreeMemory& free,
+                  const std::string& advice = "") {
   if (needed > free.bytes)
-    throw UsageError(fmt::format("{} takes {} bytes ({:.3g} GB) of memory, and {:.3g} GB are {}", what, needed,
-                                 1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free.bytes),
-                                 free.limit));
+    throw UsageError(fmt::format("{} takes {} bytes ({:.3g} GB) of memory, and {:.3g} GB are {}{}", what, needed,
+                                 1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(free.bytes), free.limit,
+                                 advice));
 }
 
 }  // namespace
@@ -73,11 +74,10 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
   return program + pixel * pixels(plan.width, plan.height);
 }
 
-std::uint64_t window_memory_needed(std::int64_t width, std::int64_t height, bool emission) {
-  constexpr std::uint64_t picture = 16,
-                          pictures =
-                              3 * picture;  // the one that is shown, the next one, and what the display holds of it
-  return program + (bytes_per_pixel(emission) + pictures) * pixels(width, height);
+std::uint64_t memory_needed(const WindowPlan& plan) {
+  constexpr std::uint64_t libraries = 154'000'000;  // of the window, fonts and OpenGL
+  const std::uint64_t pictures = 43, filter = plan.clean ? 184 : 0;
+  return program + libraries + (bytes_per_pixel(plan.emission) + pictures + filter) * pixels(plan.width, plan.height);
 }
 
 bool has_lamps(const Scene& scene) {
@@ -102,17 +102,22 @@ FreeMemory free_memory() {
 
 void check_memory(const MemoryPlan& plan, const FreeMemory& free) {
   const std::string size = fmt::format("{}x{}", plan.width, plan.height);
-  const bool png =
-      std::any_of(plan.files.begin(), plan.files.end(), [](const auto& f) { return f.extension() == ".png"; });
+  const bool png = std::any_of(plan.files.begin(), plan.files.end(),
+                               [&plan](const auto& file) { return image_ending(file, plan.form) == ".png"; });
   if (plan.width * plan.height > max_image_pixels || (png && (3 * plan.width + 1) * plan.height >= 1 << 30))
     throw UsageError(
         fmt::format("found an image of {} pixels, expected at most 2^28, which is what image files hold", size));
   check_needed((plan.parts ? "merging films of " : "a render of ") + size + " pixels", memory_needed(plan), free);
 }
 
-void check_window_memory(const Scene& scene, const FreeMemory& free) {
-  check_needed(fmt::format("a window of {}x{} pixels", scene.width, scene.height),
-               window_memory_needed(scene.width, scene.height, has_lamps(scene)), free);
+void check_memory(const WindowPlan& plan, const FreeMemory& free, const std::string& without_clean) {
+  const std::string size = fmt::format("a window of {}x{} pixels", plan.width, plan.height);
+  const WindowPlan raw{plan.width, plan.height, plan.emission, false};
+  const bool advise = plan.clean && memory_needed(raw) <= free.bytes;
+  check_needed(size + (plan.clean ? " with its clean view" : ""), memory_needed(plan), free,
+               advise ? fmt::format("; without the clean view it takes {:.3g} GB: {}",
+                                    1e-9 * static_cast<double>(memory_needed(raw)), without_clean)
+                      : "");
 }
 
 }  // namespace tyndall

@@ -24,8 +24,14 @@ bool has_lamps(const Scene& scene);
 /// The most memory that the process then has, bytes. The scene and its textures are not counted.
 std::uint64_t memory_needed(const MemoryPlan& plan);
 
-/// The least memory that a window takes that renders a picture of this size, bytes.
-std::uint64_t window_memory_needed(std::int64_t width, std::int64_t height, bool emission);
+/// What the memory of a window depends on.
+struct WindowPlan {
+  std::int64_t width = 0, height = 0;  ///< of the picture
+  bool emission = false;               ///< see MemoryPlan
+  bool clean = false;                  ///< whether the clean view is on
+};
+/// The memory that a window takes that renders one picture, bytes. Measured with OpenGL in software.
+std::uint64_t memory_needed(const WindowPlan& plan);
 
 /// Memory that this process could still take, bytes, and what limits it, such as "the machine" or "ulimit -v".
 struct FreeMemory {
@@ -37,7 +43,7 @@ FreeMemory free_memory();
 /// Throws UsageError, which says how many bytes the picture takes, if it does not fit into the memory that is free; and
 /// if it has more pixels than image files can hold.
 void check_memory(const MemoryPlan& plan, const FreeMemory& free);
-/// The same for a window.
-void check_window_memory(const Scene& scene, const FreeMemory& free);
+/// The same for a window. without_clean: tells how to switch the clean view off.
+void check_memory(const WindowPlan& plan, const FreeMemory& free, const std::string& without_clean);
 
 }  // namespace tyndall

@@ -48,6 +48,14 @@ std::filesystem::path name_with_ending(const std::filesystem::path& file, const 
   return file == "-" ? std::filesystem::path("standard-output." + form.format) : file;
 }
 
+}  // namespace
+
+std::string image_ending(const std::filesystem::path& file, const ImageForm& form) {
+  return ending(name_with_ending(file, form));
+}
+
+namespace {
+
 void check_standard_output(const std::vector<std::filesystem::path>& files, const ImageForm& form,
                            const std::filesystem::path& stats) {
   const auto streams = std::count(files.begin(), files.end(), "-");
@@ -154,7 +162,7 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   for (const std::filesystem::path& file : files) {
     try {
       const Region& region = picture.film.region;
-      const std::string kind = ending(name_with_ending(file, picture.form));
+      const std::string kind = image_ending(file, picture.form);
       if (kind == ".exr")
         write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
       else if (kind == ".png")

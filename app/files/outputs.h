@@ -24,6 +24,10 @@ struct ImageForm {
 void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form = {},
                        const std::filesystem::path& stats = {});
 
+/// What says the format of an image file: the ending of its name, or of standard output the form's. In small letters,
+/// with its dot, for example ".png".
+std::string image_ending(const std::filesystem::path& file, const ImageForm& form);
+
 /// True for names that end in .exr (any case).
 bool is_exr(const std::filesystem::path& file);
 

@@ -125,7 +125,7 @@ class Rendering {
   }
 
   void take_breaks() {
-    if (std::exchange(film_due_, false)) options_.breaks.take_film(picture_.film());
+    if (std::exchange(film_due_, false)) options_.breaks.take_film(picture_.film(), *crew_);
     if (!std::exchange(result_due_, false)) return;
     RenderResult so_far = result();
     options_.breaks.take_result(so_far);

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/accuracy/estimate.h"
+#include "core/base/crew.h"
 #include "core/clean/clean.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
@@ -23,7 +24,7 @@ struct RenderResult;
 /// changes no sample. Each may be empty.
 struct RenderBreaks {
   std::function<bool()> film_due;
-  std::function<void(const Film&)> take_film;
+  std::function<void(const Film&, Crew&)> take_film;  ///< gets the threads, too, which have nothing else to do
   std::function<bool()> result_due;
   std::function<void(const RenderResult&)> take_result;  ///< gets what render() would return now
 };

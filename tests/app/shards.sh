@@ -22,6 +22,19 @@ expect 0 "$tyndall" render all.png -q -o again.pfm --stats again.json
 same 'a merged image opened again' "$(json again.json image_hash)" "$whole"
 same 'its samples' "$(json again.json spp)" 13
 
+# Parts of several instruction sets are added, which is said; the sum says which they are, and nothing goes on from it.
+if "$tyndall" render "${scene[@]}" --spp 1 --isa sse4 -q -o probe.pfm 2>probe.err; then
+  expect 0 "$tyndall" render "${scene[@]}" --samples 0:4 --isa scalar -q -o scalar.exr
+  expect 0 "$tyndall" render "${scene[@]}" --samples 4:9 --isa sse4 -q -o sse4.exr
+  expect 0 "$tyndall" merge sse4.exr scalar.exr -o several.exr
+  complains 'several: scalar, sse4'
+  expect 0 "$tyndall" render "${scene[@]}" --samples 9:13 --isa scalar -q -o rest.exr
+  expect 0 "$tyndall" merge several.exr rest.exr -o several.exr.exr
+  complains 'several: scalar, sse4'
+  expect 2 "$tyndall" render "${scene[@]}" --spp 20 --isa scalar --resume -q -o several.exr
+  complains several.exr 'instruction set several: scalar, sse4' 'expected scalar'
+fi
+
 # Parts that do not fit are refused.
 expect 2 "$tyndall" merge a.exr c.exr -o gap.png
 complains 'c.exr' 'missing'

@@ -27,7 +27,7 @@ TEST_CASE("breaks: films and results that are taken in between change no bit, al
     int films = 0, results = 0;
     std::uint64_t last = 0;
     options.breaks.film_due = options.breaks.result_due = [] { return true; };
-    options.breaks.take_film = [&](const Film& film) {
+    options.breaks.take_film = [&](const Film& film, Crew&) {
       const FilmTotals sum = totals(film);
       CHECK(sum.samples >= last);
       last = sum.samples;
@@ -52,7 +52,7 @@ TEST_CASE("breaks: a time limit still ends a render between passes, so that all 
   options.threads = 2;
   options.time_limit = 0.3;
   options.breaks.film_due = [] { return true; };
-  options.breaks.take_film = [](const Film&) {};
+  options.breaks.take_film = [](const Film&, Crew&) {};
   const FilmTotals sum = totals(render(scene, options).film);
   CHECK(sum.least_taken > 0);
   CHECK(sum.least_taken == sum.most_taken);

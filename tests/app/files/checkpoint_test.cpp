@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <thread>
 
 using namespace tyndall;
@@ -27,14 +28,15 @@ TEST_CASE("checkpoints: the film as it was when it was taken is written, unfinis
           doctest::skip(!has_openexr())) {
   const fs::path folder = scratch_folder("checkpoints"), file = folder / "a.exr";
   Checkpoints checkpoints(file, 0, embedded);
+  Crew crew(2);
   Film film = film_of(3);
   CHECK(checkpoints.due());
-  checkpoints.take(film);
+  checkpoints.take(film, crew);
   film = film_of(9);  // the render goes on at once
   checkpoints.finish();
   CHECK(read_film(file) == film_of(3));
   CHECK(read_film_label(file)->unfinished);
-  checkpoints.take(film);
+  checkpoints.take(film, crew);
   checkpoints.finish();
   CHECK(read_film(file) == film_of(9));
   CHECK_FALSE(checkpoints.problem());
@@ -45,10 +47,11 @@ TEST_CASE("checkpoints: without memory for a copy the film itself is written, be
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_memory") / "a.exr";
   Checkpoints checkpoints(file, 0, embedded);
+  Crew crew(2);
   const Film film = film_of(4);
   {
     const auto refusal = test::AllocationRefusal::of_size(film.pixels.size() * sizeof(FilmPixel));
-    checkpoints.take(film);
+    checkpoints.take(film, crew);
     CHECK(refusal.refused() == 1);
     CHECK(checkpoints.due());
   }
@@ -59,23 +62,65 @@ TEST_CASE("checkpoints: without memory for a copy the film itself is written, be
 TEST_CASE("checkpoints: due after the interval; without one after 30 seconds at the earliest" *
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_times") / "a.exr";
-  Checkpoints often(file, 0.05, embedded), usual(file, std::nullopt, embedded);
+  Checkpoints often(file, 0.5, embedded), usual(file, std::nullopt, embedded);
+  Crew crew(2);
   CHECK_FALSE(often.due());
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  std::this_thread::sleep_for(std::chrono::milliseconds(460));
   CHECK(often.due());
   CHECK_FALSE(usual.due());
-  often.take(film_of(1));
+  often.take(film_of(1), crew);
   often.finish();
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  std::this_thread::sleep_for(std::chrono::milliseconds(460));
   CHECK(often.due());
+}
+
+TEST_CASE("checkpoints: the next one begins earlier by what the last one took, so that it is there after the interval" *
+          doctest::skip(!has_openexr())) {
+  const fs::path file = scratch_folder("checkpoint_early") / "a.exr";
+  const auto slow = [](const Film& film) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(800));
+    return embedded(film);
+  };
+  Checkpoints checkpoints(file, 2, slow);
+  Crew crew(2);
+  checkpoints.take(film_of(1), crew);
+  CHECK_FALSE(checkpoints.due());  // it is being written
+  const auto begun = std::chrono::steady_clock::now();
+  while (!checkpoints.due() && std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(1700));
+}
+
+TEST_CASE("checkpoints: a film is copied whole, whatever the number of its pixels and of the threads" *
+          doctest::skip(!has_openexr())) {
+  const fs::path file = scratch_folder("checkpoint_copy") / "a.exr";
+  for (const int width : {1, 4096, 8193}) {
+    CAPTURE(width);
+    Film film = make_film(width, 1, {0, 0, width, 1}, 3, 0.5, width != 4096);
+    film.cut_throughput.add(0.25);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+      film.pixels[i].taken = static_cast<std::uint32_t>(i + 1);
+      film.pixels[i].sum[1][2].add(0.5 * static_cast<double>(i % 7));
+      if (!film.emission.empty()) film.emission[i].sum[1][2] = static_cast<std::int64_t>(i);
+    }
+    for (const int threads : {1, 3}) {
+      Checkpoints checkpoints(file, 0, embedded);
+      Crew crew(threads);
+      checkpoints.take(film, crew);
+      checkpoints.finish();
+      CHECK(read_film(file) == film);
+      film.planned.assign(static_cast<std::size_t>((width + 3) / 4), PlannedSamples{0, film.pixels.back().taken});
+    }
+  }
 }
 
 TEST_CASE("checkpoints: one that fails is told once, leaves the one before it, and later ones are tried" *
           doctest::skip(!has_openexr())) {
   const fs::path folder = scratch_folder("checkpoint_fails"), file = folder / "sub" / "a.exr";
   Checkpoints checkpoints(file, 0, embedded);
+  Crew crew(2);
   for (int i = 0; i < 2; ++i) {
-    checkpoints.take(film_of(1));
+    checkpoints.take(film_of(1), crew);
     checkpoints.finish();
     CHECK(checkpoints.due());
     const auto problem = checkpoints.problem();
@@ -83,7 +128,7 @@ TEST_CASE("checkpoints: one that fails is told once, leaves the one before it, a
     if (problem) CHECK(problem->find("No such file or directory") != std::string::npos);
   }
   fs::create_directory(folder / "sub");
-  checkpoints.take(film_of(2));
+  checkpoints.take(film_of(2), crew);
   checkpoints.finish();
   CHECK_FALSE(checkpoints.problem());
   CHECK(read_film(file) == film_of(2));

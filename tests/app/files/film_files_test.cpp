@@ -70,3 +70,16 @@ TEST_CASE("a film file says how caustics were found; files that do not are older
   CHECK_FALSE(old.scene.render.sharing);
   CHECK_FALSE(same_samples(old.scene, scene));
 }
+
+TEST_CASE("a film that is added from others says of which instruction sets they are") {
+  const FilmLabel avx2{"1.0", "avx2", false}, scalar{"1.0", "scalar", true}, old{};
+  CHECK(merged_label(avx2, avx2).isa == "avx2");
+  const FilmLabel both = merged_label(scalar, avx2);
+  CHECK(both.isa == "several: avx2, scalar");
+  CHECK(both.version == "1.0");
+  CHECK(both.unfinished);
+  CHECK(merged_label(avx2, both).isa == both.isa);
+  CHECK(merged_label(both, merged_label({"1.0", "sse4", false}, scalar)).isa == "several: avx2, scalar, sse4");
+  CHECK(merged_label(avx2, old).isa == "several: avx2, unknown");
+  CHECK(merged_label(old, old).isa.empty());
+}
