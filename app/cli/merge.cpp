@@ -79,10 +79,10 @@ int run(const MergeCommand& command) {
   plan.parts = parts.frames.size() > 1;
   plan.clean = command.denoise;
   check_memory(plan, free_memory());
+  const Film film = merge(parts.frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
   if (parts.label.isa.starts_with("several"))
     complain("the parts are of instruction sets that differ in a few bits (" + parts.label.isa +
              "); the sum is as right as each, but no render on one machine gives its bits");
-  const Film film = merge(parts.frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
   std::optional<CleanOfFilm> clean;
   if (command.denoise) clean = clean_view(film, parts.scene, command.parts.front().string());
   return write(film, parts.scene, parts.label, command.outputs, command.form, clean);

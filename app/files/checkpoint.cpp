@@ -12,23 +12,24 @@
 namespace tyndall {
 namespace {
 
+constexpr std::size_t pixels_at_a_time = 4096;  ///< by one thread
+
 /// Copies a film into another one, whose memory is used again. All threads copy parts of it, as rendering waits for it.
 void copy(const Film& film, Film& to, Crew& crew) {
-  constexpr std::size_t strip = 4096;  // pixels
   std::vector<FilmPixel> pixels = std::move(to.pixels);
   std::vector<EmissionSums> emission = std::move(to.emission);
   pixels.resize(film.pixels.size());
   emission.resize(film.emission.size());
-  const auto copy_strip = [&](int number) {
-    const std::size_t first = strip * static_cast<std::size_t>(number);
+  const auto copy_part = [&](int number) {
+    const std::size_t first = pixels_at_a_time * static_cast<std::size_t>(number);
     const auto part = [first](const auto& from, auto& into) {
-      const std::size_t begin = std::min(first, from.size()), count = std::min(strip, from.size() - begin);
+      const std::size_t begin = std::min(first, from.size()), count = std::min(pixels_at_a_time, from.size() - begin);
       std::copy_n(from.data() + begin, count, into.data() + begin);
     };
     part(film.pixels, pixels);
     part(film.emission, emission);
   };
-  crew.for_each(static_cast<int>((film.pixels.size() + strip - 1) / strip), copy_strip);
+  crew.for_each(static_cast<int>((film.pixels.size() + pixels_at_a_time - 1) / pixels_at_a_time), copy_part);
   to = {.width = film.width,
         .height = film.height,
         .region = film.region,
@@ -51,7 +52,9 @@ Checkpoints::~Checkpoints() { finish(); }
 bool Checkpoints::due() const {
   if (writing_) return false;
   const double usual = std::max(least_checkpoint_interval, checkpoint_interval_over_cost * cost_);
-  return seconds_since(taken_) + cost_ + checkpoint_look_interval >= interval_.value_or(usual);
+  const double interval = interval_.value_or(usual);
+  const double lead = std::min(cost_ + checkpoint_look_interval, interval / 2);
+  return seconds_since(taken_) + lead >= interval;
 }
 
 void Checkpoints::take(const Film& film, Crew& crew) {

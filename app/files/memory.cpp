@@ -75,8 +75,8 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
 }
 
 std::uint64_t memory_needed(const WindowPlan& plan) {
-  constexpr std::uint64_t libraries = 154'000'000;  // of the window, fonts and OpenGL
-  const std::uint64_t pictures = 43, filter = plan.clean ? 184 : 0;
+  constexpr std::uint64_t libraries = 144'000'000;  // of the window, fonts and OpenGL
+  const std::uint64_t pictures = 43, filter = plan.clean ? 172 : 0;
   return program + libraries + (bytes_per_pixel(plan.emission) + pictures + filter) * pixels(plan.width, plan.height);
 }
 

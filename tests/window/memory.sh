@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# A picture that is too large for a window is refused with the number of bytes, which is what the window takes within a
+# tenth, with and without the clean view.
+. "$(dirname "$0")/_lib.sh"
+command="$tyndall view cornell-box --set /image/width=1500 --set /image/height=1000 --set /render/spp=2"
+bash -c 'ulimit -v 300000; "$0" -V' "$tyndall" >probe 2>&1 || { echo 'skipped: sanitizers need more memory'; exit 77; }
+
+for clean in on off; do
+  echo "clean $clean" >"$XDG_CONFIG_HOME/tyndall/window.txt"
+  # shellcheck disable=SC2086
+  (ulimit -v 300000 && exec $command) 2>refused && fail 'it was not refused'
+  grep -q 'ulimit -v' refused || fail "it says: $(cat refused)"
+  said=$(sed 's/.* takes \([0-9]*\) bytes .*/\1/' refused)
+  : >"$scratch/log"
+  # shellcheck disable=SC2086
+  $command --ui-log "$scratch/log" 2>"$scratch/errors" &
+  pid=$!
+  trap 'kill $pid 2>/dev/null || true' EXIT
+  settle
+  took=$(awk '/^VmHWM/ { print 1024 * $2 }' "/proc/$pid/status")
+  echo "clean $clean: said $said, took $took"
+  compares "abs($said / $took - 1) < 0.1" || fail "clean $clean: said $said bytes, took $took"
+  kill -TERM "$pid"
+  wait "$pid" || true
+  trap - EXIT
+done
