@@ -25,7 +25,7 @@ SMALL = ["--size", "16x16", "-t", "1", "-q"]
 ERRORS = ["EIO", "ENOSPC", "EACCES"]
 INTERVAL = 0.5  # seconds between the checkpoints of renders that are killed at random
 LATE = 2.0      # seconds by which a busy machine may delay a checkpoint
-ON_TIME = 0.8   # share of the kills that cost at most one interval, on a machine with seven times the work it can do
+ON_TIME = 0.8   # share of the kills that cost at most one interval, on a busy machine
 MUST_BE_TOLD = {"write", "lseek", "fsync", "rename"}
 
 
