@@ -40,7 +40,7 @@ BUGS = [
     # textures
     ("textures", "a checker that is flat along z", "core/textures/checker.h", "floor(cell.x) + floor(cell.y) + floor(cell.z)", "floor(cell.x) + floor(cell.y)", "textures/checker"),
     ("textures", "pictures upside down", "core/textures/image.h", "mul_add(one - v, last_row + one", "mul_add(v, last_row + one", "textures/image"),
-    ("textures", "a wrong weight of octaves", "core/textures/noise.h", "weight *= 0.5f", "weight *= 0.6f", "textures/noise"),
+    ("textures", "a wrong weight of octaves", "core/textures/noise.h", "weight *= 0.5f, frequency", "weight *= 0.6f, frequency", "textures/noise"),
     # film
     ("film", "a wrong limb: the low one is not added", "core/film/exact_sum.h", "    low += other.low;\n", "", "film/film", "core/film/film.cpp core/film/merge.cpp"),
     ("film", "a half written twice", "core/film/film.cpp", "to.sum[half][channel].add(from.sum[half][channel]);\n    to.rejected", "to.sum[half][channel].add(from.sum[0][channel]);\n    to.rejected", "film/film film/merge"),

@@ -7,8 +7,8 @@ room or description holds one of these
 
 A bug is a changed copy of one file, which is found before the file itself. Only what the bug names is compiled with it:
 the tests that must catch it, which run up to the first failure, and the sources of the library that they see it by; all
-else comes from BUILD. The same objects without the bug must pass. Of the kernels the scalar ones are used, because bugs
-lie in sources that all of them share. Exit code 1: a bug survived, or does not fit the sources any more, or tests fail
+else comes from BUILD. The same objects without the bug must pass. Bugs in kernels are planted in the scalar ones alone,
+because they lie in sources that all of them share. Exit code 1: a bug survived, or does not fit the sources any more, or tests fail
 without any.
 """
 import concurrent.futures
@@ -22,7 +22,7 @@ import time
 
 from bugs import BUGS
 
-# Where it is decided which kernels are used: compiled anew, so that it is the scalar ones.
+# Where it is decided which kernels are used. Beside a bug in scalar ones they are compiled anew, so that it is these.
 CHOICE = ["core/base/target.cpp", "core/kernel/choose.cpp", "core/clean/clean.cpp"]
 LONGEST_TEST = 600  # seconds; a test that hangs has caught its bug
 JOBS = int(os.environ.get("TYNDALL_PLANTED_JOBS", os.cpu_count()))
@@ -47,6 +47,8 @@ class Build:
         self.overlay = work / "overlay"
         (work / "clean").mkdir(parents=True, exist_ok=True)
         (work / "planted").mkdir(exist_ok=True)
+        if not (work / "assets").exists():
+            (work / "assets").symlink_to(root / "assets")  # a program finds its scenes beside itself
         entries = json.loads((build / "compile_commands.json").read_text())
         commands = {os.path.relpath(entry["file"], root): entry["command"] for entry in entries}
         self.of_library = self.command(commands["core/targets/scalar.cpp"])
@@ -79,7 +81,8 @@ class Build:
 
     def test(self, sources, planted):
         """Compiles these files and runs the tests among them. Returns what failed, or None if nothing did."""
-        choice = [source for source in CHOICE if source not in sources]
+        scalar = any(source.endswith("/scalar.cpp") for source in sources)
+        choice = [source for source in CHOICE if scalar and source not in sources]
         with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
             objects = list(pool.map(lambda source: self.compile(source, planted), sources))
             objects += list(pool.map(lambda source: self.compile(source, False), choice))
