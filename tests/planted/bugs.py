@@ -43,12 +43,12 @@ BUGS = [
     ("textures", "a wrong weight of octaves", "core/textures/noise.h", "weight *= 0.5f, frequency", "weight *= 0.6f, frequency", "textures/noise"),
     # film
     ("film", "a wrong limb: the low one is not added", "core/film/exact_sum.h", "    low += other.low;\n", "", "film/film", "core/film/film.cpp core/film/merge.cpp"),
-    ("film", "a half written twice", "core/film/film.cpp", "to.sum[half][channel].add(from.sum[half][channel]);\n    to.rejected", "to.sum[half][channel].add(from.sum[0][channel]);\n    to.rejected", "film/film film/merge"),
-    ("film", "cut paths are not added up", "core/film/film.cpp", "  to.truncated += from.truncated;\n", "", "film/film film/merge"),
+    ("film", "a half written twice", "core/film/film.cpp", "to.sum[half][channel].add(from.sum[half][channel]);\n    to.rejected", "to.sum[half][channel].add(from.sum[0][channel]);\n    to.rejected", "film/film film/merge", "core/film/film.cpp core/film/merge.cpp"),
+    ("film", "cut paths are not added up", "core/film/film.cpp", "  to.truncated += from.truncated;\n", "", "film/film film/merge", "core/film/film.cpp core/film/merge.cpp"),
     ("film", "odd counts lose a sample", "core/film/film.h", "(starts_here ? pixel.taken % 2 : 0)", "0", "film/film", "core/film/film.cpp core/film/merge.cpp"),
-    ("film", "overlapping parts are merged", "core/film/merge.cpp", "if (taken > 0 && part.film.first_sample != end)", "if (taken > 0 && part.film.first_sample > end)", "film/merge"),
+    ("film", "overlapping parts are merged", "core/film/merge.cpp", "if (taken > 0 && part.film.first_sample != end)", "if (taken > 0 && part.film.first_sample > end)", "film/merge", "core/film/film.cpp core/film/merge.cpp"),
     ("film", "the checksum leaves out what lamps sent", "core/film/checksum.cpp", "  sum.add(film.emission.data(), film.emission.size() * sizeof(EmissionSums));\n", "", "film/checksum"),
-    ("film", "-0 changes the hash of a picture", "core/film/film.cpp", "value == 0 ? 0u : std::bit_cast<std::uint32_t>(value)", "std::bit_cast<std::uint32_t>(value)", "film/film"),
+    ("film", "-0 changes the hash of a picture", "core/film/film.cpp", "value == 0 ? 0u : std::bit_cast<std::uint32_t>(value)", "std::bit_cast<std::uint32_t>(value)", "film/film", "core/film/film.cpp core/film/merge.cpp"),
     # image
     ("image", "a wrong end of the dark part of sRGB", "core/image/tonemap.cpp", "if (linear <= 0.0031308f)", "if (linear <= 0.031308f)", "image/tonemap"),
     ("image", "PFM with the top row first", "core/image/image_io_pfm.cpp", "subspan(left - row, row)", "subspan(image.rgb.size() - left, row)", "image/image_io"),

@@ -115,7 +115,8 @@ class Build:
 def sources_of(bug):
     """What is compiled with the bug: its tests, the named sources of the library, and the file itself if it is one."""
     file, tests, library = bug[2], bug[5].split(), bug[6].split() if len(bug) > 6 else []
-    return [f"tests/{test}_test.cpp" for test in tests] + library + ([file] if file.endswith(".cpp") else [])
+    own = [file] if file.endswith(".cpp") and file not in library else []
+    return [f"tests/{test}_test.cpp" for test in tests] + library + own
 
 
 def main():
