@@ -67,8 +67,8 @@ BUGS = [
     ("scene", "the third component is not checked", "core/scene/check.cpp", "for (std::size_t i = 0; i < 3; ++i) check_value({at, i}, meaning, components[i]);", "for (std::size_t i = 0; i < 2; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
     # compile
     ("compile", "faces of a closed pane are open", "core/compile/panes.cpp", "pane.closed |= 1 << i;", "pane.closed |= 0;", "render/chain_panes"),
-    ("compile", "the table of lights takes too much from the bright ones", "core/compile/lights.cpp", "scaled[l] -= 1 - scaled[s];", "scaled[l] -= scaled[s];", "kernel/lights"),
-    ("compile", "a spherical lamp of half its area", "core/compile/lights.cpp", "4 * pi * r * r", "2 * pi * r * r", "kernel/light_density kernel/lights"),
+    ("compile", "a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(v);", "const double a = length(u), b = length(u);", "kernel/light_density kernel/lights"),
+    ("compile", "a spherical lamp of twice its radius", "core/compile/lights.cpp", "out.length_u.push_back(static_cast<float>(r));", "out.length_u.push_back(static_cast<float>(2 * r));", "kernel/light_density kernel/lights"),
     # kernel
     ("kernel", "the inside of a closed pane is open", "core/kernel/chain_pane.h", "return equal(met & pane.closed, I(0));", "return equal(pane.closed & I(0), I(0));", "kernel/pane_faces"),
     ("kernel", "a pane's faces in a wrong order", "core/kernel/chain_pane.h", "select(less(F(0.0f), s.near.height), I(2), I(1))", "select(less(F(0.0f), s.near.height), I(1), I(2))", "kernel/pane_faces"),
