@@ -1,6 +1,7 @@
 #include "core/image/tonemap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tyndall {
@@ -24,22 +25,54 @@ float aces(float x) {
   return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);
 }
 
-/// value: > 0. The result may exceed 1, which is clipped later.
-float curved(float value, ToneMap curve) {
-  switch (curve) {
-    case ToneMap::srgb:
-      return value;
-    case ToneMap::aces:
-      return aces(value);
-  }
-  return value;
+using Rgb = std::array<float, 3>;
+
+/// Light drawn together before AgX's contrast and apart after it, so that bright colours fade. Rows add up to 1.
+constexpr Rgb agx_inset[3] = {{0.84240107f, 0.07843650f, 0.07916243f},
+                              {0.04240107f, 0.87843650f, 0.07916243f},
+                              {0.04240107f, 0.07843650f, 0.87916243f}};
+constexpr Rgb agx_outset[3] = {{1.19699866f, -0.09804563f, -0.09895303f},
+                               {-0.05300134f, 1.15195437f, -0.09895303f},
+                               {-0.05300134f, -0.09804563f, 1.15104697f}};
+
+Rgb times(const Rgb (&matrix)[3], const Rgb& v) {
+  const auto row = [&](const Rgb& r) { return r[0] * v[0] + r[1] * v[1] + r[2] * v[2]; };
+  return {row(matrix[0]), row(matrix[1]), row(matrix[2])};
 }
 
-/// A value as the screen's 0 to 255, not yet rounded; negative ones and what is not a number give 0.
-float screen_value(float linear, double gain, ToneMap curve) {
-  const float value = static_cast<float>(static_cast<double>(linear) * gain);
-  if (!(value > 0)) return 0;
-  return 255 * srgb_encode(std::min(curved(value, curve), 1.0f));
+/// Code values in [0, 1] for a screen of gamma 2.2.
+Rgb agx(const Rgb& light) {
+  constexpr float darkest = -12.473931f, stops = 16.5f;  // log2(0.18) - 10; up to log2(0.18) + 6.5
+  Rgb shown = times(agx_inset, light);
+  for (float& v : shown) {
+    const float x = std::clamp((std::log2(std::max(v, 1e-10f)) - darkest) / stops, 0.0f, 1.0f);
+    v = std::pow(agx_contrast(x), 2.2f);
+  }
+  shown = times(agx_outset, shown);
+  for (float& v : shown) v = std::pow(std::clamp(v, 0.0f, 1.0f), 1 / 2.2f);
+  return shown;
+}
+
+/// Code values in [0, 1] of light that was multiplied by the exposure; negative light and what is not a number is 0.
+Rgb screen_values(Rgb light, ToneMap curve) {
+  for (float& v : light) v = v > 0 ? std::min(v, 1e6f) : 0.0f;
+  if (curve == ToneMap::agx) return agx(light);
+  for (float& v : light) v = srgb_encode(std::min(curve == ToneMap::aces ? aces(v) : v, 1.0f));
+  return light;
+}
+
+/// The screen's 0 to 255 of each channel, not yet rounded, is handed to round(pixel, value).
+template <class Round>
+std::vector<std::uint8_t> map_pixels(const std::vector<float>& rgb, double exposure, ToneMap curve,
+                                     const Round& round) {
+  const double gain = std::exp2(exposure);
+  std::vector<std::uint8_t> bytes(rgb.size());
+  const auto exposed = [&](std::size_t i) { return static_cast<float>(static_cast<double>(rgb[i]) * gain); };
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    const Rgb shown = screen_values({exposed(i), exposed(i + 1), exposed(i + 2)}, curve);
+    for (std::size_t c = 0; c < 3; ++c) bytes[i + c] = static_cast<std::uint8_t>(round(i / 3, 255 * shown[c]));
+  }
+  return bytes;
 }
 
 /// Threshold of ordered dithering in a square of 8 x 8 pixels: each of (2 k + 1) / 128 - 1/2, k from 0 to 63, once.
@@ -55,25 +88,25 @@ float bayer(unsigned x, unsigned y) {
 
 }  // namespace
 
+float agx_contrast(float x) {
+  constexpr float pivot = 20.0f / 33, toe = 59.507875f, shoulder = 69.862789f;
+  const float way = x - pivot;
+  const float bend = way < 0 ? std::pow(1 + toe * std::pow(-way, 3.0f), -1 / 3.0f)
+                             : std::pow(1 + shoulder * std::pow(way, 3.25f), -4 / 13.0f);
+  return 0.5f + 2 * way * bend;
+}
+
 std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve) {
-  const double gain = std::exp2(exposure);
-  std::vector<std::uint8_t> bytes(rgb.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i)
-    bytes[i] = static_cast<std::uint8_t>(std::lround(screen_value(rgb[i], gain, curve)));
-  return bytes;
+  return map_pixels(rgb, exposure, curve, [](std::size_t, float value) { return std::lround(value); });
 }
 
 std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
                                             DitherOrigin origin) {
-  const double gain = std::exp2(exposure);
-  std::vector<std::uint8_t> bytes(rgb.size());
-  const auto row = 3 * static_cast<std::size_t>(width);
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    const unsigned x = static_cast<unsigned>(i % row / 3) + static_cast<unsigned>(origin.x);
-    const unsigned y = static_cast<unsigned>(i / row) + static_cast<unsigned>(origin.y);
-    bytes[i] = static_cast<std::uint8_t>(std::lround(screen_value(rgb[i], gain, curve) + bayer(x, y)));
-  }
-  return bytes;
+  return map_pixels(rgb, exposure, curve, [&](std::size_t pixel, float value) {
+    const unsigned x = static_cast<unsigned>(pixel % static_cast<std::size_t>(width)) + static_cast<unsigned>(origin.x);
+    const unsigned y = static_cast<unsigned>(pixel / static_cast<std::size_t>(width)) + static_cast<unsigned>(origin.y);
+    return std::lround(value + bayer(x, y));
+  });
 }
 
 }  // namespace tyndall

@@ -9,7 +9,7 @@
 namespace tyndall {
 
 /// How light beyond what a screen can show is treated. shaders/display.frag draws the same curves, by the same numbers.
-enum class ToneMap { srgb, aces };
+enum class ToneMap { srgb, aces, agx };
 
 constexpr Word word(ToneMap map) {
   switch (map) {
@@ -17,9 +17,17 @@ constexpr Word word(ToneMap map) {
       return {"srgb", "clipped"};
     case ToneMap::aces:
       return {"aces", "a film's shoulder"};
+    case ToneMap::agx:
+      return {"agx", "AgX (approximation): bright colours fade to white"};
   }
   return {};
 }
+
+/// Contrast of AgX. x: stops above the darkest, as a share of all 16.5, in [0, 1]; the result is a screen's code value,
+/// gamma 2.2. J. Smith's sigmoid with the numbers of Sobotka's table AgX_Default_Contrast: slope 2 at 0.18, which is at
+/// 20/33, from there powers 3 downwards and 13/4 upwards to (0, 0) and (1, 1); in closed form after
+/// github.com/bWFuanVzYWth/AgX.
+float agx_contrast(float x);
 
 /// sRGB's transfer function for linear values in [0, 1], and back (IEC 61966-2-1).
 float srgb_encode(float linear);
@@ -27,6 +35,9 @@ float srgb_decode(float encoded);
 
 /// 8-bit sRGB of curve(linear · 2^exposure), clipped to [0, 1]; NaN gives 0. rgb: 3 floats a pixel.
 /// `aces`: the fit by K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015.
+/// `agx`: T. Sobotka, AgX (github.com/sobotka/AgX), base contrast, without the looks and the later work in wider
+/// gamuts, which is why it is called an approximation. It shows 0.18 at half of the screen's scale (code value 0.5),
+/// black from ten stops below that, white from 6.5 stops above.
 std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve);
 
 /// The pixel of the full image at a picture's top left, so that a region is dithered like the same part of the whole.

@@ -63,11 +63,13 @@ void LiveClean::start_over() {
 
 bool LiveClean::is_due(const Progression& picture, bool at_rest) const {
   constexpr double most_share = 0.25;
-  const std::uint32_t taken = picture.taken();
-  if (!wanted_ || picture.within_pass() || taken < least_clean_spp || taken == made_of_) return false;
+  const std::uint32_t taken = picture.taken(), most = picture.most_taken();
+  const bool same = taken == made_of_ && most == made_of_most_;
+  if (!wanted_ || picture.within_pass() || taken < least_clean_spp || same) return false;
   if (made_of_ == 0 || at_rest) return true;
   const double with_this = spent_ + last_seconds_;
-  return taken >= 2 * made_of_ && with_this <= most_share * (picture.tally().seconds + with_this);
+  return (taken >= 2 * made_of_ || most >= 2 * made_of_most_) &&
+         with_this <= most_share * (picture.tally().seconds + with_this);
 }
 
 bool LiveClean::make(const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up) {
@@ -89,6 +91,7 @@ bool LiveClean::make(const Progression& picture, const RenderEngine& engine, con
     latest_ = nullptr;  // the picture is shown as it is
   }
   made_of_ = picture.taken();
+  made_of_most_ = picture.most_taken();
   return true;
 }
 

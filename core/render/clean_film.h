@@ -81,9 +81,10 @@ class LiveClean {
   CleanFrameMemory frames_;
   std::shared_ptr<const CleanFrame> latest_;
   bool wanted_ = false;
-  std::uint32_t made_of_ = 0;  ///< samples a pixel that the newest one was made from; 0: none was made yet
-  double spent_ = 0;           ///< seconds spent on all clean views of the present picture
-  double last_seconds_ = 0;    ///< seconds that the newest one took
+  std::uint32_t made_of_ = 0;       ///< samples a pixel that the newest one was made from; 0: none was made yet
+  std::uint32_t made_of_most_ = 0;  ///< samples of the pixels that were refined first by then
+  double spent_ = 0;                ///< seconds spent on all clean views of the present picture
+  double last_seconds_ = 0;         ///< seconds that the newest one took
 };
 
 }  // namespace tyndall

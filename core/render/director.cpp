@@ -15,8 +15,9 @@ namespace {
 
 constexpr double pass_budget = 0.15;  // seconds from one picture to the next while the picture sharpens
 
-ProgressionOptions progression_options(const Scene& scene, int coarse_step) {
+ProgressionOptions progression_options(const Scene& scene, int coarse_step, const Region& first) {
   ProgressionOptions options;
+  options.first = first;
   options.adaptive = scene.render.adaptive;
   options.coarse_step = coarse_step;
   options.length = {.growth = 1, .most = 64, .seconds = pass_budget};
@@ -81,6 +82,9 @@ void Director::follow(const Orders& orders) {
   clean_.set_wanted(orders.clean);
   limit_ = orders.limit;
   shown_pixels_ = orders.shown_pixels;
+  picture_.set_first(first_ = orders.first);
+  const bool other_pixel = pixel_ != orders.pixel;
+  pixel_ = orders.pixel;
   if (orders.threads > 0 && orders.threads != crew_->size())
     tell_if_it_fails(orders.edit, [&] { crew_ = std::make_unique<Crew>(orders.threads); });
   if (orders.scene) {
@@ -92,6 +96,7 @@ void Director::follow(const Orders& orders) {
   answer_films();
   const bool taken_over = orders.scene && orders.film && !first_picture_ms_;
   if ((orders.redraw || taken_over) && shown_.compiled && picture_.has_picture()) publish();
+  if (other_pixel) report_pixel();
 }
 
 /// Makes the ordered scene the one that is rendered. If it cannot be compiled, everything stays as it was, and the
@@ -111,7 +116,7 @@ void Director::take_scene(const Orders& orders) {
       throw;
     }
     budget_ = budget;
-    views_.change_scene();
+    views_.change_scene(shown_.compiled);
     rare_paths_.change_scene();
     clean_.change_scene();
     mail_.post(shown_.compiled);
@@ -127,7 +132,7 @@ bool Director::go_on_from(Film* film) {
   if (!film || film->width != scene.width || film->height != scene.height || !(film->region == whole) ||
       film->first_sample != 0 || film->unit != scene.film_unit)
     return false;
-  picture_.go_on(std::move(*film), progression_options(*shown_.scene, 1));
+  picture_.go_on(std::move(*film), progression_options(*shown_.scene, 1, first_));
   picture_.estimate_now(*crew_);
   rare_paths_.start_over();
   clean_.start_over();
@@ -139,7 +144,7 @@ void Director::start_over(double budget) {
   const RenderScene& scene = *shown_.compiled;
   const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
   const int step = first_pictures_.step_for(pixels, budget, shown_pixels_);
-  picture_.start(scene, {0, 0, scene.width, scene.height}, 0, progression_options(*shown_.scene, step));
+  picture_.start(scene, {0, 0, scene.width, scene.height}, 0, progression_options(*shown_.scene, step, first_));
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();
@@ -149,8 +154,18 @@ void Director::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
   rare_paths_.look(shown_, picture_);
   const bool first = !first_picture_ms_;
+  report_pixel();
   publish();
   if (first) give_way();
+}
+
+/// Tells what is known of the pixel that is watched.
+void Director::report_pixel() {
+  if (!pixel_ || !shown_.compiled) return;
+  PixelReport report{.x = pixel_->first, .y = pixel_->second, .edit = shown_.edit};
+  if (picture_.taken() > 0) look_at_pixel(picture_.film(), report);
+  mail_.post(report);
+  if (on_frame_) on_frame_();
 }
 
 /// The first picture of an edit is on its way to the screen: until it is there, the processors are for that.
@@ -178,13 +193,16 @@ void Director::publish() {
   frame->width = film.width, frame->height = film.height;
   frame->columns = grid.columns, frame->rows = grid.rows, frame->spacing = grid.spacing;
   frame->view = view_;
+  frame->white = views_.white();
   frame->clean = clean_.latest();
   frame->awaits_clean = clean_is_due();
   if (view_ == View::noise && frame->clean) {
     frame->rgba = noise_rgba(frame->clean->pixel_error);
+    frame->white = 1;
     frame->columns = film.width, frame->rows = film.height, frame->spacing = 1;
   }
   frame->step = picture_.step();
+  frame->most_spp = picture_.most_taken();
   frame->spp = picture_.taken();
   frame->relative_error = picture_.error();
   frame->rare_bright_paths = rare_paths_.found() || (frame->clean && frame->clean->doubtful);

@@ -55,6 +55,7 @@ class Director {
   void answer_films();
   void finish_pass();
   void give_way();
+  void report_pixel();
   void publish();
   void make_clean();
   bool clean_is_due() const { return shown_.compiled && clean_.is_due(picture_, !unfinished(limit_)); }
@@ -75,10 +76,12 @@ class Director {
   FrameMemory frame_memory_;
 
   View view_ = View::beauty;
-  std::uint32_t limit_ = 0;        ///< samples a pixel at which to stop
-  std::int64_t shown_pixels_ = 0;  ///< see Renderer::set_shown_pixels
-  bool stalled_ = false;           ///< a step failed; nothing is done until something is asked for
-  double budget_ = 0;              ///< seconds for the first picture of the newest edit
+  std::uint32_t limit_ = 0;                   ///< samples a pixel at which to stop
+  std::int64_t shown_pixels_ = 0;             ///< see Renderer::set_shown_pixels
+  Region first_;                              ///< see Renderer::refine_first
+  std::optional<std::pair<int, int>> pixel_;  ///< that is reported on after each pass
+  bool stalled_ = false;                      ///< a step failed; nothing is done until something is asked for
+  double budget_ = 0;                         ///< seconds for the first picture of the newest edit
   std::uint64_t frames_ = 0;
   std::optional<double> first_picture_ms_;  ///< absent until the newest edit or restart has its first picture
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/choice.h"
+#include "core/base/vec.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,7 @@
 namespace tyndall {
 
 /// What a frame shows besides the beauty image.
-enum class View { beauty, albedo, normal, depth, noise, samples, cost };
+enum class View { beauty, albedo, normal, depth, noise, samples, cost, object };
 
 constexpr Word word(View view) {
   switch (view) {
@@ -28,7 +29,9 @@ constexpr Word word(View view) {
     case View::samples:
       return {"samples"};
     case View::cost:
-      return {"cost", "rays of a path; white: most"};
+      return {"cost", "rays of a path"};
+    case View::object:
+      return {"object", "what is seen first; a colour for each object"};
   }
   return {};
 }
@@ -41,6 +44,18 @@ struct CleanFrame {
   std::uint32_t spp = 0;           ///< samples a pixel that it was made from
   bool doubtful = false;           ///< see is_doubtful
   double seconds = 0;              ///< rendering and filtering since the edit
+};
+
+/// What is known of one pixel of the picture itself, whatever the view.
+struct PixelReport {
+  int x = 0, y = 0;
+  std::uint64_t edit = 0;      ///< of the picture
+  std::uint32_t samples = 0;   ///< of this pixel; 0: nothing is known yet
+  std::uint32_t rejected = 0;  ///< of these
+  Vec3f mean{};                ///< linear radiance
+  /// Standard error of the mean of each channel: from the differences of the two halves of the 7 x 7 pixels around, as
+  /// one pixel's own difference says little. Infinite before two samples.
+  Vec3f standard_error{};
 };
 
 /// One finished pass, ready to be shown. Never changes after it was published.
@@ -71,8 +86,11 @@ struct Frame {
   double mrays_per_s = 0;          ///< of the last pass
   double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it
   std::uint64_t rejected = 0, truncated = 0;
-  double cut_throughput = 0;  ///< see FilmTotals
-  bool shares = false;        ///< groups of pixels share second vertices: see SceneView
+  double cut_throughput = 0;   ///< see FilmTotals
+  std::uint32_t most_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
+  double white = 1;  ///< what white stands for: a relative error in the view of noise, samples in that of samples,
+                     ///< scene units in that of depth, rays a path in that of cost
+  bool shares = false;  ///< groups of pixels share second vertices: see SceneView
   std::size_t film_bytes = 0;
   std::string isa;
   int lanes = 1, threads = 1;

@@ -101,6 +101,24 @@ void Mailbox::set_shown_pixels(std::int64_t pixels) {
   orders_.shown_pixels = pixels;  // of use with the next picture
 }
 
+void Mailbox::refine_first(const Region& part) {
+  const std::lock_guard lock(mutex_);
+  orders_.first = part;  // from the next pass on
+}
+
+void Mailbox::watch_pixel(std::optional<std::pair<int, int>> pixel) {
+  const std::lock_guard lock(mutex_);
+  if (orders_.pixel == pixel) return;
+  orders_.pixel = pixel;
+  other_pixel_ = true;
+  wake(false);
+}
+
+std::shared_ptr<const PixelReport> Mailbox::pixel() const {
+  const std::lock_guard lock(mutex_);
+  return pixel_;
+}
+
 void Mailbox::note_shown(std::uint64_t pass) {
   const std::lock_guard lock(mutex_);
   if (pass <= shown_pass_) return;
@@ -143,8 +161,8 @@ std::shared_ptr<const RenderScene> Mailbox::compiled() const {
 bool Mailbox::wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
   std::unique_lock lock(mutex_);
   const bool news = news_.wait(lock, stop, [&] {
-    return orders_.scene || orders_.restart || orders_.redraw || orders_.threads > 0 || !films_.empty() ||
-           unfinished(limit());
+    return orders_.scene || orders_.restart || orders_.redraw || orders_.threads > 0 || other_pixel_ ||
+           !films_.empty() || unfinished(limit());
   });
   return news && !stop.stop_requested();
 }
@@ -157,6 +175,7 @@ Orders Mailbox::take() {
   orders_.film = nullptr;
   orders_.restart = orders_.redraw = false;
   orders_.threads = 0;
+  other_pixel_ = false;
   give_up_ = false;
   return taken;
 }
@@ -176,6 +195,11 @@ void Mailbox::post(std::shared_ptr<Frame> frame) {
 void Mailbox::post(RenderProblem problem) {
   const std::lock_guard lock(mutex_);
   problem_ = std::make_shared<const RenderProblem>(std::move(problem));
+}
+
+void Mailbox::post(PixelReport report) {
+  const std::lock_guard lock(mutex_);
+  pixel_ = std::make_shared<const PixelReport>(report);
 }
 
 void Mailbox::post(std::shared_ptr<const RenderScene> compiled) {

@@ -42,6 +42,8 @@ struct Orders {
   std::uint32_t limit = 0;        ///< samples a pixel at which to stop; at most 1 while the renderer is paused
   int threads = 0;                ///< how many to use; 0: as many as before
   std::int64_t shown_pixels = 0;  ///< see Renderer::set_shown_pixels
+  Region first;                   ///< see Renderer::refine_first
+  std::optional<std::pair<int, int>> pixel;  ///< of which reports are wanted
 };
 
 /// Messages between any number of callers and the one thread that renders. A newer scene replaces one that has not been
@@ -63,6 +65,9 @@ class Mailbox {
   void set_threads(int threads);
   void set_shown_pixels(std::int64_t pixels);
   void note_shown(std::uint64_t pass);
+  void refine_first(const Region& part);
+  void watch_pixel(std::optional<std::pair<int, int>> pixel);
+  std::shared_ptr<const PixelReport> pixel() const;
   std::future<Film> ask_for_film();
   std::shared_ptr<const Frame> latest() const;
   std::shared_ptr<const RenderProblem> problem() const;
@@ -90,6 +95,7 @@ class Mailbox {
   /// Hands a frame out. Sets whether it is finished, as the limit may have changed since the frame was begun.
   void post(std::shared_ptr<Frame> frame);
   void post(RenderProblem problem);
+  void post(PixelReport report);
   /// Hands out the scene that is rendered from now on, and withdraws the problem of an earlier one.
   void post(std::shared_ptr<const RenderScene> compiled);
 
@@ -104,7 +110,7 @@ class Mailbox {
   std::shared_ptr<const Scene> newest_;  ///< null: none came yet
   Orders orders_;                        ///< not yet taken; its limit is unused, as pausing changes it
   std::uint32_t limit_ = 0;
-  bool paused_ = false;
+  bool paused_ = false, other_pixel_ = false;
   std::vector<std::promise<Film>> films_;
 
   std::uint64_t shown_pass_ = 0;  ///< Frame::pass of the newest frame on the screen; 0: nobody tells
@@ -112,6 +118,7 @@ class Mailbox {
 
   std::shared_ptr<const Frame> latest_;
   std::shared_ptr<const RenderProblem> problem_;
+  std::shared_ptr<const PixelReport> pixel_;
   std::shared_ptr<const RenderScene> compiled_;
 };
 

@@ -43,11 +43,15 @@ UnitBuffer& buffer() {
   return *static_cast<UnitBuffer*>(memory.get());
 }
 
-/// How many samples the pixels lack on average of those that are wanted.
-std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& wanted) {
+/// How many samples the pixels of a part lack on average of those that are wanted.
+std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& part) {
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < wanted.size(); ++i) sum += wanted[i] - std::min(wanted[i], film.pixels[i].taken);
-  return static_cast<std::uint32_t>(sum / wanted.size());
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; ++x) {
+      const std::size_t i = film.index(x, y);
+      sum += wanted[i] - std::min(wanted[i], film.pixels[i].taken);
+    }
+  return static_cast<std::uint32_t>(sum / static_cast<std::uint64_t>(std::int64_t{part.width()} * part.height()));
 }
 
 /// Fills in the first and last sample of the next unit of a tile, for each of its pixels. Pixels that lack samples get
@@ -79,8 +83,11 @@ Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int
 }
 
 Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling)
-    : region_(film.region), wanted_(std::move(wanted)) {
-  cut(tiling, mean_lack(film, wanted_));
+    : Pass(film, std::move(wanted), film.region, tiling) {}
+
+Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& part, Tiling tiling)
+    : region_(part), wanted_(std::move(wanted)) {
+  cut(tiling, mean_lack(film, wanted_, part));
 }
 
 void Pass::cut(Tiling tiling, std::uint32_t samples) {

@@ -27,6 +27,8 @@ class Pass {
 
   /// Brings each pixel of the film's region to `wanted` samples (row by row); pixels that have more keep them.
   Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling = {});
+  /// The same for the pixels of a part of the film's region; `wanted` is as long as before.
+  Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& part, Tiling tiling = {});
 
   /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then it returns
   /// within one unit. Returns whether all are done. A sample of index film.first_sample replaces what its pixel held,

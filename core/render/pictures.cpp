@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyndall {
 namespace {
@@ -90,9 +91,13 @@ std::vector<float> noise_rgba(const std::vector<float>& errors) {
   return rgba;
 }
 
+double twice_mean_samples(const Film& film) {
+  const auto all = static_cast<double>(std::max<std::uint64_t>(1, totals(film).samples));
+  return 2 * all / static_cast<double>(film.pixels.size());
+}
+
 std::vector<float> samples_rgba(const Film& film) {
-  const auto all = static_cast<float>(std::max<std::uint64_t>(1, totals(film).samples));
-  const float twice_mean = 2 * all / static_cast<float>(film.pixels.size());
+  const auto twice_mean = static_cast<float>(twice_mean_samples(film));
   std::vector<float> rgba(4 * film.pixels.size());
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const float share = std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f);
@@ -123,9 +128,14 @@ std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Cr
   return costs;
 }
 
-std::vector<float> relative_rgba(const std::vector<float>& values) {
+float largest(const std::vector<float>& values) {
   float most = 1e-37f;
   for (const float value : values) most = std::max(most, value);
+  return most;
+}
+
+std::vector<float> relative_rgba(const std::vector<float>& values) {
+  const float most = largest(values);
   std::vector<float> rgba(4 * values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float share = values[i] / most;
@@ -134,13 +144,69 @@ std::vector<float> relative_rgba(const std::vector<float>& values) {
   return rgba;
 }
 
+void look_at_pixel(const Film& film, PixelReport& report) {
+  const Region& all = film.region;
+  if (report.x < all.x0 || report.x >= all.x1 || report.y < all.y0 || report.y >= all.y1) return;
+  const FilmPixel& pixel = film.at(report.x, report.y);
+  report.samples = pixel.taken;
+  report.rejected = pixel.rejected[0] + pixel.rejected[1];
+  report.mean = mean(film, pixel);
+  Vec3f variance{};  // of one sample, as sums over the pixels around, each weighed by what its difference tells
+  float pixels = 0;
+  constexpr int reach = 3;
+  for (int y = std::max(report.y - reach, all.y0); y < std::min(report.y + reach + 1, all.y1); ++y)
+    for (int x = std::max(report.x - reach, all.x0); x < std::min(report.x + reach + 1, all.x1); ++x) {
+      const FilmPixel& near = film.at(x, y);
+      if (counted(film, near, 0) == 0 || counted(film, near, 1) == 0) continue;
+      const Vec3f half = 0.5f * (half_mean(film, near, 0) - half_mean(film, near, 1));
+      variance = variance + static_cast<float>(near.taken) * (half * half);
+      pixels += 1;
+    }
+  const float per = pixels > 0 ? 1 / (pixels * static_cast<float>(report.samples)) : 0;
+  const auto error = [&](float sum) {
+    return pixels > 0 ? std::sqrt(sum * per) : std::numeric_limits<float>::infinity();
+  };
+  report.standard_error = {error(variance.x), error(variance.y), error(variance.z)};
+}
+
+float farthest(const std::vector<FirstHit>& hits) {
+  float found = 1e-37f;
+  for (const FirstHit& hit : hits) found = std::max(found, hit.depth);
+  return found;
+}
+
+namespace {
+
+/// Hues a golden section of the circle apart, so that neighbours in the list differ; every second round is paler.
+Vec3f colour_of_object(const std::vector<int>& path) {
+  std::uint32_t number = 0;
+  for (const int index : path) number = 31 * number + static_cast<std::uint32_t>(index) + 1;
+  const float hue = 6 * std::fmod(0.618034f * static_cast<float>(number % 4096), 1.0f);
+  const float pale = number / 7 % 2 == 0 ? 0.06f : 0.3f, bright = number / 3 % 2 == 0 ? 0.85f : 0.5f;
+  const auto channel = [&](float from) {
+    const float way = std::abs(std::fmod(hue + from, 6.0f) - 3) - 1;
+    return bright * (pale + (1 - pale) * std::clamp(way, 0.0f, 1.0f));
+  };
+  return {channel(0), channel(4), channel(2)};
+}
+
+}  // namespace
+
+std::vector<float> object_rgba(const std::vector<FirstHit>& hits, const RenderScene& scene) {
+  std::vector<Vec3f> colours;
+  for (const std::vector<int>& path : scene.elements.object) colours.push_back(colour_of_object(path));
+  std::vector<float> rgba(4 * hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    put(rgba, i, hits[i].element >= 0 ? colours[static_cast<std::size_t>(hits[i].element)] : Vec3f{});
+  return rgba;
+}
+
 std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view) {
-  float farthest = 1e-37f;
-  for (const FirstHit& hit : hits) farthest = std::max(farthest, hit.depth);
+  const float white = farthest(hits);
   std::vector<float> rgba(4 * hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const FirstHit& hit = hits[i];
-    const float depth = hit.depth / farthest;
+    const float depth = hit.depth / white;
     const Vec3f normal = 0.5f * (hit.normal + Vec3f{1, 1, 1});
     Vec3f colour{};
     if (hit.element >= 0)

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/crew.h"
+#include "core/compile/render_scene.h"
 #include "core/film/film.h"
 #include "core/kernel/kernels.h"
 #include "core/render/frame.h"
@@ -63,8 +64,9 @@ std::vector<float> grey_rgba(std::size_t pixels, float grey);
 std::vector<float> noise_rgba(const Film& film);
 std::vector<float> noise_rgba(const std::vector<float>& errors);
 
-/// The number of samples of each pixel as grey: the mean is the grey of 0.5, twice the mean and more are white.
+/// The number of samples of each pixel as grey: twice the mean and more are white.
 std::vector<float> samples_rgba(const Film& film);
+double twice_mean_samples(const Film& film);
 
 /// How many rays a path through each pixel takes: the mean over cells of 4 x 4 pixels. Their first 4 samples are
 /// rendered once more to count it. Empty if `give_up` was set meanwhile.
@@ -73,9 +75,18 @@ std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Cr
 
 /// Numbers >= 0 as grey: the largest is white.
 std::vector<float> relative_rgba(const std::vector<float>& values);
+/// The largest, but above 0.
+float largest(const std::vector<float>& values);
+
+/// Fills in what the film says of the pixel (report.x, report.y); leaves the report as it is outside the film.
+void look_at_pixel(const Film& film, PixelReport& report);
 
 /// Albedo, normal (x, y, z mapped to [0, 1]) or depth (grey, the farthest is white) of what each pixel sees first.
 std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view);
+/// The largest depth, but above 0.
+float farthest(const std::vector<FirstHit>& hits);
+/// A colour for each object, the same wherever it is seen. scene: whose elements the hits name.
+std::vector<float> object_rgba(const std::vector<FirstHit>& hits, const RenderScene& scene);
 
 /// What is first seen through the centre of each pixel of the image.
 std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, Crew& crew);

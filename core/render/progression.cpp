@@ -2,6 +2,7 @@
 
 #include "core/accuracy/estimate.h"
 #include "core/base/seconds.h"
+#include "core/film/groups.h"
 #include "core/render/plan.h"
 
 #include <algorithm>
@@ -9,6 +10,27 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
+
+/// A part of a film's region, made larger so that it cuts no block of pixels that share; empty where they do not meet.
+Region part_of(const Film& film, const Region& part, bool shares) {
+  const int across = shares ? block_width : 1, down = shares ? block_height : 1;
+  const auto up = [](int at, int step) { return (at + step - 1) / step * step; };
+  const Region all = film.region;
+  return {std::max(std::max(part.x0, 0) / across * across, all.x0),
+          std::max(std::max(part.y0, 0) / down * down, all.y0), std::min(up(std::max(part.x1, 0), across), all.x1),
+          std::min(up(std::max(part.y1, 0), down), all.y1)};
+}
+
+std::uint32_t least_taken(const Film& film, const Region& part) {
+  std::uint32_t least = film.at(part.x0, part.y0).taken;
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; ++x) least = std::min(least, film.at(x, y).taken);
+  return least;
+}
+
+}  // namespace
+
 std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second) {
   std::uint32_t most = length.most;
   if (std::isfinite(length.seconds)) {
@@ -26,13 +48,20 @@ PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) 
     return;
   }
   taken_ = sum.least_taken;
-  if (sum.most_taken > sum.least_taken) level_to_ = sum.most_taken;
+  // No pass does more than double the samples, apart from those that refine a part first.
+  if (sum.most_taken > 4 * std::max(sum.least_taken, options.length.most))
+    most_ = sum.most_taken;
+  else if (sum.most_taken > sum.least_taken)
+    level_to_ = sum.most_taken;
 }
 
 Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
                          const RenderEngine& engine) {
   if (pass_) return *pass_;
   coarse_ = level_to_ == 0 && taken_ == 0 && !coarse_done_ && options_.coarse_step > 1;
+  if (level_to_ == 0 && taken_ > 0) pass_ = refining_pass(film, limit, paths_per_second, engine);
+  refining_ = pass_ != nullptr;
+  if (refining_) return *pass_;
   end_ = 1;
   if (level_to_ > 0) {
     end_ = level_to_;
@@ -54,15 +83,33 @@ std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uin
   if (limit) end_ = std::min(end_, *limit);
   if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.crew));
   if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
+  if (most_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
   // The pixels of a coarse pass have their first sample, unless that was one without its group.
   const int skip_step = taken_ == 0 && coarse_done_ && !tiling.shares ? options_.coarse_step : 0;
   return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
                                 tiling);
 }
 
+std::unique_ptr<Pass> PassSchedule::refining_pass(const Film& film, std::optional<std::uint32_t> limit,
+                                                  double paths_per_second, const RenderEngine& engine) {
+  const Region part = part_of(film, options_.first, engine.scene.shares);
+  if (options_.adaptive || part.width() <= 0 || part.height() <= 0) return nullptr;
+  const auto pixels = static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height());
+  const std::uint32_t least = least_taken(film, part);
+  PassLength length = options_.length;
+  length.most = 1024;  // a small part takes little time
+  end_ = least + pass_samples(length, least, pixels, paths_per_second);
+  if (limit) end_ = std::min(end_, *limit);
+  if (end_ <= least) return nullptr;
+  return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), part,
+                                Tiling{options_.tile, engine.scene.shares});
+}
+
 void PassSchedule::finish() {
   if (coarse_)
     coarse_done_ = true;
+  else if (refining_)
+    most_ = std::max(most_, end_);
   else
     taken_ = end_;
   level_to_ = 0;
@@ -101,6 +148,11 @@ void Progression::begin(PassSchedule schedule, const ProgressionOptions& options
   estimate_ = {};
   estimate_of_ = 0;
   next_estimate_ = options.estimates.seconds;
+}
+
+void Progression::set_first(const Region& first) {
+  options_.first = first;
+  schedule_.set_first(first);
 }
 
 void Progression::estimate_now(Crew& crew) {

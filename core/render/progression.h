@@ -3,6 +3,7 @@
 #include "core/compile/render_scene.h"
 #include "core/render/pass.h"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -45,9 +46,12 @@ struct EstimateTimes {
 
 /// How a picture is made.
 struct ProgressionOptions {
-  bool adaptive = false;      ///< see plan.h
-  int tile = 0;               ///< see Tiling
-  int coarse_step = 1;        ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
+  bool adaptive = false;  ///< see plan.h
+  int tile = 0;           ///< see Tiling
+  int coarse_step = 1;    ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
+  /// The part of the picture that gets all further samples as soon as each pixel has one, until it has as many as are
+  /// wanted; then the rest follows. Empty: none. Of no effect with `adaptive`, which says by itself where samples go.
+  Region first;
   bool count_breaks = false;  ///< the time between passes counts as rendering time, as in blocking renders
   PassLength length;
   EstimateTimes estimates;
@@ -61,7 +65,8 @@ struct RenderEngine {
 };
 
 /// Decides which samples of a film come next. In this order: what an interrupted pass has left; a coarse pass; the
-/// pixels that it left out; then passes that grow, but never beyond the end of a round of adaptive sampling.
+/// pixels that it left out; the part that is refined first; then passes that grow, but never beyond the end of a round
+/// of adaptive sampling.
 class PassSchedule {
  public:
   /// For a film that has no samples, or whose samples are replaced by the first pass.
@@ -74,22 +79,28 @@ class PassSchedule {
   Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, const RenderEngine& engine);
   /// To be called when all units of the pass are done.
   void finish();
+  /// See ProgressionOptions; from the next pass on.
+  void set_first(const Region& first) { options_.first = first; }
 
   const Pass* pass() const { return pass_.get(); }  ///< null between passes
   bool pass_is_coarse() const { return pass_ && coarse_; }
   std::uint32_t pass_end() const { return end_; }  ///< what taken() becomes with the pass that is under way
   std::uint32_t taken() const { return taken_; }   ///< samples of every pixel; after adaptive rounds their mean
+  std::uint32_t most() const { return std::max(taken_, most_); }  ///< samples of those that were refined first
   bool coarse_done() const { return coarse_done_; }
   int coarse_step() const { return options_.coarse_step; }
 
  private:
   std::unique_ptr<Pass> full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
                                   const RenderEngine& engine);
+  std::unique_ptr<Pass> refining_pass(const Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
+                                      const RenderEngine& engine);
 
   ProgressionOptions options_;
   std::unique_ptr<Pass> pass_;
-  bool coarse_ = false, coarse_done_ = false;
+  bool coarse_ = false, coarse_done_ = false, refining_ = false;
   std::uint32_t taken_ = 0, end_ = 0;
+  std::uint32_t most_ = 0;      ///< above taken_: so many samples have pixels that were refined first
   std::uint32_t level_to_ = 0;  ///< an interrupted pass left some pixels with so many: all get these first; 0: none did
 };
 
@@ -128,6 +139,10 @@ class Progression {
   void put_back(Film film) { film_ = std::move(film); }
   /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass is there.
   std::uint32_t taken() const { return schedule_.taken(); }
+  /// Samples of the pixels that were refined first; taken() where there are none.
+  std::uint32_t most_taken() const { return schedule_.most(); }
+  /// See ProgressionOptions; from the next pass on.
+  void set_first(const Region& first);
   /// Whether there is something to show.
   bool has_picture() const { return taken() > 0 || schedule_.coarse_done(); }
   /// 1, or larger after a coarse pass: then only every step-th pixel in x and y has samples.

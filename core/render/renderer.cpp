@@ -62,6 +62,12 @@ void Renderer::set_shown_pixels(std::int64_t pixels) { state_->mail.set_shown_pi
 
 void Renderer::note_shown(std::uint64_t pass) { state_->mail.note_shown(pass); }
 
+void Renderer::refine_first(const Region& part) { state_->mail.refine_first(part); }
+
+void Renderer::watch_pixel(std::optional<std::pair<int, int>> pixel) { state_->mail.watch_pixel(pixel); }
+
+std::shared_ptr<const PixelReport> Renderer::pixel() const { return state_->mail.pixel(); }
+
 Film Renderer::film() const { return state_->mail.ask_for_film().get(); }
 
 Renderer::Pick Renderer::pick(int x, int y) const {

@@ -6,7 +6,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Interactive rendering: for the window.
@@ -51,6 +53,15 @@ class Renderer {
   /// The frame of that pass is on the screen. Once this was called, the renderer gives way to the screen: after the
   /// first frame of an edit it goes on when that was shown, or after 50 ms.
   void note_shown(std::uint64_t pass);
+
+  /// This part of the picture gets all further samples, as soon as each pixel has one, until it has as many as the
+  /// scene asks for; then the rest follows. Which samples a pixel gets never changes, so that a picture is the same in
+  /// the end. Of no effect with adaptive sampling. Empty: none.
+  void refine_first(const Region& part);
+  /// Reports on this pixel now and after each pass, on_frame is called then; nothing: reports on none.
+  void watch_pixel(std::optional<std::pair<int, int>> pixel);
+  /// The newest report, perhaps on the pixel that was watched before; null: none yet.
+  std::shared_ptr<const PixelReport> pixel() const;
 
   /// A copy of the film, for example for snapshots. Waits for the end of the pass that is under way, so that all pixels
   /// have as many samples as they are to have. Empty before the first full pass.

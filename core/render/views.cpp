@@ -4,7 +4,8 @@
 
 namespace tyndall {
 
-void Views::change_scene() {
+void Views::change_scene(std::shared_ptr<const RenderScene> scene) {
+  scene_ = std::move(scene);
   first_hits_.clear();
   costs_due_ = true;
 }
@@ -24,8 +25,10 @@ void Views::draw_counts(View view, const Progression& picture, std::vector<float
   if (picture.taken() >= least) {
     counts_ = view == View::noise ? noise_rgba(film) : samples_rgba(film);
     counts_of_ = view;
+    white_of_counts_ = view == View::noise ? 1 : twice_mean_samples(film);
   }
   const bool known = counts_of_ == view && counts_.size() == 4 * film.pixels.size();
+  white_ = known ? white_of_counts_ : 1;
   rgba = known ? counts_ : grey_rgba(film.pixels.size(), 0.5f);
 }
 
@@ -34,6 +37,7 @@ PictureGrid Views::draw(View view, const Progression& picture, const RenderEngin
   const Film& film = picture.film();
   const std::size_t pixels = film.pixels.size();
   const PictureGrid every_pixel{film.region.width(), film.region.height(), 1};
+  white_ = 1;
   switch (view) {
     case View::beauty:
       return coarse_rgba(film, picture.step(), engine.crew, rgba);
@@ -44,14 +48,17 @@ PictureGrid Views::draw(View view, const Progression& picture, const RenderEngin
     case View::cost:
       find_due_costs(engine, give_up);
       rgba = costs_.size() == pixels ? relative_rgba(costs_) : grey_rgba(pixels, 0);
+      white_ = static_cast<double>(largest(costs_));
       return every_pixel;
     case View::albedo:
     case View::normal:
     case View::depth:
+    case View::object:
       break;
   }
   if (first_hits_.empty()) first_hits_ = find_first_hits(engine.kernels, engine.scene, engine.crew);
-  rgba = first_hit_rgba(first_hits_, view);
+  rgba = view == View::object ? object_rgba(first_hits_, *scene_) : first_hit_rgba(first_hits_, view);
+  if (view == View::depth) white_ = static_cast<double>(farthest(first_hits_));
   return every_pixel;
 }
 

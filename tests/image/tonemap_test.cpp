@@ -25,9 +25,9 @@ TEST_CASE("sRGB: decoding undoes encoding") {
 
 TEST_CASE("sRGB: all 256 bytes come back as they were") {
   std::vector<float> linear;
-  for (int i = 0; i < 256; ++i) linear.push_back(srgb_decode(static_cast<float>(i) / 255));
+  for (int i = 0; i < 256; ++i) linear.insert(linear.end(), 3, srgb_decode(static_cast<float>(i) / 255));
   const std::vector<std::uint8_t> bytes = tone_map(linear, 0, ToneMap::srgb);
-  for (std::size_t i = 0; i < 256; ++i) CHECK(bytes[i] == i);
+  for (std::size_t i = 0; i < bytes.size(); ++i) CHECK(bytes[i] == i / 3);
 }
 
 TEST_CASE("tone map: counts exposure in stops, clips to [0, 1], and makes what is not a number black") {
@@ -47,6 +47,38 @@ TEST_CASE("tone map: ACES") {
   CHECK(tone_map({0.18f, 0.5f, 1}, 0, ToneMap::aces) == std::vector<std::uint8_t>{141, 206, 232});
   CHECK(tone_map({0.36f, 1, 2}, -1, ToneMap::aces) == std::vector<std::uint8_t>{141, 206, 232});
   CHECK(tone_map({0, 8, 1e20f}, 0, ToneMap::aces) == std::vector<std::uint8_t>{0, 255, 255});
+}
+
+// Entries of Sobotka's table AgX_Default_Contrast, which has 4096 from 0 to 1: two of the toe, one of the shoulder.
+// 0.18 is at 20/33 of the range of stops, and shown at half of the scale.
+TEST_CASE("AgX: the contrast is that of its author's table, with 0.18 at half of the scale") {
+  CHECK(std::abs(agx_contrast(0)) < 1e-6f);
+  CHECK(std::abs(agx_contrast(1466 / 4095.0f) - 0.1000201f) < 1e-6f);
+  CHECK(std::abs(agx_contrast(1856 / 4095.0f) - 0.2133565f) < 1e-6f);
+  CHECK(std::abs(agx_contrast(2687 / 4095.0f) - 0.6000830f) < 1e-6f);
+  CHECK(agx_contrast(20.0f / 33) == doctest::Approx(0.5));
+  CHECK(agx_contrast(1) == doctest::Approx(1));
+  const auto grey = tone_map({0.18f, 0.18f, 0.18f}, 0, ToneMap::agx);
+  for (const std::uint8_t byte : grey) CHECK((byte == 127 || byte == 128));  // 0.5 of 255
+}
+
+TEST_CASE("AgX: greys stay grey and grow with the light; colours that are very bright become white") {
+  std::uint8_t before = 0;
+  for (float light = 1e-6f; light < 100; light *= 1.01f) {
+    const auto shown = tone_map({light, light, light}, 0, ToneMap::agx);
+    CHECK(shown[0] == shown[1]);
+    CHECK(shown[1] == shown[2]);
+    CHECK(shown[0] >= before);
+    before = shown[0];
+  }
+  CHECK(before == 255);
+  CHECK(tone_map({0, 1e-6f, -1}, 0, ToneMap::agx)[0] == 0);
+  const auto red = tone_map({0.5f, 0, 0}, 0, ToneMap::agx), bright = tone_map({1000, 0, 0}, 0, ToneMap::agx);
+  CHECK(red[0] > red[1] + 60);
+  CHECK(bright[1] > red[1] + 60);
+  const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  CHECK(tone_map({infinity, infinity, infinity}, 0, ToneMap::agx) == std::vector<std::uint8_t>{255, 255, 255});
+  CHECK(tone_map({nan, nan, nan}, 0, ToneMap::agx) == std::vector<std::uint8_t>{0, 0, 0});
 }
 
 TEST_CASE("dithering: what 8 bits can show stays exact, everything else is one of its two neighbours") {

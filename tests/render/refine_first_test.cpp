@@ -1,0 +1,138 @@
+#include "core/compile/compile.h"
+#include "core/render/pictures.h"
+#include "core/render/progression.h"
+#include "core/render/render.h"
+#include "core/scene/load.h"
+#include "tests/support/watched_renderer.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <thread>
+
+/// A part of the picture that gets its samples before the rest, and what is told of one pixel.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+RenderScene small(const char* name) {
+  Scene scene = load_scene(name).scene;
+  scene.width = 61;
+  scene.height = 43;
+  return compile(scene);
+}
+
+}  // namespace
+
+TEST_CASE("a part that is refined first has prefixes of the same samples, and the picture is the same in the end") {
+  // With light that groups of pixels share, and without.
+  for (const char* name : {"cornell-box", "showroom"}) {
+    const RenderScene scene = small(name);
+    Crew crew(2);
+    const Kernels kernels = *choose_kernels("");
+    const SceneViewOf view(scene);
+    const RenderEngine engine{crew, kernels, view.view()};
+    RenderOptions blocking;
+    blocking.spp = 40;
+    const Film whole = render(scene, blocking).film;
+    ProgressionOptions options;
+    options.coarse_step = 4;
+    options.first = {20, 10, 33, 21};
+    Progression picture;
+    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    const Limits limits{.spp = 40};
+    while (picture.most_taken() < 40) REQUIRE(picture.run_pass(engine, limits, false));
+    CHECK(picture.taken() == 1);
+    CHECK(picture.film().at(25, 15) == whole.at(25, 15));
+    CHECK(picture.film().at(60, 42).taken == 1);
+    CHECK_FALSE(picture.reached(limits));
+    // Another part, given up on the way; then the whole picture.
+    picture.set_first({0, 30, 10, 43});
+    REQUIRE(picture.run_pass(engine, limits, false));
+    CHECK(picture.film().at(5, 40).taken > 1);
+    CHECK(picture.film().at(60, 42).taken == 1);
+    picture.set_first({});
+    REQUIRE(picture.run_pass(engine, limits, false));
+    CHECK(picture.film().at(60, 42).taken == 2);
+    CHECK(picture.taken() == 2);
+    CHECK(picture.film().at(25, 15).taken == 40);
+    // The film can be kept and gone on with.
+    Progression again;
+    again.go_on(picture.film(), {});
+    CHECK(again.taken() == 2);
+    while (!again.reached(limits)) REQUIRE(again.run_pass(engine, limits, false));
+    CHECK(again.film() == whole);
+    while (!picture.reached(limits)) REQUIRE(picture.run_pass(engine, limits, false));
+    CHECK(picture.film() == whole);
+  }
+}
+
+TEST_CASE("a part that is refined first: beyond the picture it is nothing, and adaptive sampling knows better") {
+  const RenderScene scene = small("cornell-smoke");
+  Crew crew(2);
+  const Kernels kernels = *choose_kernels("");
+  const SceneViewOf view(scene);
+  const RenderEngine engine{crew, kernels, view.view()};
+  for (const bool adaptive : {false, true}) {
+    ProgressionOptions options;
+    options.adaptive = adaptive;
+    options.first = adaptive ? Region{0, 0, 9, 9} : Region{61, 0, 99, 9};
+    Progression picture;
+    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    for (int pass = 0; pass < 3; ++pass) REQUIRE(picture.run_pass(engine, {.spp = 64}, false));
+    CHECK(picture.taken() == 4);
+    CHECK(picture.most_taken() == 4);
+  }
+}
+
+TEST_CASE("the renderer refines a part first, and reports on a pixel after each pass and when asked at rest") {
+  Scene scene = load_scene("showroom").scene;
+  scene.width = 160, scene.height = 100;
+  scene.render.spp = 64;
+  WatchedRenderer renderer;
+  renderer->refine_first({40, 40, 60, 60});
+  renderer->watch_pixel(std::pair{50, 50});
+  const std::uint64_t edit = renderer->submit(scene);
+  const FramePointer refined =
+      renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.most_spp == 64 && f.spp == 1; }, 0);
+  CHECK_FALSE(refined->finished);
+  const FramePointer last = renderer.wait_finished(edit);
+  CHECK(last->spp == 64);
+  CHECK(last->most_spp == 64);
+  const auto report = renderer->pixel();
+  REQUIRE(report);
+  CHECK(report->x == 50);
+  CHECK(report->samples == 64);
+  CHECK(report->edit == edit);
+  const float* shown = last->rgba.data() + 4 * (50 * 160 + 50);
+  CHECK(report->mean == Vec3f{shown[0], shown[1], shown[2]});
+  renderer->watch_pixel(std::pair{7, 9});
+  const auto other = [&] { return renderer->pixel()->x == 7; };
+  while (!other()) std::this_thread::yield();
+  CHECK(renderer->pixel()->samples == 64);
+}
+
+TEST_CASE("the standard error of a pixel is that of its mean: it agrees with other seeds") {
+  Scene scene = load_scene("cornell-smoke").scene;
+  scene.width = scene.height = 48;
+  scene.render.sampler = SamplerKind::random;
+  RenderOptions options;
+  options.spp = 32;
+  double told = 0, squares = 0, sum = 0;
+  constexpr int seeds = 40;
+  for (int seed = 0; seed < seeds; ++seed) {
+    scene.render.seed = static_cast<std::uint32_t>(seed);
+    const Film film = render(compile(scene), options).film;
+    PixelReport report{.x = 24, .y = 36};
+    look_at_pixel(film, report);
+    CHECK(report.samples == 32);
+    const double mean = static_cast<double>(report.mean.y);
+    told += static_cast<double>(report.standard_error.y) / seeds, sum += mean / seeds, squares += mean * mean / seeds;
+  }
+  const double spread = std::sqrt((squares - sum * sum) * seeds / (seeds - 1));
+  CHECK(told / spread == doctest::Approx(1).epsilon(0.4));  // 40 seeds tell the spread to 11 %; pixels around differ
+  PixelReport outside{.x = 48, .y = 0};
+  look_at_pixel(make_film(48, 48, {0, 0, 48, 48}, 0, 1), outside);
+  CHECK(outside.samples == 0);
+}
