@@ -50,17 +50,26 @@ const char* fate_text(Fate fate) {
   return "";
 }
 
+std::string what_is_met(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
+  return v.met == Met::medium ? "the medium " + medium_text(scene, v.medium)
+                              : object_text(scene, compiled.elements.object[static_cast<std::size_t>(v.element)]);
+}
+
 std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
   const std::string fate = fate_text(v.fate);
   if (v.met == Met::nothing) return v.fate == Fate::escapes ? fate : "meets nothing, " + fate;
-  const std::string what = v.met == Met::medium
-                               ? "the medium " + medium_text(scene, v.medium)
-                               : object_text(scene, compiled.elements.object[static_cast<std::size_t>(v.element)]);
   const char* side = v.inside ? " on its inner side" : "";
-  return fmt::format("after {:.9g} meets {}, {}{}", static_cast<double>(v.distance), what, fate, side);
+  return fmt::format("after {:.9g} meets {}, {}{}", static_cast<double>(v.distance), what_is_met(scene, compiled, v),
+                     fate, side);
 }
 
 }  // namespace
+
+std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
+  const std::string fate = fate_text(vertex.fate);
+  if (vertex.met == Met::nothing) return fate;
+  return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
+}
 
 std::string replay_text(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
   std::string text;

@@ -28,6 +28,12 @@ constexpr ActionEntry entries[] = {
     {Action::add_fog, "add fog", {}},
     {Action::frame, "frame the selection", {'F'}},
     {Action::reset_camera, "reset the camera", {key_home}, {}, "", true},
+    {Action::inspect, "inspect pixels", {'I'}, {}, "value, error and object under the cursor"},
+    {Action::replay, "why noisy", {'I', false, true}, {}, "the path that adds most to that pixel", true},
+    {Action::actual_size, "actual size", {'0'}, {}, "one pixel for each of the screen's; again: all of it"},
+    {Action::refine_first, "refine a rectangle first", {'B', true}, {}, "then drag; again: the whole picture"},
+    {Action::store_camera, "store the camera", {}},
+    {Action::next_camera, "next stored camera", {}},
     {Action::pause, "pause or go on", {key_space}},
     {Action::restart, "start over", {'R'}, {}, "", true},
     {Action::undo, "undo", {'Z', true}},
@@ -48,6 +54,7 @@ const HelpLine mouse_lines[] = {{"Left drag", "orbit; on a handle of the selecti
                                 {"Middle drag", "pan"},
                                 {"Right drag, wheel", "nearer, farther"},
                                 {"Ctrl + wheel", "field of view"},
+                                {"Alt + wheel, Alt + drag", "enlarge the picture at the cursor; move it"},
                                 {"W A S D Q E", "fly; with Shift faster"},
                                 {"Click", "select the object under the cursor; again: what lies behind it"},
                                 {"Ctrl + click", "add to the selection"},
@@ -62,21 +69,27 @@ bool is_pressed(const Key& key, int code, Modifiers modifiers) {
   return code != 0 && key.code == code && key.control == modifiers.control && key.shift == modifiers.shift;
 }
 
-/// The help line of the views that the renderer draws, "1 … 7" and "views: beauty, albedo, …", or of those that show
-/// errors.
+/// The help line of the views with a digit that the renderer draws, "1 … 7" and "views: beauty, albedo, …", or of those
+/// that show errors.
 HelpLine views_line(bool of_errors) {
   int first = 0, last = -1;
   std::string names;
-  for (int k = 0; k < view_count; ++k) {
+  for (int k = 0; k < keyed_views; ++k) {
     if (shows_errors(k) != of_errors) continue;
     if (last < 0) first = k;
     names += (last < 0 ? "" : of_errors ? " and " : ", ") + std::string(view_entry(k).name);
     last = k;
   }
-  last = std::min(last, keyed_views - 1);
-  std::string input = first < keyed_views ? std::to_string(first + 1) : "Button";
+  std::string input = std::to_string(first + 1);
   if (last > first) input += (last == first + 1 ? ", " : " … ") + std::to_string(last + 1);
   return {input, of_errors ? names + " against the reference or the other half" : "views: " + names};
+}
+
+/// The views that have no digit.
+HelpLine line_of_other_views() {
+  std::string names;
+  for (int k = keyed_views; k < view_count; ++k) names += (names.empty() ? "" : ", ") + std::string(view_entry(k).name);
+  return {"Buttons, Ctrl + K", "more views: " + names};
 }
 
 /// A new line of the help table, or the end of the last one.
@@ -145,6 +158,7 @@ std::vector<HelpLine> help_lines() {
     if (entry.action == Action::clean) {
       lines.push_back(views_line(false));
       lines.push_back(views_line(true));
+      lines.push_back(line_of_other_views());
     }
     add_line(lines, entry);
   }

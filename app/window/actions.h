@@ -35,6 +35,12 @@ enum class Action {
   remove,
   rename,
   own_material,
+  inspect,
+  replay,
+  actual_size,
+  refine_first,
+  store_camera,
+  next_camera,
   add_sphere,  // these in the order of Addition
   add_hollow_ball,
   add_box,

@@ -69,6 +69,7 @@ void Commands::act(const KeyCommand& command) {
 }
 
 void Commands::act_on_document(Action action) {
+  if (picture_.act(action)) return;
   if (objects_.act(action)) {
     if (action == Action::rename) shows_panels_ = true;
     return;
@@ -177,6 +178,8 @@ void Commands::escape() {
   }
   if (palette_.is_open()) return palette_.close();
   if (objects_.escape()) return;
+  const bool covered = asks() || shows_help_ || session_.messages().current().error;
+  if (!covered && picture_.escape()) return;
   if (asks())
     dialog_.kind = Dialog::Kind::none;
   else if (shows_help_)

@@ -5,6 +5,7 @@
 #include "app/window/object_tools.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
+#include "app/window/picture_tools.h"
 #include "app/window/session.h"
 #include "app/window/system/pacing.h"
 #include "app/window/system/platform.h"
@@ -21,13 +22,14 @@ class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
   Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures,
-           ObjectTools& objects)
+           ObjectTools& objects, PictureTools& picture)
       : session_(session),
         platform_(platform),
         panels_(panels),
         pacing_(pacing),
         gestures_(gestures),
         objects_(objects),
+        picture_(picture),
         closing_(session) {}
 
   /// Does what the user has asked for since the last drawing.
@@ -72,6 +74,7 @@ class Commands {
   Pacing& pacing_;
   Gestures& gestures_;
   ObjectTools& objects_;
+  PictureTools& picture_;
   Dialog dialog_;
   Palette palette_;
   std::vector<KeyCommand> palette_commands_;  ///< what its lines do

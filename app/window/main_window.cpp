@@ -2,14 +2,10 @@
 
 #include "app/window/accuracy/views.h"
 #include "app/window/document/open_document.h"
-#include "app/window/system/display_lost.h"
 #include "app/window/tools/camera_control.h"
-#include "core/base/error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <set>
 #include <utility>
@@ -19,11 +15,6 @@ namespace {
 
 /// Seconds for which the screen stays as it is, because the picture of the newest edit is about to come.
 constexpr double longest_await = 0.04;
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value && *value;
-}
 
 std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
   return file.empty() ? nullptr : std::make_unique<UiLog>(file);
@@ -42,8 +33,10 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
           options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
       picture_(session_),
       objects_(session_, panels_, tools_.gestures, pacing_),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_) {
+      looks_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
+      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, looks_) {
   ui_.log = log_.get();
+  ui_.folded.insert("Histogram");  // it takes time with each picture
   panels_.facts.scenes = built_in_scenes();
   panels_.facts.accuracy = &session_.accuracy();
   if (reference) session_.references().set(std::move(reference));
@@ -51,7 +44,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
 
 int MainWindow::run() {
   while (!commands_.closed() && signals_.received() == 0) {
-    const bool at_rest = log_ && session_.at_rest();  // asked first: a picture that comes later is not missed
+    const bool at_rest =
+        log_ && session_.at_rest() && looks_.at_rest();  // asked first: a picture that comes later is not missed
     const double wait = waiting_time(clock_seconds());
     if (at_rest && wait >= 1) log_->rest();
     platform_.wait(wait);
@@ -59,7 +53,8 @@ int MainWindow::run() {
     if (platform_.take_close_wish()) commands_.ask_to_close();
     const InputEvents events = platform_.take_events();
     if (input_since_ <= 0) input_since_ = events.first;
-    if (events.any || session_.collect()) pacing_.on_event();
+    const bool looked = looks_.collect();
+    if (events.any || session_.collect() || looked) pacing_.on_event();
     for (const KeyPress& press : events.keys)
       if (log_) log_->line("key " + std::to_string(press.key));
     commands_.take(events);
@@ -71,19 +66,6 @@ int MainWindow::run() {
   }
   platform_.hide();  // a comparison or a snapshot may still take a second
   return end_of_signal();
-}
-
-/// Says what becomes of the edits if a signal ends the window. Returns the exit code.
-int MainWindow::end_of_signal() {
-  const int signal = signals_.received();
-  if (signal == 0) return 0;
-  session_.pause(true);
-  session_.keep_edits();
-  session_.flush_edits();
-  if (const Document* unsaved = session_.editor().unsaved())
-    std::fprintf(stderr, "tyndall: the edits of %s are kept and come back at the next start\n",
-                 unsaved->origin->title.c_str());
-  return 128 + signal;
 }
 
 /// Hands the newest scene to the renderer if its time has come. Returns whether that is a new edit.
@@ -158,10 +140,12 @@ void MainWindow::draw(double now) {
   const Scene& scene = session_.editor().scene();
   const Frame* shown = picture_.shown().get();
   const WindowSize size = platform_.size();
-  const Layout layout =
+  Layout layout =
       make_layout(static_cast<float>(size.width), static_cast<float>(size.height), shown ? shown->width : scene.width,
                   shown ? shown->height : scene.height, ui_.scale, commands_.shows_panels());
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
+  follow_window_size(size, dots);
+  looks_.place(layout, dots);
   session_.renderers().set_shown_pixels(std::llround(layout.image.width() * layout.image.height() * dots * dots));
   session_.set_input_time(std::exchange(input_since_, 0));
   fill_panels();
@@ -173,11 +157,24 @@ void MainWindow::draw(double now) {
     awaits_until_ = now + longest_await;
     return platform_.drop_frame();
   }
-  picture_.show(platform_, layout.image);
+  const bool stops = view_entry(panels_.view).stops;
+  picture_.show(platform_, layout, {.stops = stops, .pixels = looks_.shows_pixels()});
   if (fresh) picture_.note_shown();
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
   if (fresh && send(clock_seconds())) awaits_until_ = clock_seconds() + longest_await;
+}
+
+/// Renders as many pixels as the window shows of the picture, where the user wants that.
+void MainWindow::follow_window_size(const WindowSize& size, float dots) {
+  const Scene& scene = session_.editor().scene();
+  const Rect image = make_layout(static_cast<float>(size.width), static_cast<float>(size.height), scene.width,
+                                 scene.height, ui_.scale, commands_.shows_panels())
+                         .image;
+  const PictureSize shown{static_cast<int>(std::lround(image.width() * dots)),
+                          static_cast<int>(std::lround(image.height() * dots))};
+  const bool seen = shown.width > 0 && shown.height > 0;
+  session_.set_picture_size(at_window_ && seen ? std::optional(shown) : std::nullopt);
 }
 
 void MainWindow::fill_panels() {
@@ -190,6 +187,7 @@ void MainWindow::fill_panels() {
   panels_.facts.threads = session_.renderers().threads();
   panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
   panels_.facts.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
+  panels_.facts.at_window = at_window_;
   panels_.facts.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
@@ -199,7 +197,8 @@ void MainWindow::fill_panels() {
 void MainWindow::draw_interface(const Layout& layout) {
   draw_column(ui_, panels_, layout.column);
   objects_.draw(ui_, layout);
-  picture_.draw_halves(ui_, layout.image);
+  picture_.draw_halves(ui_, overlap(layout.image, layout.area));
+  looks_.draw(ui_, layout);
   const RendererPair& renderers = session_.renderers();
   const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(
@@ -221,8 +220,10 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   PointerTool& pointer = tools_.pointer;
   tools_.gestures.update(mouse.any_down() || holds_fly_key(held) || pointer.is_turning(now) || objects_.active());
   const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.asks();
-  const bool divides = !objects_.active() && picture_.drag_divider(ui_, layout.image, mouse, free);
-  if (!divides && !objects_.use_mouse(mouse, layout, ui_.scale, free)) {
+  const bool looks = !objects_.active() && looks_.use_mouse(mouse, layout, free);
+  const Rect visible = overlap(layout.image, layout.area);
+  const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free);
+  if (!looks && !divides && !objects_.use_mouse(mouse, layout, ui_.scale, free)) {
     const bool opens = !commands_.asks() && !objects_.shows_menu();
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
     if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
@@ -248,6 +249,10 @@ void MainWindow::apply_panels(double now) {
   if (wishes.clean) {
     session_.set_clean(*wishes.clean > 0);
     session_.set_clean_beside_raw(*wishes.clean > 1);
+    pacing_.on_new_start(now);
+  }
+  if (wishes.at_window) {
+    at_window_ = *wishes.at_window;
     pacing_.on_new_start(now);
   }
   if (wishes.reference) commands_.ask_reference();
@@ -279,20 +284,6 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   const WindowSize size = platform_.size();
   log_->changed("size", std::to_string(size.width) + " " + std::to_string(size.height));
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
-}
-
-int run_window(const WindowOptions& options) {
-  // GLFW is not touched without a display: its error would say less.
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
-    throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
-  std::shared_ptr<const Reference> reference;
-  if (!options.reference.empty())
-    reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));
-  MainWindow window(options, std::move(reference));
-  end_when_display_is_lost([&window] { window.flush_edits(); });
-  const int code = window.run();
-  end_when_display_is_lost({});  // what is left is gone soon
-  return code;
 }
 
 }  // namespace tyndall

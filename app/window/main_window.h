@@ -52,6 +52,7 @@ class MainWindow {
   int end_of_signal();
   void finish_drawing(double now, double cpu_before, bool fresh);
   void update_scale();
+  void follow_window_size(const WindowSize& size, float dots);
 
   std::unique_ptr<UiLog> log_;
   Platform platform_;
@@ -64,8 +65,10 @@ class MainWindow {
   Pacing pacing_;
   Tools tools_;
   ObjectTools objects_;
+  PictureTools looks_;
   Commands commands_;
   std::uint64_t paced_edit_ = 0;  ///< newest edit that pacing_ knows of
+  bool at_window_ = false;        ///< the picture has as many pixels as the window shows
   double input_since_ = 0;        ///< when the oldest input came that no drawing has seen; 0: there is none
   double awaits_until_ = 0;       ///< until then nothing is drawn but the picture of an edit that was just sent
 };

@@ -39,12 +39,18 @@ bool ObjectTools::needs_selection() {
   return true;
 }
 
+/// The pixel is one of the picture that is rendered, which may have another size than the scene's file asks for.
+PictureClick ObjectTools::click_in(const Scene& scene, const Rect& image, float x, float y) const {
+  const PictureSize size = session_.picture_size().value_or(PictureSize{scene.width, scene.height});
+  return click_at(image, x, y, size.width, size.height);
+}
+
 void ObjectTools::look_under(float x, float y) {
   const Scene& scene = session_.editor().scene();
   const bool over = layout_.image.contains(x, y);
   const Rect& image = layout_.image;
   const float at_x = over ? x : (image.x0 + image.x1) / 2, at_y = over ? y : (image.y0 + image.y1) / 2;
-  const PictureClick click = click_at(image, at_x, at_y, scene.width, scene.height);
+  const PictureClick click = click_in(scene, image, at_x, at_y);
   const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
   spot_ = spot_at(scene, click.at, find_object(scene, pick.object) ? pick.object : ObjectPath{}, pick.point);
 }
@@ -161,7 +167,7 @@ bool ObjectTools::use_mouse(const Mouse& mouse, const Layout& layout, float scal
 void ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton button) {
   if (!layout.image.contains(mouse.x, mouse.y)) return;
   const Scene& scene = panels_.scene;
-  const PictureClick click = click_at(layout.image, mouse.x, mouse.y, scene.width, scene.height);
+  const PictureClick click = click_in(scene, layout.image, mouse.x, mouse.y);
   const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
   if (button == PressedButton::left) {
     const bool again = clicks_.again(mouse.x, mouse.y, scale_, scene.camera);

@@ -49,6 +49,7 @@ class ObjectTools {
  private:
   void select(const PictureClick& click, const Renderer::Pick& pick, bool more, bool again);
   void focus_on(const Renderer::Pick& pick, bool keep_blur);
+  PictureClick click_in(const Scene& scene, const Rect& image, float x, float y) const;
   void look_under(float x, float y);
   void open_menu(const std::string& title, std::span<const Action> actions);
   void add(Addition what);

@@ -1,5 +1,6 @@
 #include "app/window/picture_view.h"
 
+#include "app/window/picture/zoom.h"
 #include "core/base/error.h"
 
 #include <fmt/core.h>
@@ -118,7 +119,7 @@ void PictureView::upload_picture(Side& side, const std::shared_ptr<const Frame>&
   side.uploaded = shown;
 }
 
-void PictureView::show(Platform& platform, const Rect& image) {
+void PictureView::show(Platform& platform, const Layout& layout, const Look& more) {
   try {
     upload();
   } catch (const IoError& error) {
@@ -127,17 +128,21 @@ void PictureView::show(Platform& platform, const Rect& image) {
   platform.clear();
   const WindowSize window = platform.size();
   const float dots = static_cast<float>(window.framebuffer_width) / static_cast<float>(std::max(1, window.width));
-  const Rect whole{image.x0 * dots, image.y0 * dots, image.x1 * dots, image.y1 * dots};
+  const auto in_dots = [dots](const Rect& r) { return Rect{r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}; };
+  const Rect whole = in_dots(layout.image), visible = overlap(layout.image, layout.area), clip = in_dots(visible);
   const int height = window.framebuffer_height;
   const Display& display = session_.editor().scene().display;
   const auto look = [&](const Frame* frame) {
     const bool plain = session_.accuracy().map() || (frame && frame->view != View::beauty);
-    return plain ? Look{} : Look{display.exposure, display.tone_map, display.dither};
+    Look shown = more;
+    shown.stops = more.stops && !plain;
+    if (!plain) shown.exposure = display.exposure, shown.tone_map = display.tone_map, shown.dither = display.dither;
+    return shown;
   };
-  right_.display->draw(whole, height, look(right_.frame.get()), whole);
+  right_.display->draw(whole, height, look(right_.frame.get()), clip);
   if (shows_halves() && left_.display) {
-    Rect left = whole;
-    left.x1 = std::round(divider_.x(image)) * dots;
+    Rect left = clip;
+    left.x1 = std::round(divider_.x(visible)) * dots;
     left_.display->draw(whole, height, look(shows_raw_beside() ? right_.frame.get() : left_.frame.get()), left);
   }
   platform.end_frame();

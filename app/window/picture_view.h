@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/panels/split_view.h"
+#include "app/window/picture/display.h"
 #include "app/window/session.h"
-#include "app/window/system/display.h"
 #include "app/window/system/mouse.h"
 #include "app/window/system/platform.h"
 
@@ -31,7 +31,8 @@ class PictureView {
   /// Moves the divider with the mouse. free: nothing else has the mouse. Returns whether the divider has it.
   bool drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free);
   /// Draws the picture, or both halves, beneath the interface and shows the whole drawing.
-  void show(Platform& platform, const Rect& image);
+  /// more: what the window wants besides the scene's exposure and curve.
+  void show(Platform& platform, const Layout& layout, const Look& more);
 
  private:
   /// A half, and what its display holds: its frame or a map of errors.

@@ -85,6 +85,22 @@ const std::shared_ptr<const Scene>& Session::shared_scene() {
   return shared_;
 }
 
+/// The scene as the renderers get it.
+std::shared_ptr<const Scene> Session::rendered_scene() {
+  const std::shared_ptr<const Scene>& scene = shared_scene();
+  if (!picture_size_ || *picture_size_ == PictureSize{scene->width, scene->height}) return scene;
+  auto sized = std::make_shared<Scene>(*scene);
+  sized->width = picture_size_->width, sized->height = picture_size_->height;
+  return sized;
+}
+
+void Session::set_picture_size(std::optional<PictureSize> size) {
+  if (size == picture_size_) return;
+  picture_size_ = size;
+  renderers_.refine_first({});  // its pixels are others now
+  timer_.on_change(clock_seconds());
+}
+
 void Session::discard_edits() {
   discarded_ = true;
   kept_.keep(nullptr, nullptr);
@@ -103,7 +119,7 @@ bool Session::send(double now) {
 }
 
 void Session::submit(double now) {
-  const std::shared_ptr<const Scene> scene = shared_scene();
+  const std::shared_ptr<const Scene> scene = rendered_scene();
   std::shared_ptr<Film> film = std::exchange(opened_film_, nullptr);
   if (film && !same_picture(*scene, editor_.document().origin->saved)) film = nullptr;  // it was edited meanwhile
   const RendererPair::Begun begun = renderers_.submit(scene, std::move(film));
@@ -172,8 +188,8 @@ void Session::set_split(bool split) {
   if (split == renderers_.split()) return;
   accuracy_.set_split(split);
   if (split) {
-    renderers_.begin_split(editor_.scene());
-    accuracy_.set_scene(Half::kept, renderers_.kept_scene(editor_.scene()));
+    renderers_.begin_split(*rendered_scene());
+    accuracy_.set_scene(Half::kept, renderers_.kept_scene(*rendered_scene()));
   } else {
     saving_.run([second = renderers_.end_split()]() mutable -> JobQueue::Result {
       second.reset();
@@ -202,12 +218,13 @@ void Session::render_reference() {
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
   constexpr std::uint32_t least = 64;
-  references_.render({editor_.scene(), std::max(least, frame->spp), renderers_.threads(), isa_});
+  references_.render({*rendered_scene(), std::max(least, frame->spp), renderers_.threads(), isa_});
 }
 
 void Session::snapshot() {
   if (timer_.waits()) submit(clock_seconds());  // so that the snapshot shows the newest edit
-  const Document& document = editor_.document();
+  Document document = editor_.document();
+  document.scene = *rendered_scene();
   Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), isa_, renderers_.threads()};
   messages_.say_until_done("saving " + snapshot.base.filename().string() + " …");
   const std::filesystem::path base = snapshot.base;
@@ -222,14 +239,14 @@ void Session::snapshot() {
 
 void Session::export_chart() {
   const bool against = accuracy_.is_true();
-  const Scene& scene = editor_.scene();
+  const std::shared_ptr<const Scene> scene = rendered_scene();
   const std::string stem = stem_of(editor_.document().origin->title);
   Chart chart;
   chart.curves = copies_of(accuracy_.named_curves());
   if (chart.curves.empty()) return messages_.say("there is no curve yet");
   chart.title = stem + (against ? ": true error against " + accuracy_.reference()->about : ": estimated error");
   const int threads = renderers_.threads();
-  chart.subtitle = std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + std::to_string(threads) +
+  chart.subtitle = std::to_string(scene->width) + "x" + std::to_string(scene->height) + ", " + std::to_string(threads) +
                    (threads == 1 ? " thread" : " threads") +
                    (against ? "" : "; estimated from two halves of each pixel");
   const std::filesystem::path base = charts_.next_base(stem + "-chart");

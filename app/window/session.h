@@ -9,10 +9,17 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 /// The window without its drawing and its input, so that tests can use it without a display.
 namespace tyndall {
+
+/// Pixels of a picture.
+struct PictureSize {
+  int width = 0, height = 0;
+  bool operator==(const PictureSize&) const = default;
+};
 
 /// All that a window does apart from drawing and input. Its parts do the work: the editor holds the document, the pair
 /// of renderers makes pictures of it, the accuracy measures them. The session passes on what concerns several of them.
@@ -62,6 +69,13 @@ class Session {
   bool writes_files() const { return !saving_.idle(); }
   std::size_t jobs_of_writing() const { return saving_.open(); }
 
+  /// The scene that the renderers have got last; null: none yet.
+  const std::shared_ptr<const Scene>& sent() const { return sent_; }
+  /// Pixels of the picture, in place of those that the scene's file asks for; nothing: as the file asks. What is saved
+  /// keeps the file's.
+  void set_picture_size(std::optional<PictureSize> size);
+  const std::optional<PictureSize>& picture_size() const { return picture_size_; }
+
   void pause(bool paused);
   void restart() { renderers_.restart(); }
   /// Of all renderers together.
@@ -96,6 +110,7 @@ class Session {
  private:
   void submit(double now);
   const std::shared_ptr<const Scene>& shared_scene();
+  std::shared_ptr<const Scene> rendered_scene();
   void restore_edits(bool of_any_scene);
 
   double input_time_ = 0;
@@ -111,6 +126,7 @@ class Session {
   std::atomic<bool> closing_ = false;
   bool beside_ = false;  ///< the clean view beside the raw one
   Editor editor_;
+  std::optional<PictureSize> picture_size_;
   std::shared_ptr<const Scene> shared_;  ///< a copy of the edited scene
   std::uint64_t shared_changes_ = 0;     ///< Editor::changes() when it was copied
   std::uint64_t kept_changes_ = 0;       ///< Editor::changes() when the edits were kept last

@@ -20,7 +20,7 @@ if [ -z "${IN_XVFB:-}" ]; then
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
   screen=$scratch/screen.$$
   rm -rf "${scratch:?}"/* && mkdir -p "$screen"
-  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x1960x24 -nolisten tcp -fbdir $screen" \
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x2160x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
@@ -123,16 +123,20 @@ drawn_after() {
     < <(tail -n "+$3" "$scratch/log")
 }
 
-# start ARGUMENTS: opens the window and waits for its first picture.
-start() {
+# open_window ARGUMENTS: opens the window as it comes, and waits for its first picture.
+open_window() {
   : >"$scratch/log"
   "$tyndall" view "$@" --ui-log "$scratch/log" 2>"$scratch/errors" &
   pid=$!
   trap 'kill $pid 2>/dev/null || true' EXIT
   wait_for '^frame 1 '
   window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-  # All of the column is on the screen.
-  sends 1 '^size 1280 1920$' xdotool windowsize "$window" 1280 1920
+}
+
+# start ARGUMENTS: the same, and makes it so high that all of the column is on the screen.
+start() {
+  open_window "$@"
+  sends 1 '^size 1280 2120$' xdotool windowsize "$window" 1280 2120
   move 5 5
   wait_for '^widget scenes.cover '
 }

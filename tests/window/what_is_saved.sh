@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What is seen is what is saved: at one screen pixel a pixel, the window shows the bytes of the snapshot, for both tone
-# maps and with exposure. Messages appear beneath the picture: the window is higher than the picture needs.
+# What is seen is what is saved: at one screen pixel a pixel, the window shows the bytes of the snapshot, for each tone
+# curve and with exposure. Messages appear beneath the picture: the window is higher than the picture needs.
 . "$(dirname "$0")/_lib.sh"
 
 write_scene scene.json 0.3 8
@@ -50,15 +50,16 @@ PY
 
 type_value image.exposure.value 0.7
 click image.tone_map.aces
+click image.tone_map.agx
 sends 1 '^size 1012 630$' xdotool windowsize "$window" 1012 630
 wait_for '^widget picture 0 100 640 500'
 move 1005 625
-for number in 001 002; do
+for number in 001 002 003; do
   lines=$(here)
   chord ctrl p
   wait_for "^saved .*scene-$number" "$lines"
   wait_until same_as_the_screen scene-$number.png
-  chord ctrl z # back to srgb
+  chord ctrl z # back to aces, then to srgb
   settle
 done
 finish

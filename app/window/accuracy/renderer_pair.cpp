@@ -40,6 +40,7 @@ void RendererPair::begin_split(const Scene& scene) {
   second_->set_view(view_);
   second_->set_clean(clean_);
   second_->set_shown_pixels(shown_pixels_);
+  second_->refine_first(first_);
   kept_edit_ = 0;
   submit_kept(scene);
   renderer_.restart();
@@ -79,6 +80,12 @@ void RendererPair::set_shown_pixels(std::int64_t pixels) {
   shown_pixels_ = pixels;
   renderer_.set_shown_pixels(pixels);
   if (second_) second_->set_shown_pixels(pixels);
+}
+
+void RendererPair::refine_first(const Region& part) {
+  first_ = part;
+  renderer_.refine_first(part);
+  if (second_) second_->refine_first(part);
 }
 
 void RendererPair::note_shown(Half half, std::uint64_t pass) {

@@ -51,6 +51,9 @@ class RendererPair {
   void set_shown_pixels(std::int64_t pixels);
   /// A half's frame of that pass is on the screen, see Renderer.
   void note_shown(Half half, std::uint64_t pass);
+  /// Of both halves, see Renderer.
+  void refine_first(const Region& part);
+  const Region& refined_first() const { return first_; }
   void set_view(View view);
   /// Whether frames carry a clean view.
   void set_clean(bool clean);
@@ -68,6 +71,8 @@ class RendererPair {
   /// Of the current half, see Renderer; the film from any thread.
   Film film() const { return renderer_.film(); }
   Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
+  void watch_pixel(std::optional<std::pair<int, int>> pixel) { renderer_.watch_pixel(pixel); }
+  std::shared_ptr<const PixelReport> pixel() const { return renderer_.pixel(); }
   std::shared_ptr<const RenderProblem> problem() const { return renderer_.problem(); }
 
  private:
@@ -78,6 +83,7 @@ class RendererPair {
   int threads_;
   bool paused_ = false, clean_ = false;
   std::int64_t shown_pixels_ = 0;
+  Region first_;
   View view_ = View::beauty;
   std::atomic<std::uint64_t> edit_ = 0;
   RenderSettings kept_;  ///< of the left half

@@ -16,26 +16,33 @@ struct ViewEntry {
   View view = View::beauty;           ///< what the renderer draws
   ErrorView error = ErrorView::none;  ///< a picture of differences over it; it needs something to measure against
   const char* meaning = "";           ///< grey line beneath the buttons
+  bool stops = false;                 ///< the picture's luminance in colours, a stop each: see stops.h
 };
 
-inline constexpr ViewEntry error_views[] = {
+constexpr ViewEntry entry_of(View view) { return {word(view).name, view, ErrorView::none, word(view).help}; }
+
+inline constexpr ViewEntry view_entries[] = {
+    entry_of(View::beauty),
+    entry_of(View::albedo),
+    entry_of(View::normal),
+    entry_of(View::depth),
+    entry_of(View::noise),
+    entry_of(View::samples),
+    entry_of(View::cost),
     {"error", View::beauty, ErrorView::error, "black: no error; white: 100 % or more"},
     {"FLIP", View::beauty, ErrorView::flip, "differences that an eye sees; bright: large ones"},
+    entry_of(View::object),
+    {"false colour", View::beauty, ErrorView::none, "luminance in stops from middle grey, as exposed", true},
 };
 
-/// A view is known by its number: first come the renderer's views, then those of errors. The buttons, the keys 1, 2, 3,
-/// … and the help table are loops over these numbers. So a new view is named beside View in core/render/frame.h and
-/// drawn in core/render, or it is named above and compared in comparison.cpp; nothing else knows of it.
-inline constexpr int view_count = count_of<View>() + static_cast<int>(std::size(error_views));
+/// A view is known by its number in the list above. The buttons, the keys 1, 2, 3, … and the help table are loops over
+/// these numbers. So a new view is named beside View in core/render/frame.h and drawn in core/render, or it is compared
+/// in comparison.cpp, and listed above, best at the end, as the digits are known by heart; nothing else knows of it.
+inline constexpr int view_count = static_cast<int>(std::size(view_entries));
 /// How many views have a key, the digits 1 to 9. Those after the ninth have only their button.
 inline constexpr int keyed_views = std::min(view_count, 9);
 
-inline ViewEntry view_entry(int number) {
-  constexpr int drawn = count_of<View>();
-  if (number >= drawn) return error_views[static_cast<std::size_t>(number - drawn)];
-  const View view = static_cast<View>(number);
-  return {name_of(view), view, ErrorView::none, word(view).help};
-}
+inline ViewEntry view_entry(int number) { return view_entries[static_cast<std::size_t>(number)]; }
 
 /// Whether a view shows differences from a reference or from the other half.
 inline bool shows_errors(int number) { return view_entry(number).error != ErrorView::none; }

@@ -47,6 +47,10 @@ void camera_panel(Ui& ui, PanelState& state) {
   field_rows(ui, camera, saved, [&](const auto& value, std::string_view name) {
     return is_any_of<Vec3d>(value, name) && !(plain_up && name == "vup");
   });
+  CameraSlots& slots = state.cameras[state.facts.title];
+  const SlotWish wish = camera_slots_row(ui, slots, camera);
+  if (wish.recall) camera = slots[*wish.recall].camera;
+  if (wish.store) store_camera(slots, camera, state.facts.frame.get(), state.scene.display);
   ui.scope.clear();
 }
 

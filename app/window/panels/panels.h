@@ -1,11 +1,14 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
 #include "app/window/edit/material_edits.h"
+#include "app/window/panels/camera_slots.h"
+#include "app/window/panels/histogram.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/tools/selection.h"
 #include "core/render/renderer.h"
 #include "core/scene/load.h"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,8 +24,9 @@ struct Wishes {
   bool export_chart = false;  ///< write the chart's curves into files
   bool reference = false;     ///< ask which picture errors are measured against
   std::optional<bool> split;
-  std::optional<int> action;  ///< carry out that one of the list of actions
-  std::optional<int> clean;   ///< 0: off, 1: on, 2: beside the raw picture
+  std::optional<int> action;      ///< carry out that one of the list of actions
+  std::optional<int> clean;       ///< 0: off, 1: on, 2: beside the raw picture
+  std::optional<bool> at_window;  ///< the picture has as many pixels as the window shows; else as the file says
 };
 
 /// What panels tell about the window, besides the scene.
@@ -36,6 +40,7 @@ struct PanelFacts {
   std::string title;  ///< of the open scene
   int clean = 0;      ///< see Wishes
   int threads = 1;
+  bool at_window = false;  ///< see Wishes
 };
 
 /// How the list of objects is shown.
@@ -55,6 +60,8 @@ struct PanelState {
   bool rename = false;           ///< the name of the selected object is to be typed
   bool close_popup = false;      ///< a list or a picker that is open closes in the next drawing
   BackgroundMemory backgrounds;
+  LiveHistogram histogram;
+  std::map<std::string, CameraSlots> cameras;  ///< by the scene's title
   ObjectsView objects;
   ObjectPath shown;  ///< the selected object that the column has jumped to
   int view = 0;      ///< see view_entry()

@@ -51,6 +51,16 @@ void threads_row(Ui& ui, PanelState& state) {
   if (value_row(ui, row, threads)) state.wishes.threads = threads;
 }
 
+void size_row(Ui& ui, PanelState& state) {
+  static constexpr Choice choices[] = {{"file"}, {"window"}};
+  int chosen = state.facts.at_window ? 1 : 0;
+  const Frame* frame = state.facts.frame.get();
+  const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
+  const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
+  if (choice_row(ui, {"at", "Render at", {}, {}, "", help, meaning}, choices, chosen))
+    state.wishes.at_window = chosen == 1;
+}
+
 void split_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}};
   int chosen = state.facts.kept_method.empty() ? 0 : 1;
@@ -123,6 +133,7 @@ void render_panel(Ui& ui, PanelState& state) {
   const auto is_choice = []<class T>(const T&, std::string_view) { return NamedEnum<T> || std::is_same_v<T, bool>; };
   const RenderSettings* saved = &state.facts.saved->render;
   field_rows(ui, render, saved, is_choice, said);
+  size_row(ui, state);
   split_row(ui, state);
   field_rows(
       ui, render, saved, [&](const auto& value, auto name) { return !is_choice(value, name); }, said);

@@ -69,6 +69,7 @@ void draw_column(Ui& ui, PanelState& state, const Rect& column) {
     object_panel(ui, state);
     camera_panel(ui, state);
     image_panel(ui, state);
+    histogram_section(ui, state.histogram, state.facts.frame.get(), state.scene.display);
     render_panel(ui, state);
     if (!fixed_chart) chart_panel(ui, state, chart);
     background_panel(ui, state);

@@ -16,7 +16,7 @@ Mouse read_mouse() {
     mouse.pressed_x[button] = io.MouseClickedPos[button].x;
     mouse.pressed_y[button] = io.MouseClickedPos[button].y;
   }
-  mouse.control = io.KeyCtrl, mouse.shift = io.KeyShift;
+  mouse.control = io.KeyCtrl, mouse.shift = io.KeyShift, mouse.alt = io.KeyAlt;
   mouse.taken = io.WantCaptureMouse;
   mouse.typing = io.WantTextInput;
   return mouse;

@@ -12,7 +12,7 @@ struct Mouse {
   bool clicked[3] = {};  ///< pressed since the last drawing, and maybe released again
   bool down[3] = {};
   float pressed_x[3] = {}, pressed_y[3] = {};  ///< where each button went down last
-  bool control = false, shift = false;
+  bool control = false, shift = false, alt = false;
   bool taken = false;   ///< a control of the panels or a dialog has it
   bool typing = false;  ///< a control has the keyboard
 

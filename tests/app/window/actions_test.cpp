@@ -49,6 +49,7 @@ TEST_CASE("the help table tells of every action and every view") {
   CHECK(effect_of("Ctrl + P") == "snapshot: PNG and EXR, numbered");
   CHECK(effect_of("1 … 7") == "views: beauty, albedo, normal, depth, noise, samples, cost");
   CHECK(effect_of("8, 9") == "error and FLIP against the reference or the other half");
+  CHECK(effect_of("Buttons, Ctrl + K") == "more views: object, false colour");
   CHECK(effect_of("F1, H") == "this table");
   std::string all;
   for (const HelpLine& line : help_lines()) all += line.effect + "\n";

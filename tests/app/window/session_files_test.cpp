@@ -94,6 +94,22 @@ TEST_CASE("a snapshot holds the newest edit, also when it was not sent yet, and 
   CHECK(fs::exists("scene-002.png"));
 }
 
+TEST_CASE("a picture of the window's size: rendered and in snapshots, while the scene keeps the file's") {
+  OpenedSession opened("picture_size");
+  REQUIRE(opened.finishes());
+  opened.session->set_picture_size(PictureSize{12, 10});
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->renderers().latest(Half::current)->width == 12);
+  CHECK(opened.session->editor().scene().width == 8);
+  CHECK_FALSE(edited(opened.session->editor().document()));
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return fs::exists("scene-001.png"); }));
+  CHECK(load_scene("scene-001.png").scene.height == 10);
+  opened.session->set_picture_size({});
+  REQUIRE(opened.finishes());
+  CHECK(opened.session->renderers().latest(Half::current)->width == 8);
+}
+
 TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
   OpenedSession opened("export");
   opened.session->export_chart();

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-/// How a rendered picture gets on the screen.
+/// This room puts rendered pictures on the screen.
 namespace tyndall {
 
 /// How the picture is shown.
@@ -12,6 +12,8 @@ struct Look {
   double exposure = 0;  ///< stops
   ToneMap tone_map = ToneMap::srgb;
   bool dither = false;
+  bool stops = false;   ///< luminance in colours, see stops.h, in place of the curve
+  bool pixels = false;  ///< enlarged pixels are squares
   bool operator==(const Look&) const = default;
 };
 

@@ -1,5 +1,6 @@
-#include "app/window/system/display.h"
+#include "app/window/picture/display.h"
 
+#include "app/window/picture/stops.h"
 #include "core/base/error.h"
 #include "shaders.h"
 
@@ -63,6 +64,8 @@ FrameDisplay::FrameDisplay() : program_(link_program()) {
   scale_at_ = glGetUniformLocation(program_, "scale");
   curve_at_ = glGetUniformLocation(program_, "curve");
   dither_at_ = glGetUniformLocation(program_, "dither");
+  glUseProgram(program_);
+  glUniform3fv(glGetUniformLocation(program_, "stops"), static_cast<int>(stop_colours.size()), &stop_colours[0].r);
   glGenVertexArrays(1, &vertices_);
   make(whole_);
   make(coarse_);
@@ -123,8 +126,8 @@ void FrameDisplay::tone_map(const Look& look) {
   glDisable(GL_SCISSOR_TEST);
   glUseProgram(program_);
   glUniform1f(scale_at_, static_cast<float>(std::exp2(look.exposure)));
-  glUniform1i(curve_at_, static_cast<int>(look.tone_map));
-  glUniform1i(dither_at_, look.dither ? 1 : 0);
+  glUniform1i(curve_at_, look.stops ? -1 : static_cast<int>(look.tone_map));
+  glUniform1i(dither_at_, look.dither && !look.stops ? 1 : 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shown_->light);
   glBindVertexArray(vertices_);
@@ -163,12 +166,13 @@ void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Look& l
   // Whole multiples show the pixels as they are.
   const bool multiple = spacing_ <= 1 && (whole(place.x1) - whole(place.x0)) % width_ == 0 &&
                         (whole(place.y1) - whole(place.y0)) % height_ == 0;
+  const bool squares = multiple || (look.pixels && spacing_ <= 1);
   const Rect seen{std::max(clip.x0, where.x0), std::max(clip.y0, where.y0), std::min(clip.x1, where.x1),
                   std::min(clip.y1, where.y1)};
   glEnable(GL_SCISSOR_TEST);
   glScissor(whole(seen.x0), framebuffer_height - whole(seen.y1), std::max(0, whole(seen.x1) - whole(seen.x0)),
             std::max(0, whole(seen.y1) - whole(seen.y0)));
-  copy({0, 0, shown_->columns, shown_->rows}, place, framebuffer_height, multiple ? GL_NEAREST : GL_LINEAR);
+  copy({0, 0, shown_->columns, shown_->rows}, place, framebuffer_height, squares ? GL_NEAREST : GL_LINEAR);
   if (spacing_ > 1) fill_rim(where, place, framebuffer_height);
   glDisable(GL_SCISSOR_TEST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);

@@ -1,0 +1,71 @@
+#pragma once
+#include "app/report/noisy_path.h"
+#include "app/window/accuracy/renderer_pair.h"
+#include "app/window/document/job_queue.h"
+#include "app/window/inspector/pixel_facts.h"
+#include "app/window/panels/widgets.h"
+#include "app/window/tools/pointer.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tyndall {
+
+/// What is known of the pixel under the cursor, and the path that makes it noisy.
+class Inspector {
+ public:
+  /// wake: called from another thread when collect() has something to do.
+  explicit Inspector(std::function<void()> wake) : jobs_(std::move(wake)) {}
+
+  bool on() const { return on_; }
+  void set_on(bool on, RendererPair& renderers);
+  /// Finds the path of the pixel under the cursor in the background. scene: what is rendered.
+  void find_path(const RendererPair& renderers, std::shared_ptr<const Scene> scene);
+  /// Takes the path off the picture. Returns whether there was one.
+  bool drop_path();
+  bool shows_path() const { return path_ != nullptr; }
+
+  /// The cursor is there; click: in the picture, nothing where it is beside. Watches that pixel while it is on.
+  void point_at(std::optional<PictureClick> click, RendererPair& renderers);
+  /// Takes what was found in the background and the newest report. Whether there was anything.
+  bool collect(const RendererPair& renderers);
+  /// Whether something is being found.
+  bool busy() const { return !jobs_.idle(); }
+
+  /// What the drawing needs to know.
+  struct View {
+    const Frame* frame = nullptr;  ///< on the screen; null: none
+    const Scene& scene;            ///< as it is edited
+    const Scene* sent = nullptr;   ///< to the renderers, last; null: none
+    Rect image, visible;           ///< the picture, and the part of the window in which it is seen
+  };
+  /// Draws the path over the picture, and a box that tells of the pixel.
+  void draw(Ui& ui, const View& view, const RendererPair& renderers);
+
+ private:
+  /// A path that was found, as it is drawn.
+  struct Shown {
+    std::shared_ptr<const Scene> scene;  ///< in which it was followed
+    std::uint64_t checked = 0;           ///< newest edit for which it was found to hold
+    NoisyPath found;
+    Vec3d eye;
+    std::vector<PathStop> stops;
+  };
+  void look(const Scene& scene, const RendererPair& renderers);
+
+  bool on_ = false;
+  std::optional<PictureClick> at_;
+  std::shared_ptr<const PixelReport> report_;
+  SeenThing seen_;
+  std::pair<int, int> seen_at_{-1, -1};  ///< the pixel of seen_, and the edit
+  std::uint64_t seen_edit_ = 0;
+  std::shared_ptr<Shown> path_;
+  std::uint64_t wanted_ = 0;  ///< number of the newest search
+  JobQueue jobs_;             // last: its results use the others
+};
+
+}  // namespace tyndall

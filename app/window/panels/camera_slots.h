@@ -1,0 +1,41 @@
+#pragma once
+#include "app/window/panels/widgets.h"
+#include "app/window/picture/texture.h"
+#include "core/render/frame.h"
+#include "core/scene/settings.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Cameras that the user has put aside, each with a small picture. They last as long as the window.
+namespace tyndall {
+
+struct CameraSlot {
+  Camera camera;
+  std::shared_ptr<const PictureTexture> picture;  ///< null: there was none yet
+};
+using CameraSlots = std::vector<CameraSlot>;
+
+inline constexpr std::size_t most_camera_slots = 8;
+
+/// A frame as a small picture of at most 96 x 60 pixels, 3 bytes each; its size is returned in width and height.
+std::vector<std::uint8_t> small_picture(const Frame& frame, const Display& display, int& width, int& height);
+
+/// Puts a camera into a new slot; where all are taken, the oldest goes. frame: on the screen, may be null.
+void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, const Display& display);
+/// The slot that follows the one with this camera, the first one for a camera that is in none; nothing without slots.
+std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& camera);
+
+/// What the row wants.
+struct SlotWish {
+  std::optional<std::size_t> recall;  ///< look through this one
+  bool store = false;                 ///< put the present camera aside
+};
+/// Small pictures side by side: a click looks through that camera, a right click forgets it; and a button that stores
+/// the present one.
+SlotWish camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now);
+
+}  // namespace tyndall

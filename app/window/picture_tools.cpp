@@ -1,0 +1,148 @@
+#include "app/window/picture_tools.h"
+
+#include "app/window/accuracy/views.h"
+#include "app/window/inspector/legend.h"
+#include "app/window/system/imgui_compat.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+
+bool PictureTools::act(Action action) {
+  switch (action) {
+    case Action::actual_size:
+      zoom_.toggle(mouse_.x, mouse_.y);
+      break;
+    case Action::inspect:
+      inspector_.set_on(!inspector_.on(), session_.renderers());
+      break;
+    case Action::replay:
+      inspector_.set_on(true, session_.renderers());
+      inspector_.find_path(session_.renderers(), session_.sent());
+      break;
+    case Action::refine_first:
+      refine();
+      break;
+    case Action::store_camera:
+      store_camera(panels_.cameras[panels_.facts.title], session_.editor().scene().camera, panels_.facts.frame.get(),
+                   session_.editor().scene().display);
+      break;
+    case Action::next_camera:
+      look_through_next();
+      break;
+    default:
+      return false;
+  }
+  pacing_.on_event();
+  return true;
+}
+
+void PictureTools::look_through_next() {
+  const CameraSlots& slots = panels_.cameras[panels_.facts.title];
+  Scene scene = session_.editor().scene();
+  const auto next = next_slot(slots, scene.camera);
+  if (!next) return session_.messages().say("no camera is stored yet");
+  scene.camera = slots[*next].camera;
+  session_.editor().edit(std::move(scene), gestures_.begin());
+}
+
+/// Begins to draw a rectangle, or gives one up.
+void PictureTools::refine() {
+  const Region now = session_.renderers().refined_first();
+  if (rectangle_.cancel()) return;
+  if (now.width() > 0) {
+    session_.renderers().refine_first({});
+    return session_.messages().say("the whole picture is refined again");
+  }
+  if (session_.editor().scene().render.adaptive)
+    return session_.messages().say("adaptive sampling says by itself where samples go: switch it off first");
+  rectangle_.begin();
+  session_.messages().say("drag over the part of the picture to be refined first");
+}
+
+bool PictureTools::escape() {
+  pacing_.on_event();
+  if (rectangle_.cancel()) return true;
+  if (inspector_.drop_path()) return true;
+  if (!inspector_.on()) return false;
+  inspector_.set_on(false, session_.renderers());
+  return true;
+}
+
+void PictureTools::place(Layout& layout, float dots) {
+  const Frame* frame = panels_.facts.frame.get();
+  const Scene& scene = session_.editor().scene();
+  layout.image = zoom_.place(layout.area, layout.image, frame ? frame->width : scene.width,
+                             frame ? frame->height : scene.height, dots);
+}
+
+/// Alt + wheel and Alt + drag.
+bool PictureTools::drag_picture(const Mouse& mouse, const Layout& layout, bool free) {
+  const bool over = free && mouse.alt && layout.area.contains(mouse.x, mouse.y);
+  if (over && mouse.wheel != 0) zoom_.enlarge(std::pow(1.25f, mouse.wheel), mouse.x, mouse.y);
+  for (int button = 0; button < 3 && over && button_ < 0; ++button)
+    if (mouse.clicked[button]) button_ = button;
+  if (button_ < 0) return over;
+  zoom_.move(mouse.dx, mouse.dy);
+  if (!mouse.down[button_]) button_ = -1;
+  return true;
+}
+
+bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free) {
+  mouse_ = mouse;
+  const Frame* frame = panels_.facts.frame.get();
+  const bool over = frame && !mouse.taken && overlap(layout.image, layout.area).contains(mouse.x, mouse.y);
+  inspector_.point_at(
+      over ? std::optional(click_at(layout.image, mouse.x, mouse.y, frame->width, frame->height)) : std::nullopt,
+      session_.renderers());
+  if (drag_picture(mouse, layout, free)) {
+    if (mouse.any_down() || mouse.wheel != 0) pacing_.on_event();
+    return true;
+  }
+  if (!frame || !rectangle_.active()) return false;
+  const auto drawn = rectangle_.update(mouse, layout.image, free, frame->width, frame->height);
+  if (drawn) {
+    session_.renderers().refine_first(*drawn);
+    pacing_.on_event();
+  }
+  return true;
+}
+
+std::string PictureTools::said_of_rectangle() const {
+  const Frame* frame = panels_.facts.frame.get();
+  if (session_.editor().scene().render.adaptive) return "not refined first: adaptive sampling is on";
+  if (!frame || frame->most_spp <= frame->spp) return "refined first";
+  return fmt::format("refined first: {} spp", format_count(frame->most_spp));
+}
+
+/// Says how large the picture is shown, in a corner.
+void PictureTools::draw_zoom(Ui& ui, const Rect& visible) const {
+  if (zoom_.fits()) return;
+  const float s = ui.scale;
+  const std::string text = fmt::format("{:.0f} %   0: all of it", 100 * static_cast<double>(zoom_.dots_a_pixel()));
+  compat::push_font(ui.fonts.small);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const Rect box{visible.x1 - size.x - 30 * s, visible.y0 + 10 * s, visible.x1 - 10 * s, visible.y0 + size.y + 18 * s};
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({box.x0, box.y0}, {box.x1, box.y1}, shade(palette::panel, 0.9f), 4 * s);
+  draw.AddText({box.x0 + 10 * s, box.y0 + 4 * s}, shade(palette::text), text.c_str());
+  ImGui::PopFont();
+  if (ui.log) ui.log->widget("zoom", box, text);
+}
+
+void PictureTools::draw(Ui& ui, const Layout& layout) {
+  const Rect visible = overlap(layout.image, layout.area);
+  const Frame* frame = panels_.facts.frame.get();
+  if (visible.width() <= 0 || visible.height() <= 0 || !frame) return;
+  rectangle_.draw(ui, layout.image, visible, session_.renderers().refined_first(), frame->width, frame->height,
+                  said_of_rectangle());
+  const bool as_chosen = frame->view == view_entry(panels_.view).view;
+  if (as_chosen) draw_legend(ui, visible, legend_of(panels_.view, frame->white));
+  draw_zoom(ui, visible);
+  inspector_.draw(ui, {frame, panels_.scene, session_.sent().get(), layout.image, visible}, session_.renderers());
+}
+
+}  // namespace tyndall

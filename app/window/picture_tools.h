@@ -1,0 +1,60 @@
+#pragma once
+#include "app/window/actions.h"
+#include "app/window/inspector/inspector.h"
+#include "app/window/inspector/rectangle_tool.h"
+#include "app/window/panels/panels.h"
+#include "app/window/picture/zoom.h"
+#include "app/window/session.h"
+#include "app/window/system/pacing.h"
+#include "app/window/tools/gestures.h"
+
+#include <functional>
+
+/// What the user does to look closer at the picture: enlarging it, asking what a pixel is, refining a rectangle first.
+namespace tyndall {
+
+/// Mouse and keys that look closer, and the cameras that were put aside. Only going to one of these changes the scene.
+class PictureTools {
+ public:
+  /// The arguments belong to the window and must outlive this. wake: see JobQueue.
+  PictureTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing, std::function<void()> wake)
+      : session_(session), panels_(panels), gestures_(gestures), pacing_(pacing), inspector_(std::move(wake)) {}
+
+  /// Carries out an action that looks closer; what is no such action is left. Returns whether it was one.
+  bool act(Action action);
+  /// Ends the innermost of what is shown. Returns whether there was anything.
+  bool escape();
+
+  /// Puts the picture where the user has moved it. layout.image: where all of it is shown; dots: pixels of the screen
+  /// in a window unit.
+  void place(Layout& layout, float dots);
+  /// Whether pixels of the picture are shown as squares.
+  bool shows_pixels() const { return !zoom_.fits() && zoom_.dots_a_pixel() >= 1; }
+  /// The mouse, before all other tools. free: nothing else has it. Returns whether this has it.
+  bool use_mouse(const Mouse& mouse, const Layout& layout, bool free);
+  /// Takes what was found in the background. Whether there was anything.
+  bool collect() { return inspector_.collect(session_.renderers()); }
+  bool at_rest() const { return !inspector_.busy(); }
+
+  /// Draws what is known over the picture.
+  void draw(Ui& ui, const Layout& layout);
+
+ private:
+  bool drag_picture(const Mouse& mouse, const Layout& layout, bool free);
+  void refine();
+  void look_through_next();
+  std::string said_of_rectangle() const;
+  void draw_zoom(Ui& ui, const Rect& visible) const;
+
+  Session& session_;
+  PanelState& panels_;
+  Gestures& gestures_;
+  Pacing& pacing_;
+  ImageZoom zoom_;
+  Inspector inspector_;
+  RectangleTool rectangle_;
+  Mouse mouse_;      ///< as the last drawing found it
+  int button_ = -1;  ///< that drags the picture; -1: none
+};
+
+}  // namespace tyndall

@@ -1,0 +1,120 @@
+#include "app/report/noisy_path.h"
+#include "app/window/inspector/draw_path.h"
+#include "app/window/inspector/legend.h"
+#include "app/window/inspector/pixel_facts.h"
+#include "app/window/inspector/rectangle_tool.h"
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tyndall;
+
+TEST_CASE("the noisy path of a pixel is its brightest sample, and its stops lead from the camera to the light") {
+  Scene scene = load_scene("cornell-box").scene;
+  scene.width = scene.height = 32;
+  scene.render.sharing = false;
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  const NoisyPath found = find_noisy_path(view.view(), 4, 30, 64, [] { return false; });
+  CHECK(found.samples == 64);
+  double sum = 0, most = 0;
+  for (std::uint32_t k = 0; k < 64; ++k) {
+    const Vec3f light = replay(view.view(), 4, 30, k).radiance;
+    const double y = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
+                     0.0722 * static_cast<double>(light.z);
+    sum += y;
+    most = std::max(most, y);
+  }
+  CHECK(found.share == doctest::Approx(most / sum));
+  CHECK(found.times_mean == doctest::Approx(64 * most / sum));
+  const std::vector<PathStop> stops = stops_of(scene, compiled, found.path);
+  REQUIRE(!stops.empty());
+  CHECK(std::any_of(stops.begin(), stops.end(), [](const PathStop& stop) { return stop.light; }));
+  CHECK(std::abs(stops.front().point.y) < 1e-3);  // the floor, in the file's own coordinates
+  CHECK(stops.front().text.find("goes on") != std::string::npos);
+  const auto lines = path_lines(found, stops);
+  CHECK(lines.size() == stops.size() + 2);
+  CHECK(lines[1].find("of 64 samples") != std::string::npos);
+  int asked = 0;
+  CHECK(find_noisy_path(view.view(), 4, 30, 64, [&] { return ++asked == 3; }).samples == 3);
+}
+
+TEST_CASE("a long path is told with its first stops and its last one") {
+  std::vector<PathStop> stops(40);
+  for (std::size_t k = 0; k < stops.size(); ++k) stops[k].text = "stop " + std::to_string(k + 1);
+  const auto lines = path_lines({}, stops);
+  CHECK(lines.size() == 21);
+  CHECK(lines[19] == "    … 22 more");
+  CHECK(lines[20] == "40  stop 40");
+}
+
+TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
+  Frame frame;
+  frame.width = 4, frame.height = 2, frame.columns = 4, frame.rows = 2;
+  frame.rgba.assign(4 * 8, 0.5f);
+  PixelReport report{.x = 1, .y = 1, .edit = 1, .samples = 64};
+  report.mean = {0.5f, 0.25f, 0};
+  report.standard_error = {0.05f, 0.025f, 0};
+  const auto has = [](const PixelFacts& facts, const std::string& line) {
+    return std::find(facts.lines.begin(), facts.lines.end(), line) != facts.lines.end();
+  };
+  PixelFacts facts = pixel_facts(frame, report, {"Ball", "gold", 3.25}, {});
+  CHECK(has(facts, "pixel    1, 1"));
+  CHECK(has(facts, "red      0.5      ± 0.05"));
+  CHECK(has(facts, "error    13 %"));
+  CHECK(has(facts, "shown    188 137 0"));
+  CHECK(has(facts, "samples  64"));
+  CHECK(has(facts, "object   Ball"));
+  CHECK(has(facts, "material gold"));
+  CHECK(has(facts, "depth    3.25"));
+  frame.view = View::cost, frame.white = 12;
+  CHECK(has(pixel_facts(frame, report, {}, {}), "cost     6 rays a path"));
+  CHECK(has(pixel_facts(frame, {.x = 0, .y = 0}, {}, {}), "no samples yet"));
+}
+
+TEST_CASE("legends: numbers where a view shows numbers, none where it shows colours") {
+  for (int view = 0; view < view_count; ++view) {
+    const Legend legend = legend_of(view, 8);
+    const ViewEntry entry = view_entry(view);
+    const bool colours = entry.error == ErrorView::none && !entry.stops &&
+                         (entry.view == View::beauty || entry.view == View::albedo || entry.view == View::normal ||
+                          entry.view == View::object);
+    CHECK_MESSAGE(legend.title.empty() == colours, entry.name);
+    CHECK((colours || legend.numbers.size() >= 3));
+  }
+  CHECK(legend_of(view_named("samples"), 8).numbers == std::vector<std::string>{"0", "4", "8"});
+  CHECK(legend_of(view_named("noise"), 1).numbers.back() == "100 %");
+  const Legend stops = legend_of(view_named("false colour"), 1);
+  CHECK(stops.numbers.size() == stops.colours.size());
+  CHECK(stops.numbers[6] == "0");
+}
+
+TEST_CASE("a rectangle is drawn from corner to corner in any direction; a click gives an empty one") {
+  const Rect image{100, 100, 300, 200};
+  const auto draw = [&](float x0, float y0, float x1, float y1) {
+    RectangleTool tool;
+    Mouse mouse;
+    CHECK_FALSE(tool.update(mouse, image, true, 400, 200));
+    tool.begin();
+    CHECK(tool.active());
+    mouse.clicked[0] = mouse.down[0] = true;
+    mouse.x = mouse.pressed_x[0] = x0, mouse.y = mouse.pressed_y[0] = y0;
+    CHECK_FALSE(tool.update(mouse, image, true, 400, 200));
+    mouse.clicked[0] = false, mouse.x = x1, mouse.y = y1;
+    CHECK_FALSE(tool.update(mouse, image, true, 400, 200));
+    mouse.down[0] = false;
+    const auto drawn = tool.update(mouse, image, true, 400, 200);
+    REQUIRE(drawn);
+    CHECK_FALSE(tool.active());
+    return *drawn;
+  };
+  CHECK(draw(110, 120, 160, 150) == Region{20, 40, 120, 100});
+  CHECK(draw(160, 150, 110, 120) == Region{20, 40, 120, 100});
+  CHECK(draw(250, 150, 999, 999) == Region{300, 100, 400, 200});
+  CHECK(draw(150, 150, 151, 151) == Region{});
+}

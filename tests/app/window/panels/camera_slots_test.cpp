@@ -1,0 +1,53 @@
+#include "app/window/panels/camera_slots.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+TEST_CASE("stored cameras: the next one follows the present one, round and round") {
+  Camera front, side;
+  side.look_from = {4, 0, 0};
+  Camera other;
+  other.vfov = 20;
+  CHECK_FALSE(next_slot({}, front));
+  const CameraSlots slots{{front, nullptr}, {side, nullptr}};
+  CHECK(next_slot(slots, front) == 1);
+  CHECK(next_slot(slots, side) == 0);
+  CHECK(next_slot(slots, other) == 0);
+}
+
+TEST_CASE("stored cameras: without a picture as many as there is room for, each once") {
+  CameraSlots slots;
+  for (int k = 0; k < 12; ++k) {
+    Camera camera;
+    camera.vfov = 20 + k;
+    store_camera(slots, camera, nullptr, {});
+  }
+  CHECK(slots.size() == most_camera_slots);
+  CHECK(slots.back().camera.vfov == 31);
+  CHECK(slots.front().camera.vfov == 24);
+  store_camera(slots, slots[2].camera, nullptr, {});
+  CHECK(slots.size() == most_camera_slots);
+  CHECK(slots.back().camera.vfov == 26);
+}
+
+TEST_CASE("the small picture of a camera: means of what is shown, in the picture's proportions") {
+  Frame frame;
+  frame.width = frame.columns = 400, frame.height = frame.rows = 200;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const float grey = x < 200 ? static_cast<float>((x + y) % 2) : 0.0f;  // its mean is 0.5
+      frame.rgba.insert(frame.rgba.end(), {grey, grey, grey, 1});
+    }
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb = small_picture(frame, {}, width, height);
+  CHECK(width == 96);
+  CHECK(height == 48);
+  REQUIRE(rgb.size() == 96 * 48 * 3);
+  CHECK(rgb[3 * (10 * 96 + 10)] == doctest::Approx(188).epsilon(0.05));
+  CHECK(rgb[3 * (10 * 96 + 80)] == 0);
+  frame.view = View::noise;
+  CHECK(small_picture(frame, {}, width, height).empty());  // the picture itself is not there yet
+  frame.beauty = frame.rgba;
+  CHECK(small_picture(frame, {}, width, height) == rgb);
+}
