@@ -212,7 +212,10 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
                           [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
   job.options.breaks = breaks_of(job, signals, report, checkpoints);
   try {
-    return render(job.compiled, job.options, progress, std::move(job.begin.film));
+    RenderResult result = render(job.compiled, job.options, progress, std::move(job.begin.film));
+    checkpoints.finish();
+    if (const auto problem = checkpoints.problem()) report.say(*problem);  // of one that failed just before the end
+    return result;
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
     const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
