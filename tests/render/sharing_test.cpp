@@ -163,7 +163,7 @@ TEST_CASE("sharing: pixels that lack different numbers of samples get the sample
   const std::atomic<bool> give_up = false;
   for (const int edge : {0, 5, 16}) {
     Film film = few;
-    Pass pass(film, wanted, {edge, true});
+    Pass pass(film, wanted, Tiling{edge, true});
     CHECK(pass.run(crew, available_kernels().back(), view.view(), film, give_up));
     const Film middle = picture_of(scene, true, 0, 5);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
