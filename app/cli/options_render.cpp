@@ -105,8 +105,8 @@ void add_isa(CLI::App& app, std::string& isa) {
   std::vector<std::string> names;
   for (int target = 0; target < target_count; ++target) names.emplace_back(name_of(static_cast<Target>(target)));
   const auto read = [&isa, names](Text t) { isa = names[read_name(t, names)]; };
-  add_value(app, "--isa", "NAME", "scalar; sse4, avx2, avx512 (x86-64); neon (ARM) [the best that this CPU runs]", read,
-            names);
+  add_value(app, "--isa", "NAME", "scalar; sse4, avx2, avx512 (x86-64); neon (ARM)\n[the best that this CPU runs]",
+            read, names);
 }
 
 void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form) {
