@@ -45,11 +45,9 @@ TYNDALL_INLINE Pair<F> shares_of_pair(const LightTreeView& t, IntOf<F> first, Ve
   return {a / sum, b / sum};
 }
 
-// Calls, because scenes with many lights are rare; by value, because references would keep the path in memory.
-
 /// Goes down the tree from the root, at each node at random to one of its children.
 template <class F>
-[[gnu::noinline]] static LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> point, F u) {
+TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> point, F u) {
   using I = IntOf<F>;
   I node = I(0);
   F probability = F(1.0f);
@@ -69,7 +67,7 @@ template <class F>
 
 /// Probability with which choose_in_tree() takes `light`: goes up from its leaf.
 template <class F>
-[[gnu::noinline]] static F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntOf<F> light) {
+TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntOf<F> light) {
   using I = IntOf<F>;
   I node = gather_int<F>(t.leaf, light);
   F probability = F(1.0f);
