@@ -66,7 +66,7 @@ std::string heading(const Scene& scene, const RenderScene& compiled, const PathV
 }  // namespace
 
 std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
-  const std::string fate = fate_text(vertex.fate);
+  std::string fate = fate_text(vertex.fate);
   if (vertex.met == Met::nothing) return fate;
   return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
 }

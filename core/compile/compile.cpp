@@ -83,11 +83,10 @@ struct SlotFiller {
   }
   void operator()(const Box<>& b) const {
     const Affine& map = out.boxes.map.emplace_back(box_map(b, placement, out.origin));
-    for (int row = 0; row < 3; ++row) {
-      const auto first = static_cast<std::size_t>(3 * row);
+    for (std::size_t row = 0; row < 3; ++row) {
       const Vec3f r = map.row[row];
-      out.boxes.column[first].push_back(r.x), out.boxes.column[first + 1].push_back(r.y);
-      out.boxes.column[first + 2].push_back(r.z), out.boxes.column[9 + row].push_back(map.offset[row]);
+      out.boxes.column[3 * row].push_back(r.x), out.boxes.column[3 * row + 1].push_back(r.y);
+      out.boxes.column[3 * row + 2].push_back(r.z), out.boxes.column[9 + row].push_back(map.offset[row]);
     }
     out.boxes.element.push_back(element);
   }

@@ -88,8 +88,8 @@ struct Frame {
   std::uint64_t rejected = 0, truncated = 0;
   double cut_throughput = 0;   ///< see FilmTotals
   std::uint32_t most_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
-  double white = 1;  ///< what white stands for: a relative error in the view of noise, samples in that of samples,
-                     ///< scene units in that of depth, rays a path in that of cost
+  double white = 1;     ///< what white stands for: a relative error in the view of noise, samples in that of samples,
+                        ///< scene units in that of depth, rays a path in that of cost
   bool shares = false;  ///< groups of pixels share second vertices: see SceneView
   std::size_t film_bytes = 0;
   std::string isa;

@@ -62,8 +62,8 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
   CHECK(most == 1);
   CHECK(pixel(*cost, 88, 30).x > 0);
   CHECK(pixel(*cost, 88, 30).x < 0.7f * pixel(*cost, 50, 10).x);  // the sky and the wall
-  CHECK(depth->white == doctest::Approx(4));  // the wall is the farthest
-  CHECK(shown(View::samples)->white == 16);   // twice the mean
+  CHECK(depth->white == doctest::Approx(4));                      // the wall is the farthest
+  CHECK(shown(View::samples)->white == 16);                       // twice the mean
   CHECK(cost->white > 1);
   const FramePointer object = shown(View::object);
   CHECK(pixel(*object, 88, 30) == Vec3f{});

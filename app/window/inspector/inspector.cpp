@@ -33,7 +33,7 @@ void Inspector::point_at(std::optional<PictureClick> click, RendererPair& render
   renderers.watch_pixel(click ? std::optional(std::pair{click->x, click->y}) : std::nullopt);
 }
 
-void Inspector::find_path(const RendererPair& renderers, std::shared_ptr<const Scene> scene) {
+void Inspector::find_path(const RendererPair& renderers, const std::shared_ptr<const Scene>& scene) {
   const auto frame = renderers.latest(Half::current);
   if (!at_ || !scene || !frame) return;
   const bool known = report_ && report_->x == at_->x && report_->y == at_->y;

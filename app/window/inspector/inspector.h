@@ -24,7 +24,7 @@ class Inspector {
   bool on() const { return on_; }
   void set_on(bool on, RendererPair& renderers);
   /// Finds the path of the pixel under the cursor in the background. scene: what is rendered.
-  void find_path(const RendererPair& renderers, std::shared_ptr<const Scene> scene);
+  void find_path(const RendererPair& renderers, const std::shared_ptr<const Scene>& scene);
   /// Takes the path off the picture. Returns whether there was one.
   bool drop_path();
   bool shows_path() const { return path_ != nullptr; }
