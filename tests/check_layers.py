@@ -29,7 +29,7 @@ LEVELS = [
     ["app/window/system"],
     ["app/window/document", "app/window/picture"],
     ["app/window/tools"],
-    ["app/window/edit", "app/window/accuracy"],
+    ["app/window/edit", "app/window/accuracy", "app/window/gallery"],
     ["app/window/handles", "app/window/panels"],
     ["app/window/menus", "app/window/inspector"],
     ["app/window"],

@@ -61,7 +61,11 @@ Command read_compare(Words words) {
                   "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
                   "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
                   "whether the difference is more than noise.",
-                  "Exit code 1: an error is above its --max-..., or not a number.");
+                  "Exit code 1: an error is above its --max-..., or not a number.\n\n"
+                  "Examples:\n"
+                  "  tyndall compare out.png snapshot.png\n"
+                  "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
+                  "  tyndall compare a.exr --baseline kept --report report.html");
   std::vector<std::string> images;
   add_arguments(*app, "IMAGE REFERENCE",
                 "PNG, JPEG, PFM, HDR or EXR; the second one is what the first should\n"
@@ -135,7 +139,11 @@ Command read_inspect(Words words) {
   InspectCommand command;
   command.scene.what.clear();
   const auto app =
-      new_command("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.");
+      new_command("inspect SCENE [options]", "Says what a scene contains and which models its kernel needs.",
+                  "Examples:\n"
+                  "  tyndall inspect showroom\n"
+                  "  tyndall inspect fog.json --measure\n"
+                  "  tyndall inspect snapshot.png --json");
   add_scene(*app, command.scene);
   app->add_flag("--json", command.json, "print JSON");
   app->add_flag("--measure", command.measure,
@@ -222,6 +230,13 @@ void refuse_misspelt_command(Text word, bool alone) {
   throw UsageError("unknown command " + in_quotes(word) + hint);
 }
 
+/// Throws if the first word must have been meant as an option of the program itself.
+void refuse_misspelt_option(Text word) {
+  if (word.size() < 3 || word[0] != '-') return;
+  const std::string hint = suggestion(word, {"--version", "--help"});
+  if (!hint.empty()) throw UsageError("unknown option " + in_quotes(word) + hint + " (see tyndall --help)");
+}
+
 Command read_help(Words words) {
   if (words.empty()) return PrintCommand{overview(), {}};
   std::string (*const writers[])(const std::vector<CommandPage>&) = {man_page, bash_completion, zsh_completion,
@@ -246,6 +261,7 @@ Command read_command(const std::vector<std::string>& arguments) {
   for (const Entry& entry : entries)
     if (first == entry.name) return entry.read({arguments.begin() + 1, arguments.end()});
   refuse_misspelt_command(first, arguments.size() == 1);
+  if (arguments.size() == 1) refuse_misspelt_option(first);
   return read_view(arguments);
 }
 

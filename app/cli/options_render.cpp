@@ -17,6 +17,14 @@ void add_image_options(CLI::App& app, SceneRequest& scene) {
   add_settings(app, scene.display);
 }
 
+void add_time_and_error(CLI::App& app, double& time_limit, double& target_error, const char* of_error) {
+  add_value(app, "--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
+            [&](Text t) { time_limit = read_number(t, above(0), "a number of seconds > 0"); });
+  add_value(app, "--target-error", "E",
+            std::string("estimated relative error") + of_error + "; its square estimates relMSE",
+            [&](Text t) { target_error = read_number(t, above(0), "a number > 0"); });
+}
+
 void add_limits(CLI::App& app, RenderCommand& command) {
   app.option_defaults()->group("Limits (the first one reached ends the render)");
   add_value(app, "--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
@@ -25,12 +33,16 @@ void add_limits(CLI::App& app, RenderCommand& command) {
             "exactly the samples A <= i < B of each pixel, for shards that\n"
             "'tyndall merge' adds; not with --spp, --time or --target-error",
             [&](Text t) { command.samples = read_samples(t); });
-  add_value(app, "--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
-            [&](Text t) { command.time_limit = read_number(t, above(0), "a number of seconds > 0"); });
-  add_value(app, "--target-error", "E",
-            "estimated relative error, with --denoise that of the filtered\n"
-            "picture; its square estimates relMSE",
-            [&](Text t) { command.target_error = read_number(t, above(0), "a number > 0"); });
+  add_time_and_error(app, command.time_limit, command.target_error, ", with --denoise that of the filtered\npicture");
+}
+
+/// The window's limits: rendering pauses there, and goes on with the next edit, or with Space.
+void add_view_limits(CLI::App& app, ViewCommand& command) {
+  app.option_defaults()->group("Limits (the first one reached pauses the picture; Space goes on)");
+  add_value(app, "--spp", "N", "samples per pixel [from the scene, else none]", [&](Text t) {
+    set(command.scene.render, &RenderSettings::spp, static_cast<int>(read_whole(t, 1, most_samples)));
+  });
+  add_time_and_error(app, command.time_limit, command.target_error, "");
 }
 
 void add_output(CLI::App& app, RenderCommand& command) {
@@ -147,8 +159,13 @@ Command read_view(const std::vector<std::string>& words) {
   command.words = words;
   const auto app =
       new_command("view [SCENE] [options]",
-                  "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.");
+                  "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.",
+                  "Examples:\n"
+                  "  tyndall view cornell-box\n"
+                  "  tyndall view fog.json --set /camera/vfov=30 --spp 256\n"
+                  "  tyndall view snapshot.png --reference reference.exr");
   add_scene(*app, command.scene, " [showroom]");
+  add_view_limits(*app, command);
   add_image_options(*app, command.scene);
   add_method_options(*app, command.scene);
   add_machine_options(*app, command.threads, command.isa);

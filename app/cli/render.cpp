@@ -112,14 +112,18 @@ std::string losses(const FilmTotals& sum) {
   return text + fmt::format(", {:.2g} % of the throughput cut at the longest path", 100 * sum.cut_throughput);
 }
 
-std::string summary(const Outcome& outcome) {
+std::string summary(const Outcome& outcome, const std::vector<std::filesystem::path>& outputs) {
   const RenderResult& r = outcome.result;
   const RenderProgress end{outcome.picture.spp, r.seconds,
                            r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
                            outcome.picture.estimate.relative_error};
   const std::string clean =
       r.clean ? fmt::format(", filtered to {:.2g} in {:.2g} s", r.clean->relative_error, r.seconds_clean) : "";
-  return (r.interrupted ? "interrupted: " : "done: ") + progress_text(end, {}) + clean + losses(outcome.picture.totals);
+  std::string files;
+  for (const auto& file : outputs)
+    if (file != "-") files += (files.empty() ? "" : ", ") + printable(file.string());
+  return (r.interrupted ? "interrupted: " : "done: ") + files + (files.empty() ? "" : ": ") + progress_text(end, {}) +
+         clean + losses(outcome.picture.totals);
 }
 
 RunFigures figures(const Job& job, const Outcome& outcome) {
@@ -265,7 +269,7 @@ int run(const RenderCommand& command) {
   ProgressReport report(command.progress, goal_of(job));
   const RenderResult result = render(job, signals, report);
   const Outcome outcome = outcome_of(job, result, result.interrupted);
-  report.finish(summary(outcome));
+  report.finish(summary(outcome, command.outputs));
   const int code = result.interrupted ? 128 + signals.received() : 0;
   if (outcome.picture.totals.most_taken == 0) {
     complain("interrupted before the first samples: nothing written");

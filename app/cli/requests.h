@@ -18,11 +18,13 @@ namespace tyndall {
 
 struct ViewCommand {
   SceneRequest scene;
-  std::vector<std::string> words;   ///< as the user typed them; repeated in the message that there is no display
-  int threads = 0;                  ///< 0: all cores
-  std::string isa;                  ///< "": the best
-  std::filesystem::path reference;  ///< image that errors are measured against; empty: none
-  std::filesystem::path ui_log;     ///< diagnostic of the window, for tests; empty: none
+  std::vector<std::string> words;  ///< as the user typed them; repeated in the message that there is no display
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which the picture pauses
+  double target_error = 0;                                      ///< the same for its estimated error; 0: none
+  int threads = 0;                                              ///< 0: all cores
+  std::string isa;                                              ///< "": the best
+  std::filesystem::path reference;                              ///< image that errors are measured against; empty: none
+  std::filesystem::path ui_log;                                 ///< diagnostic of the window, for tests; empty: none
 };
 
 struct RenderCommand {

@@ -5,21 +5,15 @@
 #include "core/scene/load.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace tyndall {
 namespace {
 
 /// What a scene is, in one line: the first sentence of the comments at its top, else its name.
 std::string about(const BuiltIn& scene) {
-  std::ifstream file(scene.path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::string comments;
-  for (const std::string& line : leading_comments(text)) comments += (comments.empty() ? "" : " ") + line;
-  if (comments.empty()) return scene.title;
+  if (scene.about.empty()) return scene.title;
   constexpr std::size_t longest = 110;
-  std::string sentence = comments.substr(0, comments.find(". "));
+  std::string sentence = scene.about.substr(0, scene.about.find(". "));
   if (sentence.back() == '.') sentence.pop_back();
   return printable(shortened(sentence, longest));
 }

@@ -50,8 +50,8 @@ bool is_set(const char* variable) {
 void check_memory(const Scene& scene) {
 #ifdef TYNDALL_WINDOW
   const std::filesystem::path file = preferences_file();
-  check_memory({scene.width, scene.height, has_lamps(scene), read_preferences(file).clean}, free_memory(),
-               "write \"clean off\" into " + file.string());
+  check_memory({scene.width, scene.height, has_lamps(scene), read_preferences(file).value_or(Preferences{}).clean},
+               free_memory(), "write \"clean off\" into " + file.string());
 #else
   check_memory(WindowPlan{scene.width, scene.height, has_lamps(scene)}, free_memory(), "");
 #endif
@@ -73,7 +73,14 @@ int run(const ViewCommand& command) {
   try {
     const auto& words = command.words;
     const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();
-    return run_window({loaded, open, command.threads, command.isa, command.reference, command.ui_log, named});
+    return run_window({loaded,
+                       open,
+                       command.threads,
+                       command.isa,
+                       command.reference,
+                       command.ui_log,
+                       named,
+                       {command.time_limit, command.target_error}});
   } catch (const IoError& error) {
     throw IoError(error.what() + instead);
   }

@@ -45,6 +45,10 @@ constexpr ActionEntry entries[] = {
     {Action::clean_beside_raw, "clean beside raw", {'N', false, true}, {}, "", true},
     {Action::panels, "hide the panels", {key_tab}},
     {Action::full_screen, "full screen", {key_f11}, {}, "", true},
+    {Action::larger_text, "larger text", {'+', true}},
+    {Action::smaller_text, "smaller text", {'-', true}, {}, "", true},
+    {Action::usual_text, "usual text", {'0', true}, {}, "", true},
+    {Action::other_theme, "dark or light theme", {}},
     {Action::quit, "close the window", {'Q', true}},
     {Action::palette, "all actions by name", {'K', true}},
     {Action::help, "this table", {key_f1}, {'H'}},
@@ -149,6 +153,15 @@ std::string text_of(const Key& key) {
       return text + "Space";
     default:
       return text + static_cast<char>(key.code);
+  }
+}
+
+void log_actions(UiLog& log) {
+  for (const ActionEntry& entry : entries) {
+    std::string name = entry.name, key = entry.key.code != 0 ? text_of(entry.key) : "none";
+    std::erase(key, ' ');
+    std::replace(name.begin(), name.end(), ' ', '_');
+    log.line("action " + name + " " + key);
   }
 }
 

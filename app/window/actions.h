@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/system/input_events.h"
+#include "app/window/system/ui_log.h"
 
 #include <optional>
 #include <span>
@@ -29,6 +30,11 @@ enum class Action {
   quit,
   help,
   palette,
+  larger_text,
+  smaller_text,
+  usual_text,
+  other_theme,
+  section,  ///< of the column: which one follows
   grab,
   add,
   duplicate,
@@ -68,15 +74,16 @@ struct ActionEntry {
   bool on_line_of_previous = false;  ///< the help table shows it in the line of the entry before
 };
 
-/// All actions but the views, which views.h lists.
+/// All actions but the views and sections, which have lists of their own.
 std::span<const ActionEntry> actions();
-/// The entry of an action; null for Action::view.
+/// The entry of an action; null for Action::view and Action::section.
 const ActionEntry* find_action(Action action);
 
-/// An action, and for Action::view which: the number of the view, see views.h.
+/// An action, and for Action::view and Action::section which: the number of the view, see views.h, or of the tab, see
+/// column_tabs().
 struct KeyCommand {
   Action action = Action::help;
-  int view = 0;
+  int which = 0;
   bool operator==(const KeyCommand&) const = default;
 };
 
@@ -85,6 +92,9 @@ std::optional<KeyCommand> command_of_key(int key, Modifiers modifiers);
 
 /// "Ctrl + Shift + Z".
 std::string text_of(const Key& key);
+
+/// Writes an "action" line for each action into the log.
+void log_actions(UiLog& log);
 
 /// One line of the help table.
 struct HelpLine {

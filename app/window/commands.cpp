@@ -26,6 +26,8 @@ void Commands::take(const InputEvents& events) {
 }
 
 void Commands::act(const KeyCommand& command) {
+  const ActionEntry* entry = find_action(command.action);
+  if (log_ && entry) log_->line("did " + std::string(entry->name));
   switch (command.action) {
     case Action::help:
       shows_help_ = !shows_help_;
@@ -41,7 +43,7 @@ void Commands::act(const KeyCommand& command) {
       pacing_.on_new_start(clock_seconds());
       break;
     case Action::view:
-      select_view(command.view);
+      select_view(command.which);
       break;
     case Action::clean:
       session_.set_clean(!session_.clean());
@@ -57,6 +59,11 @@ void Commands::act(const KeyCommand& command) {
     case Action::full_screen:
       platform_.toggle_full_screen();
       break;
+    case Action::section:
+      panels_.tabs.jump = command.which;
+      shows_panels_ = true;
+      pacing_.on_event();
+      break;
     case Action::palette:
       open_palette();
       break;
@@ -64,8 +71,17 @@ void Commands::act(const KeyCommand& command) {
       ask_to_close();
       break;
     default:
+      act_on_look(command.action);
       act_on_document(command.action);
   }
+}
+
+void Commands::act_on_look(Action action) {
+  Preferences& look = panels_.look;
+  if (action == Action::larger_text) look.text_size = stepped_text_size(look.text_size, 1);
+  if (action == Action::smaller_text) look.text_size = stepped_text_size(look.text_size, -1);
+  if (action == Action::usual_text) look.text_size = 1;
+  if (action == Action::other_theme) look.theme = look.theme == Theme::dark ? Theme::light : Theme::dark;
 }
 
 void Commands::act_on_document(Action action) {
@@ -113,6 +129,10 @@ void Commands::open_palette() {
   for (int k = 0; k < view_count; ++k) {
     items.push_back({std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : ""});
     palette_commands_.push_back({Action::view, k});
+  }
+  for (int k = 0; const Tab& tab : column_tabs()) {
+    items.push_back({std::string("go to: ") + tab.name, ""});
+    palette_commands_.push_back({Action::section, k++});
   }
   palette_.open(std::move(items));
   pacing_.on_event();
@@ -170,6 +190,10 @@ void Commands::ask_to_close() {
 }
 
 void Commands::escape() {
+  if (panels_.drags) {
+    panels_.cancel_drag = true;
+    return pacing_.on_event();
+  }
   if (dialog_.kind == Dialog::Kind::changed_file) session_.editor().answer_about_file(false);
   if (closing_.cancel()) return;
   if (popup_is_open()) {

@@ -22,7 +22,7 @@ class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
   Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures,
-           ObjectTools& objects, PictureTools& picture)
+           ObjectTools& objects, PictureTools& picture, UiLog* log)
       : session_(session),
         platform_(platform),
         panels_(panels),
@@ -30,7 +30,8 @@ class Commands {
         gestures_(gestures),
         objects_(objects),
         picture_(picture),
-        closing_(session) {}
+        closing_(session),
+        log_(log) {}
 
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
@@ -59,6 +60,7 @@ class Commands {
   bool shows_panels() const { return shows_panels_; }
 
  private:
+  void act_on_look(Action action);
   void act_on_document(Action action);
   void reset_camera();
   void frame_selection();
@@ -79,6 +81,7 @@ class Commands {
   Palette palette_;
   std::vector<KeyCommand> palette_commands_;  ///< what its lines do
   Closing closing_;
+  UiLog* log_;                   ///< may be null
   std::function<void()> later_;  ///< what carry_out() does; empty: nothing
   int shown_view_ = 0;
   bool shows_help_ = false, shows_panels_ = true;

@@ -1,7 +1,6 @@
 #include "app/window/main_window.h"
 
 #include "app/window/accuracy/views.h"
-#include "app/window/document/open_document.h"
 #include "app/window/tools/camera_control.h"
 
 #include <algorithm>
@@ -15,6 +14,12 @@ namespace {
 
 /// Seconds for which the screen stays as it is, because the picture of the newest edit is about to come.
 constexpr double longest_await = 0.04;
+
+/// What opens the scene again, as the list of recent files has it.
+std::string what_of(const Origin& origin) {
+  std::error_code ignored;
+  return origin.file.empty() ? origin.what : std::filesystem::absolute(origin.file, ignored).string();
+}
 
 std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
   return file.empty() ? nullptr : std::make_unique<UiLog>(file);
@@ -32,40 +37,19 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       session_(
           options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
       picture_(session_),
+      appearance_(platform_, session_, ui_),
       objects_(session_, panels_, tools_.gestures, pacing_),
       looks_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, looks_) {
+      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, looks_, log_.get()) {
   ui_.log = log_.get();
-  ui_.folded.insert("Histogram");  // it takes time with each picture
   panels_.facts.scenes = built_in_scenes();
   panels_.facts.accuracy = &session_.accuracy();
+  panels_.facts.pictures = &gallery_.pictures();
+  panels_.look = session_.preferences();
+  ui_.folded = panels_.look.folded;
+  ui_.folded.insert("Histogram");  // it takes time with each picture
+  if (log_) log_actions(*log_);
   if (reference) session_.references().set(std::move(reference));
-}
-
-int MainWindow::run() {
-  while (!commands_.closed() && signals_.received() == 0) {
-    const bool at_rest =
-        log_ && session_.at_rest() && looks_.at_rest();  // asked first: a picture that comes later is not missed
-    const double wait = waiting_time(clock_seconds());
-    if (at_rest && wait >= 1) log_->rest();
-    platform_.wait(wait);
-    alarm_.rang = false;
-    if (platform_.take_close_wish()) commands_.ask_to_close();
-    const InputEvents events = platform_.take_events();
-    if (input_since_ <= 0) input_since_ = events.first;
-    const bool looked = looks_.collect();
-    if (events.any || session_.collect() || looked) pacing_.on_event();
-    for (const KeyPress& press : events.keys)
-      if (log_) log_->line("key " + std::to_string(press.key));
-    commands_.take(events);
-    const double now = clock_seconds();
-    if (session_.collect_errors()) pacing_.wake_at(now);
-    const bool due = picture_due(now);
-    if (!due) send(now);
-    if (due || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
-  }
-  platform_.hide();  // a comparison or a snapshot may still take a second
-  return end_of_signal();
 }
 
 /// Hands the newest scene to the renderer if its time has come. Returns whether that is a new edit.
@@ -110,15 +94,21 @@ double MainWindow::waiting_time(double now) {
   return std::min(wait, sends);
 }
 
-void MainWindow::update_scale() {
-  const WindowSize size = platform_.size();
-  const float pixels = size.pixels, scale = size.scale;
-  if (pixels == ui_.pixels && scale == ui_.scale) return;
-  set_style(scale);
-  ui_.fonts = load_fonts(pixels, scale);
-  if (ui_.pixels != 0) platform_.renew_fonts();
-  ui_.pixels = pixels;
-  ui_.scale = scale;
+/// What the user changed about the window's look is remembered, once no button is held any more.
+void MainWindow::use_preferences() {
+  Preferences look = panels_.look;
+  look.clean = session_.clean();
+  look.folded.clear();
+  for (const char* section : lasting_sections())
+    if (ui_.folded.contains(section)) look.folded.insert(section);
+  if (!read_mouse().any_down()) session_.set_preferences(look);
+}
+
+/// What was opened or saved is among the recent files from then on.
+void MainWindow::note_files() {
+  const std::shared_ptr<const Origin>& origin = session_.editor().document().origin;
+  if (std::exchange(noted_, origin) == origin) return;
+  gallery_.note_file(origin->file.empty() ? std::filesystem::path(origin->what) : origin->file);
 }
 
 void MainWindow::draw(double now) {
@@ -129,7 +119,8 @@ void MainWindow::draw(double now) {
     send(now);
     return pacing_.on_drawn(now);
   }
-  update_scale();
+  note_files();
+  appearance_.update(panels_.look, gallery_.recent());
   platform_.begin_frame();
   ui_.wake_in = 1e300;
   ui_.problem.clear();
@@ -140,9 +131,7 @@ void MainWindow::draw(double now) {
   const Scene& scene = session_.editor().scene();
   const Frame* shown = picture_.shown().get();
   const WindowSize size = platform_.size();
-  Layout layout =
-      make_layout(static_cast<float>(size.width), static_cast<float>(size.height), shown ? shown->width : scene.width,
-                  shown ? shown->height : scene.height, ui_.scale, commands_.shows_panels());
+  Layout layout = layout_for(size, shown ? shown->width : scene.width, shown ? shown->height : scene.height);
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   follow_window_size(size, dots);
   looks_.place(layout, dots);
@@ -165,12 +154,17 @@ void MainWindow::draw(double now) {
   if (fresh && send(clock_seconds())) awaits_until_ = clock_seconds() + longest_await;
 }
 
+/// Where things are for a picture of that shape.
+Layout MainWindow::layout_for(const WindowSize& size, int image_width, int image_height) const {
+  const float column = commands_.shows_panels() ? static_cast<float>(panels_.look.column) : 0;
+  return make_layout(static_cast<float>(size.width), static_cast<float>(size.height), image_width, image_height,
+                     ui_.scale, column);
+}
+
 /// Renders as many pixels as the window shows of the picture, where the user wants that.
 void MainWindow::follow_window_size(const WindowSize& size, float dots) {
   const Scene& scene = session_.editor().scene();
-  const Rect image = make_layout(static_cast<float>(size.width), static_cast<float>(size.height), scene.width,
-                                 scene.height, ui_.scale, commands_.shows_panels())
-                         .image;
+  const Rect image = layout_for(size, scene.width, scene.height).image;
   const PictureSize shown{static_cast<int>(std::lround(image.width() * dots)),
                           static_cast<int>(std::lround(image.height() * dots))};
   const bool seen = shown.width > 0 && shown.height > 0;
@@ -184,6 +178,8 @@ void MainWindow::fill_panels() {
   const std::string& title = session_.editor().document().origin->title;
   if (panels_.facts.title != title) forget_scene(panels_);
   panels_.facts.title = title;
+  panels_.facts.what = what_of(*session_.editor().document().origin);
+  panels_.facts.recent = gallery_.recent();
   panels_.facts.threads = session_.renderers().threads();
   panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
   panels_.facts.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
@@ -256,6 +252,9 @@ void MainWindow::apply_panels(double now) {
     pacing_.on_new_start(now);
   }
   if (wishes.reference) commands_.ask_reference();
+  if (wishes.palette) commands_.act({Action::palette});
+  gallery_.want(wishes.pictures);
+  use_preferences();
   if (wishes.action) commands_.act({static_cast<Action>(*wishes.action)});
   if (wishes.threads) session_.set_threads(*wishes.threads);
   commands_.select_view(shows_errors(panels_.view) && !session_.can_show_errors() ? 0 : panels_.view);

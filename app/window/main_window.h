@@ -1,4 +1,5 @@
 #pragma once
+#include "app/window/appearance.h"
 #include "app/window/commands.h"
 #include "app/window/picture_view.h"
 #include "app/window/system/end_signals.h"
@@ -51,8 +52,10 @@ class MainWindow {
   void keep_message(double now);
   int end_of_signal();
   void finish_drawing(double now, double cpu_before, bool fresh);
-  void update_scale();
+  Layout layout_for(const WindowSize& size, int image_width, int image_height) const;
   void follow_window_size(const WindowSize& size, float dots);
+  void use_preferences();
+  void note_files();
 
   std::unique_ptr<UiLog> log_;
   Platform platform_;
@@ -60,17 +63,20 @@ class MainWindow {
   Session session_;
   EndSignals signals_{[] { Platform::wake(); }};
   PictureView picture_;
+  Gallery gallery_{[] { Platform::wake(); }};
   Ui ui_;
   PanelState panels_;
+  Appearance appearance_;
   Pacing pacing_;
   Tools tools_;
   ObjectTools objects_;
   PictureTools looks_;
   Commands commands_;
-  std::uint64_t paced_edit_ = 0;  ///< newest edit that pacing_ knows of
-  bool at_window_ = false;        ///< the picture has as many pixels as the window shows
-  double input_since_ = 0;        ///< when the oldest input came that no drawing has seen; 0: there is none
-  double awaits_until_ = 0;       ///< until then nothing is drawn but the picture of an edit that was just sent
+  std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
+  std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of
+  bool at_window_ = false;               ///< the picture has as many pixels as the window shows
+  double input_since_ = 0;               ///< when the oldest input came that no drawing has seen; 0: there is none
+  double awaits_until_ = 0;              ///< until then nothing is drawn but the picture of an edit that was just sent
 };
 
 }  // namespace tyndall

@@ -113,10 +113,12 @@ Decision name_question(Ui& ui, Dialog& dialog) {
   ImGui::SameLine();
   if (small_button(ui, "dialog.cancel", "Cancel")) dialog.kind = Dialog::Kind::none;
   if ((!enter && !save) || dialog.name[0] == '\0') return {};
+  std::filesystem::path file(dialog.name);
+  if (file.extension() != ".json") ask_name(dialog, file += ".json");  // a scene file, as its name is to say
   std::error_code ignored;
-  const bool exists = std::filesystem::exists(dialog.name, ignored);
+  const bool exists = std::filesystem::exists(file, ignored);
   dialog.kind = exists ? Dialog::Kind::replace : Dialog::Kind::none;
-  return exists ? Decision() : Decision(dialog.name);
+  return exists ? Decision() : Decision(file);
 }
 
 Decision replace_question(Ui& ui, Dialog& dialog) {

@@ -18,6 +18,32 @@ bool is_set(const char* variable) {
 
 }  // namespace
 
+int MainWindow::run() {
+  while (!commands_.closed() && signals_.received() == 0) {
+    // Asked first: a picture that comes later is not missed.
+    const bool at_rest = log_ && session_.at_rest() && looks_.at_rest() && gallery_.idle();
+    const double wait = waiting_time(clock_seconds());
+    if (at_rest && wait >= 1) log_->rest();
+    platform_.wait(wait);
+    alarm_.rang = false;
+    if (platform_.take_close_wish()) commands_.ask_to_close();
+    const InputEvents events = platform_.take_events();
+    if (input_since_ <= 0) input_since_ = events.first;
+    const bool looked = looks_.collect(), came = gallery_.collect();
+    if (events.any || session_.collect() || looked || came) pacing_.on_event();
+    for (const KeyPress& press : events.keys)
+      if (log_) log_->line("key " + std::to_string(press.key));
+    commands_.take(events);
+    const double now = clock_seconds();
+    if (session_.collect_errors()) pacing_.wake_at(now);
+    const bool due = picture_due(now);
+    if (!due) send(now);
+    if (due || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
+  }
+  platform_.hide();  // a comparison or a snapshot may still take a second
+  return end_of_signal();
+}
+
 /// Says what becomes of the edits if a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
   const int signal = signals_.received();

@@ -3,7 +3,6 @@
 #include "app/curves/chart_files.h"
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
-#include "app/window/system/preferences.h"
 #include "core/base/error.h"
 #include "core/render/mailbox.h"
 
@@ -25,6 +24,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
     : log_(log),
       isa_(options.isa),
       messages_(log),
+      limits_(options.limits),
       accuracy_(wake),
       renderers_(thread_count(options.threads), options.isa, std::move(on_frame)),
       editor_(options.scene, options.reload,
@@ -44,7 +44,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       loading_(wake),
       saving_(wake) {
   accuracy_.set_threads(renderers_.threads());
-  renderers_.set_clean(read_preferences(preferences_file()).clean);
+  read_preferences_file();
   restore_edits(!options.scene_named);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
@@ -119,6 +119,7 @@ bool Session::send(double now) {
 }
 
 void Session::submit(double now) {
+  if (std::exchange(limited_edit_, 0) > 0) renderers_.pause(false);
   const std::shared_ptr<const Scene> scene = rendered_scene();
   std::shared_ptr<Film> film = std::exchange(opened_film_, nullptr);
   if (film && !same_picture(*scene, editor_.document().origin->saved)) film = nullptr;  // it was edited meanwhile
@@ -133,7 +134,18 @@ void Session::submit(double now) {
 
 void Session::shown(Half half, const std::shared_ptr<const Frame>& frame) {
   accuracy_.shown(half, frame, method(half), frame->edit == renderers_.edit(half));
+  if (half == Half::current) pause_at_limits(*frame);
   accuracy_.set_resting(renderers_.resting());
+}
+
+/// Pauses a picture once where the command line said so; another edit, or Space, goes on.
+void Session::pause_at_limits(const Frame& frame) {
+  const bool reached = frame.seconds >= limits_.seconds || frame.relative_error <= limits_.error;
+  if (!reached || frame.spp == 0 || frame.finished || frame.edit == limited_edit_ || renderers_.paused()) return;
+  limited_edit_ = frame.edit;
+  renderers_.pause(true);
+  messages_.say(frame.seconds >= limits_.seconds ? "paused at the time limit; Space goes on"
+                                                 : "paused at the error that was asked for; Space goes on");
 }
 
 bool Session::collect() {
@@ -170,13 +182,32 @@ void Session::set_view(View view, ErrorView error) {
   accuracy_.set_view(error);
 }
 
-void Session::set_clean(bool clean) {
-  if (clean == renderers_.clean()) return;
-  renderers_.set_clean(clean);
-  saving_.run([clean]() -> JobQueue::Result {
-    write_preferences(preferences_file(), {clean});
+/// A damaged file is told of once: it is set aside.
+void Session::read_preferences_file() {
+  const std::filesystem::path file = preferences_file();
+  const auto read = read_preferences(file);
+  if (read)
+    preferences_ = *read;
+  else
+    messages_.say(file.string() + " is damaged; the window begins with its defaults, the file is now " +
+                  set_aside(file).filename().string());
+  renderers_.set_clean(preferences_.clean);
+}
+
+void Session::set_preferences(const Preferences& preferences) {
+  if (preferences == preferences_) return;
+  preferences_ = preferences;
+  renderers_.set_clean(preferences.clean);
+  saving_.run([preferences]() -> JobQueue::Result {
+    write_preferences(preferences_file(), preferences);
     return {};
   });
+}
+
+void Session::set_clean(bool clean) {
+  Preferences changed = preferences_;
+  changed.clean = clean;
+  set_preferences(changed);
 }
 
 void Session::set_clean_beside_raw(bool beside) {

@@ -4,6 +4,7 @@
 #include "app/window/document/kept_edits.h"
 #include "app/window/document/numbered_files.h"
 #include "app/window/document/send_timer.h"
+#include "app/window/system/preferences.h"
 #include "app/window/window.h"
 
 #include <atomic>
@@ -38,6 +39,7 @@ class Session {
   const Editor& editor() const { return editor_; }
   References& references() { return references_; }
   MessageLine& messages() { return messages_; }
+  const MessageLine& messages() const { return messages_; }
   const RendererPair& renderers() const { return renderers_; }
   RendererPair& renderers() { return renderers_; }
   const LiveAccuracy& accuracy() const { return accuracy_; }
@@ -82,7 +84,10 @@ class Session {
   void set_threads(int threads);
   /// error: a picture of differences instead of the view.
   void set_view(View view, ErrorView error);
-  /// Shows pictures filtered, or as they are. Remembered from one start to the next.
+  /// What is remembered from one start to the next. Changes are written in the background.
+  const Preferences& preferences() const { return preferences_; }
+  void set_preferences(const Preferences& preferences);
+  /// Shows pictures filtered, or as they are: one of the preferences.
   void set_clean(bool clean);
   bool clean() const { return renderers_.clean(); }
   /// The picture as it is on the left, the clean view on the right, while the clean view is on and nothing else is
@@ -112,6 +117,8 @@ class Session {
   const std::shared_ptr<const Scene>& shared_scene();
   std::shared_ptr<const Scene> rendered_scene();
   void restore_edits(bool of_any_scene);
+  void read_preferences_file();
+  void pause_at_limits(const Frame& frame);
 
   double input_time_ = 0;
   std::shared_ptr<Film> opened_film_;  ///< of the scene that was opened, until it goes to the renderer
@@ -119,6 +126,9 @@ class Session {
   UiLog* log_;
   std::string isa_;  ///< "": the best
   MessageLine messages_;
+  Preferences preferences_;
+  PauseLimits limits_;
+  std::uint64_t limited_edit_ = 0;  ///< the picture of this edit was paused by a limit; 0: none
   LiveAccuracy accuracy_;
   RendererPair renderers_;
   SendTimer timer_;

@@ -3,10 +3,17 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 
 /// The window as the command line sees it: what it can be told, and the call that runs it.
 namespace tyndall {
+
+/// Where a picture pauses by itself. Space goes on.
+struct PauseLimits {
+  double seconds = std::numeric_limits<double>::infinity();  ///< of rendering
+  double error = 0;                                          ///< estimated, relative; 0: none
+};
 
 struct WindowOptions {
   LoadedScene scene;
@@ -16,6 +23,7 @@ struct WindowOptions {
   std::filesystem::path reference;      ///< image that errors are measured against; empty: none
   std::filesystem::path ui_log;         ///< diagnostic, see ui_log.h; empty: none, "-": standard output
   bool scene_named = true;  ///< the user named the scene; else edits of any scene that were not saved are restored
+  PauseLimits limits{};
 };
 
 /// Opens the window and returns the exit code when it is closed. Throws IoError where there is no display (neither

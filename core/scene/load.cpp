@@ -101,8 +101,8 @@ fs::path built_in_file(const std::string& what) {
   throw SceneError(what, "no such file", expected_scene + hint);
 }
 
-/// The scene's name, else its first comment. A broken file is reported when it is opened, not here.
-std::string title_of(const std::string& text) {
+/// The scene's name; "" if it has none. A broken file is reported when it is opened, not here.
+std::string name_of(const std::string& text) {
   try {
     const JsonValue json = parse_json(text);
     const auto* root = std::get_if<JsonObject>(&json.value);
@@ -110,8 +110,16 @@ std::string title_of(const std::string& text) {
     if (const auto* title = name ? std::get_if<std::string>(&name->value) : nullptr) return printable(*title);
   } catch (const Broken&) {
   }
+  return "";
+}
+
+BuiltIn built_in(const std::string& name, const fs::path& path) {
+  const std::string text = read_file(path.string());
+  BuiltIn scene{name, name_of(text), "", path};
   const auto comments = leading_comments(text);
-  return comments.empty() ? "" : comments[0];
+  for (const std::string& line : comments) scene.about += (scene.about.empty() ? "" : " ") + line;
+  if (scene.title.empty() && !comments.empty()) scene.title = comments[0];
+  return scene;
 }
 
 }  // namespace
@@ -128,10 +136,7 @@ fs::path assets_folder() {
 
 std::vector<BuiltIn> built_in_scenes() {
   std::vector<BuiltIn> scenes;
-  for (const std::string& name : built_in_names()) {
-    const fs::path path = scenes_folder() / (name + ".json");
-    scenes.push_back({name, title_of(read_file(path.string())), path});
-  }
+  for (const std::string& name : built_in_names()) scenes.push_back(built_in(name, scenes_folder() / (name + ".json")));
   return scenes;
 }
 

@@ -25,6 +25,7 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
 struct BuiltIn {
   std::string name;   ///< what load_scene takes
   std::string title;  ///< the scene's own name, else its first comment
+  std::string about;  ///< the comments at the top of its file, as one line of sentences; "": there are none
   std::filesystem::path path;
 };
 

@@ -20,12 +20,12 @@ if [ -z "${IN_XVFB:-}" ]; then
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
   screen=$scratch/screen.$$
   rm -rf "${scratch:?}"/* && mkdir -p "$screen"
-  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x2160x24 -nolisten tcp -fbdir $screen" \
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x2700x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
 # The window remembers nothing of other tests, and shows the raw picture; clean.sh begins as a first start does.
-export XDG_CONFIG_HOME=$scratch/config XDG_STATE_HOME=$scratch/state
+export XDG_CONFIG_HOME=$scratch/config XDG_STATE_HOME=$scratch/state XDG_CACHE_HOME=${XDG_CACHE_HOME:-$scratch/cache}
 mkdir -p "$XDG_CONFIG_HOME/tyndall"
 echo 'clean off' >"$XDG_CONFIG_HOME/tyndall/window.txt"
 
@@ -136,7 +136,7 @@ open_window() {
 # start ARGUMENTS: the same, and makes it so high that all of the column is on the screen.
 start() {
   open_window "$@"
-  sends 1 '^size 1280 2120$' xdotool windowsize "$window" 1280 2120
+  sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
   move 5 5
   wait_for '^widget scenes.cover '
 }

@@ -108,7 +108,7 @@ done
 
 # A lost display, on a screen of its own.
 exec 3>&1
-coproc server { exec Xvfb -displayfd 1 -screen 0 1280x1960x24 -nolisten tcp 2>/dev/null; }
+coproc server { exec Xvfb -displayfd 1 -screen 0 1280x2700x24 -nolisten tcp 2>/dev/null; }
 read -r number <&"${server[0]}"
 : >log
 DISPLAY=:$number "$tyndall" view scene.json --ui-log log 2>errors &
@@ -116,7 +116,7 @@ pid=$!
 wait_for '^frame 1 '
 export DISPLAY=:$number
 window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-sends 1 '^size 1280 1920$' xdotool windowsize "$window" 1280 1920
+sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
 move 5 5
 type_value gold.fuzz.value 0.55
 kill "$server_PID"

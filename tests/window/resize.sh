@@ -9,7 +9,7 @@ for size in "1 1" "160 120" "40 700" "1200 30" "373 31" "1280 800" "900 600"; do
   # shellcheck disable=SC2086
   sends 1 "^size $size\$" xdotool windowsize "$window" $size
 done
-sends 1 '^size 1280 2160$' key F11 # all of the screen
+sends 1 '^size 1280 2700$' key F11 # all of the screen
 sends 1 '^size 900 600$' key F11
 settle
 xdotool windowunmap --sync "$window"

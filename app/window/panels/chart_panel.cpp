@@ -105,21 +105,35 @@ void draw_curve(const Plot& plot, const ChartLine& line) {
     plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
 }
 
-/// Writes a curve's name beneath its end, where a falling curve leaves room, without covering other words.
-void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
-  if (curve.curve->points.empty()) return;
+/// Where a name of that size can stand near the end of its curve without covering curves or other words: beneath it,
+/// where a falling curve leaves room, else above. Nothing where there is no room.
+std::optional<Rect> place_of_name(const Plot& plot, ImVec2 end, float width, const std::vector<Rect>& words) {
   const Rect& f = plot.axes.frame;
   const float line = ImGui::GetFontSize(), s = plot.ui.scale;
+  const auto free = [&](const Rect& at) {
+    const auto overlaps = [&](const Rect& w) { return at.x0 < w.x1 && at.x1 > w.x0 && at.y0 < w.y1 && at.y1 > w.y0; };
+    return at.y0 >= f.y0 && at.y1 <= f.y1 && std::none_of(words.begin(), words.end(), overlaps) &&
+           !any_crosses(plot.curves, plot.axes, at);
+  };
+  const float right = std::max(f.x0 + 4 * s + width, std::min(end.x - 2 * s, f.x1));
+  constexpr float steps[] = {0, 1, 2, -1, -2, -3, 3, 4};  // lines beneath the end
+  for (const float left_by : {0.0f, 0.5f, 1.0f})
+    for (const float step : steps) {
+      const float x = std::max(f.x0 + 4 * s, right - width * (1 + left_by));
+      const float y = step < 0 ? end.y - 5 * s + step * line : end.y + 5 * s + step * line;
+      const Rect at{x, y, x + width, y + line};
+      if (free(at)) return at;
+    }
+  return {};
+}
+
+void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
+  if (curve.curve->points.empty()) return;
   const ImVec2 end = plot.at(curve.curve->points.back());
-  const float width = ImGui::CalcTextSize(curve.name.c_str()).x;
-  const float x = std::clamp(end.x - width - 2 * s, f.x0 + 4 * s, std::max(f.x0 + 4 * s, f.x1 - width));
-  float y = end.y + 5 * s;
-  for (std::size_t tries = 0; tries <= words.size(); ++tries)
-    for (const Rect& other : words)
-      if (x < other.x1 && x + width > other.x0 && std::abs(other.y0 - y) < line) y = other.y1;
-  if (y + line > f.y1) return;
-  words.push_back({x, y, x + width, y + line});
-  plot.text({x, y}, curve.colour, curve.name);
+  const auto at = place_of_name(plot, end, ImGui::CalcTextSize(curve.name.c_str()).x, words);
+  if (!at) return;
+  words.push_back(*at);
+  plot.text({at->x0, at->y0}, curve.colour, curve.name);
 }
 
 void draw_lines(const Plot& plot) {

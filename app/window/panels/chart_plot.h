@@ -25,6 +25,9 @@ struct ChartAxes {
 /// Axes that hold all curves and the target.
 ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame);
 
+/// Whether one of the curves goes through a rectangle.
+bool any_crosses(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, const Rect& rect);
+
 /// A place on one of the curves.
 struct CurveReading {
   std::size_t curve = 0;  ///< its index

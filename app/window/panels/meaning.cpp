@@ -90,9 +90,10 @@ std::string meaning(const Metal<>& metal, std::string_view) {
 std::string meaning(const Dielectric<>& glass, std::string_view) {
   const double n = glass.refractive_index;
   if (n == 1) return "as the surroundings: invisible";
-  const std::string head_on = "reflects " + percent(fresnel(1.0, n)) + " head on, all beyond ";
-  if (n > 1) return head_on + degrees_text(std::asin(1 / n) / degree);
-  return head_on + degrees_text(std::asin(n) / degree) + " outside";
+  // Both fit on one line, so that rows beneath do not jump.
+  const std::string head_on = "reflects " + percent(fresnel(1.0, n));
+  if (n > 1) return head_on + " head on, all beyond " + degrees_text(std::asin(1 / n) / degree);
+  return head_on + ", all beyond " + degrees_text(std::asin(n) / degree) + " outside";
 }
 
 std::string meaning(const Medium<>& medium, std::string_view field) {

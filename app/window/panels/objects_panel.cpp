@@ -121,8 +121,8 @@ void objects_panel(Ui& ui, PanelState& state) {
   add_lines(state, state.scene.objects, path, lines);
   const bool searches = leaves(state.scene).size() >= searched || !state.objects.search.empty();
   if (searches) search_row(ui, state);
-  if (begin_list(ui, "objects", searches ? searched : lines.size())) {
-    const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+  const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
+  if (begin_list(ui, "objects", line, searches ? searched : lines.size(), 8)) {
     follow_selection(state, lines, line);
     scroll_list(ui);
     ImGuiListClipper clipper;

@@ -1,9 +1,11 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
 #include "app/window/edit/material_edits.h"
+#include "app/window/gallery/gallery.h"
 #include "app/window/panels/camera_slots.h"
 #include "app/window/panels/histogram.h"
 #include "app/window/panels/widgets.h"
+#include "app/window/system/preferences.h"
 #include "app/window/tools/selection.h"
 #include "core/render/renderer.h"
 #include "core/scene/load.h"
@@ -24,9 +26,11 @@ struct Wishes {
   bool export_chart = false;  ///< write the chart's curves into files
   bool reference = false;     ///< ask which picture errors are measured against
   std::optional<bool> split;
-  std::optional<int> action;      ///< carry out that one of the list of actions
-  std::optional<int> clean;       ///< 0: off, 1: on, 2: beside the raw picture
-  std::optional<bool> at_window;  ///< the picture has as many pixels as the window shows; else as the file says
+  std::optional<int> action;          ///< carry out that one of the list of actions
+  std::optional<int> clean;           ///< 0: off, 1: on, 2: beside the raw picture
+  std::optional<bool> at_window;      ///< the picture has as many pixels as the window shows; else as the file says
+  bool palette = false;               ///< show all actions
+  std::vector<std::string> pictures;  ///< of these scenes: they are to be seen
 };
 
 /// What panels tell about the window, besides the scene.
@@ -37,8 +41,11 @@ struct PanelFacts {
   bool can_show_errors = false;  ///< there is something to measure the picture against
   const Scene* saved = nullptr;  ///< what the scene's file holds
   std::vector<BuiltIn> scenes;
-  std::string title;  ///< of the open scene
-  int clean = 0;      ///< see Wishes
+  std::vector<std::filesystem::path> recent;  ///< files that were opened before, the newest first
+  const SmallPictures* pictures = nullptr;    ///< of scenes; null: there are none
+  std::string what;                           ///< the open scene, by what load_scene takes
+  std::string title;                          ///< of the open scene
+  int clean = 0;                              ///< see Wishes
   int threads = 1;
   bool at_window = false;  ///< see Wishes
 };
@@ -50,6 +57,24 @@ struct ObjectsView {
   ObjectPath shown;             ///< the selected object that the list has scrolled to
 };
 
+/// The parts of the column that its tabs lead to.
+struct Tab {
+  const char* name;
+  const char* section;  ///< its heading; "": that of the selected object
+};
+std::span<const Tab> column_tabs();
+/// The sections that stay folded from one start to the next: all but those of objects, and the histogram, which begins
+/// folded because it takes time with each picture.
+std::span<const char* const> lasting_sections();
+
+/// Which tab is lit, and which one the column is to go to.
+struct ColumnTabs {
+  int jump = -1;       ///< the column goes there in the next drawing; -1: nowhere
+  int lit = 0;         ///< the part at the column's head, or the one that it was sent to last
+  float sent = -1;     ///< how far the column was scrolled when it had gone there; < 0: it has not yet
+  bool moves = false;  ///< it goes there in this drawing
+};
+
 /// What goes into the panels and comes out of them in each drawing.
 struct PanelState {
   PanelFacts facts;
@@ -59,12 +84,16 @@ struct PanelState {
   std::vector<ObjectPath> also;  ///< further objects that are selected with it
   bool rename = false;           ///< the name of the selected object is to be typed
   bool close_popup = false;      ///< a list or a picker that is open closes in the next drawing
+  bool drags = false;            ///< a number is being dragged
+  bool cancel_drag = false;      ///< it goes back to what it was, in the next drawing
   BackgroundMemory backgrounds;
   LiveHistogram histogram;
   std::map<std::string, CameraSlots> cameras;  ///< by the scene's title
   ObjectsView objects;
   ObjectPath shown;  ///< the selected object that the column has jumped to
-  int view = 0;      ///< see view_entry()
+  Preferences look;  ///< theme, size of texts, width of the column; `clean` and `folded` are the window's
+  ColumnTabs tabs;
+  int view = 0;  ///< see view_entry()
   Wishes wishes;
 };
 
@@ -75,7 +104,7 @@ void drop_lost_selection(PanelState& state);
 /// Forgets what was selected, searched for and remembered of another scene.
 void forget_scene(PanelState& state);
 
-/// All sections in the column, the chart at its foot.
+/// Tabs, all sections in the column, and the chart at its foot. The column's edge can be dragged.
 void draw_column(Ui& ui, PanelState& state, const Rect& column);
 
 void object_panel(Ui& ui, PanelState& state);
@@ -85,6 +114,7 @@ void image_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);
+void window_panel(Ui& ui, PanelState& state);
 /// The measured errors in words: a line for each that is known.
 struct AccuracyLine {
   std::string text;

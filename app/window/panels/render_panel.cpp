@@ -1,4 +1,6 @@
+#include "app/files/memory.h"
 #include "app/report/contents.h"
+#include "app/text/values.h"
 #include "app/window/accuracy/views.h"
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/panels.h"
@@ -18,6 +20,7 @@ std::string share_cut_off(const Frame* frame) {
   const double paths = static_cast<double>(frame->spp) * frame->width * frame->height;
   const double share = static_cast<double>(frame->truncated) / paths;
   if (share == 0) return "no path was cut off";
+  if (share < 1e-5) return "cuts off less than 0.001 % of the paths";
   return fmt::format("cuts off {:.2g} % of the paths", 100 * share);
 }
 
@@ -49,6 +52,33 @@ void threads_row(Ui& ui, PanelState& state) {
   const double cores = std::max(2u, std::thread::hardware_concurrency());
   const Row row{"threads", "Threads", between(1, most_threads), {1, cores}, "", "never changes the picture", ""};
   if (value_row(ui, row, threads)) state.wishes.threads = threads;
+}
+
+/// Width and height of the picture. Sizes that do not fit into memory are refused.
+void pixels_row(Ui& ui, PanelState& state) {
+  Scene& scene = state.scene;
+  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", "width and height in pixels, also of snapshots", ""};
+  row.whole = true;
+  double width = scene.width, height = scene.height;
+  begin_row(ui, row);
+  const float space = 4 * ui.scale, box = (value_width(ui) - space) / 2;
+  row.original = Vec3d{static_cast<double>(state.facts.saved->width), 0, 0};
+  bool changed = value_box(ui, "width", row, width, box, false);
+  ImGui::SameLine(0, space);
+  row.original = Vec3d{static_cast<double>(state.facts.saved->height), 0, 0};
+  changed = value_box(ui, "height", row, height, box, false) || changed;
+  end_row(ui, row);
+  if (!changed) return;
+  const int old_width = scene.width, old_height = scene.height;
+  scene.width = static_cast<int>(width), scene.height = static_cast<int>(height);
+  try {
+    const bool clean = state.facts.clean > 0;
+    check_memory(WindowPlan{scene.width, scene.height, has_lamps(scene), clean}, free_memory(),
+                 "switch the clean view off");
+  } catch (const UsageError& error) {
+    ui.problem = error.what();
+    scene.width = old_width, scene.height = old_height;
+  }
 }
 
 void size_row(Ui& ui, PanelState& state) {
@@ -133,10 +163,11 @@ void render_panel(Ui& ui, PanelState& state) {
   const auto is_choice = []<class T>(const T&, std::string_view) { return NamedEnum<T> || std::is_same_v<T, bool>; };
   const RenderSettings* saved = &state.facts.saved->render;
   field_rows(ui, render, saved, is_choice, said);
-  size_row(ui, state);
   split_row(ui, state);
   field_rows(
       ui, render, saved, [&](const auto& value, auto name) { return !is_choice(value, name); }, said);
+  pixels_row(ui, state);
+  size_row(ui, state);
   threads_row(ui, state);
   note(ui, contents_text(state.scene), false);
   ui.scope.clear();

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -122,13 +123,18 @@ bool reset_by_double_click(Ui& ui, const Row& row, double& value) {
   return accept(row, row.original->x, value);
 }
 
-/// Begins or goes on with a drag of the last item, which is active.
-void follow_mouse(Ui& ui) {
+/// Begins or goes on with a drag of the last item, which is active. Returns whether the drag was taken back, which
+/// changes the value.
+bool follow_mouse(Ui& ui, double& value) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto mouse = static_cast<double>(io.MousePos.x);
-  if (ImGui::IsItemActivated()) ui.drag.last = mouse, ui.drag.way = 0, ui.drag.reset = false;
+  if (ImGui::IsItemActivated()) ui.drag.last = mouse, ui.drag.way = 0, ui.drag.reset = false, ui.drag.before = value;
   ui.drag.way += (mouse - ui.drag.last) * (io.KeyShift ? 0.1 : 1.0);
   ui.drag.last = mouse;
+  ui.drag.active = !ui.drag.reset;
+  if (!ui.drag.cancel || ui.drag.reset) return false;
+  ui.drag.reset = true;
+  return std::exchange(value, ui.drag.before) != ui.drag.before;
 }
 
 /// The value that a drag gives, snapped while Ctrl is held.
@@ -170,8 +176,8 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
     ui.drag.offset = std::abs(mouse - place_of(value)) <= grab / 2 ? mouse - place_of(value) : 0.0f;
     ui.drag.start = static_cast<double>(mouse);
   }
-  if (ImGui::IsItemActive()) follow_mouse(ui);
-  bool changed = reset_by_double_click(ui, row, value);
+  bool changed = ImGui::IsItemActive() && follow_mouse(ui, value);
+  changed = reset_by_double_click(ui, row, value) || changed;
   // A press on the grab moves nothing until the mouse does.
   const bool moved = ui.drag.offset == 0 || ui.drag.way != 0;
   if (ImGui::IsItemActive() && moved && way > 0 && !ui.drag.reset) {
@@ -203,15 +209,14 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   ImGui::InvisibleButton(id, {std::max(width, 1.0f), ImGui::GetFrameHeight()});
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemActivated()) ui.drag.start = value, ui.drag.moved = false;
-  if (ImGui::IsItemActive()) follow_mouse(ui);
-  bool changed = false;
-  if (ImGui::IsItemActive() && (ui.drag.moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
+  bool changed = ImGui::IsItemActive() && follow_mouse(ui, value);
+  if (ImGui::IsItemActive() && !ui.drag.reset && (ui.drag.moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
     ui.drag.moved = true;
     const double steps = ui.drag.way / static_cast<double>(ui.scale);
     const double wanted = dragged(row.slider, ui.drag.start, steps, finer_by_keys());
     changed = accept(row, snapped_by_keys(row.slider, wanted), value);
   }
-  if (ImGui::IsItemDeactivated() && !ui.drag.moved) begin_edit(ui, item, text);
+  if (ImGui::IsItemDeactivated() && !ui.drag.moved && !ui.drag.reset) begin_edit(ui, item, text);
   draw_frame(ui);
   compat::push_font(ui.fonts.mono);
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text.c_str());

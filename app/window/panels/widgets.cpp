@@ -17,19 +17,22 @@ Rect item_rect() {
 
 float right_edge() { return ImGui::GetWindowContentRegionMax().x; }
 
-/// Text that ends in ".." where it does not fit.
-void clipped_text(const std::string& text, float width) {
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return ImGui::TextUnformatted(text.c_str());
-  std::string cut = text;
-  while (cut.size() > 1 && ImGui::CalcTextSize((cut + "..").c_str()).x > width) {
-    do cut.pop_back();
-    while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xc0) == 0x80);
-    if (static_cast<unsigned char>(cut.back()) >= 0xc0) cut.pop_back();
-  }
-  ImGui::TextUnformatted((cut + "..").c_str());
+}  // namespace
+
+/// The text, cut and with ".." at its end where it does not fit.
+std::string clipped(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  const char *begin = text.c_str(), *rest = begin;
+  const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);
+  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, begin, begin + text.size(), &rest);
+  return text.substr(0, static_cast<std::size_t>(rest - begin)) + "..";
 }
 
-}  // namespace
+void clipped_text(const std::string& text, float width) { ImGui::TextUnformatted(clipped(text, width).c_str()); }
+
+void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour) {
+  ImGui::GetWindowDrawList()->AddText(at, shade(colour), clipped(text, width).c_str());
+}
 
 float value_width(const Ui& ui) { return right_edge() - label_column * ui.scale; }
 
@@ -55,11 +58,12 @@ void tooltip(Ui& ui, const std::string& text) {
     return;
   }
   // Beside the column or menu and not over it, so that it hides nothing that the hand goes to next.
-  const float left = ImGui::GetWindowPos().x - 8 * ui.scale, room = 330 * ui.scale;
-  if (left > room) ImGui::SetNextWindowPos({left, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1, 0});
+  const float left = ImGui::GetWindowPos().x - 8 * ui.scale, width = std::min(300 * ui.scale, left - 30 * ui.scale);
+  const bool beside = width > 100 * ui.scale;
+  if (beside) ImGui::SetNextWindowPos({left, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1, 0});
   compat::push_font(ui.fonts.small);
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(300 * ui.scale);
+  ImGui::PushTextWrapPos(beside ? width : 300 * ui.scale);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
@@ -153,9 +157,8 @@ namespace {
 
 /// A button of a choice. Returns whether it was pressed and so becomes the chosen one.
 bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2 size) {
-  constexpr Tone chosen{0.24f, 0.40f, 0.56f, 1}, other{0.72f, 0.75f, 0.79f, 1}, missing{0.42f, 0.45f, 0.49f, 1};
-  ImGui::PushStyleColor(ImGuiCol_Button, on ? chosen : palette::field);
-  ImGui::PushStyleColor(ImGuiCol_Text, on ? palette::text : choice.missing ? missing : other);
+  ImGui::PushStyleColor(ImGuiCol_Button, on ? palette::chosen : palette::field);
+  ImGui::PushStyleColor(ImGuiCol_Text, choice.missing ? palette::faint : palette::text);
   const bool pressed = ImGui::Button(choice.name, size);
   ImGui::PopStyleColor(2);
   log_item(ui, row.name + "." + choice.name, on ? "on" : choice.missing ? "missing" : "off");

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/text/numbers.h"
+#include "app/window/system/fonts.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/vec.h"
@@ -32,7 +33,10 @@ struct NumberDrag {
   double last = 0;   ///< where the mouse was in the drawing before
   double way = 0;    ///< how far the mouse went, window units; with Shift a tenth of it counts
   bool moved = false;
-  bool reset = false;  ///< a double click has set the value back: the mouse changes nothing until it is let go
+  bool reset = false;   ///< the value was set back: the mouse changes nothing until it is let go
+  double before = 0;    ///< the value when the button went down
+  bool active = false;  ///< a number is being dragged in this drawing
+  bool cancel = false;  ///< set it back, in this drawing
 };
 
 /// The control under the mouse, whose tooltip comes after a moment.
@@ -114,6 +118,11 @@ void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = pal
 /// The same on one line, cut where it does not fit, with all of it in a tooltip; and the height that this takes.
 void line_of_note(Ui& ui, const std::string& text, Tone colour);
 float line_of_note_height(const Ui& ui);
+
+/// The text, cut and with ".." at its end where it is wider than `width`; and the same drawn at a place of the window.
+std::string clipped(const std::string& text, float width);
+void clipped_text(const std::string& text, float width);
+void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour);
 
 /// Whether a list or a colour picker is open.
 bool popup_is_open();

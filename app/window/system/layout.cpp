@@ -5,9 +5,9 @@
 
 namespace tyndall {
 
-Layout make_layout(float width, float height, int image_width, int image_height, float scale, bool panels) {
+Layout make_layout(float width, float height, int image_width, int image_height, float scale, float column_units) {
   const float bar = std::min(std::round(status_height * scale), height);
-  const float column = panels ? std::min(std::round(column_width * scale), std::floor(width / 2)) : 0.0f;
+  const float column = std::min(std::round(column_units * scale), std::floor(width / 2));
   Layout layout;
   layout.status = {0, height - bar, width, height};
   layout.column = {width - column, 0, width, height - bar};

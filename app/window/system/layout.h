@@ -20,10 +20,10 @@ struct Layout {
   Rect status;  ///< bottom line
 };
 
-/// Widths of the column and height of the status line, in window units at scale 1.
-inline constexpr float column_width = 372, status_height = 30;
+/// Width of the column at first and as the user may drag it, and height of the status line, in window units at scale 1.
+inline constexpr float column_width = 372, narrowest_column = 300, widest_column = 640, status_height = 30;
 
-/// panels: whether the column is shown. A window narrower than twice the column gives it half.
-Layout make_layout(float width, float height, int image_width, int image_height, float scale, bool panels);
+/// column: its width in units of the design; 0: it is hidden. A window narrower than twice the column gives it half.
+Layout make_layout(float width, float height, int image_width, int image_height, float scale, float column);
 
 }  // namespace tyndall

@@ -171,7 +171,8 @@ void Platform::clear() {
   glDisable(GL_SCISSOR_TEST);
   const WindowSize now = size();
   glViewport(0, 0, now.framebuffer_width, now.framebuffer_height);
-  glClearColor(palette::ink.x, palette::ink.y, palette::ink.z, 1);
+  const Tone ink = palette::ink;
+  glClearColor(ink.x, ink.y, ink.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
 }
 

@@ -10,10 +10,16 @@ namespace {
 
 WindowState& state_of(GLFWwindow* window) { return *static_cast<WindowState*>(glfwGetWindowUserPointer(window)); }
 
-/// The letter that a key has on the user's keyboard, as GLFW's number; other keys stay.
+/// The letter that a key has on the user's keyboard, as GLFW's number; '+' and '-' for the keys that type them, also
+/// where '+' needs Shift. Other keys stay.
 int named_key(int key, int scancode) {
-  if (key < 'A' || key > 'Z') return key;  // also what GLFW does not know
+  if (key == GLFW_KEY_KP_ADD) return '+';
+  if (key == GLFW_KEY_KP_SUBTRACT) return '-';
+  if (key <= GLFW_KEY_SPACE || key > 'a') return key;  // also what GLFW does not know
   const char* name = glfwGetKeyName(key, scancode);
+  if (name && name[1] == '\0' && (name[0] == '+' || name[0] == '=')) return '+';
+  if (name && name[1] == '\0' && name[0] == '-') return '-';
+  if (key < 'A' || key > 'Z') return key;
   const bool letter = name && name[1] == '\0' && name[0] >= 'a' && name[0] <= 'z';
   return letter ? name[0] - 'a' + 'A' : key;
 }
@@ -37,8 +43,8 @@ void deliver_key(GLFWwindow* window, const RawInput& input) {
   const int mods = input.modifiers;
   const bool chord = (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
   if (!typing && !chord) state.held.insert(name);
-  const Modifiers modifiers{(mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) != 0, (mods & GLFW_MOD_SHIFT) != 0,
-                            (mods & GLFW_MOD_ALT) != 0};
+  const bool shift = (mods & GLFW_MOD_SHIFT) != 0 && name != '+';
+  const Modifiers modifiers{(mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) != 0, shift, (mods & GLFW_MOD_ALT) != 0};
   state.events.keys.push_back({name, modifiers, typing});
 }
 

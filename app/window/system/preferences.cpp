@@ -1,7 +1,12 @@
 #include "app/window/system/preferences.h"
 
 #include "app/files/outputs.h"
+#include "app/text/numbers.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -19,11 +24,32 @@ std::filesystem::path preferences_file() {
   return config.empty() ? config : config / "tyndall" / "window.txt";
 }
 
-Preferences read_preferences(const std::filesystem::path& file) {
+namespace {
+
+/// Takes what one line says. Returns whether it says anything that a window can have.
+bool take(const std::string& name, const std::string& value, Preferences& preferences) {
+  if (name == "clean") preferences.clean = value == "on";
+  if (name == "clean") return value == "on" || value == "off";
+  if (name == "theme") preferences.theme = value == "light" ? Theme::light : Theme::dark;
+  if (name == "theme") return value == "light" || value == "dark";
+  if (name == "folded") return preferences.folded.insert(value).second;
+  double number = 0;
+  if (!parse_number(value, "", number)) return false;
+  if (name == "text-size") preferences.text_size = number;
+  if (name == "text-size") return std::find(text_sizes.begin(), text_sizes.end(), number) != text_sizes.end();
+  if (name == "column") preferences.column = number;
+  return name == "column" && number >= narrowest_column && number <= widest_column;
+}
+
+}  // namespace
+
+std::optional<Preferences> read_preferences(const std::filesystem::path& file) {
   Preferences preferences;
   std::ifstream in(file);
-  for (std::string name, value; in >> name >> value;)
-    if (name == "clean" && (value == "on" || value == "off")) preferences.clean = value == "on";
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t space = line.find(' ');
+    if (space == std::string::npos || !take(line.substr(0, space), line.substr(space + 1), preferences)) return {};
+  }
   return preferences;
 }
 
@@ -31,11 +57,28 @@ void write_preferences(const std::filesystem::path& file, const Preferences& pre
   if (file.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
+  std::string text =
+      fmt::format("clean {}\ntheme {}\ntext-size {}\ncolumn {}\n", preferences.clean ? "on" : "off",
+                  preferences.theme == Theme::light ? "light" : "dark", preferences.text_size, preferences.column);
+  for (const std::string& section : preferences.folded) text += "folded " + section + "\n";
   try {
-    write_text_file(file, std::string("clean ") + (preferences.clean ? "on" : "off") + "\n");
+    write_text_file(file, text);
   } catch (const std::exception&) {
     return;  // the window then starts with its defaults
   }
+}
+
+std::filesystem::path set_aside(const std::filesystem::path& file) {
+  std::filesystem::path aside = file;
+  aside += ".damaged";
+  std::error_code error;
+  std::filesystem::rename(file, aside, error);
+  return error ? std::filesystem::path() : aside;
+}
+
+double stepped_text_size(double size, int steps) {
+  const auto at = std::lower_bound(text_sizes.begin(), text_sizes.end(), size) - text_sizes.begin();
+  return text_sizes[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + steps, 0, text_sizes.size() - 1))];
 }
 
 }  // namespace tyndall

@@ -1,21 +1,40 @@
 #pragma once
+#include "app/window/system/layout.h"
+#include "app/window/system/style.h"
+
+#include <array>
 #include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
 
 /// Settings of the window that a small file keeps from one start to the next.
 namespace tyndall {
 
+/// The sizes that texts, and with them all controls, can have: shares of the usual one.
+inline constexpr std::array<double, 8> text_sizes{0.8, 0.9, 1, 1.1, 1.25, 1.5, 1.75, 2};
+
 /// What the window remembers from one start to the next.
 struct Preferences {
   bool clean = true;  ///< the clean view is on
+  Theme theme = Theme::dark;
+  double text_size = 1;          ///< one of text_sizes
+  double column = column_width;  ///< width of the column, in units of the design; see narrowest_column
+  std::set<std::string> folded;  ///< names of the sections that are closed
   bool operator==(const Preferences&) const = default;
 };
 
 /// $XDG_CONFIG_HOME/tyndall/window.txt, else ~/.config/tyndall/window.txt; empty where neither variable is set.
 std::filesystem::path preferences_file();
 
-/// What the file says; the defaults for what it does not say, or if it cannot be read.
-Preferences read_preferences(const std::filesystem::path& file);
-/// Writes the file and the folders above it. Fails silently: the next start then has the old ones.
+/// What the file says; the defaults for what it does not say, and if there is none. Nothing if it is damaged.
+std::optional<Preferences> read_preferences(const std::filesystem::path& file);
+/// Writes the file whole or not at all, and the folders above it. Fails silently: the next start then has the old ones.
 void write_preferences(const std::filesystem::path& file, const Preferences& preferences);
+/// Gives a damaged file another name, so that it is told of once; returns that name, empty if that failed.
+std::filesystem::path set_aside(const std::filesystem::path& file);
+
+/// The size that is so many steps larger, or smaller, than the one that is next to `size`.
+double stepped_text_size(double size, int steps);
 
 }  // namespace tyndall

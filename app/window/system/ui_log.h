@@ -29,6 +29,9 @@ namespace tyndall {
 ///   halves A SECONDS B SECONDS       of rendering, in a split view
 ///   cursor plain|divider
 ///   message TEXT                     what the user is told; without TEXT: it has gone from the screen
+///   action NAME KEY                  at the start, a line for each action; KEY: Ctrl+Shift+Z, or none
+///   did NAME                         an action was carried out
+///   fonts FOUND of WANTED            characters beyond the usual ones that names have, and how many of them fonts have
 ///   saved FILE
 ///   read FILE                        the open file had changed and was read again
 /// What the window took in, so that a test can wait until what it sent has arrived and a drawing has shown it:

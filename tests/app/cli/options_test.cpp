@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,32 @@ TEST_CASE("without a command: the window") {
   CHECK(view.scene.what == "a.json");
   CHECK(view.scene.render.values.seed == 7u);
   CHECK(view.threads == 2);
+}
+
+TEST_CASE("the window takes limits, at which the picture pauses") {
+  const auto view =
+      std::get<ViewCommand>(read_command({"view", "a.json", "--spp", "16", "--time", "2.5", "--target-error", "0.02"}));
+  CHECK(view.scene.render.values.spp == 16);
+  CHECK(view.scene.render.given.contains("spp"));
+  CHECK(view.time_limit == 2.5);
+  CHECK(view.target_error == 0.02);
+  CHECK(has(refusal({"view", "--time", "0"}), "--time: found \"0\", expected a number of seconds > 0"));
+}
+
+TEST_CASE("the help of view, compare and inspect has examples, which are read") {
+  for (const char* name : {"view", "compare", "inspect"}) {
+    const std::string help = printed({name, "--help"});
+    std::size_t at = help.find("Examples:\n");
+    REQUIRE_MESSAGE(at != std::string::npos, name);
+    int count = 0;
+    for (at = help.find("  tyndall ", at); at != std::string::npos; at = help.find("  tyndall ", at + 1), ++count) {
+      Words words;
+      std::istringstream line(help.substr(at + 10, help.find('\n', at) - at - 10));
+      for (std::string word; line >> word;) words.push_back(word);
+      CHECK_MESSAGE(refusal(words).empty(), help.substr(at, 60));
+    }
+    CHECK(count == 3);
+  }
 }
 
 TEST_CASE("render: every option arrives") {
@@ -124,7 +151,9 @@ TEST_CASE("unknown options and commands get a suggestion") {
       has(refusal({"render", "b", "-o", "a.png", "--sede=3"}), R"(unknown option "--sede" (did you mean "--seed"?))"));
   CHECK(has(refusal({"rendr", "box", "-o", "a.png"}), R"(unknown command "rendr" (did you mean "render"?))"));
   CHECK(has(refusal({"scene"}), R"(did you mean "scenes"?)"));
-  CHECK(has(refusal({"--spp", "3"}), "--spp"));
+  CHECK(has(refusal({"--verson"}), R"(unknown option "--verson" (did you mean "--version"?))"));
+  CHECK(has(refusal({"--hlep"}), R"(did you mean "--help"?)"));
+  CHECK(has(refusal({"--stats", "a.json"}), "--stats"));
 }
 
 TEST_CASE("limits that exclude each other are named") {

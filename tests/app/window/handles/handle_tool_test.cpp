@@ -13,7 +13,7 @@ struct Hand {
   HandleTool tool;
   Mouse mouse;
   Scene scene;
-  Layout layout = make_layout(400, 330, 400, 300, 1, false);
+  Layout layout = make_layout(400, 330, 400, 300, 1, 0);
   ObjectPaths selected{{0}};
 
   Hand() {

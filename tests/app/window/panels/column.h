@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 /// The column of panels for tests, without a window.
 namespace tyndall {
@@ -25,7 +26,8 @@ class Column {
     saved = state.scene;
     state.facts.saved = &saved;
     state.facts.accuracy = &accuracy_;
-    state.facts.scenes = {{"showroom", "Showroom", "showroom.json"}, {"cover", "Cover", "cover.json"}};
+    state.facts.scenes = {{"showroom", "Showroom", "", "showroom.json"},
+                          {"cover", "Cover", "Stress: many balls. Fails: slow trees. Right: a cover.", "cover.json"}};
     state.facts.title = "showroom";
     draw();
     draw();
@@ -42,6 +44,8 @@ class Column {
       if (state.wishes.split) split = *state.wishes.split;
       exported = exported || state.wishes.export_chart;
       asked = asked || state.wishes.reference;
+      asked_for_actions = asked_for_actions || state.wishes.palette;
+      wanted = state.wishes.pictures;
     });
   }
   bool has(const std::string& name) const { return log_.find(name).has_value(); }
@@ -93,7 +97,8 @@ class Column {
   Scene saved;  ///< what the file holds
   float height = 2400;
   std::string problem, opened;
-  bool split = false, exported = false, asked = false;
+  std::vector<std::string> wanted;
+  bool split = false, exported = false, asked = false, asked_for_actions = false;
 
  private:
   NullImGui imgui_{372, 2400};

@@ -174,3 +174,26 @@ TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves i
   CHECK(column.state.scene.objects[0].name == "marble");
   CHECK(column.ui.edit.id == 0);
 }
+
+TEST_CASE("Esc takes a drag back, of sliders and of numbers, and the mouse changes nothing until it is let go") {
+  for (const char* name : {"gold.fuzz", "gold.fuzz.value"}) {
+    Column column;
+    column.gold().fuzz = 0.5;
+    column.draw();
+    column.aim(name, 0.5);
+    column.button(true);
+    CHECK(column.state.drags);
+    column.aim(name, 0.9);
+    CHECK(column.gold().fuzz != 0.5);
+    column.state.cancel_drag = true;
+    column.draw();
+    CHECK(column.gold().fuzz == 0.5);
+    column.aim(name, 0.1);
+    CHECK(column.gold().fuzz == 0.5);
+    CHECK_FALSE(column.state.drags);
+    column.button(false);
+    column.draw();
+    CHECK(column.gold().fuzz == 0.5);
+    CHECK(column.ui.edit.id == 0);
+  }
+}

@@ -34,7 +34,7 @@ TEST_CASE("the forward share is Henyey and Greenstein's density integrated over 
 
 TEST_CASE("glass says what it reflects and where it reflects all") {
   CHECK(meaning(Dielectric<>{1.5}, "refractive_index") == "reflects 4.0 % head on, all beyond 41.8°");
-  CHECK(meaning(Dielectric<>{1 / 1.5}, "refractive_index") == "reflects 4.0 % head on, all beyond 41.8° outside");
+  CHECK(meaning(Dielectric<>{1 / 1.5}, "refractive_index") == "reflects 4.0 %, all beyond 41.8° outside");
   CHECK(meaning(Dielectric<>{1}, "refractive_index") == "as the surroundings: invisible");
 }
 

@@ -88,22 +88,22 @@ TEST_CASE("something that moves by itself wakes the window, once for each drawin
 }
 
 TEST_CASE("the picture keeps its aspect in the middle of what the column leaves") {
-  const Layout layout = make_layout(1600, 900, 1280, 800, 1, true);
+  const Layout layout = make_layout(1600, 900, 1280, 800, 1, column_width);
   CHECK(layout.column.width() == column_width);
   CHECK(layout.status.height() == status_height);
   CHECK(layout.image.width() / layout.image.height() == doctest::Approx(1.6).epsilon(0.002));
   CHECK(layout.image.x1 <= layout.column.x0);
   CHECK(layout.image.y1 <= layout.status.y0);
-  const Layout exact = make_layout(1280 + column_width, 800 + status_height, 1280, 800, 1, true);
+  const Layout exact = make_layout(1280 + column_width, 800 + status_height, 1280, 800, 1, column_width);
   CHECK(exact.image == Rect{0, 0, 1280, 800});
-  CHECK(make_layout(1600, 900, 1280, 800, 1, false).column.width() == 0);
-  CHECK(make_layout(3200, 1800, 1280, 800, 2, true).column.width() == 2 * column_width);
+  CHECK(make_layout(1600, 900, 1280, 800, 1, 0).column.width() == 0);
+  CHECK(make_layout(3200, 1800, 1280, 800, 2, column_width).column.width() == 2 * column_width);
 }
 
 TEST_CASE("no size is too small for a layout") {
   for (const float w : {0.0f, 1.0f, 40.0f, 400.0f})
     for (const float h : {0.0f, 1.0f, 29.0f, 31.0f}) {
-      const Layout layout = make_layout(w, h, 1280, 800, 1, true);
+      const Layout layout = make_layout(w, h, 1280, 800, 1, column_width);
       for (const Rect& r : {layout.area, layout.image, layout.column, layout.status}) {
         CHECK(r.width() >= 0);
         CHECK(r.height() >= 0);

@@ -7,19 +7,33 @@
 
 using namespace tyndall;
 
-TEST_CASE("preferences: what was written is read; what is not said or not known has its default") {
+TEST_CASE("preferences: what was written is read; what is not said has its default") {
   const auto folder = scratch_folder("preferences_test");
   const auto file = folder / "of" / "tyndall" / "window.txt";
   CHECK(read_preferences(file) == Preferences{});
   CHECK(Preferences{}.clean);
-  write_preferences(file, {false});
-  CHECK_FALSE(read_preferences(file).clean);
-  write_preferences(file, {true});
-  CHECK(read_preferences(file).clean);
-  std::ofstream(file) << "clean perhaps\nother on\n";
+  const Preferences other{false, Theme::light, 1.25, 480, {"Camera", "Speed and accuracy"}};
+  write_preferences(file, other);
+  CHECK(read_preferences(file) == other);
+  write_preferences(file, {});
   CHECK(read_preferences(file) == Preferences{});
-  std::ofstream(file) << "other on\nclean off\n";
-  CHECK_FALSE(read_preferences(file).clean);
+  std::ofstream(file) << "clean off\n";
+  Preferences raw;
+  raw.clean = false;
+  CHECK(read_preferences(file) == raw);
+}
+
+TEST_CASE("preferences: of a damaged file nothing is taken, and it is set aside once") {
+  const auto folder = scratch_folder("preferences_test");
+  const auto file = folder / "window.txt";
+  for (const char* text : {"clean perhaps\n", "clean off\nother on\n", "clean off\ntext-size 40\n", "column -1\n",
+                           "column wide\n", "theme", "\x01\x02\n", "text-size nan\n", "folded a\nfolded a\n"}) {
+    std::ofstream(file) << text;
+    CHECK_MESSAGE(!read_preferences(file), text);
+  }
+  CHECK(set_aside(file) == folder / "window.txt.damaged");
+  CHECK(read_preferences(file) == Preferences{});
+  CHECK(set_aside(file).empty());
 }
 
 TEST_CASE("preferences: what cannot be written is forgotten without a word") {
@@ -27,4 +41,11 @@ TEST_CASE("preferences: what cannot be written is forgotten without a word") {
   std::ofstream(folder / "file") << "no folder";
   CHECK_NOTHROW(write_preferences(folder / "file" / "window.txt", {}));
   CHECK_NOTHROW(write_preferences({}, {}));
+}
+
+TEST_CASE("preferences: texts grow and shrink by steps, up to the ends") {
+  CHECK(stepped_text_size(1, 1) == 1.1);
+  CHECK(stepped_text_size(1, -1) == 0.9);
+  CHECK(stepped_text_size(2, 1) == 2);
+  CHECK(stepped_text_size(0.8, -1) == 0.8);
 }

@@ -15,7 +15,7 @@ struct Hand {
   PressedButton clicked = PressedButton::none;
   Mouse mouse;
   Camera camera;
-  Layout layout = make_layout(400, 330, 400, 300, 1, false);
+  Layout layout = make_layout(400, 330, 400, 300, 1, 0);
 
   /// Whether the left button was clicked.
   bool update(bool free = true, double now = 10) {

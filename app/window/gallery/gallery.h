@@ -1,0 +1,43 @@
+#pragma once
+#include "app/window/gallery/recent_files.h"
+#include "app/window/gallery/thumbnails.h"
+#include "app/window/picture/texture.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What the list of scenes shows beside names: pictures and recent files.
+namespace tyndall {
+
+/// By what load_scene takes; null: the scene has no picture.
+using SmallPictures = std::map<std::string, std::unique_ptr<const PictureTexture>>;
+
+/// Keeps the pictures as textures, and the list of recent files. Lives within the window's OpenGL context; for the main
+/// thread.
+class Gallery {
+ public:
+  /// wake: collect() has something to do; called from any thread.
+  explicit Gallery(const std::function<void()>& wake);
+
+  const SmallPictures& pictures() const { return pictures_; }
+  /// The newest first.
+  const std::vector<std::filesystem::path>& recent() const { return recent_; }
+
+  /// See Thumbnails::want().
+  void want(std::vector<std::string> scenes) { thumbnails_.want(std::move(scenes)); }
+  /// Takes what the background has made. Whether anything is new.
+  bool collect();
+  bool idle() const { return thumbnails_.idle(); }
+  /// A file was opened or saved: it goes to the head of the recent ones, and its picture is made anew.
+  void note_file(const std::filesystem::path& file);
+
+ private:
+  std::filesystem::path list_;
+  std::vector<std::filesystem::path> recent_;
+  SmallPictures pictures_;
+  Thumbnails thumbnails_;
+};
+
+}  // namespace tyndall

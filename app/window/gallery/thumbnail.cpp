@@ -1,0 +1,102 @@
+#include "app/window/gallery/thumbnail.h"
+
+#include "core/compile/compile.h"
+#include "core/image/image_io.h"
+#include "core/image/tonemap.h"
+#include "core/render/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iterator>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint32_t samples = 64;
+constexpr double longest = 2;  // seconds
+
+/// 64-bit FNV-1a: public domain, see Fowler, Noll, Vo, The FNV Non-Cryptographic Hash Algorithm.
+struct Hash {
+  std::uint64_t value = 0xcbf29ce484222325u;
+  void add(const std::string& bytes) {
+    for (const char c : bytes) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+};
+
+}  // namespace
+
+fs::path thumbnails_folder() {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return fs::path(value ? value : "");
+  };
+  fs::path cache = folder("XDG_CACHE_HOME");
+  if (cache.empty() && !folder("HOME").empty()) cache = folder("HOME") / ".cache";
+  return cache.empty() ? cache : cache / "tyndall" / "thumbnails";
+}
+
+std::string thumbnail_key(const LoadedScene& loaded) {
+  Hash hash;
+  hash.add("1 ");  // counts the ways in which thumbnails were made
+  hash.add(loaded.text);
+  for (std::size_t k = 1; k < loaded.files.size(); ++k) {  // the first one is the scene's own
+    std::ifstream file(loaded.files[k], std::ios::binary);
+    hash.add({std::istreambuf_iterator<char>(file), {}});
+  }
+  std::string key;
+  for (int shift = 60; shift >= 0; shift -= 4) key += "0123456789abcdef"[(hash.value >> shift) & 15];
+  return key;
+}
+
+ThumbnailSize thumbnail_size(const Scene& scene) {
+  const double width = scene.width, height = scene.height;
+  const double scale = std::min(thumbnail_width / width, thumbnail_height / height);
+  const auto pixels = [scale](double size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
+  return {pixels(width), pixels(height)};
+}
+
+std::optional<Rgb8Image> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on) {
+  Scene small = scene;
+  const ThumbnailSize size = thumbnail_size(scene);
+  small.width = size.width, small.height = size.height;
+  RenderOptions options;
+  options.threads = 1;
+  options.spp = samples;
+  options.time_limit = longest;
+  options.clean = true;
+  const RenderResult result = render(compile(small), options, [&](const RenderProgress&) { return go_on(); });
+  if (result.interrupted) return {};
+  const std::vector<float> rgb = result.clean ? result.clean->rgb : finished_picture(result).image.rgb;
+  return Rgb8Image{size.width, size.height, tone_map(rgb, scene.display.exposure, scene.display.tone_map)};
+}
+
+std::optional<Rgb8Image> read_thumbnail(const fs::path& file) {
+  try {
+    Rgb8Image picture = read_rgb8(file);
+    if (picture.width > thumbnail_width || picture.height > thumbnail_height) return {};
+    return picture;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+void write_thumbnail(const fs::path& file, const Rgb8Image& picture) {
+  LinearImage linear{picture.width, picture.height, {}};
+  for (const std::uint8_t byte : picture.rgb) linear.rgb.push_back(srgb_decode(static_cast<float>(byte) / 255.0f));
+  std::error_code ignored;
+  fs::create_directories(file.parent_path(), ignored);
+  try {
+    write_png(file, linear, 0, ToneMap::srgb, {});
+  } catch (const std::exception&) {
+    return;  // it will be made again
+  }
+}
+
+}  // namespace tyndall

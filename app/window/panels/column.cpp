@@ -1,0 +1,186 @@
+#include "app/window/panels/panels.h"
+#include "app/window/panels/wheel.h"
+#include "app/window/system/imgui_compat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr Tab tabs[] = {{"Object", ""},
+                        {"Camera", "Camera"},
+                        {"Image", "Image"},
+                        {"Render", "Render"},
+                        {"Accuracy", "Speed and accuracy"},
+                        {"Objects", "Objects"},
+                        {"Scenes", "Scenes"}};
+
+constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+bool begin_part(const char* name, const Rect& where, ImGuiWindowFlags more) {
+  ImGui::SetNextWindowPos({where.x0, where.y0});
+  ImGui::SetNextWindowSize({where.width(), where.height()});
+  return ImGui::Begin(name, nullptr, part_flags | more);
+}
+
+/// The row of tabs, and a button for all actions.
+void draw_tabs(Ui& ui, PanelState& state) {
+  const float s = ui.scale, space = 2 * s;
+  compat::push_font(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * s, 4 * s});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
+  float words = ImGui::CalcTextSize("...").x;
+  for (const Tab& tab : tabs) words += ImGui::CalcTextSize(tab.name).x;
+  const auto count = static_cast<float>(std::size(tabs));
+  const float room = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX() - count * space;
+  const float spare = std::max(0.0f, std::floor((room - words) / (count + 1)));
+  for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
+    const bool lit = k == state.tabs.lit;
+    ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::chosen : palette::panel);
+    ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::text : palette::dim);
+    if (ImGui::Button(tabs[k].name, {ImGui::CalcTextSize(tabs[k].name).x + spare, 0})) state.tabs.jump = k;
+    ImGui::PopStyleColor(2);
+    log_item(ui, std::string("tab.") + tabs[k].name, lit ? "on" : "off");
+    ImGui::SameLine();
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) state.wishes.palette = true;
+  ImGui::PopStyleColor();
+  log_item(ui, "tab.actions", "button");
+  ImGui::PopStyleVar(2);
+  ImGui::PopFont();
+  tooltip(ui, "all actions and their keys: Ctrl + K");
+}
+
+/// Opens the section that the column is to go to.
+void begin_jump(Ui& ui, PanelState& state) {
+  ColumnTabs& to = state.tabs;
+  to.moves = to.jump >= 0;
+  if (!to.moves) return;
+  to.lit = to.jump;
+  to.jump = -1;
+  to.sent = -1;
+  const std::string_view section = tabs[to.lit].section;
+  if (!section.empty())
+    ui.folded.erase(std::string(section));
+  else if (!state.selected.empty())
+    ui.folded.erase(title_of(state.scene, state.selected));
+  ui.wake_in = 0;
+}
+
+/// A part of the column, where a tab leads to.
+struct Part {
+  std::string_view tab;
+  void (*draw)(Ui&, PanelState&);
+};
+
+void histogram_part(Ui& ui, PanelState& state) {
+  histogram_section(ui, state.histogram, state.facts.frame.get(), state.scene.display);
+}
+
+/// Draws the parts; scrolls to the one that the column is sent to, and finds out which one is at its head.
+void draw_parts(Ui& ui, PanelState& state, std::span<const Part> parts) {
+  ColumnTabs& to = state.tabs;
+  const float scroll = ImGui::GetScrollY(), pad = 14 * ui.scale;
+  if (!to.moves && to.sent < 0) to.sent = scroll;
+  const bool scrolled = !to.moves && std::abs(scroll - to.sent) > 1;
+  for (const Part& part : parts) {
+    const float y = ImGui::GetCursorPosY();
+    for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
+      if (part.tab != tabs[k].name) continue;
+      if (to.moves && k == to.lit) ImGui::SetScrollY(std::max(0.0f, y - pad));
+      if (scrolled && (k == 0 || y <= scroll + 3 * pad)) to.lit = k;
+    }
+    part.draw(ui, state);
+  }
+}
+
+/// The left edge of the column: dragging it makes the column wider.
+void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
+  const float reach = 4 * ui.scale;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  begin_part("##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
+             ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::InvisibleButton("edge", {2 * reach, std::max(1.0f, column.height())});
+  log_item(ui, "column.edge", "edge");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
+    const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
+    state.look.column =
+        std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
+  }
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look.column = column_width;
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
+  if (column.width() <= 0 || column.height() <= 0) return;
+  const float s = ui.scale, chart = 150 * s, head = 34 * s;
+  const bool has_tabs = column.height() > 8 * head;
+  const auto lines = static_cast<float>(accuracy_lines(*state.facts.accuracy).size());
+  const bool folded = ui.folded.contains(tabs[4].section);
+  const float foot = folded ? 40 * s : chart + 80 * s + lines * line_of_note_height(ui);
+  const bool fixed_chart = column.height() > 2.2f * (chart + 80 * s + lines * line_of_note_height(ui));
+  Rect body = column;
+  if (has_tabs) body.y0 += head;
+  if (fixed_chart) body.y1 -= foot;
+  if (has_tabs) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * s, 8 * s});
+    if (begin_part("##tabs", {column.x0, column.y0, column.x1, body.y0}, stays_behind | ImGuiWindowFlags_NoScrollbar))
+      draw_tabs(ui, state);
+    ImGui::End();
+    ImGui::PopStyleVar();
+  }
+  const bool other = state.shown != state.selected && !state.selected.empty() && state.objects.shown != state.selected;
+  state.shown = state.selected;
+  if (other) state.tabs.jump = 0;  // selected in the picture: its values are shown
+  begin_jump(ui, state);
+  if (begin_part("##column", body, stays_behind | ImGuiWindowFlags_NoScrollWithMouse)) {
+    std::vector<Part> parts{{"Object", object_panel},
+                            {"Camera", camera_panel},
+                            {"Image", image_panel},
+                            {"", histogram_part},
+                            {"Render", render_panel}};
+    if (!fixed_chart) parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, 150 * u.scale); }});
+    for (const Part& part : {Part{"", background_panel}, Part{"Objects", objects_panel}, Part{"Scenes", scenes_panel},
+                             Part{"", window_panel}})
+      parts.push_back(part);
+    draw_parts(ui, state, parts);
+    scroll_column(ui);
+  }
+  ImGui::End();
+  if (fixed_chart) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {16 * s, 2 * s});
+    if (begin_part("##chart", {column.x0, body.y1, column.x1, column.y1}, stays_behind | ImGuiWindowFlags_NoScrollbar))
+      chart_panel(ui, state, chart);
+    ImGui::End();
+    ImGui::PopStyleVar();
+  }
+  draw_edge(ui, state, column);
+}
+
+}  // namespace
+
+std::span<const Tab> column_tabs() { return tabs; }
+
+std::span<const char* const> lasting_sections() {
+  static constexpr const char* sections[] = {"Camera",     "Image",   "Render", "Speed and accuracy",
+                                             "Background", "Objects", "Scenes", "Window"};
+  return sections;
+}
+
+void draw_column(Ui& ui, PanelState& state, const Rect& column) {
+  ui.drag.active = false;
+  ui.drag.cancel = std::exchange(state.cancel_drag, false);
+  draw_shown_column(ui, state, column);
+  state.drags = ui.drag.active;
+}
+
+}  // namespace tyndall

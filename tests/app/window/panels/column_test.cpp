@@ -1,0 +1,91 @@
+#include "tests/app/window/panels/column.h"
+
+using namespace tyndall;
+
+namespace {
+
+/// The part of the column under its tabs.
+Rect heading(const Column& column, const std::string& section) { return column.rect("section." + section); }
+
+}  // namespace
+
+TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit") {
+  Column column;
+  column.height = 500;
+  column.draw();
+  column.draw();
+  for (const char* name : {"Render", "Image", "Camera"}) {
+    column.ui.folded.insert(name);
+    column.draw();
+    column.click(std::string("tab.") + name);
+    column.draw();
+    column.draw();
+    CHECK_FALSE(column.ui.folded.contains(name));
+    REQUIRE(column.has(std::string("section.") + name));
+    CHECK(heading(column, name).y0 < 90);
+    CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string(name));
+  }
+  column.click("tab.Scenes");  // the last part cannot reach the head
+  column.draw();
+  column.draw();
+  CHECK(column.has("scenes.showroom"));
+  CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Scenes"));
+}
+
+TEST_CASE("selecting an object in the picture brings its values to the head of the column") {
+  Column column;
+  column.height = 500;
+  column.click("tab.Objects");
+  column.draw();
+  column.draw();
+  CHECK_FALSE(column.has("Ball.name"));
+  column.ui.folded.insert("Ball");
+  column.state.selected = {0};
+  for (int k = 0; k < 3; ++k) column.draw();
+  CHECK(column.has("section.Ball"));
+  CHECK(column.has("Ball.type"));
+  CHECK(column.state.tabs.lit == 0);
+}
+
+TEST_CASE("the tab at the end asks for all actions") {
+  Column column;
+  column.aim("tab.actions");
+  column.button(true);
+  column.button(false);
+  CHECK(column.asked_for_actions);
+}
+
+TEST_CASE("dragging its edge makes the column wider, within limits, and a double click sets it back") {
+  Column column;
+  column.aim("column.edge");
+  column.button(true);
+  compat::mouse_pos(ImGui::GetIO(), -60, 100);
+  column.draw();
+  CHECK(column.state.look.column == 432);
+  compat::mouse_pos(ImGui::GetIO(), 300, 100);
+  column.draw();
+  CHECK(column.state.look.column == narrowest_column);
+  column.button(false);
+  column.click_twice("column.edge");
+  CHECK(column.state.look.column == column_width);
+}
+
+TEST_CASE("the list of scenes shows which method fails, wants the pictures that are seen, and opens recent files") {
+  Column column;
+  column.state.facts.recent = {"/scenes/my own.json"};
+  column.draw();
+  column.draw();
+  CHECK(column.wanted == std::vector<std::string>{"showroom", "cover", "/scenes/my own.json"});
+  column.click("scenes.recent.0");
+  CHECK(column.opened == "/scenes/my own.json");
+  column.click("scenes.cover");
+  CHECK(column.opened == "cover");
+}
+
+TEST_CASE("theme and text size are chosen in the column") {
+  Column column;
+  column.click("window.theme.light");
+  CHECK(column.state.look.theme == Theme::light);
+  column.click("window.text.125");
+  CHECK(column.state.look.text_size == 1.25);
+}

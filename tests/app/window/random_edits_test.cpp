@@ -1,0 +1,9 @@
+#include "tests/app/window/random_edits.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+TEST_CASE("after many random edits with workers running the picture is that of the saved scene, bit for bit") {
+  for (const unsigned seed : {1u, 2u, 3u}) test::check_random_edits("random_edits", 300, seed, [](int) {});
+}

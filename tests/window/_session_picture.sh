@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# The README's animated picture of a session: the metal ball becomes rougher, is moved, the light theme comes on, a scene
+# is opened from its picture. Needs ImageMagick. Arguments: the tyndall binary, the picture (.gif).
+set -euo pipefail
+tyndall=$(realpath "$1")
+picture=$(realpath -m "$2")
+if [ -z "${IN_XVFB:-}" ]; then
+  IN_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24 -nolisten tcp' "$0" "$tyndall" "$picture"
+fi
+folder=$(mktemp -d)
+log=$folder/log
+: >"$log"
+export XDG_CONFIG_HOME=$folder XDG_STATE_HOME=$folder
+"$tyndall" view showroom --ui-log "$log" &
+pid=$!
+trap 'kill $pid 2>/dev/null || true; rm -rf "$folder"' EXIT
+window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
+xdotool windowsize --sync "$window" 1280 800
+
+frames=0
+shot() { # COUNT: as many pictures of the window as it is now
+  import -window "$window" -resize 640x "$folder/$(printf 'frame-%03d' "$frames").png"
+  for ((k = 1; k < $1; k++)); do
+    cp "$folder/$(printf 'frame-%03d' "$frames").png" "$folder/$(printf 'frame-%03d' $((frames + k))).png"
+  done
+  frames=$((frames + $1))
+}
+line_of() { grep -E "^widget ${1//./\\.} " "$log" | tail -1; }
+place() { # NAME ACROSS: the point at that percentage of a control
+  local name x0 y0 x1 y1 _
+  read -r _ name x0 y0 x1 y1 _ <<<"$(line_of "$1")"
+  echo $((x0 + (x1 - x0) * $2 / 100)) $(((y0 + y1) / 2))
+}
+shown() { [ -n "$(line_of "$1")" ]; }
+await() { until "$@"; do sleep 0.05; done; }
+drawn() { grep -c '^drawn' "$log" || true; }
+after_drawing() { # COMMAND: and a drawing after it
+  local before
+  before=$(drawn)
+  "$@"
+  until [ "$(drawn)" -gt "$before" ]; do sleep 0.02; done
+}
+# shellcheck disable=SC2046
+go() { after_drawing xdotool mousemove $(place "$1" "$2"); }
+click() {
+  go "$1" "$2"
+  after_drawing xdotool click 1
+}
+
+await shown gold.fuzz
+await grep -qE '^frame 1 ([2-9]|[1-9][0-9]+) ' "$log"
+shot 4
+go gold.fuzz 25
+xdotool mousedown 1
+for across in 35 45 55 65 75 65 50 35 20 10; do
+  go gold.fuzz "$across"
+  shot 1
+done
+xdotool mouseup 1
+shot 2
+go picture 50
+xdotool mousedown 1
+for step in 47 44 41 38 35 38 41 44; do
+  go picture "$step"
+  shot 1
+done
+xdotool mouseup 1
+shot 3
+click window.theme.light 50 || true
+shot 3
+convert -delay 18 -loop 0 "$folder"/frame-*.png -dither none -colors 96 -layers optimize "$picture"

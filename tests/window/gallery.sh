@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Scenes have pictures, which are made once; recent files are listed; tabs bring parts of the column to its head.
+. "$(dirname "$0")/_lib.sh"
+export XDG_CACHE_HOME=$scratch/cache
+cached=$XDG_CACHE_HOME/tyndall/thumbnails
+lit() { has_value "tab.$1" on; }
+top_of() { grep -E "^widget ${1// /_} " "$scratch/log" | tail -1 | cut -d' ' -f4; }
+
+write_scene one.json 0.2
+write_scene two.json 0.5
+start one.json
+settle
+ls "$cached"/*.png >/dev/null || fail 'no picture was kept'
+count=$(find "$cached" -name '*.png' | wc -l)
+click scenes.cover
+wait_for '^message opened cover'
+wait_until has_value scenes.cover on
+# What is in the cache is not made again: damaged pictures are.
+damaged=$(find "$cached" -name '*.png' | sort | head -1)
+keeps=$(find "$cached" -name '*.png' | sort | tail -1)
+echo damaged >"$damaged"
+touch -d '2001-01-01' "$keeps"
+finish
+
+start two.json
+settle
+head -c 4 "$damaged" | grep -q PNG || fail 'a damaged picture was not made again'
+[ "$(date -r "$keeps" +%Y)" = 2001 ] || fail 'a picture was made twice'
+[ "$(find "$cached" -name '*.png' | wc -l)" -ge "$count" ] || fail 'pictures are gone'
+
+# The newest file is at the head of the recent ones; the one before it beneath.
+lines=$(here)
+click scenes.recent.1
+wait_for '^message opened one.json' "$lines"
+settle
+wait_until has_value scenes.recent.0 on
+
+# A low window: the column has to scroll.
+sends 1 '^size 1000 640$' xdotool windowsize "$window" 1000 640
+for part in Scenes Objects Render Camera Image Object; do
+  click "tab.$part"
+  wait_until lit "$part"
+done
+click tab.Objects
+wait_until lit Objects
+settle
+compares "$(top_of section.Objects) < 120" || fail 'the objects are not at the head of the column'
+# Selected in the picture: its values are shown.
+click picture 50 45
+wait_until lit Object
+wait_for '^widget section.Ball '
+# All actions, by mouse.
+lines=$(here)
+click tab.actions
+wait_for '^widget palette ' "$lines"
+type_text 'go to: scenes'
+key Return
+wait_until lit Scenes
+settle
+finish
