@@ -113,9 +113,10 @@ struct MediumColumns {
 /// A binary tree of lights, by which one of many is chosen. Columns by node. Node 0 is the root, node 1 is not used,
 /// and the children of a node are neighbours: 2 k and 2 k + 1.
 struct LightTree {
-  std::vector<float> center[3];      ///< of a ball that holds the node's lights
-  std::vector<float> power, reach2;  ///< sum of the lights' powers; squared radius of the ball
-  std::vector<std::int32_t> child;   ///< >= 0: the first child; < 0: leaf of light -1 - child
+  std::vector<float> center[3];  ///< of a box that holds the node's lights
+  /// Sum of the lights' powers; the least that a squared distance from the centre counts as.
+  std::vector<float> power, reach2;
+  std::vector<std::int32_t> child;  ///< >= 0: the first child; < 0: leaf of light -1 - child
   std::vector<std::int32_t> parent;
   std::vector<std::int32_t> leaf;  ///< by light: its node
 };

@@ -1,4 +1,5 @@
 #include "core/clean/clean.h"
+#include "core/film/groups.h"
 
 #include <doctest/doctest.h>
 
@@ -136,4 +137,37 @@ TEST_CASE("choice: a dark line between bright pixels counts for its own darkness
     for (int x = 0; x < width; ++x) all += error_at(many, p, x, y) / (width * height);
   CHECK(many.relative_error * many.relative_error == doctest::Approx(all).epsilon(0.5));
   CHECK(few < 0.9 * many.relative_error);
+}
+
+TEST_CASE("choice: the error is known where groups of pixels share their noise") {
+  // A bright floor with texture that no feature tells; a group's pixels, every fourth of a block, all have one noise.
+  const auto truth = [](int x, int y) {
+    const float wave = 1 + 0.3f * std::sin(0.7f * static_cast<float>(x)) * std::cos(0.5f * static_cast<float>(y));
+    return Vec3f{wave, wave, wave};
+  };
+  double estimated = 0, real = 0;
+  std::mt19937 engine(3);
+  std::normal_distribution<float> normal;
+  for (int trial = 0; trial < 40; ++trial) {
+    Picture p = picture(truth, grey_floor, [](int, int) { return 0.0f; });
+    p.input.shared = true;
+    for (int half = 0; half < 2; ++half)
+      for (int by = 0; by < height; by += block_height)
+        for (int bx = 0; bx < width; bx += block_width)
+          for (int group = 0; group < group_spacing * group_spacing; ++group) {
+            const float noise = 0.2f * normal(engine);
+            for (int member = 0; member < group_size; ++member) {
+              const int x = bx + group % group_spacing + member % group_columns * group_spacing;
+              const int y = by + group / group_spacing + member / group_columns * group_spacing;
+              for (int channel = 0; channel < 3; ++channel) p.half(half, channel, x, y) *= 1 + noise;
+            }
+          }
+    const CleanPicture picture = clean(p);
+    estimated += picture.relative_error * picture.relative_error;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) real += error_at(picture, p, x, y) / (width * height);
+  }
+  const double ratio = estimated / real;
+  CHECK(ratio > 0.9);
+  CHECK(ratio < 1.15);
 }

@@ -126,3 +126,21 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
     CHECK(chi2 < count - 1 + 4.5 * std::sqrt(2.0 * count) + 1);
   }
 }
+
+TEST_CASE("lights: of a thousand alike, the one beside the point is asked most often") {
+  std::vector<Object> lamps;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = i % 10, y = i / 10 % 10, z = i / 100;
+    lamps.push_back(lamp_object(sphere({2 * x, 2 * y, 2 * z}, 0.1)));
+  }
+  const RenderScene scene = lit(lamps);
+  const SceneViewOf view(scene);
+  const LightView& lights = view.view().lights;
+  const int beside = 555;
+  const Vec3f point = rounded(Vec3d{10, 10, 10.3} - scene.origin);
+  const float probability = choice_probability<float>(lights, point, beside);
+  // By power alone it would be 0.001, in exact proportion to what each contributes 0.4. The tree, which guesses from
+  // groups, gives 0.045; with groups that count as spread over the whole of their boxes' diagonals, 0.024.
+  CHECK(probability > 0.03f);
+  CHECK(probability < 0.4f);
+}
