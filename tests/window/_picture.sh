@@ -8,7 +8,7 @@ if [ -z "${IN_XVFB:-}" ]; then
   IN_XVFB=1 exec xvfb-run -a -s '-screen 0 1600x900x24 -nolisten tcp' "$0" "$tyndall" "$picture"
 fi
 log=$(mktemp)
-"$tyndall" view showroom --ui-log "$log" &
+"$tyndall" view showroom --spp 512 --ui-log "$log" &
 pid=$!
 trap 'kill $pid 2>/dev/null || true; rm -f "$log"' EXIT
 window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
