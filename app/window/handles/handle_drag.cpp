@@ -42,7 +42,14 @@ double along_line(const PictureFrame& frame, Vec3d origin, Vec3d way, WindowPoin
   return (cosine * dot(sight.direction, between) - dot(way, between)) / sine2;
 }
 
+/// How far the mouse has pulled along a way. On one that is seen from its end the mouse cannot stay at what it has
+/// taken, because a few pixels would lead to the horizon: there it pulls by a multiple of its own way instead.
 double pulled(const PictureFrame& frame, const HandleDrag& drag, Vec3d way) {
+  const WindowPoint seen = frame.seen_way(drag.origin, way);
+  if (const double share = std::hypot(seen.x, seen.y); share < PictureFrame::least_followed) {
+    const double along = (drag.to.x - drag.from.x) * seen.x + (drag.to.y - drag.from.y) * seen.y;
+    return frame.unit_at(drag.origin) / PictureFrame::least_followed * along / std::max(share, 1e-6);
+  }
   return along_line(frame, drag.origin, way, drag.to) - along_line(frame, drag.origin, way, drag.from);
 }
 

@@ -12,7 +12,8 @@ namespace tyndall {
 namespace {
 
 // Units of the design.
-constexpr double arrow_start = 14, arrow_end = 64, least_arrow = 14, ring_radius = 82, least_grip = 26, reach = 9;
+constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius = 82, least_grip = 26, reach = 9;
+constexpr double least_seen = 0.05;  // of PictureFrame::seen_way(): with less, it has no direction
 constexpr int ring_points = 64;
 
 bool can_turn(const Scene& scene, const ObjectPath& path) {
@@ -32,13 +33,19 @@ double distance_to_line(WindowPoint p, WindowPoint a, WindowPoint b) {
   return distance(p, {a.x + t * dx, a.y + t * dy});
 }
 
-void add_arrow(const PictureFrame& frame, Vec3d origin, HandleKind kind, std::vector<Handle>& out) {
+/// An arrow that is seen from its end is short; it is not drawn at all only where it has no direction in the picture.
+void add_arrow(const PictureFrame& frame, Vec3d origin, WindowPoint middle, HandleKind kind, std::vector<Handle>& out) {
   const Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Vec3d axis = axes[static_cast<int>(kind) - static_cast<int>(HandleKind::along_x)];
-  const double unit = frame.scale * frame.unit_at(origin);
-  const auto from = frame.point(origin + (arrow_start * unit) * axis);
-  const auto to = frame.point(origin + (arrow_end * unit) * axis);
-  if (from && to && distance(*from, *to) >= least_arrow * frame.scale) out.push_back({kind, 0, {*from, *to}});
+  const WindowPoint way = frame.seen_way(origin, axis);
+  const double seen = std::hypot(way.x, way.y);
+  if (seen < least_seen) return;
+  const double from = arrow_start,
+               to = seen < PictureFrame::least_followed ? short_arrow_end : arrow_start + arrow * seen;
+  const auto at = [&](double along) {
+    return WindowPoint{middle.x + along * frame.scale / seen * way.x, middle.y + along * frame.scale / seen * way.y};
+  };
+  out.push_back({kind, 0, {at(from), at(to)}});
 }
 
 void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out) {
@@ -91,6 +98,13 @@ double PictureFrame::unit_at(Vec3d p) const {
          std::max(1.0, static_cast<double>(image.height()));
 }
 
+WindowPoint PictureFrame::seen_way(Vec3d p, Vec3d way) const {
+  const double step = 1e-3 * static_cast<double>(image.height());
+  const auto from = point(p), to = point(p + (step * unit_at(p)) * way);
+  if (!from || !to) return {};
+  return {(to->x - from->x) / step, (to->y - from->y) / step};
+}
+
 std::string name_of_handle(const Scene& scene, const ObjectPaths& selected, const Handle& handle) {
   static constexpr const char* names[] = {"move", "x", "y", "z", "turn"};
   if (handle.kind != HandleKind::size) return names[static_cast<int>(handle.kind)];
@@ -104,7 +118,7 @@ std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, co
   if (const auto middle = frame.point(origin)) {
     handles.push_back({HandleKind::plane, 0, {*middle}});
     for (const HandleKind kind : {HandleKind::along_x, HandleKind::along_y, HandleKind::along_z})
-      add_arrow(frame, origin, kind, handles);
+      add_arrow(frame, origin, *middle, kind, handles);
     const bool turns = std::all_of(selected.begin(), selected.end(), [&](const auto& p) { return can_turn(scene, p); });
     if (turns) add_ring(frame, origin, handles);
   }

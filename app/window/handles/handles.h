@@ -37,6 +37,10 @@ struct PictureFrame {
   Sight sight(WindowPoint at) const;
   /// Scene units per window unit at the depth of a point.
   double unit_at(Vec3d p) const;
+  /// Where a unit vector at a point leads in the picture: its length is 1 across the line of sight and 0 along it.
+  WindowPoint seen_way(Vec3d p, Vec3d way) const;
+  /// Below this length of seen_way() a way is seen so much from its end that the mouse could hardly follow it.
+  static constexpr double least_followed = 0.3;
 };
 PictureFrame frame_of(const Scene& scene, const Rect& image, double scale);
 

@@ -90,6 +90,28 @@ TEST_CASE("snapping rounds the number itself, not the way; fine snaps ten times 
   CHECK(ball(scene).center.x == std::round(ball(scene).center.x * 50) / 50);
 }
 
+TEST_CASE("an axis that is seen nearly from its end has a short arrow, which moves evenly with the mouse") {
+  Scene scene = example();
+  scene.camera.look_from.y += 1;  // z leads a little downwards in the picture
+  const PictureFrame frame = frame_of(scene, image, 1);
+  const auto handles = handles_of(scene, frame, {{0}}, {0, 0, 0});
+  const auto arrow =
+      std::find_if(handles.begin(), handles.end(), [](auto& h) { return h.kind == HandleKind::along_z; });
+  REQUIRE(arrow != handles.end());
+  const WindowPoint start = arrow->points[0], end = arrow->points[1];
+  CHECK(std::hypot(end.x - start.x, end.y - start.y) == doctest::Approx(20));
+  CHECK(end.y > start.y);
+  const auto z_after = [&](double pixels) {
+    Scene moved = scene;
+    dragged(moved, {*arrow, {{0}}, {0, 0, 0}, end, {end.x, end.y + pixels}, false, false, {}});
+    return ball(moved).center.z;
+  };
+  const double near = z_after(40), far = z_after(-40), horizon = z_after(-280);
+  CHECK(near > 0.5);
+  CHECK(far == doctest::Approx(-near).epsilon(0.02));
+  CHECK(horizon == doctest::Approx(-7 * near).epsilon(0.02));
+}
+
 TEST_CASE("a typed number counts in place of the mouse") {
   Scene scene = example();
   HandleDrag drag = drag_by(HandleKind::along_z, 100, 0);
