@@ -123,7 +123,7 @@ settle_without_message
 finish
 
 echo '8: come back'
-start
+start --spp 16
 settle_without_message
 click tab.Scenes
 wait_for '^widget scenes.recent.0 '
