@@ -90,9 +90,9 @@ struct UnitSamples {
 TYNDALL_INLINE void list_samples(const SceneView& s, const Unit& unit, UnitSamples& list) {
   list.glints = glints_in_rows({s.glints, s.glints + s.glint_count}, unit.tile.y0, unit.tile.y1);
   list.pixels = 0;
-  for (int y = unit.tile.y0; y < unit.tile.y1; ++y)
-    for (int x = unit.tile.x0; x < unit.tile.x1; ++x) {
-      if (unit.step > 1 && (x % unit.step || y % unit.step)) continue;
+  const auto first_multiple = [&](int from) { return (from + unit.step - 1) / unit.step * unit.step; };
+  for (int y = first_multiple(unit.tile.y0); y < unit.tile.y1; y += unit.step)
+    for (int x = first_multiple(unit.tile.x0); x < unit.tile.x1; x += unit.step) {
       if (unit.skip_step > 0 && x % unit.skip_step == 0 && y % unit.skip_step == 0) continue;
       list.column[list.pixels] = static_cast<std::uint16_t>(x - unit.tile.x0);
       list.row[list.pixels] = static_cast<std::uint16_t>(y - unit.tile.y0);

@@ -23,15 +23,29 @@ int chosen_tile(std::uint32_t samples, int step, int least) {
 int rounded_down(int at, int step) { return at / step * step; }
 int divided_up(int quantity, int step) { return (quantity + step - 1) / step; }
 
-/// The memory in which a unit of work gathers its samples.
+/// Calls visit(x, y, i) for the pixels of a tile whose x and y are multiples of step; i: place within the tile.
+template <class Visit>
+void for_each_pixel(const Region& tile, int step, const Visit& visit) {
+  for (int y = divided_up(tile.y0, step) * step; y < tile.y1; y += step)
+    for (int x = divided_up(tile.x0, step) * step; x < tile.x1; x += step)
+      visit(x, y, static_cast<std::size_t>((y - tile.y0) * tile.width() + x - tile.x0));
+}
+
+/// The memory in which a unit of work gathers its samples. Of a unit that leaves pixels out, only those that it samples
+/// hold what is true: where every 8th of them is sampled, clearing all would take far longer than to sample.
 struct UnitBuffer {
   std::vector<FilmPixel> pixels;
   std::vector<EmissionSums> emission;
   std::vector<std::uint32_t> first, last;  ///< see list_lacking
 
-  void clear(std::size_t size, bool with_emission) {
-    pixels.assign(size, {});
-    emission.assign(with_emission ? size : 0, {});
+  void clear(const Region& tile, int step, bool with_emission) {
+    const std::size_t size = static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height());
+    pixels.resize(std::max(pixels.size(), size));
+    emission.resize(with_emission ? pixels.size() : 0);
+    for_each_pixel(tile, step, [&](int, int, std::size_t i) {
+      pixels[i] = {};
+      if (with_emission) emission[i] = {};
+    });
   }
   EmissionSums* emission_or_null() { return emission.empty() ? nullptr : emission.data(); }
 };
@@ -127,12 +141,11 @@ bool Pass::run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film&
 void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Film& film) {
   const Region where = tile(unit);
   UnitBuffer& unit_film = buffer();
-  unit_film.clear(static_cast<std::size_t>(where.width()) * static_cast<std::size_t>(where.height()),
-                  !film.emission.empty());
+  unit_film.clear(where, step_, !film.emission.empty());
   UnitCounts counts;
   kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, unit_film.pixels.data(), counts,
                       unit_film.emission_or_null());
-  add_unit(where, first_ == film.first_sample, film);
+  add_unit(where, step_, first_ == film.first_sample, film);
   add_counts(counts);
 }
 
@@ -144,39 +157,32 @@ bool Pass::fill_tile(int unit, const Kernels& kernels, const SceneView& scene, F
   for (;;) {
     if (!list_lacking(film, wanted_, where, unit_film.first, unit_film.last)) return true;
     if (give_up.load(std::memory_order_relaxed)) return false;
-    unit_film.clear(unit_film.first.size(), !film.emission.empty());
+    unit_film.clear(where, 1, !film.emission.empty());
     UnitCounts counts;
     const Unit lacking{where, 1, 0, 0, 0, unit_film.first.data(), unit_film.last.data()};
     kernels.render_unit(scene, lacking, film.unit, unit_film.pixels.data(), counts, unit_film.emission_or_null());
-    add_unit(where, false, film);
+    add_unit(where, 1, false, film);
     add_counts(counts);
   }
 }
 
 /// Adds the samples of the thread's unit to the film, or lets them replace what its pixels held.
-void Pass::add_unit(const Region& where, bool replace, Film& film) {
+void Pass::add_unit(const Region& where, int step, bool replace, Film& film) {
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
   const UnitBuffer& unit = buffer();
-  auto from = unit.pixels.begin();
-  for (int y = where.y0; y < where.y1; ++y)
-    for (int x = where.x0; x < where.x1; ++x, ++from) {
-      if (!from->taken) continue;
-      if (!unit.emission.empty()) {
-        EmissionSums& to = film.emission[film.index(x, y)];
-        const EmissionSums& own = unit.emission[static_cast<std::size_t>(from - unit.pixels.begin())];
-        if (replace)
-          to = own;
-        else
-          add_emission(to, own);
-      }
-      paths += from->taken;
-      rejected += from->rejected[0] + from->rejected[1];
-      truncated += from->truncated;
-      if (replace)
-        film.at(x, y) = *from;
-      else
-        add_pixel(film.at(x, y), *from);
+  for_each_pixel(where, step, [&](int x, int y, std::size_t i) {
+    const FilmPixel& from = unit.pixels[i];
+    if (!from.taken) return;
+    FilmPixel& to = film.at(x, y);
+    if (!unit.emission.empty()) {
+      EmissionSums& emission = film.emission[film.index(x, y)];
+      replace ? void(emission = unit.emission[i]) : add_emission(emission, unit.emission[i]);
     }
+    paths += from.taken;
+    rejected += from.rejected[0] + from.rejected[1];
+    truncated += from.truncated;
+    replace ? void(to = from) : add_pixel(to, from);
+  });
   paths_.fetch_add(paths, std::memory_order_relaxed);
   rejected_.fetch_add(rejected, std::memory_order_relaxed);
   truncated_.fetch_add(truncated, std::memory_order_relaxed);

@@ -50,7 +50,7 @@ class Pass {
   void run_unit(int unit, const Kernels& kernels, const SceneView& scene, Film& film);
   bool fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
                  const std::atomic<bool>& give_up);
-  void add_unit(const Region& where, bool replace, Film& film);
+  void add_unit(const Region& where, int step, bool replace, Film& film);
   void add_counts(const UnitCounts& counts);
 
   Region region_;
