@@ -4,6 +4,8 @@
 #include "core/base/seconds.h"
 #include "core/image/image_io.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -53,8 +55,8 @@ bool Checkpoints::due() const {
   if (writing_) return false;
   const double usual = std::max(least_checkpoint_interval, checkpoint_interval_over_cost * cost_);
   const double interval = interval_.value_or(usual);
-  const double lead = std::min(cost_ + checkpoint_look_interval, interval / 2);
-  return seconds_since(taken_) + lead >= interval;
+  const double lead = slowest_ > 0 ? 2 * slowest_ + checkpoint_look_interval : interval;
+  return seconds_since(taken_) >= std::max(interval - lead, interval / 2);
 }
 
 void Checkpoints::take(const Film& film, Crew& crew) {
@@ -84,16 +86,22 @@ bool Checkpoints::write_in_background(const Film& film, Crew& crew) {
 }
 
 void Checkpoints::write(const Film& film) {
+  constexpr const char* failed = "no checkpoint was written: ";
   try {
     write_checkpoint(file_, film, embedded_(film));
     const std::lock_guard lock(mutex_);
     last_problem_.clear();
   } catch (const std::bad_alloc&) {
-    note("not enough memory");
+    note(failed, "not enough memory");
   } catch (const std::exception& error) {
-    note(error.what());
+    note(failed, error.what());
   }
   cost_ = seconds_since(taken_);
+  slowest_ = std::max<double>(slowest_, cost_);
+  const double asked = interval_.value_or(0);
+  if (asked > 0 && cost_ > asked / 2 && !std::exchange(slow_, true))
+    note("checkpoints take longer than half of --checkpoint; a kill can cost twice what one took: ",
+         fmt::format("{:.2g} s", cost_.load()).c_str());
 }
 
 void Checkpoints::finish() {
@@ -101,11 +109,13 @@ void Checkpoints::finish() {
   copy_ = {};
 }
 
-void Checkpoints::note(const char* problem) {
+void Checkpoints::note(const char* what, const char* why) {
   try {
+    const std::string problem = std::string(what) + why;
     const std::lock_guard lock(mutex_);
     if (problem == last_problem_) return;
-    problem_ = last_problem_ = problem;
+    last_problem_ = problem;
+    problem_ += (problem_.empty() ? "" : "; ") + problem;
   } catch (const std::bad_alloc&) {
     last_problem_.clear();  // no memory for the message: it is told when the next checkpoint fails, too
   }
@@ -114,7 +124,7 @@ void Checkpoints::note(const char* problem) {
 std::optional<std::string> Checkpoints::problem() {
   const std::lock_guard lock(mutex_);
   if (problem_.empty()) return std::nullopt;
-  return "no checkpoint was written: " + std::exchange(problem_, {});
+  return std::exchange(problem_, {});
 }
 
 }  // namespace tyndall

@@ -17,16 +17,17 @@
 namespace tyndall {
 
 /// Without an interval of the user's, it is this long at least, seconds; and at least so many times the time that the
-/// last checkpoint took: as the next one begins that much earlier, they then take at most 1 % of the time.
-inline constexpr double least_checkpoint_interval = 30, checkpoint_interval_over_cost = 101;
+/// last checkpoint took: as the next one begins earlier by twice that, they then take at most 1 % of the time.
+inline constexpr double least_checkpoint_interval = 30, checkpoint_interval_over_cost = 102;
 /// Seconds that may pass until somebody asks again whether a checkpoint is due (see RenderBreaks).
 inline constexpr double checkpoint_look_interval = 0.05;
 
 /// Writes checkpoints into one file. All functions are called on one thread.
 ///
 /// What a kill costs is at most one interval: the time from a film's copy to the moment at which the copy of a later
-/// one is on the disk. So each checkpoint begins earlier by what the last one took; one that takes longer than the last
-/// costs so much more.
+/// one is on the disk. So each checkpoint begins earlier than that by twice what the slowest one took. Half of the
+/// interval is left for writing at most, and for the first one, of which nothing is known. Where writing takes longer
+/// than that half, a kill can cost twice what writing takes; that is told as a problem.
 class Checkpoints {
  public:
   /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
@@ -51,7 +52,7 @@ class Checkpoints {
   using Clock = std::chrono::steady_clock;
   bool write_in_background(const Film& film, Crew& crew);
   void write(const Film& film);
-  void note(const char* problem);
+  void note(const char* what, const char* why);
 
   std::filesystem::path file_;
   std::optional<double> interval_;
@@ -61,6 +62,8 @@ class Checkpoints {
   std::atomic<bool> writing_ = false;
   Clock::time_point taken_ = Clock::now();  ///< when the last one was taken, at first the start
   std::atomic<double> cost_ = 0;            ///< seconds that the last one took
+  std::atomic<double> slowest_ = 0;         ///< seconds that the slowest one took; 0 before the first
+  bool slow_ = false;                       ///< whether it was told that they take too long
   std::mutex mutex_;
   std::string problem_, last_problem_;  ///< guarded by mutex_
 };

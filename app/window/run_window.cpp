@@ -8,12 +8,26 @@
 #include <cstdlib>
 #include <memory>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace tyndall {
 namespace {
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
   return value && *value;
+}
+
+/// Lets large blocks of memory go back to the system when they are freed. Left to itself, glibc takes ever larger ones
+/// from its heap, where what is freed stays between what is used: a small window then took 174 MB and growing after a
+/// quarter of an hour of random input, now 152 MB as in its third minute. The price are 300 new pages, or 0.7 ms, for
+/// each picture while the camera is dragged in a window of 1280 x 720.
+void give_large_blocks_back() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 256 * 1024);
+#endif
 }
 
 }  // namespace
@@ -58,6 +72,7 @@ int MainWindow::end_of_signal() {
 }
 
 int run_window(const WindowOptions& options) {
+  give_large_blocks_back();
   // GLFW is not touched without a display: its error would say less.
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
     throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");

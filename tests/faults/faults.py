@@ -24,8 +24,7 @@ import time
 SMALL = ["--size", "16x16", "-t", "1", "-q"]
 ERRORS = ["EIO", "ENOSPC", "EACCES"]
 INTERVAL = 0.5  # seconds between the checkpoints of renders that are killed at random
-LATE = 2.0      # seconds by which a busy machine may delay a checkpoint
-ON_TIME = 0.8   # share of the kills that cost at most one interval, on a busy machine
+ON_TIME = 0.99  # share of the kills that cost at most one interval; the others at most two, on a busy machine
 MUST_BE_TOLD = {"write", "lseek", "fsync", "rename"}
 
 
@@ -173,7 +172,7 @@ class Faults:
                 self.fail(where, f"ends with {code}: {text or 'without a word'}")
             new_files = all(now[name] == new[name] for name in scenario.images)
             failed = [call.split()[0] for call in calls if call.endswith("failed")]
-            told = code != 0 if exact else text != ""
+            told = code != 0 or (not exact and "no checkpoint was written" in text)
             if not told and any(call in MUST_BE_TOLD for call in failed):
                 self.fail(where, f"ends with {code}, and does not tell: {text}")
             if code == 0 and not new_files:
@@ -204,13 +203,13 @@ class Faults:
         return float(subprocess.run(["stat", "--printf=%.9W", self.folder / name], stdout=subprocess.PIPE, check=True).stdout)
 
     def check_lost(self, lost):
-        """What kills have cost, in seconds, in order: hardly ever more than an interval, and then little more."""
+        """What kills have cost, in seconds, in order: hardly ever more than one interval, and never more than two."""
         if not lost:
             return
         within = sum(seconds <= INTERVAL for seconds in lost) / len(lost)
         print(f"work lost by a kill, with {INTERVAL} s between checkpoints: median {lost[len(lost) // 2]:.3f} s, of 99 % at "
               f"most {lost[int(0.99 * len(lost))]:.3f} s, at most {lost[-1]:.3f} s; of {100 * within:.1f} % at most {INTERVAL} s")
-        if lost[-1] > INTERVAL + LATE or (len(lost) >= 100 and within < ON_TIME):
+        if lost[-1] > 2 * INTERVAL or (len(lost) >= 100 and within < ON_TIME):
             self.fail("kills", f"more than {INTERVAL} s of work are lost in {100 * (1 - within):.1f} % of the kills")
 
     def kill_at_random(self, kills):
@@ -244,10 +243,11 @@ class Faults:
                 finished += 1
                 self.start(None)
             except subprocess.TimeoutExpired:
+                now = time.time()
                 process.kill()
                 process.communicate()
                 killed += 1
-                lost.append(time.time() - max(started, self.begun("a.exr") if (self.folder / "a.exr").exists() else 0))
+                lost.append(now - max(started, self.begun("a.exr") if (self.folder / "a.exr").exists() else 0))
         self.check_lost(sorted(lost))
         print(f"{killed} random kills; {finished} times the render was whole in between, bit for bit", flush=True)
 

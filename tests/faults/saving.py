@@ -44,14 +44,15 @@ def saving(tyndall, folder, runs, threads, files):
     return sorted(times)
 
 
-def processor_seconds(tyndall, folder, threads, options):
+def rendering(tyndall, folder, threads, options):
+    """Processor seconds of a render with its saving, seconds of its rendering, and its Mrays/s."""
     (folder / "c.exr").unlink(missing_ok=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([tyndall, *RENDER, "--spp", "16", "-t", threads, "-o", "c.exr", "--stats", "c.json", *options], cwd=folder,
                    check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    wall = json.loads((folder / "c.json").read_text())["seconds_render"]
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall
+    stats = json.loads((folder / "c.json").read_text())
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, stats["seconds_render"], stats["mrays_per_s"]
 
 
 def main():
@@ -67,9 +68,11 @@ def main():
         times = saving(arguments.tyndall, arguments.scratch, arguments.runs, threads, files)
         print(f"{' '.join(files):12} {len(times)} runs: median {times[len(times) // 2]:.2f} s, "
               f"99 % {times[min(int(0.99 * len(times)), len(times) - 1)]:.2f} s, at most {times[-1]:.2f} s", flush=True)
-    for name, options in (("no checkpoints", ["--checkpoint", "0"]), ("one a second", ["--checkpoint", "1"])):
-        work, wall = processor_seconds(arguments.tyndall, arguments.scratch, threads, options)
-        print(f"{name}: {work:.2f} s of processor time, {wall:.2f} s of rendering", flush=True)
+    for name, options in (("no checkpoints", ["--checkpoint", "0"]), ("one in 10 s", ["--checkpoint", "10"]),
+                          ("one a second", ["--checkpoint", "1"])):
+        runs = sorted(rendering(arguments.tyndall, arguments.scratch, threads, options) for _ in range(5))
+        work, wall, rate = runs[len(runs) // 2]
+        print(f"{name}: {work:.2f} s of processor time, {wall:.2f} s of rendering, {rate:.2f} Mrays/s", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #pragma once
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cstdint>
 
@@ -23,6 +24,14 @@ inline bool tab_pressed() {
 #endif
 }
 
+/// Begins a frame. A field that nobody types into any more forgets what it could undo: typed into again it may hold
+/// another text, and undoing in that would end the program.
+inline void new_frame() {
+  ImGui::NewFrame();
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.InputTextState.ID != g.ActiveId) g.InputTextState.ID = 0;
+}
+
 // Input for tests without a window. Before 1.87 there is no event queue: the fields are written directly, before
 // ImGui::NewFrame().
 inline void mouse_pos(ImGuiIO& io, float x, float y) {
@@ -37,6 +46,13 @@ inline void mouse_button(ImGuiIO& io, int button, bool down) {
   io.AddMouseButtonEvent(button, down);
 #else
   io.MouseDown[button] = down;
+#endif
+}
+inline void control_key(ImGuiIO& io, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddKeyEvent(ImGuiMod_Ctrl, down);
+#else
+  io.KeyCtrl = down;
 #endif
 }
 inline void key(ImGuiIO& io, ImGuiKey name, bool down) {

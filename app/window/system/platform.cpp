@@ -1,5 +1,6 @@
 #include "app/window/system/platform.h"
 
+#include "app/window/system/imgui_compat.h"
 #include "app/window/system/platform_events.h"
 #include "app/window/system/style.h"
 #include "core/base/error.h"
@@ -164,7 +165,7 @@ void Platform::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   set_delivered_mouse(*state_);
-  ImGui::NewFrame();
+  compat::new_frame();
 }
 
 void Platform::clear() {

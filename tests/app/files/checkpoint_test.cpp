@@ -1,5 +1,6 @@
 #include "app/files/checkpoint.h"
 
+#include "core/base/seconds.h"
 #include "core/image/image_io.h"
 #include "tests/support/allocations.h"
 #include "tests/support/scratch.h"
@@ -59,36 +60,57 @@ TEST_CASE("checkpoints: without memory for a copy the film itself is written, be
   CHECK_FALSE(checkpoints.problem());
 }
 
-TEST_CASE("checkpoints: due after the interval; without one after 30 seconds at the earliest" *
+TEST_CASE("checkpoints: the first one is due after half of the interval, without an interval after 15 seconds" *
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_times") / "a.exr";
-  Checkpoints often(file, 0.5, embedded), usual(file, std::nullopt, embedded);
+  Checkpoints often(file, 2, embedded), usual(file, std::nullopt, embedded);
   Crew crew(2);
   CHECK_FALSE(often.due());
-  std::this_thread::sleep_for(std::chrono::milliseconds(460));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
   CHECK(often.due());
   CHECK_FALSE(usual.due());
   often.take(film_of(1), crew);
   often.finish();
-  std::this_thread::sleep_for(std::chrono::milliseconds(460));
-  CHECK(often.due());
+  CHECK_FALSE(often.due());
 }
 
-TEST_CASE("checkpoints: the next one begins earlier by what the last one took, so that it is there after the interval" *
+TEST_CASE("checkpoints: later ones begin earlier than the interval by twice what the slowest one took" *
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_early") / "a.exr";
-  const auto slow = [](const Film& film) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  bool slow = true;
+  const auto slowly = [&slow](const Film& film) {
+    if (slow) std::this_thread::sleep_for(std::chrono::milliseconds(350));
     return embedded(film);
   };
-  Checkpoints checkpoints(file, 2, slow);
+  Checkpoints checkpoints(file, 2, slowly);
   Crew crew(2);
   checkpoints.take(film_of(1), crew);
   CHECK_FALSE(checkpoints.due());  // it is being written
+  checkpoints.finish();
+  slow = false;
   const auto begun = std::chrono::steady_clock::now();
-  while (!checkpoints.due() && std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  CHECK(std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(1700));
+  checkpoints.take(film_of(1), crew);
+  while (!checkpoints.due() && seconds_since(begun) < 20) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(seconds_since(begun) > 0.99);
+  CHECK(seconds_since(begun) < 1.7);
+  CHECK_FALSE(checkpoints.problem());
+}
+
+TEST_CASE("checkpoints: it is told once that they take longer than half of the interval" *
+          doctest::skip(!has_openexr())) {
+  const auto slowly = [](const Film& film) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    return embedded(film);
+  };
+  Checkpoints checkpoints(scratch_folder("checkpoint_slow") / "a.exr", 0.05, slowly);
+  Crew crew(2);
+  for (const bool first : {true, false}) {
+    checkpoints.take(film_of(1), crew);
+    checkpoints.finish();
+    const auto problem = checkpoints.problem();
+    CHECK(problem.has_value() == first);
+    if (problem) CHECK(problem->find("--checkpoint") != std::string::npos);
+  }
 }
 
 TEST_CASE("checkpoints: a film is copied whole, whatever the number of its pixels and of the threads" *

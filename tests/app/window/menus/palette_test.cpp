@@ -32,12 +32,13 @@ struct Drawn {
     for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
     draw();
   }
-  void enter() {
-    compat::key(ImGui::GetIO(), ImGuiKey_Enter, true);
+  void press(ImGuiKey key) {
+    compat::key(ImGui::GetIO(), key, true);
     draw();
-    compat::key(ImGui::GetIO(), ImGuiKey_Enter, false);
+    compat::key(ImGui::GetIO(), key, false);
     draw();
   }
+  void enter() { press(ImGuiKey_Enter); }
 };
 
 }  // namespace
@@ -78,4 +79,20 @@ TEST_CASE("a click beside the palette closes it") {
   CHECK_FALSE(drawn.palette.is_open());
   CHECK(drawn.chosen == -1);
   CHECK_FALSE(drawn.palette.take_key(264));
+}
+
+TEST_CASE("what was typed into a palette that was closed cannot be undone in a later one") {
+  Drawn drawn;
+  drawn.type("save");
+  drawn.palette.close();
+  drawn.draw();
+  drawn.palette.open(items);
+  for (int k = 0; k < 3; ++k) drawn.draw();
+  compat::control_key(ImGui::GetIO(), true);
+  drawn.press(ImGuiKey_Z);
+  drawn.press(ImGuiKey_Y);
+  compat::control_key(ImGui::GetIO(), false);
+  drawn.type("u");
+  drawn.enter();
+  CHECK(drawn.chosen == 3);
 }

@@ -30,7 +30,7 @@ class NullImGui {
 
   template <class F>
   void frame(F&& draw) {
-    ImGui::NewFrame();
+    compat::new_frame();
     std::forward<F>(draw)();
     ImGui::Render();
     compat::textures_without_window();
