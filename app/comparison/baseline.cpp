@@ -99,7 +99,7 @@ Tolerance chosen(const Tolerance& given, const std::map<std::string, Tolerance>&
 
 void check(CheckedPicture& picture) {
   if (picture.image.empty()) {
-    picture.failures.push_back("the baseline has it, and it was not rendered");
+    picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
     return;
   }
   if (!fs::exists(picture.reference)) {

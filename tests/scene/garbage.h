@@ -75,7 +75,7 @@ inline std::string damaged(std::string text, std::mt19937& random) {
 inline bool is_clear(const std::string& what) {
   return what.starts_with("damaged.json: ") && what.find(": found ") != what.npos &&
          what.find(", expected ") != what.npos && what.size() < 1500 &&
-         std::none_of(what.begin(), what.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; });
+         std::none_of(what.begin(), what.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
 }  // namespace tyndall::test
