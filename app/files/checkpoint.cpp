@@ -55,7 +55,7 @@ bool Checkpoints::due() const {
   if (writing_) return false;
   const double usual = std::max(least_checkpoint_interval, checkpoint_interval_over_cost * cost_);
   const double interval = interval_.value_or(usual);
-  const double lead = slowest_ > 0 ? 2 * slowest_ + checkpoint_look_interval : interval;
+  const double lead = slowest_ > 0 ? 2 * slowest_ + checkpoint_look_interval : interval_.value_or(0);
   return seconds_since(taken_) >= std::max(interval - lead, interval / 2);
 }
 

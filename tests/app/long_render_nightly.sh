@@ -9,12 +9,12 @@ long=(render cornell-box --size 64x64 --spp 16000000 -t 1 -q)
 kept=$!
 "$tyndall" "${long[@]}" -o image.png 2>image.err &
 image=$!
-sleep 12
-[ ! -e kept.exr ] || fail 'a checkpoint before 15 seconds'
-sleep 8
+sleep 25
+[ ! -e kept.exr ] || fail 'a checkpoint before 30 seconds'
+sleep 10
 kill -KILL "$kept" "$image"
 wait "$kept" "$image" 2>/dev/null
-grep -aq unfinished kept.exr || fail 'no checkpoint after 20 seconds'
+grep -aq unfinished kept.exr || fail 'no checkpoint after 35 seconds'
 [ ! -s kept.err ] || fail "with a checkpoint it says: $(cat kept.err)"
 [ "$(wc -l <image.err)" -eq 1 ] && grep -q 'nothing is kept' image.err || fail "nothing is kept, and it says: $(cat image.err)"
 expect 0 "$tyndall" "${long[@]}" --spp 1 --time 1 -o kept.exr

@@ -60,7 +60,7 @@ TEST_CASE("checkpoints: without memory for a copy the film itself is written, be
   CHECK_FALSE(checkpoints.problem());
 }
 
-TEST_CASE("checkpoints: the first one is due after half of the interval, without an interval after 15 seconds" *
+TEST_CASE("checkpoints: the first one is due after half of the interval, without an interval after 30 seconds" *
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_times") / "a.exr";
   Checkpoints often(file, 2, embedded), usual(file, std::nullopt, embedded);
