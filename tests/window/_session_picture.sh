@@ -19,7 +19,7 @@ xdotool windowsize --sync "$window" 1280 800
 
 frames=0
 shot() { # COUNT: as many pictures of the window as it is now
-  import -window "$window" -resize 640x "$folder/$(printf 'frame-%03d' "$frames").png"
+  import -window "$window" -resize 560x "$folder/$(printf 'frame-%03d' "$frames").png"
   for ((k = 1; k < $1; k++)); do
     cp "$folder/$(printf 'frame-%03d' "$frames").png" "$folder/$(printf 'frame-%03d' $((frames + k))).png"
   done
@@ -68,4 +68,4 @@ xdotool mouseup 1
 shot 3
 click window.theme.light 50 || true
 shot 3
-convert -delay 18 -loop 0 "$folder"/frame-*.png -dither none -colors 96 -layers optimize "$picture"
+convert -delay 18 -loop 0 "$folder"/frame-*.png -dither none -colors 64 -layers optimize "$picture"
