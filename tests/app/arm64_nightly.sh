@@ -12,7 +12,7 @@ cd "$source_root" || exit 1
 libraries=$PWD/build/arm64-libraries
 third_party/arm64_libraries.sh "$libraries" || skip 'the libraries cannot be fetched'
 cmake --preset arm64 >"$scratch/cmake.log" 2>&1 || { cat "$scratch/cmake.log"; fail 'cmake'; finish; }
-cmake --build build/arm64 >"$scratch/build.log" 2>&1 || { tail -50 "$scratch/build.log"; fail 'building'; finish; }
+cmake --build build/arm64 --target tyndall core_tests >"$scratch/build.log" 2>&1 || { tail -50 "$scratch/build.log"; fail 'building'; finish; }
 cd "$scratch" || exit 1
 grep -n 'warning:' build.log && fail 'the compiler warns'
 on_arm() { "$qemu" -L "$libraries" "$@"; }

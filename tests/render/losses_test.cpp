@@ -99,6 +99,22 @@ TEST_CASE("rejected samples: shards find the ones of their own range") {
   CHECK(result_of(compile(cave(0.5, 5)), "scalar", 2, 0).first_rejected.empty());
 }
 
+TEST_CASE("rejected samples: a pass counts those of both halves") {
+  const RenderScene scene = poisoned();
+  const SceneViewOf view(scene);
+  Crew crew(2);
+  const std::atomic<bool> no = false;
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_unit, false);
+  Pass pass(film.region, 0, 16);
+  REQUIRE(pass.run(crew, scalar_kernels(), view.view(), film, no));
+  std::uint64_t rejected[2] = {0, 0};
+  for (const FilmPixel& pixel : film.pixels)
+    for (int half = 0; half < 2; ++half) rejected[half] += pixel.rejected[half];
+  CHECK(rejected[0] > 0);
+  CHECK(rejected[1] > 0);
+  CHECK(pass.rejected() == rejected[0] + rejected[1]);
+}
+
 TEST_CASE("cut paths: what they carried is summed, exactly, for any depth") {
   // Every event takes 1 - rho; roulette starts below an eighth.
   for (const double rho : {0.5, 0.75, 1.0})
