@@ -2,6 +2,8 @@
 
 #include "app/window/accuracy/views.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -161,7 +163,7 @@ void log_actions(UiLog& log) {
     std::string name = entry.name, key = entry.key.code != 0 ? text_of(entry.key) : "none";
     std::erase(key, ' ');
     std::replace(name.begin(), name.end(), ' ', '_');
-    log.line("action " + name + " " + key);
+    log.line(fmt::format("action {} {}", name, key));
   }
 }
 

@@ -21,9 +21,9 @@ bool is_set(const char* variable) {
 }
 
 /// Lets large blocks of memory go back to the system when they are freed. Left to itself, glibc takes ever larger ones
-/// from its heap, where what is freed stays between what is used: a small window then took 174 MB and growing after a
-/// quarter of an hour of random input, now 152 MB as in its third minute. The price are 300 new pages, or 0.7 ms, for
-/// each picture while the camera is dragged in a window of 1280 x 720.
+/// from its heap, where what is freed stays between what is used: after a quarter of an hour of random input a small
+/// window took 174 MB, and takes 152 MB this way. The price is 300 new pages, or 0.7 ms, for each picture while the
+/// camera is dragged in a window of 1280 x 720.
 void give_large_blocks_back() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 256 * 1024);
