@@ -148,10 +148,11 @@ void MainWindow::draw(double now) {
   }
   const bool stops = view_entry(panels_.view).stops;
   picture_.show(platform_, layout, {.stops = stops, .pixels = looks_.shows_pixels()});
-  if (fresh) picture_.note_shown();
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
-  if (fresh && send(clock_seconds())) awaits_until_ = clock_seconds() + longest_await;
+  if (!fresh) return;
+  picture_.note_shown();  // from here on the workers go on with it, unless a newer scene is sent at once
+  if (send(clock_seconds())) awaits_until_ = clock_seconds() + longest_await;
 }
 
 /// Where things are for a picture of that shape.

@@ -125,7 +125,6 @@ void PictureView::show(Platform& platform, const Layout& layout, const Look& mor
   } catch (const IoError& error) {
     session_.messages().say(error.what(), true);
   }
-  platform.clear();
   const WindowSize window = platform.size();
   const float dots = static_cast<float>(window.framebuffer_width) / static_cast<float>(std::max(1, window.width));
   const auto in_dots = [dots](const Rect& r) { return Rect{r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}; };
@@ -139,11 +138,15 @@ void PictureView::show(Platform& platform, const Layout& layout, const Look& mor
     if (!plain) shown.exposure = display.exposure, shown.tone_map = display.tone_map, shown.dither = display.dither;
     return shown;
   };
-  right_.display->draw(whole, height, look(right_.frame.get()), clip);
-  if (shows_halves() && left_.display) {
+  const bool halves = shows_halves() && left_.display;
+  right_.display->prepare(look(right_.frame.get()));
+  if (halves) left_.display->prepare(look(shows_raw_beside() ? right_.frame.get() : left_.frame.get()));
+  platform.clear();
+  right_.display->draw(whole, height, clip);
+  if (halves) {
     Rect left = clip;
     left.x1 = std::round(divider_.x(visible)) * dots;
-    left_.display->draw(whole, height, look(shows_raw_beside() ? right_.frame.get() : left_.frame.get()), left);
+    left_.display->draw(whole, height, left);
   }
   platform.end_frame();
 }

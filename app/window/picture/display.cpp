@@ -158,15 +158,18 @@ void FrameDisplay::fill_rim(const Rect& where, const Rect& place, int framebuffe
          framebuffer_height, GL_NEAREST);
 }
 
-void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Look& look, const Rect& clip) {
+void FrameDisplay::prepare(const Look& look) {
+  if (!empty() && (fresh_ || !(look == look_))) tone_map(look);
+}
+
+void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Rect& clip) const {
   if (empty() || where.width() < 1 || where.height() < 1) return;
-  if (fresh_ || !(look == look_)) tone_map(look);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, shown_->target);
   const Rect place = place_of_picture(where);
   // Whole multiples show the pixels as they are.
   const bool multiple = spacing_ <= 1 && (whole(place.x1) - whole(place.x0)) % width_ == 0 &&
                         (whole(place.y1) - whole(place.y0)) % height_ == 0;
-  const bool squares = multiple || (look.pixels && spacing_ <= 1);
+  const bool squares = multiple || (look_.pixels && spacing_ <= 1);
   const Rect seen{std::max(clip.x0, where.x0), std::max(clip.y0, where.y0), std::min(clip.x1, where.x1),
                   std::min(clip.y1, where.y1)};
   glEnable(GL_SCISSOR_TEST);

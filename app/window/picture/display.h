@@ -38,9 +38,12 @@ class FrameDisplay {
 
   /// Takes a new picture. Throws IoError if it is larger than the display can show.
   void upload(const ShownPicture& picture);
-  /// Draws the image into `where`, in pixels of the framebuffer, y down, as far as it is within `clip`; tone-maps first
-  /// if picture or look are new. Between the places of a coarse picture colours are blended.
-  void draw(const Rect& where, int framebuffer_height, const Look& look, const Rect& clip);
+  /// Tone-maps if picture or look are new. Before anything of the window is drawn: software that takes the place of a
+  /// graphics card draws the window twice where another picture comes between.
+  void prepare(const Look& look);
+  /// Draws the image, prepared, into `where`, in pixels of the framebuffer, y down, as far as it is within `clip`.
+  /// Between the places of a coarse picture colours are blended.
+  void draw(const Rect& where, int framebuffer_height, const Rect& clip) const;
   bool empty() const { return shown_ == nullptr; }
 
  private:
