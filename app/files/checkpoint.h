@@ -26,9 +26,9 @@ inline constexpr double checkpoint_look_interval = 0.05;
 ///
 /// What a kill costs is at most one interval: the time from a film's copy to the moment at which the copy of a later
 /// one is on the disk. So each checkpoint begins earlier than that by twice what the slowest one took. Half of the
-/// interval is left for writing at most, and for the first one, of which nothing is known (but 30 s pass before it where
-/// nobody asks for an interval: short renders are not to pay for it). Where writing takes longer than that half, a kill
-/// can cost twice what writing takes; that is told as a problem.
+/// interval is left for writing at most, and for the first one, of which nothing is known (but 30 s pass before it
+/// where nobody asks for an interval: short renders are not to pay for it). Where writing takes longer than that half,
+/// a kill can cost twice what writing takes; that is told as a problem.
 class Checkpoints {
  public:
   /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
