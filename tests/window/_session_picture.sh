@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The README's animated picture of a session: the metal ball becomes rougher, is moved, the light theme comes on, a scene
-# is opened from its picture. Needs ImageMagick. Arguments: the tyndall binary, the picture (.gif).
+# The README's animated picture of a session: the metal ball becomes rougher and smooth again, the camera swings, the ball is
+# selected. Needs ImageMagick, and a machine with nothing else to do. Arguments: the tyndall binary, the picture (.gif).
 set -euo pipefail
 tyndall=$(realpath "$1")
 picture=$(realpath -m "$2")
@@ -66,6 +66,6 @@ for step in 47 44 41 38 35 38 41 44; do
 done
 xdotool mouseup 1
 shot 3
-click window.theme.light 50 || true
+click picture 44
 shot 3
 convert -delay 18 -loop 0 "$folder"/frame-*.png -dither none -colors 64 -layers optimize "$picture"
