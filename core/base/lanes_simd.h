@@ -12,7 +12,7 @@ TYNDALL_INLINE void store(std::int32_t* to, Ints a) { hn::StoreU(a.v, TagI(), to
 TYNDALL_INLINE void store(std::uint32_t* to, Uints a) { hn::StoreU(a.v, TagU(), to); }
 
 /// Stores the values of `lanes` next to each other and returns their number. The rest of a whole group may be
-/// overwritten with anything: a store of selected lanes alone takes AMD's Zen 4 a hundred times as long.
+/// overwritten with anything: a store of compressed lanes alone is slow on AMD's Zen 4, which has microcode for it.
 TYNDALL_INLINE int append(float* to, Floats a, Mask lanes) {
   hn::StoreU(hn::Compress(a.v, lanes.v), TagF(), to);
   return static_cast<int>(hn::CountTrue(TagF(), lanes.v));

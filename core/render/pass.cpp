@@ -176,12 +176,18 @@ void Pass::add_unit(const Region& where, int step, bool replace, Film& film) {
     FilmPixel& to = film.at(x, y);
     if (!unit.emission.empty()) {
       EmissionSums& emission = film.emission[film.index(x, y)];
-      replace ? void(emission = unit.emission[i]) : add_emission(emission, unit.emission[i]);
+      if (replace)
+        emission = unit.emission[i];
+      else
+        add_emission(emission, unit.emission[i]);
     }
     paths += from.taken;
     rejected += from.rejected[0] + from.rejected[1];
     truncated += from.truncated;
-    replace ? void(to = from) : add_pixel(to, from);
+    if (replace)
+      to = from;
+    else
+      add_pixel(to, from);
   });
   paths_.fetch_add(paths, std::memory_order_relaxed);
   rejected_.fetch_add(rejected, std::memory_order_relaxed);
