@@ -60,8 +60,13 @@ void check_memory(const Scene& scene) {
 }  // namespace
 
 int run(const ViewCommand& command) {
-  const auto open = [request = command.scene] { return open_scene(request); };
-  const LoadedScene loaded = open();
+  const auto open = [&command](const std::string& what) {
+    SceneRequest request = command.scene;
+    request.what = what;
+    return open_scene(request);
+  };
+  const auto reload = [&] { return open(command.scene.what); };
+  const LoadedScene loaded = reload();
   find_kernels(command.isa);
   check_memory(loaded.scene);
   std::vector<std::filesystem::path> inputs = loaded.files;
@@ -74,6 +79,7 @@ int run(const ViewCommand& command) {
     const auto& words = command.words;
     const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();
     return run_window({loaded,
+                       reload,
                        open,
                        command.threads,
                        command.isa,

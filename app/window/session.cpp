@@ -45,18 +45,19 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       saving_(wake) {
   accuracy_.set_threads(renderers_.threads());
   read_preferences_file();
-  restore_edits(!options.scene_named);
+  restore_edits(options);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
   if (options.scene.source.empty()) editor_.open_film(options.scene);
 }
 
 /// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
-void Session::restore_edits(bool of_any_scene) {
-  const std::filesystem::path file = kept_.take_over(of_any_scene ? "" : editor_.document().origin->what);
+/// What the command line asks for applies to them too.
+void Session::restore_edits(const WindowOptions& options) {
+  const std::filesystem::path file = kept_.take_over(options.scene_named ? editor_.document().origin->what : "");
   kept_changes_ = editor_.changes();
   try {
-    if (!file.empty()) editor_.restore(read_kept(file));
+    if (!file.empty()) editor_.restore(read_kept(file, options.open));
   } catch (const std::exception& error) {
     kept_.leave();
     messages_.say("cannot restore edits: " + std::string(error.what()), true);

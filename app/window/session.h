@@ -116,7 +116,7 @@ class Session {
   void submit(double now);
   const std::shared_ptr<const Scene>& shared_scene();
   std::shared_ptr<const Scene> rendered_scene();
-  void restore_edits(bool of_any_scene);
+  void restore_edits(const WindowOptions& options);
   void read_preferences_file();
   void pause_at_limits(const Frame& frame);
 

@@ -70,8 +70,9 @@ begin other.json
 wait_for '^message there are edits of .*scene.json that were not saved'
 fuzz_is 0.9
 finish
-begin # without a scene: the edits, whatever their scene
+begin --spp 3 # without a scene: the edits, whatever their scene, and what is asked for
 fuzz_is 0.4
+[ "$(value render.spp)" = 3 ] || fail "kept edits took the place of --spp 3: $(value render.spp)"
 
 # Discarded edits do not come back.
 finish

@@ -25,6 +25,10 @@ void keep(KeptEdits& kept, const Document& document) {
   kept.keep(std::make_shared<const Scene>(document.scene), document.origin);
 }
 
+Document read(const fs::path& file) {
+  return read_kept(file, [](const std::string& what) { return load_scene(what); });
+}
+
 }  // namespace
 
 TEST_CASE("edits are kept in a file that is a scene and says what it is an edit of") {
@@ -33,12 +37,12 @@ TEST_CASE("edits are kept in a file that is a scene and says what it is an edit 
   std::ofstream(folder / "kept.json") << kept_text(document->scene, *document->origin, folder);
   CHECK(load_scene((folder / "kept.json").string()).scene.camera.vfov == 33);
   CHECK(kept_what(folder / "kept.json") == document->origin->what);
-  const Document again = read_kept(folder / "kept.json");
+  const Document again = read(folder / "kept.json");
   CHECK(again.scene == document->scene);
   CHECK(again.origin->file == document->origin->file);
   CHECK(edited(again));
   fs::remove(document->origin->file);
-  CHECK(read_kept(folder / "kept.json").scene == document->scene);
+  CHECK(read(folder / "kept.json").scene == document->scene);
 }
 
 TEST_CASE("what one window has kept is taken over by the next, but not while the first is open") {
@@ -60,7 +64,7 @@ TEST_CASE("what one window has kept is taken over by the next, but not while the
   CHECK(next.others().size() == 2);
   const fs::path file = next.take_over(one->origin->what);
   REQUIRE(!file.empty());
-  CHECK(read_kept(file).scene == one->scene);
+  CHECK(read(file).scene == one->scene);
   CHECK(next.others() == std::vector<std::string>{two->origin->what});
   next.keep(nullptr, nullptr);  // saved
   next.flush();
@@ -73,7 +77,7 @@ TEST_CASE("a broken file of kept edits is left as it is") {
   {
     KeptEdits kept(folder);
     const fs::path file = kept.take_over("showroom");
-    CHECK_THROWS(read_kept(file));
+    CHECK_THROWS(read(file));
     kept.leave();
     keep(kept, *edited_document(folder, "scene.json", 20));
   }
