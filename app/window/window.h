@@ -20,10 +20,10 @@ struct WindowOptions {
   std::function<LoadedScene()> reload;  ///< reads the scene again, as the command line asked for it; may be empty
   /// Reads another scene, with the options of the command line.
   std::function<LoadedScene(const std::string&)> open = [](const std::string& what) { return load_scene(what); };
-  int threads = 0;                      ///< 0: all cores
-  std::string isa;                      ///< "": the best
-  std::filesystem::path reference;      ///< image that errors are measured against; empty: none
-  std::filesystem::path ui_log;         ///< diagnostic, see ui_log.h; empty: none, "-": standard output
+  int threads = 0;                  ///< 0: all cores
+  std::string isa;                  ///< "": the best
+  std::filesystem::path reference;  ///< image that errors are measured against; empty: none
+  std::filesystem::path ui_log;     ///< diagnostic, see ui_log.h; empty: none, "-": standard output
   bool scene_named = true;  ///< the user named the scene; else edits of any scene that were not saved are restored
   PauseLimits limits{};
 };
