@@ -1,21 +1,8 @@
 #!/usr/bin/env bash
 # The README's animated picture of a session: the metal ball becomes rougher and smooth again, the camera swings, the ball is
 # selected. Needs ImageMagick, and a machine with nothing else to do. Arguments: the tyndall binary, the picture (.gif).
-set -euo pipefail
-tyndall=$(realpath "$1")
-picture=$(realpath -m "$2")
-if [ -z "${IN_XVFB:-}" ]; then
-  IN_XVFB=1 exec xvfb-run -a -s '-screen 0 1280x800x24 -nolisten tcp' "$0" "$tyndall" "$picture"
-fi
-folder=$(mktemp -d)
-log=$folder/log
-: >"$log"
-export XDG_CONFIG_HOME=$folder XDG_STATE_HOME=$folder
-"$tyndall" view showroom --ui-log "$log" &
-pid=$!
-trap 'kill $pid 2>/dev/null || true; rm -rf "$folder"' EXIT
-window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-xdotool windowsize --sync "$window" 1280 800
+width=1280 height=800 options=()
+. "$(dirname "$0")/_showroom.sh"
 
 frames=0
 shot() { # COUNT: as many pictures of the window as it is now
