@@ -28,6 +28,7 @@ UiLog::~UiLog() {
   summary("latency", latencies_);
   summary("latency camera", camera_latencies_);
   summary("latency other", other_latencies_);
+  summary("latency clean", clean_latencies_);
   summary("cpu picture", cpu_picture_);
   summary("cpu plain", cpu_plain_);
   if (stream_ != stdout) std::fclose(stream_);
@@ -86,6 +87,7 @@ void UiLog::shown(const Frame& frame, double now) {
   if (edit != shown_) latencies_.push_back(ms);
   if (edit != shown_ && known) (found->second.camera_only ? camera_latencies_ : other_latencies_).push_back(ms);
   shown_ = edit;
+  if (frame.clean && edit != shown_clean_ && known) clean_latencies_.push_back(ms), shown_clean_ = edit;
   if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
   line("frame " + std::to_string(edit) +
        fmt::format(" {} {} {:.1f} {:.1f}", frame.spp, frame.step, ms, frame.first_picture_ms));

@@ -19,9 +19,8 @@ namespace tyndall {
 ///   widget NAME X0 Y0 X1 Y1 VALUE    a control appeared, moved or has a new value; window coordinates
 ///   gone NAME                        it is no longer there
 ///   submit EDIT                      the scene went to the renderer
-///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the oldest input that has led
-///   to
-///                                    it; FIRST_MS: what the renderer took for the edit's first picture
+///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the oldest input that led to it;
+///                                    FIRST_MS: what the renderer took for the edit's first picture
 ///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
 ///   state rendering|paused|finished
 ///   reading CURVE: SECONDS RELMSE    what the chart says under the mouse
@@ -45,7 +44,7 @@ namespace tyndall {
 ///                                    read or measured for the next second unless something happens
 /// At the end: latency and cpu lines with the count, median, 95th and 99th percentile and the greatest, in ms;
 /// latencies are those of edits' first pictures, of all edits and of those that moved only the camera, or something
-/// else.
+/// else; and those of the first clean pictures.
 class UiLog {
  public:
   /// file: "-" is standard output. Throws IoError.
@@ -88,8 +87,8 @@ class UiLog {
     bool camera_only = false;
   };
   std::map<std::uint64_t, Submit> submits_;  ///< of the edit that is shown and newer ones
-  std::vector<double> latencies_, camera_latencies_, other_latencies_, cpu_picture_, cpu_plain_;
-  std::uint64_t drawing_ = 1, shown_ = 0, pass_ = 0;
+  std::vector<double> latencies_, camera_latencies_, other_latencies_, clean_latencies_, cpu_picture_, cpu_plain_;
+  std::uint64_t drawing_ = 1, shown_ = 0, shown_clean_ = 0, pass_ = 0;
   bool resting_ = false;  ///< "rest" is the last line
 };
 
