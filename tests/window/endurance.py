@@ -4,13 +4,19 @@
 Usage: endurance.py PROCESS WINDOW ORIGINAL SCENE LOG MINUTES
 
 Every half a minute the input stops and the scene is written anew, as an editor does: the window reads it. The memory
-that it has then is comparable, but where another method is rendered beside the picture. The first ten minutes, in which histories and caches fill, are left out. After them the
-slope must be 0 within two standard errors, or less than 1 % of the memory in MINUTES.
+that it has then is comparable, but where another method is rendered beside the picture, or where the window still shows
+another scene, such as a much larger one: such points are left out. So are the first ten minutes, in which histories and
+caches fill. After them the slope must be 0 within two standard errors, or less than 1 % of the memory in MINUTES. 0
+minutes: ends after these ten, and memory is not judged.
+
+Counted is memory of the process alone. Pages of libraries that are in memory come and go with what the system does
+with them: the compiler of shaders in software OpenGL alone has 110 MB of them.
 """
 import math
 import pathlib
 import random
 import shutil
+import statistics
 import subprocess
 import sys
 import time
@@ -53,10 +59,10 @@ class Input:
 
 
 def memory(process):
-    """kB of the process that are in memory; 0: it has ended."""
+    """kB of the process alone that are in memory; 0: it has ended."""
     try:
         lines = pathlib.Path(f"/proc/{process}/status").read_text().split("\n")
-        return next((int(line.split()[1]) for line in lines if line.startswith("VmRSS")), 0)
+        return next((int(line.split()[1]) for line in lines if line.startswith("RssAnon")), 0)
     except OSError:
         return 0
 
@@ -111,7 +117,11 @@ def main():
         point = (time.monotonic() - start, memory(process))
         print(f"{point[0]:6.0f} s  {steps:6} steps  {point[1]} kB{', two methods' if split else ''}", flush=True)
         points += [] if split else [point]
+    if minutes == 0:
+        return 0
     points = [(x, y) for x, y in points if x > 60 * WARM_UP]
+    usual = statistics.median(y for _, y in points) if points else 0
+    points = [(x, y) for x, y in points if y < 1.5 * usual]
     if len(points) < 3:
         print("too short to tell a slope")
         return 1
