@@ -3,6 +3,7 @@
 #include <mutex>
 #include <thread>
 #if !defined(__cpp_lib_jthread)
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -68,10 +69,23 @@ class StoppableThread {
 
 class StoppableCondition : public std::condition_variable_any {
  public:
-  using std::condition_variable_any::wait;
+  using std::condition_variable_any::wait, std::condition_variable_any::wait_for;
   /// Sleeps until the predicate holds or a stop was requested; whether the predicate holds.
   template <class Predicate>
   bool wait(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate) {
+    return sleep(lock, stop, predicate, [&] { return wait(lock), true; });
+  }
+  /// The same, for no longer than this.
+  template <class Duration, class Predicate>
+  bool wait_for(std::unique_lock<std::mutex>& lock, const StopToken& stop, Duration longest, Predicate predicate) {
+    const auto end = std::chrono::steady_clock::now() + longest;
+    return sleep(lock, stop, predicate, [&] { return wait_until(lock, end) == std::cv_status::no_timeout; });
+  }
+
+ private:
+  /// once(): sleeps until it is woken; false: it is not to sleep any more.
+  template <class Predicate, class Once>
+  bool sleep(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate, Once once) {
     const auto wake = [this, mutex = lock.mutex()] {
       { const std::lock_guard between_test_and_sleep(*mutex); }
       notify_all();
@@ -82,7 +96,7 @@ class StoppableCondition : public std::condition_variable_any {
         stop.state_->wake = wake;
         if (stop.state_->requested) return false;
       }
-      wait(lock);
+      if (!once()) return predicate();
     }
     return true;
   }

@@ -2,6 +2,7 @@
 
 #include "app/files/outputs.h"
 #include "app/window/document/open_document.h"
+#include "core/base/stoppable.h"
 
 #include <sys/file.h>
 #include <fcntl.h>
@@ -9,13 +10,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 namespace tyndall {
@@ -132,7 +132,7 @@ struct KeptEdits::State {
   Slot slot;
 
   mutable std::mutex mutex;  ///< guards what follows
-  std::condition_variable_any news, written;
+  StoppableCondition news, written;
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const Origin> origin;
   bool used = false;     ///< something was kept, or taken over
@@ -140,10 +140,10 @@ struct KeptEdits::State {
   bool writes = false;   ///< it is being written
   bool hurries = false;  ///< somebody waits for it
   std::string problem{};
-  std::jthread thread{};  // declared last, because it uses the others
+  std::optional<StoppableThread> thread{};  // declared last, because it uses the others
 
   explicit State(fs::path in) : folder(std::move(in)) {}
-  void work(const std::stop_token& stop);
+  void work(const StopToken& stop);
   void write(const Scene* edits, const Origin* of);
   bool has_slot();
   /// Calls see(slot) for each file that nobody has; its lock is free again when the slot goes.
@@ -188,7 +188,7 @@ void KeptEdits::State::write(const Scene* edits, const Origin* of) {
   problem = wrong;
 }
 
-void KeptEdits::State::work(const std::stop_token& stop) {
+void KeptEdits::State::work(const StopToken& stop) {
   std::unique_lock lock(mutex);
   for (;;) {
     news.wait(lock, stop, [&] { return waits; });
@@ -209,7 +209,7 @@ void KeptEdits::State::work(const std::stop_token& stop) {
 
 KeptEdits::KeptEdits(fs::path folder) : state_(std::make_unique<State>(std::move(folder))) {
   if (!state_->folder.empty())
-    state_->thread = std::jthread([state = state_.get()](const std::stop_token& stop) { state->work(stop); });
+    state_->thread.emplace([state = state_.get()](const StopToken& stop) { state->work(stop); });
 }
 
 KeptEdits::~KeptEdits() = default;
