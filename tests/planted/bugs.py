@@ -78,6 +78,6 @@ BUGS = [
     # render
     ("render", "a lost column at a tile's edge", "core/render/pass.cpp", "std::min(x + tile_, region_.x1)", "std::min(x + tile_, region_.x1 - 1)", "render/same_picture"),
     ("render", "cells have a say in their own samples", "core/render/plan.cpp", "if (u == column && v == row) continue;", "", "render/plan"),
-    ("render", "rejected samples of one half are not counted", "core/render/pass.cpp", "rejected += from->rejected[0] + from->rejected[1];", "rejected += from->rejected[0];", "render/losses"),
+    ("render", "rejected samples of one half are not counted", "core/render/pass.cpp", "rejected += from.rejected[0] + from.rejected[1];", "rejected += from.rejected[0];", "render/losses"),
     ("render", "rounds spend more than they may", "core/render/plan.cpp", "const double mean = 2.0 * round_mean(film, &PlannedSamples::from);", "const double mean = 2.5 * round_mean(film, &PlannedSamples::from);", "render/plan"),
 ]

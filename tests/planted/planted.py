@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Plants the bugs of bugs.py, one by one, and says which of them the tests catch.
 
-Usage: planted.py ROOT BUILD WORK [WORDS]
+Usage: planted.py ROOT [BUILD WORK [WORDS]]
 ROOT: of the sources; BUILD: where they are built, with the tests; WORK: a folder for files; WORDS: only bugs whose
-room or description holds one of these
+room or description holds one of these. With ROOT alone: only whether all bugs still fit the sources
 
 A bug is a changed copy of one file, which is found before the file itself. Only what the bug names is compiled with it:
 the tests that must catch it, which run up to the first failure, and the sources of the library that they see it by; all
@@ -119,7 +119,21 @@ def sources_of(bug):
     return [f"tests/{test}_test.cpp" for test in tests] + library + own
 
 
+def check_that_all_fit(root):
+    """Ends the program where a bug's file does not hold once what it changes, or a test or source has gone."""
+    for bug in BUGS:
+        room, what, file, old = bug[:4]
+        if (root / file).read_text().count(old) != 1:
+            sys.exit(f"planted: {file} does not hold once what \"{what}\" changes; bugs.py has to follow it")
+        for source in sources_of(bug):
+            if not (root / source).exists():
+                sys.exit(f"planted: \"{what}\" names {source}, which is not there")
+
+
 def main():
+    check_that_all_fit(pathlib.Path(sys.argv[1]))
+    if len(sys.argv) == 2:
+        return 0
     root, build, work = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
     words = sys.argv[4:]
     built = Build(root, build, work)
@@ -128,8 +142,6 @@ def main():
     for number, bug in enumerate(chosen, 1):
         room, what, file, old, new = bug[:5]
         text, sources, start = (root / file).read_text(), sources_of(bug), time.monotonic()
-        if text.count(old) != 1:
-            sys.exit(f"planted: {file} does not hold once what \"{what}\" changes; bugs.py has to follow it")
         if tuple(sources) not in passed:
             clean = built.test(sources, False)
             if clean:
