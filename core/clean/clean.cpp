@@ -75,6 +75,7 @@ struct Cleaner::Memory {
 
   void resize(int width, int height) {
     work.resize(width, height, outputs + 3);
+    if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
     for (std::vector<double>* rows : {&row_bias, &row_noise, &row_squares})
       rows->resize(static_cast<std::size_t>(height));
     if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;

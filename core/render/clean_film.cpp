@@ -79,7 +79,7 @@ bool LiveClean::make(const Progression& picture, const RenderEngine& engine, con
     last_seconds_ = seconds_since(start);
     spent_ += last_seconds_;
     if (!whole) return false;
-    const std::shared_ptr<CleanFrame> frame = frames_.take();
+    const std::shared_ptr<CleanFrame> frame = frames_.take(picture.film().pixels.size());
     put_rgba(picture_, engine.crew, frame->rgba);
     std::swap(frame->pixel_error, picture_.pixel_error);
     frame->relative_error = picture_.relative_error;

@@ -179,7 +179,7 @@ void Director::make_clean() {
 }
 
 void Director::publish() {
-  const std::shared_ptr<Frame> frame = frame_memory_.take();
+  const std::shared_ptr<Frame> frame = frame_memory_.take(picture_.film().pixels.size());
   const Clock::time_point start = Clock::now();
   const PictureGrid grid = views_.draw(view_, picture_, engine(), mail_.give_up(), frame->rgba);
   if (view_ != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *crew_, frame->beauty);

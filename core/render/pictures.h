@@ -8,6 +8,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 /// Turns a film, first hits or costs into pictures. Values are linear: exposure and tone mapping come when a picture is
@@ -32,8 +33,10 @@ template <class T, std::vector<float> T::*... kept>
 class MemoryOf {
  public:
   /// A new one whose kept members may hold an old picture. When its last owner drops it, its memory comes back here.
-  std::shared_ptr<T> take() {
+  /// pixels: of the film; memory of pictures of another film size is not kept.
+  std::shared_ptr<T> take(std::size_t pixels) {
     constexpr std::size_t most = 2;
+    if (std::exchange(pixels_, pixels) != pixels) spare_ = std::make_shared<Spare>();
     auto made = std::make_unique<T>();
     {
       const std::lock_guard lock(spare_->mutex);
@@ -53,6 +56,7 @@ class MemoryOf {
   };
   static void move_kept(T& from, T& to) { ((to.*kept = std::move(from.*kept)), ...); }
   std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+  std::size_t pixels_ = 0;
 };
 using FrameMemory = MemoryOf<Frame, &Frame::rgba>;
 using CleanFrameMemory = MemoryOf<CleanFrame, &CleanFrame::rgba, &CleanFrame::pixel_error>;

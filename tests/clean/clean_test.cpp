@@ -129,6 +129,16 @@ TEST_CASE("clean: the same bits for any number of threads, and once more after a
   CHECK(picture.relative_error == one.relative_error);
 }
 
+TEST_CASE("clean: keeps no memory of a larger picture") {
+  Crew crew(1);
+  Cleaner cleaner(available_targets().back());
+  CleanPicture picture;
+  for (const int edge : {96, 96, 24, 24})
+    REQUIRE(cleaner.run(known_picture(edge, edge, 0.5f).input, crew, false, picture));
+  CHECK(picture.rgb.capacity() == 3 * 24 * 24);
+  CHECK(picture.pixel_error.capacity() == 24 * 24);
+}
+
 TEST_CASE(
     "clean: instruction sets differ by rounding only, and those with fused multiplication and addition by nothing") {
   const Known k = known_picture(130, 50, 0.7f);

@@ -2,6 +2,7 @@
 
 #include "core/accuracy/error.h"
 #include "core/compile/compile.h"
+#include "core/render/pictures.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
@@ -121,6 +122,13 @@ TEST_CASE("clean view: its error ends a render that asks for that, and one sampl
   CHECK(result.clean->relative_error <= 0.12);
   CHECK(result.seconds_clean > 0);
   CHECK_FALSE(rendered(scene, 1, true).clean);
+}
+
+TEST_CASE("frames: their memory is used again, but not that of a film of another size") {
+  FrameMemory memory;
+  memory.take(100)->rgba.resize(400);
+  CHECK(memory.take(100)->rgba.capacity() == 400);
+  CHECK(memory.take(25)->rgba.capacity() == 0);
 }
 
 TEST_CASE("clean view: comes with frames when it is wanted, of the newest scene, and goes with the wish") {
