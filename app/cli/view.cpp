@@ -60,13 +60,14 @@ void check_memory(const Scene& scene) {
 }  // namespace
 
 int run(const ViewCommand& command) {
-  const auto open = [&command](const std::string& what) {
-    SceneRequest request = command.scene;
+  const auto open = [request = command.scene] { return open_scene(request); };
+  // Without the values of --set: edits begin with these, and may have changed them since.
+  const auto read_edits = [request = command.scene](const std::string& what) mutable {
     request.what = what;
+    request.overrides.clear();
     return open_scene(request);
   };
-  const auto reload = [&] { return open(command.scene.what); };
-  const LoadedScene loaded = reload();
+  const LoadedScene loaded = open();
   find_kernels(command.isa);
   check_memory(loaded.scene);
   std::vector<std::filesystem::path> inputs = loaded.files;
@@ -79,8 +80,8 @@ int run(const ViewCommand& command) {
     const auto& words = command.words;
     const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();
     return run_window({loaded,
-                       reload,
                        open,
+                       read_edits,
                        command.threads,
                        command.isa,
                        command.reference,

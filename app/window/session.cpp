@@ -52,12 +52,12 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
 }
 
 /// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
-/// What the command line asks for applies to them too.
+/// Settings of the command line apply to them, too.
 void Session::restore_edits(const WindowOptions& options) {
   const std::filesystem::path file = kept_.take_over(options.scene_named ? editor_.document().origin->what : "");
   kept_changes_ = editor_.changes();
   try {
-    if (!file.empty()) editor_.restore(read_kept(file, options.open));
+    if (!file.empty()) editor_.restore(read_kept(file, options.read_edits));
   } catch (const std::exception& error) {
     kept_.leave();
     messages_.say("cannot restore edits: " + std::string(error.what()), true);

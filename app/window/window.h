@@ -18,8 +18,8 @@ struct PauseLimits {
 struct WindowOptions {
   LoadedScene scene;
   std::function<LoadedScene()> reload;  ///< reads the scene again, as the command line asked for it; may be empty
-  /// Reads another scene, with the options of the command line.
-  std::function<LoadedScene(const std::string&)> open = [](const std::string& what) { return load_scene(what); };
+  /// Reads kept edits: a scene file, with the settings that the command line gives.
+  std::function<LoadedScene(const std::string&)> read_edits = [](const std::string& what) { return load_scene(what); };
   int threads = 0;                  ///< 0: all cores
   std::string isa;                  ///< "": the best
   std::filesystem::path reference;  ///< image that errors are measured against; empty: none

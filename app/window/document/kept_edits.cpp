@@ -84,8 +84,8 @@ std::string kept_text(const Scene& scene, const Origin& origin, const fs::path& 
   return std::string(first_line) + escaped(origin.what) + "\n" + write_scene(moved);
 }
 
-Document read_kept(const fs::path& file, const std::function<LoadedScene(const std::string& what)>& open) {
-  const LoadedScene kept = open(fs::absolute(file).string());
+Document read_kept(const fs::path& file, const std::function<LoadedScene(const std::string& what)>& read) {
+  const LoadedScene kept = read(fs::absolute(file).string());
   Document document = unedited(kept_what(file));
   document.scene = move_textures(kept.scene, kept.folder, fs::absolute(document.origin->folder));
   return document;

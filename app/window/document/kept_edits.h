@@ -18,9 +18,9 @@ std::filesystem::path state_folder();
 /// A scene file with an edited scene. Its first line, a comment, says what it is an edit of. folder: where the
 /// file will be; the paths of textures are spelt for it.
 std::string kept_text(const Scene& scene, const Origin& origin, const std::filesystem::path& folder);
-/// The document in such a file, which open() reads as load_scene() does. Where the scene that was edited cannot be read
+/// The document in such a file, which read() reads as load_scene() does. Where the scene that was edited cannot be read
 /// any more, all of it counts as edited. Throws SceneError if the file is broken, IoError if it cannot be read.
-Document read_kept(const std::filesystem::path& file, const std::function<LoadedScene(const std::string& what)>& open);
+Document read_kept(const std::filesystem::path& file, const std::function<LoadedScene(const std::string& what)>& read);
 /// What the file says it is an edit of: Origin::what. Empty if it says nothing.
 std::string kept_what(const std::filesystem::path& file);
 
