@@ -19,8 +19,7 @@ namespace tyndall {
 ///   widget NAME X0 Y0 X1 Y1 VALUE    a control appeared, moved or has a new value; window coordinates
 ///   gone NAME                        it is no longer there
 ///   submit EDIT                      the scene went to the renderer
-///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the oldest input that led to
-///   it;
+///   frame EDIT SPP STEP MS FIRST_MS  a picture of that edit is on the screen, MS after the oldest input behind it;
 ///                                    FIRST_MS: what the renderer took for the edit's first picture
 ///   drawn CPU_MS PICTURE             the window was drawn; CPU_MS of the main thread; PICTURE 1: with a new picture
 ///   state rendering|paused|finished
