@@ -5,6 +5,9 @@ set -u
 tyndall=$1
 source_root=$3
 export source_root
+# shellcheck disable=SC2034 # used where this is sourced
+# Cases of "tyndall verify", of all models, for where it runs so slowly that all cases would take hours.
+quick_cases=(motion furnace fuzzy-ball/fuzz1-b0.99 coloured-glass/n1.5-density1-b0.5 smoke-ball/inside-density1 square-lamp small-lamp)
 cd "$2" && rm -rf work && mkdir work && cd work || exit 1
 failures=0
 

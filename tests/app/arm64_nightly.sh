@@ -37,10 +37,9 @@ echo "$pictures pictures compared"
 
 on_arm "$source_root/build/arm64/tests/core_tests" --source-file='*/tests/base/*,*/tests/kernel/kernel_sets_test.cpp,*/tests/clean/*' >tests.log ||
   { cat tests.log; fail 'unit tests'; }
-quick=(motion furnace fuzzy-ball/fuzz1-b0.99 coloured-glass/n1.5-density1-b0.5 smoke-ball/inside-density1 square-lamp small-lamp)
 # Its progress is in neon.progress, because this takes longest by far.
 on_arm "$arm" verify --progress plain --isa neon >verify.log 2>neon.progress || { cat verify.log; fail 'verify, neon'; }
 tail -2 verify.log
-on_arm "$arm" verify -q --isa scalar "${quick[@]}" >verify.log || { cat verify.log; fail 'verify, scalar'; }
+on_arm "$arm" verify -q --isa scalar "${quick_cases[@]}" >verify.log || { cat verify.log; fail 'verify, scalar'; }
 tail -2 verify.log
 finish
