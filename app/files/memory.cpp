@@ -76,8 +76,11 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
 
 std::uint64_t memory_needed(const WindowPlan& plan) {
   constexpr std::uint64_t libraries = 144'000'000;  // of the window, fonts and OpenGL
-  const std::uint64_t pictures = 43, filter = plan.clean ? 172 : 0;
-  return program + libraries + (bytes_per_pixel(plan.emission) + pictures + filter) * pixels(plan.width, plan.height);
+  const std::uint64_t pictures = 43, filter = 172, film = bytes_per_pixel(plan.emission);
+  const std::uint64_t all = pixels(plan.width, plan.height);
+  const std::uint64_t coarse = std::min<std::uint64_t>(all / 4, 256'000);  // pixels of the first clean view
+  const std::uint64_t clean = plan.clean ? filter * all + (film + filter) * coarse : 0;
+  return program + libraries + (film + pictures) * all + clean;
 }
 
 bool has_lamps(const Scene& scene) {

@@ -65,6 +65,7 @@ SplitLabels PictureView::labels() const {
   if (!shows_raw_beside()) return {text_of(Half::kept), text_of(Half::current)};
   const Frame& frame = *right_.frame;
   const auto text = [](const char* name, std::uint32_t spp, double error) {
+    if (spp == 0) return std::string(name) + "   coarse at first";
     return std::string(name) + "   " + format_count(spp) + fmt::format(" spp   est. error {:.2g} %", 100 * error);
   };
   return {text("raw", frame.spp, frame.relative_error), text("clean", frame.clean->spp, frame.clean->relative_error)};
@@ -113,7 +114,8 @@ void PictureView::upload_picture(Side& side, const std::shared_ptr<const Frame>&
   const auto shown = filtered ? std::shared_ptr<const void>(filtered) : frame;
   if (shown == side.uploaded) return;
   if (filtered)
-    side.display->upload({filtered->rgba, frame->width, frame->height, 1, frame->width, frame->height});
+    side.display->upload({filtered->rgba, filtered->grid.columns, filtered->grid.rows, filtered->grid.spacing,
+                          frame->width, frame->height});
   else
     side.display->upload({frame->rgba, frame->columns, frame->rows, frame->spacing, frame->width, frame->height});
   side.uploaded = shown;

@@ -50,7 +50,9 @@ void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& st
   if (frame.clean) {
     cells.push_back({state.is_true ? "true clean" : "clean",
                      state.is_true ? measured(state.clean_run, frame.edit) : percent(frame.clean->relative_error), 1});
-    if (frame.clean->spp < rough_clean_spp)
+    if (frame.clean->spp == 0)
+      cells.push_back({"", "coarse at first", 2, true});
+    else if (frame.clean->spp < rough_clean_spp)
       cells.push_back({"", fmt::format("rough below {} spp", rough_clean_spp), 2, true});
   }
   const char* raw = frame.clean ? "raw" : "error";

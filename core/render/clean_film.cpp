@@ -1,6 +1,7 @@
 #include "core/render/clean_film.h"
 
 #include "core/base/seconds.h"
+#include "core/render/preview.h"
 
 #include <algorithm>
 #include <new>
@@ -22,6 +23,35 @@ bool FilmCleaner::run(const Film& film, const RenderEngine& engine, const std::a
     seen_ = made;
   }
   return cleaner_.run(input_, engine.crew, give_up, out);
+}
+
+namespace {
+
+/// The same view with a pixel for every step x step pixels, around the middle of the first of them.
+SceneView with_larger_pixels(SceneView scene, int step) {
+  CameraColumns& camera = scene.camera;
+  const auto size = static_cast<float>(step);
+  camera.corner = camera.corner + 0.5f * (1 - size) * (camera.du + camera.dv);
+  camera.du = size * camera.du, camera.dv = size * camera.dv;
+  scene.width = (scene.width + step - 1) / step, scene.height = (scene.height + step - 1) / step;
+  scene.glint_count = 0;  // they were found for the pixels as they are
+  return scene;
+}
+
+}  // namespace
+
+bool CoarseCleaner::run(int step, const RenderEngine& engine, double unit, const std::atomic<bool>& give_up,
+                        CleanPicture& out) {
+  const SceneView scene = with_larger_pixels(engine.scene, step);
+  const RenderEngine coarse{engine.crew, engine.kernels, scene};
+  const Region whole{0, 0, scene.width, scene.height};
+  if (!(film_.region == whole) || film_.emission.empty() == scene.has_lamps())
+    film_ = make_film(scene.width, scene.height, whole, 0, unit, scene.has_lamps());
+  film_.unit = unit;
+  cleaner_.change_scene();
+  return Pass(whole, 0, least_clean_spp, 1, 0, {.shares = scene.shares})
+             .run(coarse.crew, coarse.kernels, scene, film_, give_up) &&
+         cleaner_.run(film_, coarse, give_up, out);
 }
 
 CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa) {
@@ -72,6 +102,33 @@ bool LiveClean::is_due(const Progression& picture, bool at_rest) const {
          with_this <= most_share * (picture.tally().seconds + with_this);
 }
 
+/// The filtered picture as a frame.
+std::shared_ptr<CleanFrame> LiveClean::take_frame(const PictureGrid& grid, Crew& crew) {
+  CleanFrameMemory& memory = grid.spacing > 1 ? coarse_frames_ : frames_;
+  std::shared_ptr<CleanFrame> frame = memory.take(picture_.rgb.size() / 3);
+  put_rgba(picture_, crew, frame->rgba);
+  std::swap(frame->pixel_error, picture_.pixel_error);
+  frame->grid = grid;
+  return frame;
+}
+
+bool LiveClean::make_coarse(const Film& film, double paths_per_second, const RenderEngine& engine,
+                            const std::atomic<bool>& give_up) {
+  const int step =
+      coarse_clean_step(static_cast<std::int64_t>(film.pixels.size()), paths_per_second, seconds_per_pixel_);
+  if (!wanted_ || step == 1) return false;
+  try {
+    if (!coarse_.run(step, engine, film.unit, give_up, picture_)) return false;
+    const std::shared_ptr<CleanFrame> frame =
+        take_frame({picture_.width, picture_.height, static_cast<float>(step)}, engine.crew);
+    frame->relative_error = std::numeric_limits<double>::infinity();
+    latest_ = frame;
+  } catch (const std::bad_alloc&) {
+    return false;  // the picture is shown as it is
+  }
+  return true;
+}
+
 bool LiveClean::make(const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up) {
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -79,9 +136,8 @@ bool LiveClean::make(const Progression& picture, const RenderEngine& engine, con
     last_seconds_ = seconds_since(start);
     spent_ += last_seconds_;
     if (!whole) return false;
-    const std::shared_ptr<CleanFrame> frame = frames_.take(picture.film().pixels.size());
-    put_rgba(picture_, engine.crew, frame->rgba);
-    std::swap(frame->pixel_error, picture_.pixel_error);
+    seconds_per_pixel_ = last_seconds_ / static_cast<double>(picture.film().pixels.size());
+    const std::shared_ptr<CleanFrame> frame = take_frame({picture_.width, picture_.height, 1}, engine.crew);
     frame->relative_error = picture_.relative_error;
     frame->spp = picture.taken();
     frame->doubtful = is_doubtful(picture_, frame->spp);

@@ -52,13 +52,28 @@ class FilmCleaner {
   FirstSeenParts seen_;  ///< how input_.seen was made; no parts: not yet
 };
 
+/// The first clean view after an edit: a picture with fewer pixels, which is there long before every pixel of the whole
+/// picture has the two samples that the filter needs. Keeps its memory from one to the next.
+class CoarseCleaner {
+ public:
+  explicit CoarseCleaner(const Kernels& kernels) : cleaner_(kernels) {}
+
+  /// Fills `out` with the clean view of a picture of the scene of which each pixel covers step x step pixels and has
+  /// two samples of its own, which are in no film. unit: see Film. Returns false if `give_up` was set before the end.
+  bool run(int step, const RenderEngine& engine, double unit, const std::atomic<bool>& give_up, CleanPicture& out);
+
+ private:
+  FilmCleaner cleaner_;
+  Film film_;
+};
+
 /// The clean view of a finished film of the scene. threads: 0: all cores; isa: "": the best.
 CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa);
 
 /// The clean view of a picture that is being rendered: when it is made, and the newest one.
 class LiveClean {
  public:
-  explicit LiveClean(const Kernels& kernels) : cleaner_(kernels) {}
+  explicit LiveClean(const Kernels& kernels) : cleaner_(kernels), coarse_(kernels) {}
 
   void set_wanted(bool wanted);
   /// The scene has changed: what is first seen has to be found anew.
@@ -72,19 +87,27 @@ class LiveClean {
   bool is_due(const Progression& picture, bool at_rest) const;
   /// Makes one. False if `give_up` was set before the end: then it stays due.
   bool make(const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up);
+  /// Makes a coarse one, if a whole one would take long: see coarse_clean_step. paths_per_second: <= 0: unknown. False
+  /// if none is wanted or needed, or if `give_up` was set before the end.
+  bool make_coarse(const Film& film, double paths_per_second, const RenderEngine& engine,
+                   const std::atomic<bool>& give_up);
   /// The newest one of this picture; null: there is none, or none is wanted.
   const std::shared_ptr<const CleanFrame>& latest() const { return latest_; }
 
  private:
+  std::shared_ptr<CleanFrame> take_frame(const PictureGrid& grid, Crew& crew);
+
   FilmCleaner cleaner_;
+  CoarseCleaner coarse_;
   CleanPicture picture_;
-  CleanFrameMemory frames_;
+  CleanFrameMemory frames_, coarse_frames_;
   std::shared_ptr<const CleanFrame> latest_;
   bool wanted_ = false;
-  std::uint32_t made_of_ = 0;       ///< samples a pixel that the newest one was made from; 0: none was made yet
-  std::uint32_t made_of_most_ = 0;  ///< samples of the pixels that were refined first by then
-  double spent_ = 0;                ///< seconds spent on all clean views of the present picture
-  double last_seconds_ = 0;         ///< seconds that the newest one took
+  std::uint32_t made_of_ = 0;        ///< samples a pixel that the newest one was made from; 0: none was made yet
+  std::uint32_t made_of_most_ = 0;   ///< samples of the pixels that were refined first by then
+  double spent_ = 0;                 ///< seconds spent on all clean views of the present picture
+  double last_seconds_ = 0;          ///< seconds that the newest one took
+  double seconds_per_pixel_ = 2e-7;  ///< of filtering, as the newest one took
 };
 
 }  // namespace tyndall

@@ -156,7 +156,9 @@ void Director::finish_pass() {
   const bool first = !first_picture_ms_;
   report_pixel();
   publish();
-  if (first) give_way();
+  if (!first) return;
+  give_way();
+  make_coarse_clean();
 }
 
 /// Tells what is known of the pixel that is watched.
@@ -171,6 +173,14 @@ void Director::report_pixel() {
 /// The first picture of an edit is on its way to the screen: until it is there, the processors are for that.
 void Director::give_way() {
   if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
+}
+
+/// Shows what the picture will look like once it has samples to filter. An order that cannot wait interrupts this.
+void Director::make_coarse_clean() {
+  if (limit_ < least_clean_spp || picture_.taken() >= least_clean_spp) return;
+  if (!clean_.make_coarse(picture_.film(), first_pictures_.paths_per_second(), engine(), mail_.give_up())) return;
+  publish();
+  mail_.wait_until_shown(frames_);
 }
 
 /// Filters the picture as it is now. An edit or another order interrupts this; then it is tried again later.
@@ -197,9 +207,10 @@ void Director::publish() {
   frame->clean = clean_.latest();
   frame->awaits_clean = clean_is_due();
   if (view_ == View::noise && frame->clean) {
+    const PictureGrid& clean = frame->clean->grid;
     frame->rgba = noise_rgba(frame->clean->pixel_error);
     frame->white = 1;
-    frame->columns = film.width, frame->rows = film.height, frame->spacing = 1;
+    frame->columns = clean.columns, frame->rows = clean.rows, frame->spacing = clean.spacing;
   }
   frame->step = picture_.step();
   frame->most_spp = picture_.most_taken();

@@ -58,6 +58,7 @@ class Director {
   void report_pixel();
   void publish();
   void make_clean();
+  void make_coarse_clean();
   bool clean_is_due() const { return shown_.compiled && clean_.is_due(picture_, !unfinished(limit_)); }
   bool unfinished(std::uint32_t limit) const { return shown_.compiled && picture_.taken() < limit; }
   RenderEngine engine() const { return {*crew_, kernels_, shown_.view->view()}; }

@@ -36,12 +36,20 @@ constexpr Word word(View view) {
   return {};
 }
 
+/// Where the pixels of a picture are that has fewer than its film: its pixel (x, y) is what is seen in the middle of
+/// the film's pixel (spacing x, spacing y).
+struct PictureGrid {
+  int columns = 0, rows = 0;
+  float spacing = 1;
+};
+
 /// The clean view of a picture: filtered, and so labelled wherever it is shown. Never changes after it was published.
 struct CleanFrame {
+  PictureGrid grid;                ///< of all that is kept for each pixel
   std::vector<float> rgba;         ///< like Frame's
   std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from those around it
-  double relative_error = 0;       ///< estimated
-  std::uint32_t spp = 0;           ///< samples a pixel that it was made from
+  double relative_error = 0;       ///< estimated; infinite for a coarse one
+  std::uint32_t spp = 0;           ///< samples a pixel that it was made from; 0: it is coarse, see CoarseCleaner
   bool doubtful = false;           ///< see is_doubtful
   double seconds = 0;              ///< rendering and filtering since the edit
 };

@@ -18,11 +18,6 @@ namespace tyndall {
 /// Writes the means of a film into `rgba`, every pixel.
 void beauty_rgba(const Film& film, Crew& crew, std::vector<float>& rgba);
 
-/// Where the pixels of a picture are that has fewer than its film: see Frame.
-struct PictureGrid {
-  int columns = 0, rows = 0;
-  float spacing = 1;
-};
 /// Writes the means of a film of which only every step-th pixel in x and y has samples. From a step of 3 on the picture
 /// has twice as many columns and rows: what is between samples goes on along edges. step >= 1.
 PictureGrid coarse_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);

@@ -24,6 +24,13 @@ int step_of_shown(std::int64_t pixels, std::int64_t shown) {
       std::ceil(std::clamp(std::sqrt(static_cast<double>(pixels) / static_cast<double>(shown)), 1.0, 8.0)));
 }
 
+int coarse_clean_step(std::int64_t pixels, double paths_per_second, double filter_seconds) {
+  constexpr double budget = 0.1, soon = 0.04, most = 8;
+  if (!(paths_per_second > 0)) return static_cast<int>(most);
+  const double whole = static_cast<double>(pixels) * (2 / paths_per_second + filter_seconds);
+  return whole <= soon ? 1 : static_cast<int>(std::ceil(std::clamp(std::sqrt(whole / budget), 2.0, most)));
+}
+
 int FirstPictures::step_for(std::int64_t pixels, double budget, std::int64_t shown) {
   // Drawing and showing count, but never take more than three quarters of the time from the samples.
   const double left = std::min(budget, 1.6 * budget - showing_seconds_) - drawing_seconds_;

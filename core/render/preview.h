@@ -20,6 +20,10 @@ int preview_step(std::int64_t pixels, double paths_per_second, double budget, in
 /// shown: <= 0: unknown, all are.
 int step_of_shown(std::int64_t pixels, std::int64_t shown);
 
+/// Every how many pixels, at most 8, a coarse clean view has one, so that it takes about a tenth of a second. 1:
+/// none is needed, as a whole one takes at most 40 ms. paths_per_second: <= 0: unknown; filter_seconds: a pixel takes.
+int coarse_clean_step(std::int64_t pixels, double paths_per_second, double filter_seconds);
+
 /// What the renderer has learnt from the first pictures of earlier edits, and what follows for the next edit.
 class FirstPictures {
  public:
@@ -33,6 +37,8 @@ class FirstPictures {
   /// A first picture was on the screen so long after it had been made. The whole time from the edit to the screen is
   /// kept to 1.6 times the budget.
   void note_showing(double seconds);
+  /// By the passes noted; 0: unknown.
+  double paths_per_second() const { return paths_per_second_; }
 
  private:
   double paths_per_second_ = 0;  ///< 0: unknown

@@ -124,6 +124,67 @@ TEST_CASE("clean view: its error ends a render that asks for that, and one sampl
   CHECK_FALSE(rendered(scene, 1, true).clean);
 }
 
+TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any number of threads, and in no film") {
+  for (const char* name : {"cornell-box", "metal-spheres"}) {
+    CAPTURE(name);
+    constexpr int step = 3;
+    const RenderScene scene = compile(small(name, 119, 80));
+    const SceneViewOf view(scene);
+    const Kernels kernels = *choose_kernels("");
+    std::vector<CleanPicture> made;
+    for (const int threads : {1, 3}) {
+      Crew crew(threads);
+      CoarseCleaner cleaner(kernels);
+      CHECK_FALSE(cleaner.run(step, {crew, kernels, view.view()}, scene.film_unit, true, made.emplace_back()));
+      REQUIRE(cleaner.run(step, {crew, kernels, view.view()}, scene.film_unit, false, made.back()));
+    }
+    REQUIRE(made[0].width == 40);
+    REQUIRE(made[0].height == 27);
+    CHECK(made[0].rgb == made[1].rgb);
+    const std::vector<float> whole = resolve(rendered(small(name, 119, 80), 256).film);
+    // Against the mean over the pixels around every third one, moved by so many pixels each way.
+    const auto off_by = [&](int way) {
+      std::vector<float> truth;
+      for (int i = 0; i < 40 * 27; ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+          float sum = 0;
+          for (int part = 0; part < step * step; ++part) {
+            const int x = std::clamp(step * (i % 40) + part % step - 1 + way, 0, 118);
+            const int y = std::clamp(step * (i / 40) + part / step - 1 + way, 0, 79);
+            sum += whole[static_cast<std::size_t>(3 * (119 * y + x) + channel)] / (step * step);
+          }
+          truth.push_back(sum);
+        }
+      return relative_mse(made[0].rgb, truth);
+    };
+    CHECK(off_by(0) < 0.04);
+    CHECK(off_by(0) < off_by(-1));
+    CHECK(off_by(0) < off_by(1));
+  }
+}
+
+TEST_CASE("coarse clean view: the first one after an edit where a whole one takes long, until that is there") {
+  WatchedRenderer renderer;
+  renderer->set_clean(true);
+  Scene scene = small("cornell-box", 1000, 1000);
+  scene.render.spp = 2;
+  const FramePointer whole = renderer.wait_finished(renderer->submit(scene));
+  REQUIRE(whole->clean);
+  CHECK(whole->clean->spp == 2);
+  CHECK(whole->clean->grid.columns == 1000);
+  FramePointer coarse;
+  for (const FramePointer& frame : renderer.frames())
+    if (!coarse && frame->clean) coarse = frame;
+  REQUIRE(coarse);
+  CHECK(coarse->clean->spp == 0);
+  CHECK(coarse->spp <= 1);
+  CHECK(std::isinf(coarse->clean->relative_error));
+  const PictureGrid grid = coarse->clean->grid;
+  CHECK(grid.spacing >= 2);
+  CHECK(grid.columns == (999 + static_cast<int>(grid.spacing)) / static_cast<int>(grid.spacing));
+  CHECK(coarse->clean->rgba.size() == 4 * static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+}
+
 TEST_CASE("frames: their memory is used again, but not that of a film of another size") {
   FrameMemory memory;
   memory.take(100)->rgba.resize(400);

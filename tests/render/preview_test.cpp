@@ -45,6 +45,20 @@ TEST_CASE("preview: a step that was chosen is kept until another one fits clearl
   CHECK(preview_step(full_hd, speed_for(1000), 1, 8) == 8);
 }
 
+TEST_CASE(
+    "preview: a coarse clean view is as fine as fits a tenth of a second, and none comes where a whole one does") {
+  CHECK(coarse_clean_step(full_hd, 0, 1e-7) == 8);
+  CHECK(coarse_clean_step(full_hd, 1e12, 1e-12) == 1);
+  CHECK(coarse_clean_step(1000, 2e6, 1e-6) == 1);
+  for (const double rate : {1e6, 4e6, 2e7, 1e8, 1e9}) {
+    const auto seconds = [rate](int step) { return static_cast<double>(full_hd) / (step * step) * (2 / rate + 1e-7); };
+    const int step = coarse_clean_step(full_hd, rate, 1e-7);
+    REQUIRE(step >= 2);
+    CHECK((step == 8 || seconds(step) <= 0.1));
+    CHECK((step == 2 || seconds(step - 1) > 0.1));
+  }
+}
+
 TEST_CASE("preview: speeds that flicker by a fifth never make the step flicker") {
   for (double wanted = 0.3; wanted < 12; wanted *= 1.07) {
     int step = preview_step(full_hd, speed_for(wanted), 1, 0);

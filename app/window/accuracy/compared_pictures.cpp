@@ -45,7 +45,7 @@ void ComparedPictures::shown(Half which, std::shared_ptr<const Frame> frame, con
   ComparedHalf& one = changed(which);
   const double error = frame->relative_error, rel_mse = error * error;
   one.estimated.add(frame->edit, method, {frame->seconds, rel_mse, frame->spp, rel_mse});
-  if (const auto& clean = frame->clean) {
+  if (const auto& clean = frame->clean; clean && clean->spp > 0) {
     const double rest = clean->relative_error * clean->relative_error;
     one.clean_estimated.add(frame->edit, method + clean_suffix, {clean->seconds, rest, clean->spp, rest});
   }
@@ -114,8 +114,8 @@ ComparisonOrder ComparedPictures::order_of(Measurement what) const {
   order.flip = what == Measurement::flip;
   const ErrorCurve& known = measured.clean_truth.current();
   const CleanFrame* clean = is_truth(what) && order.frame ? order.frame->clean.get() : nullptr;
-  order.clean =
-      clean && (known.edit != order.frame->edit || known.points.empty() || known.points.back().spp != clean->spp);
+  order.clean = clean && clean->spp > 0 &&
+                (known.edit != order.frame->edit || known.points.empty() || known.points.back().spp != clean->spp);
   order.independent = measured.fit == ReferenceFit::fits;
   return order;
 }

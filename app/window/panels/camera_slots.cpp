@@ -40,9 +40,9 @@ bool slot_button(Ui& ui, const CameraSlot& slot, std::size_t number, bool on, bo
 
 std::vector<std::uint8_t> small_picture(const Frame& frame, const Display& display, int& width, int& height) {
   const bool beauty = frame.view == View::beauty, clean = beauty && frame.clean;
-  const bool whole = clean || !beauty;
   const std::vector<float>& from = clean ? frame.clean->rgba : beauty ? frame.rgba : frame.beauty;
-  const int columns = whole ? frame.width : frame.columns, rows = whole ? frame.height : frame.rows;
+  const PictureGrid own{frame.columns, frame.rows, frame.spacing}, every_pixel{frame.width, frame.height, 1};
+  const auto [columns, rows, spacing] = clean ? frame.clean->grid : beauty ? own : every_pixel;
   width = height = 0;
   if (from.empty() || columns <= 0 || rows <= 0) return {};
   const double fit =

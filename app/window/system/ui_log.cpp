@@ -87,7 +87,9 @@ void UiLog::shown(const Frame& frame, double now) {
   if (edit != shown_) latencies_.push_back(ms);
   if (edit != shown_ && known) (found->second.camera_only ? camera_latencies_ : other_latencies_).push_back(ms);
   shown_ = edit;
-  if (frame.clean && edit != shown_clean_ && known) clean_latencies_.push_back(ms), shown_clean_ = edit;
+  const bool opening = edit == 1;  // that is no edit: the window has just been opened
+  if (frame.clean && edit != shown_clean_ && known && !opening) clean_latencies_.push_back(ms);
+  if (frame.clean) shown_clean_ = edit;
   if (found != submits_.end()) submits_.erase(submits_.begin(), found);  // older edits will never be shown
   line("frame " + std::to_string(edit) +
        fmt::format(" {} {} {:.1f} {:.1f}", frame.spp, frame.step, ms, frame.first_picture_ms));
