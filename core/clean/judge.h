@@ -50,14 +50,17 @@ TYNDALL_INLINE Surroundings<F> look_around(const FilterView& v, int channel, int
 /// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
 /// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
 /// is brighter than those around, the level is raised towards its own mean, the more its two halves agree. Where it is
-/// darker than the noise around explains, as at the rim of a glass ball, the level is lowered towards it.
+/// darker than the noise around explains and something is seen that is not sharp, as at the rim of a glass ball, the
+/// level is lowered towards it. Not elsewhere: pixels that are dark by chance, whose halves are then both off in the
+/// same way, would count more than those that are bright by chance, and the error would seem twice as large.
 template <class F>
-TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, const Surroundings<F>& around) {
+TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surroundings<F>& around) {
   const F both = a + b, apart = F(2.0f) * (a - b);
   const F agreed = max(neg_mul_add(apart, apart, both * both) / max(both * both, F(1e-30f)), F(0.0f));
   const F above = neg_mul_add(F(1.0f), around.others, F(0.5f) * both), square = above * above;
-  const F real = max(neg_mul_add(F(4.0f), around.noise, square) / max(square, F(1e-30f)), F(0.0f));
-  const F share = select(less(F(0.0f), above), agreed, splat<F>(v.trust_in_dark) * real);
+  const F real = max(neg_mul_add(F(5.0f), around.noise, square) / max(square, F(1e-30f)), F(0.0f));
+  const F below = select(less(F(0.0f), sharp), F(0.0f), splat<F>(v.trust_in_dark) * real);
+  const F share = select(less(F(0.0f), above), agreed, below);
   return mul_add(share, above, around.others);
 }
 
@@ -77,7 +80,7 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
       const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
       pa = select(finite, pa, a), pb = select(finite, pb, b);
       picture[c] = F(0.5f) * (pa + pb);
-      const F known = known_level(v, a, b, look_around<F>(v, c, y, x));
+      const F known = known_level(v, a, b, load<F>(v.sharp + at), look_around<F>(v, c, y, x));
       const F level = max(min(picture[c], known), F(0.0f));
       const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
       bias = mul_add((pa - a) * (pb - b), per, bias);
