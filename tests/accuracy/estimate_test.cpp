@@ -59,9 +59,9 @@ TEST_CASE("estimated error: close to the true one on noise of known size") {
   for (const std::uint32_t spp : {16u, 64u}) {
     const Film film = noisy_film(spp, 1);
     const double ratio = estimated_relative_error(film) / true_error(film, 0, width);
-    CHECK(ratio == doctest::Approx(1).epsilon(0.03));
+    CHECK(ratio == doctest::Approx(1).epsilon(0.03).scale(0));
     const ImageError error = image_error(resolve(film), true_image());
-    CHECK(estimated_relative_error(film) == doctest::Approx(std::sqrt(error.rel_mse)).epsilon(0.03));
+    CHECK(estimated_relative_error(film) == doctest::Approx(std::sqrt(error.rel_mse)).epsilon(0.03).scale(0));
   }
 }
 
@@ -72,8 +72,8 @@ TEST_CASE("estimated error: by hand for one pixel") {
   film.pixels[0].taken = 2;
   // Red: ((0.5 - 0.25) / 2)^2 / (0.375^2 + 0.01); the others agree.
   const double expected = std::sqrt(0.125 * 0.125 / (0.375 * 0.375 + 0.01) / 3);
-  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(1e-6));
-  CHECK(pixel_relative_error(film)[0] == doctest::Approx(expected).epsilon(1e-6));
+  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(1e-6).scale(0));
+  CHECK(pixel_relative_error(film)[0] == doctest::Approx(expected).epsilon(1e-6).scale(0));
 }
 
 TEST_CASE("estimated error: infinite while a half of any pixel is empty") {
@@ -97,8 +97,8 @@ TEST_CASE("pixel error: follows the noise from place to place") {
     }
     return std::sqrt(sum / (height * (x1 - x0)));
   };
-  CHECK(average(64, 92) == doctest::Approx(true_error(film, 64, 92)).epsilon(0.05));
-  CHECK(average(100, 128) == doctest::Approx(true_error(film, 100, 128)).epsilon(0.05));
+  CHECK(average(64, 92) == doctest::Approx(true_error(film, 64, 92)).epsilon(0.05).scale(0));
+  CHECK(average(100, 128) == doctest::Approx(true_error(film, 100, 128)).epsilon(0.05).scale(0));
   CHECK(average(100, 128) < 0.5 * average(64, 92));
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("estimated error: samples that are rare and bright do not hide how wro
   }
   const double expected = std::sqrt(sum / (width * height));
   CHECK(expected > 0.9);
-  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(0.1));
+  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(0.1).scale(0));
 }
 
 namespace {
@@ -158,12 +158,12 @@ Film flat_film(float middle_a, float middle_b) {
 
 TEST_CASE("estimated error: by hand for a pixel that one half shows bright, and for one that both do") {
   const double rare = squared_relative_errors(flat_film(8.3f, 0.3f))[40];
-  CHECK(rare == doctest::Approx(4.0 * 4.0 / (0.3 * 0.3 + 0.01)).epsilon(1e-5));  // against the level around it
+  CHECK(rare == doctest::Approx(4.0 * 4.0 / (0.3 * 0.3 + 0.01)).epsilon(1e-5).scale(0));  // against the level around it
   const double lamp = squared_relative_errors(flat_film(9, 7))[40];
   // n = 1, m = 8: w = 1 - 4 / 64, g = 0.3 + w 7.7.
-  CHECK(lamp == doctest::Approx(1 / (std::pow(0.3 + 0.9375 * 7.7, 2) + 0.01)).epsilon(1e-5));
+  CHECK(lamp == doctest::Approx(1 / (std::pow(0.3 + 0.9375 * 7.7, 2) + 0.01)).epsilon(1e-5).scale(0));
   const double both = squared_relative_errors(flat_film(9, 1))[40];
-  CHECK(both == doctest::Approx(16 / (1 + 0.01)).epsilon(1e-5));  // at least what both halves show
+  CHECK(both == doctest::Approx(16 / (1 + 0.01)).epsilon(1e-5).scale(0));  // at least what both halves show
 }
 
 TEST_CASE("estimated error: pixels that have an empty half tell nothing about the ones around them") {
@@ -172,7 +172,7 @@ TEST_CASE("estimated error: pixels that have an empty half tell nothing about th
   film.at(3, 4).sum[0][0].add(100.0);
   const std::vector<double> errors = squared_relative_errors(film);
   CHECK(std::isinf(errors[39]));
-  CHECK(errors[40] == doctest::Approx(4.0 * 4.0 / (0.3 * 0.3 + 0.01)).epsilon(1e-5));
+  CHECK(errors[40] == doctest::Approx(4.0 * 4.0 / (0.3 * 0.3 + 0.01)).epsilon(1e-5).scale(0));
 }
 
 TEST_CASE("estimated error: the same bits for any number of threads, and pictures of any shape") {
@@ -215,7 +215,7 @@ TEST_CASE("estimated error: the unit of a film does not matter, however bright o
     CHECK(std::isfinite(error));
     if (bright == 0) bright = error;
     if (unit > 1)
-      CHECK(error == doctest::Approx(bright).epsilon(1e-6));
+      CHECK(error == doctest::Approx(bright).epsilon(1e-6).scale(0));
     else
       CHECK(error < unit);  // black against 0.1
   }

@@ -61,7 +61,7 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
       z.add(weight * static_cast<double>(s.direction.z));
       // The same density is found for the direction by itself.
       const float again = light_density<float>(view.view().lights, 0, point, 0.0f, s.direction, s.distance);
-      REQUIRE(again == doctest::Approx(s.density).epsilon(1e-3));
+      REQUIRE(again == doctest::Approx(s.density).epsilon(1e-3).scale(0));
     }
     CAPTURE(k);
     CHECK(std::abs(inverse.estimate().mean - seen.solid_angle) <
@@ -84,10 +84,10 @@ TEST_CASE("lights: a sphere is sampled over its cap, from touching to ten thousa
     Moments angle;
     for (std::uint32_t i = 0; i < 20000; ++i) {
       const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, dice_of(i).pair(2));
-      CHECK(static_cast<double>(s.density) == doctest::Approx(0.5 / pi / part).epsilon(1e-5));
+      CHECK(static_cast<double>(s.density) == doctest::Approx(0.5 / pi / part).epsilon(1e-5).scale(0));
       CHECK(s.distance > 0);
       CHECK(static_cast<double>(length(along(point, s.distance, s.direction))) ==
-            doctest::Approx(1).epsilon(1e-6 + 4e-7 * distance));
+            doctest::Approx(1).epsilon(1e-6 + 4e-7 * distance).scale(0));
       const double across2 = static_cast<double>(s.direction.x * s.direction.x + s.direction.y * s.direction.y);
       const double c = static_cast<double>(s.direction.z);
       angle.add((c > 0 ? across2 / (1 + c) : 1 - c) / part);  // uniform in [0, 1]
@@ -112,7 +112,7 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
     for (std::uint32_t i = 0; i < draws; ++i) {
       const LightChoice<float> choice = choose_light<float>(lights, point, dice_of(i).one(5));
       REQUIRE(choice.probability ==
-              doctest::Approx(choice_probability<float>(lights, point, choice.light)).epsilon(1e-5));
+              doctest::Approx(choice_probability<float>(lights, point, choice.light)).epsilon(1e-5).scale(0));
       ++taken[static_cast<std::size_t>(choice.light)];
     }
     double chi2 = 0;
@@ -122,7 +122,7 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
       chi2 += std::pow(taken[static_cast<std::size_t>(k)] - draws * p, 2) / (draws * p);
     }
     CAPTURE(count);
-    CHECK(sum == doctest::Approx(1).epsilon(1e-4));
+    CHECK(sum == doctest::Approx(1).epsilon(1e-4).scale(0));
     CHECK(chi2 < count - 1 + 4.5 * std::sqrt(2.0 * count) + 1);
   }
 }

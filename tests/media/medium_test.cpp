@@ -82,7 +82,7 @@ TEST_CASE("medium: streams of one event are independent") {
 TEST_CASE("medium: transmittance is Beer's and Lambert's law") {
   CHECK(transmittance(0.0f) == 1.0f);
   for (const double depth : {1e-6, 0.01, 0.5, 1.0, 5.0, 20.0})
-    CHECK(transmittance(static_cast<float>(depth)) == doctest::Approx(std::exp(-depth)).epsilon(1e-6));
+    CHECK(transmittance(static_cast<float>(depth)) == doctest::Approx(std::exp(-depth)).epsilon(1e-6).scale(0));
   CHECK(transmittance(1e6f) < 1e-30f);
 }
 
@@ -92,12 +92,12 @@ TEST_CASE("henyey-greenstein: Legendre moments are powers of g") {
   for (const auto& [g, share] : forward) {
     CAPTURE_BOUND(g);
     const CosineMoments m = cosine_moments<double>(g, 1000000), single = cosine_moments<float>(g, 1000000);
-    CHECK(m.mean == doctest::Approx(g).epsilon(1e-6));
-    CHECK(m.legendre2 == doctest::Approx(g * g).epsilon(1e-5));
-    CHECK(m.forward == doctest::Approx(share).epsilon(3e-6));
-    CHECK(single.mean == doctest::Approx(g).epsilon(1e-5));
-    CHECK(single.legendre2 == doctest::Approx(g * g).epsilon(1e-4));
-    CHECK(single.forward == doctest::Approx(share).epsilon(1e-5));
+    CHECK(m.mean == doctest::Approx(g).epsilon(1e-6).scale(0));
+    CHECK(m.legendre2 == doctest::Approx(g * g).epsilon(1e-5).scale(0));
+    CHECK(m.forward == doctest::Approx(share).epsilon(3e-6).scale(0));
+    CHECK(single.mean == doctest::Approx(g).epsilon(1e-5).scale(0));
+    CHECK(single.legendre2 == doctest::Approx(g * g).epsilon(1e-4).scale(0));
+    CHECK(single.forward == doctest::Approx(share).epsilon(1e-5).scale(0));
   }
 }
 
@@ -122,9 +122,10 @@ TEST_CASE("henyey-greenstein: the inverse has the law's distribution, whose dens
       CHECK(cumulative_cosine(g, c) == doctest::Approx(static_cast<double>(u)).epsilon(2e-5));
     }
     const auto around = [&](double c) { return 2 * pi * henyey_greenstein_density(g, c); };
-    CHECK(integrate(around, -1, 1, 20000) == doctest::Approx(1).epsilon(1e-6));
-    CHECK(integrate([&](double c) { return around(c) * c; }, -1, 1, 20000) == doctest::Approx(g).epsilon(1e-6));
-    CHECK(integrate(around, -1, 0.3) == doctest::Approx(cumulative_cosine(g, 0.3)).epsilon(1e-6));
+    CHECK(integrate(around, -1, 1, 20000) == doctest::Approx(1).epsilon(1e-6).scale(0));
+    CHECK(integrate([&](double c) { return around(c) * c; }, -1, 1, 20000) ==
+          doctest::Approx(g).epsilon(1e-6).scale(0));
+    CHECK(integrate(around, -1, 0.3) == doctest::Approx(cumulative_cosine(g, 0.3)).epsilon(1e-6).scale(0));
   }
   CHECK(henyey_greenstein_density(0.0, 0.7) == doctest::Approx(0.25 / pi));
 }
@@ -142,7 +143,7 @@ TEST_CASE("henyey-greenstein: directions are as dense as the phase function says
     }
     const auto share =
         cap.integrate([&](Vec3d d) { return henyey_greenstein_density(g, dot(way, d)); }, g > 0.8 ? 250 : 60);
-    CHECK(sum(share) == doctest::Approx(1).epsilon(1e-3));
+    CHECK(sum(share) == doctest::Approx(1).epsilon(1e-3).scale(0));
     CHECK(std::abs(cap.deviate(share, drawn)) < 4.5);
   }
 }

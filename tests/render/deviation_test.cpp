@@ -88,7 +88,7 @@ TEST_CASE("glass ball: turns a ray by Snell's law, straight through and after on
 TEST_CASE("glass ball: Descartes' rainbow is where the deviation is least") {
   const Scene scene = ball(1.333);
   const auto turned = [&](double impact) { return deviation(follow<double>(scene, impact, {1})); };
-  CHECK(turned(0.8608350596949453) == doctest::Approx(137.92189261975645).epsilon(1e-7));
+  CHECK(turned(0.8608350596949453) == doctest::Approx(137.92189261975645).epsilon(1e-7).scale(0));
   CHECK(turned(0.84) > 137.9219);
   CHECK(turned(0.88) > 137.9219);
 }

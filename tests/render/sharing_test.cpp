@@ -100,7 +100,7 @@ TEST_CASE("sharing: what leaves the blocks of a picture is what separate paths f
     for (std::size_t i = 0; i < shared[0].size(); ++i) {
       const Estimate with = estimate_at(shared, i), without = estimate_at(alone, i);
       if (with.error == 0 && without.error == 0) {
-        CHECK(with.mean == doctest::Approx(without.mean).epsilon(1e-5));
+        CHECK(with.mean == doctest::Approx(without.mean).epsilon(1e-5).scale(0));
         continue;
       }
       const double z = (with.mean - without.mean) / std::hypot(with.error, without.error);
@@ -109,7 +109,7 @@ TEST_CASE("sharing: what leaves the blocks of a picture is what separate paths f
     }
     CHECK(count > 20);
     // With 11 degrees of freedom on each side the mean of the squares is 22/20.
-    CHECK(squares / count == doctest::Approx(1.1).epsilon(4 * std::sqrt(2 / count)));
+    CHECK(squares / count == doctest::Approx(1.1).epsilon(4 * std::sqrt(2 / count)).scale(0));
   }
 }
 
@@ -147,8 +147,8 @@ TEST_CASE("sharing: the probe is near to what sharing changes") {
   const Scene box = small_scene("cornell-box", 256, 256, 1);
   const RenderScene compiled = compile(box);
   const SharingGain gain = probe_sharing(SceneViewOf(compiled).view());
-  CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4));
-  CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2));
+  CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4).scale(0));
+  CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2).scale(0));
 }
 
 TEST_CASE("sharing: pixels that lack different numbers of samples get the samples of their groups") {

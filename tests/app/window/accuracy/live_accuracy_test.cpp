@@ -87,7 +87,7 @@ TEST_CASE("with a reference the curve shows the true error, and without it the e
   CHECK(w.lines() == "against light.exr\n");
   w.show(picture(1.1f, 1, 1));
   REQUIRE(w.comes_true([&] { return w.points().size() == 1 && w.accuracy.pair().flip; }));
-  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-4));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-4).scale(0));
   CHECK(w.points()[0].noise == doctest::Approx(0.04));
   CHECK(w.lines().find("against light.exr · FLIP 0") == 0);
   CHECK(w.lines().find(" at 100 spp\n") != std::string::npos);
@@ -123,7 +123,7 @@ TEST_CASE("a picture of the scene before is not measured against the reference o
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().flip && !w.points().empty(); }));
   CHECK(w.accuracy.curves(Half::current).earlier().empty());
   REQUIRE(w.points().size() == 1);
-  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-4));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-4).scale(0));
 }
 
 TEST_CASE("what was measured against the former reference is dropped") {
@@ -133,7 +133,7 @@ TEST_CASE("what was measured against the former reference is dropped") {
   w.accuracy.set_reference(reference(0.5f, scene_with(40, 9)));
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().flip && !w.points().empty(); }));
   REQUIRE(w.points().size() == 1);
-  CHECK(w.points()[0].rel_mse == doctest::Approx(0.36 / 0.26).epsilon(1e-4));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.36 / 0.26).epsilon(1e-4).scale(0));
 }
 
 TEST_CASE("maps come for the view that is on, and follow the pictures") {
@@ -144,7 +144,7 @@ TEST_CASE("maps come for the view that is on, and follow the pictures") {
   w.accuracy.set_view(ErrorView::error);
   REQUIRE(w.comes_true([&] { return w.accuracy.map() != nullptr; }));
   CHECK(w.accuracy.map()->width == columns);
-  CHECK(w.accuracy.map()->rgba[0] == doctest::Approx(std::sqrt(0.01 / 1.01)).epsilon(1e-4));
+  CHECK(w.accuracy.map()->rgba[0] == doctest::Approx(std::sqrt(0.01 / 1.01)).epsilon(1e-4).scale(0));
   w.show(picture(1.2f, 1, 2));
   REQUIRE(w.comes_true([&] { return w.accuracy.map()->rgba[0] > 0.15f; }));
   w.accuracy.set_view(ErrorView::flip);
@@ -162,12 +162,12 @@ TEST_CASE("halves are measured against each other, and each against the referenc
   w.show(picture(1, 1, 1), Half::kept);
   w.show(picture(1.2f, 1, 1));
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().rel_mse && w.accuracy.pair().flip; }));
-  CHECK(*w.accuracy.pair().rel_mse == doctest::Approx(0.04 / 1.01).epsilon(1e-4));
+  CHECK(*w.accuracy.pair().rel_mse == doctest::Approx(0.04 / 1.01).epsilon(1e-4).scale(0));
   CHECK(w.lines().find("B against A: relMSE 0.04 · FLIP 0") == 0);
   w.accuracy.set_reference(reference(1.1f, scene_with(40, 9)));
   REQUIRE(w.comes_true([&] { return !w.points().empty() && !w.points(Half::kept).empty(); }));
-  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3));
-  CHECK(w.points(Half::kept)[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3));
+  CHECK(w.points()[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3).scale(0));
+  CHECK(w.points(Half::kept)[0].rel_mse == doctest::Approx(0.01 / 1.22).epsilon(1e-3).scale(0));
   w.show(picture(1, 1, 2), Half::kept);  // the other half shows nothing new
   w.show(picture(1.5f, 1, 2));
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().rel_mse && *w.accuracy.pair().rel_mse > 0.2; }));

@@ -47,22 +47,22 @@ TEST_CASE("in the camera's plane the object stays under the mouse") {
   scene.camera.look_from = {4, 3, 8};
   const double away = target_distance(scene.camera);
   dragged(scene, drag_by(HandleKind::plane, 120, -80));
-  CHECK(seen(scene).x == doctest::Approx(120).epsilon(0.01));
-  CHECK(seen(scene).y == doctest::Approx(-80).epsilon(0.01));
-  CHECK(Projection(scene).depth_of(ball(scene).center) == doctest::Approx(away).epsilon(1e-3));
+  CHECK(seen(scene).x == doctest::Approx(120).epsilon(0.01).scale(0));
+  CHECK(seen(scene).y == doctest::Approx(-80).epsilon(0.01).scale(0));
+  CHECK(Projection(scene).depth_of(ball(scene).center) == doctest::Approx(away).epsilon(1e-3).scale(0));
 }
 
 TEST_CASE("along an axis only that number changes, and prints short") {
   Scene scene = example();
   const DragResult result = dragged(scene, drag_by(HandleKind::along_x, 100, 40));
-  CHECK(seen(scene).x == doctest::Approx(100).epsilon(0.01));
+  CHECK(seen(scene).x == doctest::Approx(100).epsilon(0.01).scale(0));
   CHECK(ball(scene).center.y == 0);
   CHECK(ball(scene).center.z == 0);
   CHECK(ball(scene).center.x == std::round(ball(scene).center.x * 100) / 100);
   CHECK(result.said.substr(0, 3) == "x +");
   Scene up = example();
   dragged(up, drag_by(HandleKind::along_y, 30, -100));
-  CHECK(seen(up).y == doctest::Approx(-100).epsilon(0.01));
+  CHECK(seen(up).y == doctest::Approx(-100).epsilon(0.01).scale(0));
   CHECK(ball(up).center.x == 0);
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("snapping rounds the number itself, not the way; fine snaps ten times 
   CHECK(ball(coarse).center.x == 2);
   drag.fine = true;
   dragged(scene, drag);
-  CHECK(ball(scene).center.x == doctest::Approx(1.98).epsilon(0.011));
+  CHECK(ball(scene).center.x == doctest::Approx(1.98).epsilon(0.011).scale(0));
   CHECK(ball(scene).center.x == std::round(ball(scene).center.x * 50) / 50);
 }
 
@@ -108,8 +108,8 @@ TEST_CASE("an axis that is seen nearly from its end has a short arrow, which mov
   };
   const double near = z_after(40), far = z_after(-40), horizon = z_after(-280);
   CHECK(near > 0.5);
-  CHECK(far == doctest::Approx(-near).epsilon(0.02));
-  CHECK(horizon == doctest::Approx(-7 * near).epsilon(0.02));
+  CHECK(far == doctest::Approx(-near).epsilon(0.02).scale(0));
+  CHECK(horizon == doctest::Approx(-7 * near).epsilon(0.02).scale(0));
 }
 
 TEST_CASE("a typed number counts in place of the mouse") {
@@ -126,7 +126,7 @@ TEST_CASE("all selected objects go the same way, each by the numbers that it has
   drag.selected = {{0}, {1}};
   dragged(scene, drag);
   const auto& shift = std::get<Translate>(scene.objects[1].transform.back());
-  CHECK(shift.offset.x - 3 == doctest::Approx(ball(scene).center.x).epsilon(1e-12));
+  CHECK(shift.offset.x - 3 == doctest::Approx(ball(scene).center.x).epsilon(1e-12).scale(0));
   CHECK(shift.offset.y == 1);
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("size follows the mouse along the grip's way, and stops above 0") {
   drag.to.x += 40, drag.to.y += 40;
   const double before = std::hypot(grip.points[0].x - 500, grip.points[0].y - 300);
   dragged(scene, drag);
-  CHECK(ball(scene).radius == doctest::Approx((before + std::hypot(40, 40)) / before).epsilon(0.02));
+  CHECK(ball(scene).radius == doctest::Approx((before + std::hypot(40, 40)) / before).epsilon(0.02).scale(0));
   Scene small = example();
   drag.to = {0, 0};
   dragged(small, drag);

@@ -33,6 +33,8 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
     frame.clean = nullptr;
     frame.edit = 2;
     log.shown(frame, 10.6);
+    frame.clean = std::make_shared<const CleanFrame>();
+    log.shown(frame, 10.75);
     log.drawn(0.002, true);
     Mouse mouse;
     mouse.x = mouse.y = -3e38f;
@@ -48,7 +50,7 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
   CHECK(read_text(file) ==
         "widget gold.fuzz 1 2 3 4 0.1\nwidget a_name 0 0 1 1 x\ngone a_name\nwidget gold.fuzz 1 2 3 4 0.2\n"
         "submit 1\nsubmit 2\nframe 1 0 8 20.0 15.0\nframe 1 1 1 50.0 15.0\nframe 1 1 1 250.0 15.0\n"
-        "frame 1 1 1 500.0 15.0\nframe 2 1 1 100.0 15.0\ndrawn 2.00 1\n"
+        "frame 1 1 1 500.0 15.0\nframe 2 1 1 100.0 15.0\nframe 2 1 1 250.0 15.0\ndrawn 2.00 1\n"
         "mouse none\nbuttons 0 0 0\nkeyboard shortcuts\nmouse 12 34\nbuttons 1 0 0\nkeyboard control\n"
         "buttons 0 0 0\nwheel -1\nrest\nkey 82\nrest\n"
         "latency n 2 p50 20.0 p95 100.0 p99 100.0 max 100.0 ms\n"
