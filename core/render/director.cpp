@@ -206,11 +206,10 @@ void Director::publish() {
   frame->white = views_.white();
   frame->clean = clean_.latest();
   frame->awaits_clean = clean_is_due();
-  if (view_ == View::noise && frame->clean) {
-    const PictureGrid& clean = frame->clean->grid;
+  if (view_ == View::noise && frame->clean && frame->clean->spp > 0) {
     frame->rgba = noise_rgba(frame->clean->pixel_error);
     frame->white = 1;
-    frame->columns = clean.columns, frame->rows = clean.rows, frame->spacing = clean.spacing;
+    frame->columns = film.width, frame->rows = film.height, frame->spacing = 1;
   }
   frame->step = picture_.step();
   frame->most_spp = picture_.most_taken();
