@@ -89,8 +89,9 @@ Scene room_with_fog() {
 TEST_CASE("sharing: what leaves the blocks of a picture is what separate paths find") {
   const std::pair<const char*, Scene> cases[] = {
       {"room", box(48)}, {"posts", room_with_posts()}, {"fog", room_with_fog()}};
-  for (const auto& [name, scene] : cases) {
-    CAPTURE(std::string(name));
+  for (const auto& one : cases) {
+    const Scene& scene = one.second;
+    CAPTURE(std::string(one.first));
     std::vector<Values> shared, alone;
     for (std::uint32_t seed = 1; seed <= 12; ++seed) {
       shared.push_back(block_means(picture_of(scene, true, seed, 64), 8));
