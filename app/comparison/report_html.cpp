@@ -65,12 +65,13 @@ std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_map(c.flip_map, c.width, c.height);
   return fmt::format(
-      "<div class=\"pair\"><figure><div class=\"slide\" style=\"max-width:{}px\">"
-      "<img alt=\"baseline\" src=\"{}\"><img alt=\"rendered\" class=\"top\" src=\"{}\">"
+      "<div class=\"pair\"><figure><div class=\"slide\" style=\"max-width:{0}px\">"
+      "<img alt=\"baseline\" src=\"{1}\"><img alt=\"rendered\" class=\"top\" src=\"{2}\">"
       "<span class=\"bar\"></span></div>"
-      "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"divider\">"
+      "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"divider\" "
+      "style=\"max-width:max({0}px,8rem)\">"
       "<figcaption>left of the divider: rendered; right: baseline</figcaption></figure>\n"
-      "<figure><img alt=\"FLIP\" src=\"{}\"><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
+      "<figure><img alt=\"FLIP\" src=\"{3}\"><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
       c.width, data_of(read_image(picture.reference), beside), data_of(read_image(picture.image), beside),
       data_of(flip, beside));
 }

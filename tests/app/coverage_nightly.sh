@@ -11,9 +11,10 @@ build=$PWD/build/coverage
 cmake --preset coverage >"$scratch/cmake.log" 2>&1 || { cat "$scratch/cmake.log"; fail 'cmake'; finish; }
 cmake --build "$build" --target core_tests tyndall >"$scratch/build.log" 2>&1 || { tail -50 "$scratch/build.log"; fail 'building'; finish; }
 find "$build" -name '*.gcda' -delete
-(cd "$scratch" && "$build/tests/core_tests" >tests.log && "$build/tyndall" verify -q "${quick_cases[@]}" >verify.log) || fail "tests: $(tail -5 "$scratch"/*.log)"
+(cd "$scratch" && "$build/tests/core_tests" >tests.log && "$build/tyndall" verify -q "${quick_cases[@]}" >verify.log) || fail "tests: $(tail -n 5 "$scratch/tests.log")"
 gcovr --root . --filter core/ --object-directory "$build" --exclude-unreachable-branches --exclude-throw-branches \
   --gcov-ignore-parse-errors -j 2 --fail-under-line 90 "$build" >"$scratch/coverage.txt" 2>"$scratch/gcovr.log" ||
   fail "coverage: $(tail -3 "$scratch/gcovr.log")"
-grep '^TOTAL' "$scratch/coverage.txt"
+cd "$scratch" || exit 1
+grep '^TOTAL' coverage.txt
 finish
