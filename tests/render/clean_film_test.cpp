@@ -141,20 +141,19 @@ TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any
     REQUIRE(made[0].width == 40);
     REQUIRE(made[0].height == 27);
     CHECK(made[0].rgb == made[1].rgb);
-    const std::vector<float> whole = resolve(rendered(small(name, 119, 80), 256).film);
+    const Film whole = rendered(small(name, 119, 80), 256).film;
     // Against the mean over the pixels around every third one, moved by so many pixels each way.
     const auto off_by = [&](int way) {
       std::vector<float> truth;
-      for (int i = 0; i < 40 * 27; ++i)
-        for (int channel = 0; channel < 3; ++channel) {
-          float sum = 0;
-          for (int part = 0; part < step * step; ++part) {
-            const int x = std::clamp(step * (i % 40) + part % step - 1 + way, 0, 118);
-            const int y = std::clamp(step * (i / 40) + part / step - 1 + way, 0, 79);
-            sum += whole[static_cast<std::size_t>(3 * (119 * y + x) + channel)] / (step * step);
-          }
-          truth.push_back(sum);
+      for (int i = 0; i < 40 * 27; ++i) {
+        Vec3f sum{};
+        for (int part = 0; part < step * step; ++part) {
+          const int x = std::clamp(step * (i % 40) + part % step - 1 + way, 0, 118);
+          const int y = std::clamp(step * (i / 40) + part / step - 1 + way, 0, 79);
+          sum = sum + 1.0f / (step * step) * mean(whole, whole.at(x, y));
         }
+        truth.insert(truth.end(), {sum.x, sum.y, sum.z});
+      }
       return relative_mse(made[0].rgb, truth);
     };
     CHECK(off_by(0) < 0.04);
