@@ -46,7 +46,8 @@ Difference difference(const Film& a, const Film& b) {
     }
     change += pixel, squares += pixel * pixel;
   }
-  return {count / static_cast<double>(x.size()), std::abs(change) / sum, std::abs(change) / std::sqrt(squares)};
+  return {count / static_cast<double>(x.size()), std::abs(change) / sum,
+          squares > 0 ? std::abs(change) / std::sqrt(squares) : 0};
 }
 
 /// Balls of all materials, fog, a lamp and a turned box, in numbers that shifts by powers of two leave exact.

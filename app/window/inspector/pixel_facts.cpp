@@ -62,7 +62,8 @@ PixelFacts pixel_facts(const Frame& frame, const PixelReport& report, const Seen
     lines.push_back(fmt::format("samples  {}", report.samples) +
                     (report.rejected > 0 ? fmt::format(", {} rejected", report.rejected) : ""));
     Vec3f light = report.mean;
-    if (frame.clean && frame.view == View::beauty && frame.clean->spp > 0) {
+    const bool clean_known = frame.clean && frame.clean->spp > 0 && frame.clean->rgba.size() > 4 * pixel + 2;
+    if (clean_known && frame.view == View::beauty) {
       const float* clean = frame.clean->rgba.data() + 4 * pixel;
       light = {clean[0], clean[1], clean[2]};
       lines.push_back(fmt::format("clean    {:.4g} {:.4g} {:.4g}", static_cast<double>(clean[0]),

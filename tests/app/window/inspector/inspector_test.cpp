@@ -72,6 +72,21 @@ TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   CHECK(has(facts, "object   Ball"));
   CHECK(has(facts, "material gold"));
   CHECK(has(facts, "depth    3.25"));
+  const auto tells_clean = [](const PixelFacts& told) {
+    return std::any_of(told.lines.begin(), told.lines.end(),
+                       [](const std::string& line) { return line.rfind("clean", 0) == 0; });
+  };
+  CleanFrame clean;
+  clean.spp = 64;
+  clean.rgba.assign(4 * 8, 0.25f);
+  frame.clean = std::make_shared<const CleanFrame>(clean);
+  CHECK(has(pixel_facts(frame, report, {}, {}), "clean    0.25 0.25 0.25"));
+  PixelReport beyond = report;  // of a larger picture that was there before
+  beyond.y = 2;
+  CHECK_FALSE(tells_clean(pixel_facts(frame, beyond, {}, {})));
+  clean.spp = 0;  // coarse: its numbers are not those of this pixel
+  frame.clean = std::make_shared<const CleanFrame>(clean);
+  CHECK_FALSE(tells_clean(pixel_facts(frame, report, {}, {})));
   frame.view = View::cost, frame.white = 12;
   CHECK(has(pixel_facts(frame, report, {}, {}), "cost     6 rays a path"));
   CHECK(has(pixel_facts(frame, {.x = 0, .y = 0}, {}, {}), "no samples yet"));
