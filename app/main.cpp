@@ -18,7 +18,11 @@ namespace {
 constexpr int wrong_usage = 2, input_output_error = 3;
 
 int fail(const std::exception& error, int code) {
-  tyndall::complain(tyndall::printable(error.what(), 2000));
+  try {
+    tyndall::complain(tyndall::printable(error.what(), 2000));
+  } catch (const std::bad_alloc&) {
+    tyndall::complain("not enough memory for a longer message");
+  }
   return code;
 }
 

@@ -4,6 +4,8 @@
 #include <stb_image.h>
 
 #include <memory>
+#include <new>
+#include <string_view>
 
 namespace tyndall {
 
@@ -12,6 +14,13 @@ namespace {
 struct Release {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
+
+/// What stb_image says of its failure. Without memory it says so, or nothing at all.
+std::string why_it_failed() {
+  const char* reason = stbi_failure_reason();
+  if (!reason || reason == std::string_view("outofmem")) throw std::bad_alloc();
+  return reason;
+}
 
 /// The fewest bytes that a file of this size can have, by kind. Deflate shrinks at most 1032 times; in the densest TGA
 /// 2 bytes stand for 128 pixels; a BMP, which looks like no other kind, has at least a bit for each pixel.
@@ -39,7 +48,7 @@ Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::ui
   Rgb8Image image;
   int channels = 0;
   if (stbi_info_from_memory(bytes.data(), size, &image.width, &image.height, &channels) == 0) {
-    cannot_read(file, std::string("expected PNG, JPEG, BMP or TGA: ") + stbi_failure_reason());
+    cannot_read(file, "expected PNG, JPEG, BMP or TGA: " + why_it_failed());
   }
   check_readable(file, image.width, image.height);
   check_enough(
@@ -48,7 +57,7 @@ Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::ui
   if (kind == ImageKind::png) check_png(file, bytes);
   const std::unique_ptr<stbi_uc, Release> pixels(
       stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 3));
-  if (!pixels) cannot_read(file, std::string("damaged: ") + stbi_failure_reason());
+  if (!pixels) cannot_read(file, "damaged: " + why_it_failed());
   const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   image.rgb.assign(pixels.get(), pixels.get() + 3 * count);
   return image;

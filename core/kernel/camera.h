@@ -116,7 +116,7 @@ struct CameraQueue {
   static constexpr int lanes = lanes_of<F>;
   alignas(64) float ox[lanes + 1], oy[lanes + 1], oz[lanes + 1], dx[lanes + 1], dy[lanes + 1], dz[lanes + 1];
   alignas(64) float time[lanes + 1], weight[lanes + 1];
-  alignas(64) std::int32_t low[lanes + 1], high[lanes + 1];
+  alignas(64) std::int32_t low[lanes + 1], high[lanes + 1], way[lanes + 1];
   std::int32_t slot[lanes + 1];  ///< 2 · pixel within the tile + half
   int next = 0, end = 0;
 };
@@ -138,13 +138,13 @@ template <class F>
   }
   const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sampler);
   Pair<F> in_pixel = dice.pair(dimension::pixel);
-  F weight = F(1.0f);
+  AtGlints<F> glints{F(1.0f), IntOf<F>(0)};
   if (samples.glints.first != samples.glints.last)
-    weight = aim_at_glints(samples.glints, load<F>(x), load<F>(y), in_pixel);
+    glints = aim_at_glints(samples.glints, load<F>(x), load<F>(y), in_pixel);
   const Ray<F> ray = ray_through(s, load<F>(x) + in_pixel.x, load<F>(y) + in_pixel.y, dice);
   store(queue.ox, ray.origin.x), store(queue.oy, ray.origin.y), store(queue.oz, ray.origin.z);
   store(queue.dx, ray.direction.x), store(queue.dy, ray.direction.y), store(queue.dz, ray.direction.z);
-  store(queue.time, ray.time), store(queue.weight, weight);
+  store(queue.time, ray.time), store(queue.weight, glints.weight), store(queue.way, glints.way);
   store(queue.low, as_int(dice.low)), store(queue.high, as_int(dice.high));
 }
 

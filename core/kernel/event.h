@@ -1,6 +1,7 @@
 #pragma once
 #include "core/kernel/chain_trail.h"
 #include "core/kernel/flight.h"
+#include "core/kernel/glints.h"
 #include "core/kernel/lights.h"
 #include "core/kernel/shade.h"
 
@@ -16,11 +17,13 @@ struct Paths {
   Dice<F> dice;
   IntOf<F> depth;  ///< scattering events so far
   F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
-  FogFlight<F> flight;         ///< the flight to where the ray starts; only in scenes with lamps in fog
-  ChainTrail<F> trail;         ///< what it met since it scattered last; only in scenes with chains
-  IntOf<F> slot;               ///< 2 · pixel within the tile + half; place in SharedPaths in kernels that share
-  F weight;                    ///< of the sample, see glints.h; only in scenes with chains
-  std::uint32_t alive = 0;     ///< bit i: lane i follows a path
+  FogFlight<F> flight;      ///< the flight to where the ray starts; only in scenes with lamps in fog
+  ChainTrail<F> trail;      ///< what it met since it scattered last; only in scenes with chains
+  IntOf<F> slot;            ///< 2 · pixel within the tile + half; place in SharedPaths in kernels that share
+  F weight;                 ///< of the sample, see glints.h; only in scenes with chains
+  IntOf<F> way;             ///< what is left of its way to a glint, or 0: see glint_way(); only in scenes with chains
+  F odds;                   ///< of that way so far: its probability if it is steered over that by the glass alone
+  std::uint32_t alive = 0;  ///< bit i: lane i follows a path
   std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps
   /// Bit i: its first, its second vertex is one of those that are shared (share.h). 0 in kernels that do not share.
   std::uint32_t first = 0, second = 0;
@@ -173,17 +176,57 @@ TYNDALL_INLINE void meet_media(const auto& s, const MediumEvent<F>& found, Event
   e.g = found.g;
 }
 
-/// Gives the paths new directions. Returns which lanes go on; the others were absorbed.
+/// Lanes on the way to a glint: they were drawn in its box, and have met nothing yet but smooth glass and mirrors.
 template <class F>
-TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u) {
+TYNDALL_INLINE MaskOf<F> seeks_glint(const Paths<F>& p) {
+  return mask_and(less(IntOf<F>(0), p.way), mask_from_bits<F>(p.straight));
+}
+
+/// Steers the lanes that look for a glint through its glass: into it at first and out of it at last, and each order of
+/// the events between is as likely. Returns the weight of each lane: the share of the light that goes its way over the
+/// probability of taking it.
+template <class F>
+[[gnu::noinline]] static F seek_glint(const SceneView& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                                      Scattered<F>& out) {
+  using I = IntOf<F>;
+  const F zero = F(0.0f), one = F(1.0f);
+  const Boundary<F> b = boundary_at(load_material<Dielectric<F>, F>(s, e.at.material), e.incident);
+  const I reflections = as_int(shift_right<4>(as_uint(p.way))) & I(15), crossings = p.way & I(15);
+  const auto by_choice = mask_and(less(zero, b.reflected), less(b.reflected, one));
+  const auto steered = mask_and(by_choice, less(I(0), reflections));
+  const auto enters = mask_and(equal(p.depth, I(0)), less(I(0), crossings));
+  const F between = max(from_int<F>(crossings) - one, zero), left = max(from_int<F>(reflections) + between, one);
+  const F wanted = select(enters, zero, from_int<F>(reflections) / left);
+  const F probability = mul_add(select(steered, F(glint_steering), zero), wanted - b.reflected, b.reflected);
+  const auto reflects = less(e.incident.dice.one(dimension::lobe), probability);
+  const Scattered<F> scattered = leave_boundary(b, e.incident, reflects);
+  out.direction = select(lanes, scattered.direction, out.direction);
+  out.transmitted = mask_or(mask_and(lanes, scattered.transmitted), mask_and_not(out.transmitted, lanes));
+  const I reflected = select(less(I(0), reflections), p.way - I(16), p.way);
+  const I crossed = select(less(I(0), crossings), p.way - I(1), p.way);
+  p.way = select(lanes, select(reflects, reflected, crossed), p.way);
+  const F weight = select(reflects, b.reflected / probability, (one - b.reflected) / (one - probability));
+  return select(mask_and(lanes, steered), weight, one);
+}
+
+/// Gives the paths new directions. Returns which lanes go on; the others were absorbed. weight: by which each lane's
+/// throughput is to be multiplied; it is 1 unless it looks for a glint.
+template <class F>
+TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u, F& weight) {
   const Vec3<F> before = p.ray.direction;
   const Ray<F> came = p.ray;
   MaskOf<F> transmitted = less(F(1.0f), F(0.0f));
   MaskOf<F> goes_on = e.medium;
+  weight = F(1.0f);
   p.ray.origin = e.point;
   p.ray.from = e.from;
   if (any(e.surface)) {
-    const Scattered<F> out = scatter_any(s, e.at.material, e.kind, e.surface, e.incident);
+    Scattered<F> out = scatter_any(s, e.at.material, e.kind, e.surface, e.incident);
+    if (s.has_chains() && s.glint_count > 0) {
+      const auto glass = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Dielectric<double>>())));
+      const auto seeks = mask_and(glass, seeks_glint(p));
+      if (any(seeks)) weight = seek_glint(s, p, e, seeks, out);
+    }
     p.ray.direction = select(e.surface, out.direction, p.ray.direction);
     p.density = select(e.surface, out.density, p.density);
     transmitted = out.transmitted;

@@ -4,26 +4,33 @@
 #include "core/kernel/chain_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <set>
 
 namespace tyndall {
 namespace {
 
-constexpr int most_pairs = 32;              // so that an edit stays quick
-constexpr std::uint32_t drawn_words = 512;  // enough to meet every word that is not rare
-constexpr int most_roots = 4;               // of a word between two points
-constexpr float least_share = 1e-4f;        // of light, below which a word is left out
-constexpr std::size_t most_in_pixel = 16;
+constexpr int most_pairs = 32;        // so that an edit stays quick
+constexpr int most_reflections = 4;   // of a word; more carry too little light to be seen
+constexpr int most_roots = 4;         // of a word between two points
+constexpr float least_share = 1e-6f;  // of light, below which a word is left out
+constexpr std::ptrdiff_t most_in_pixel = 16;
 constexpr float largest = 16;         // box, in pixels across
 constexpr float margin = 0.1f;        // of a box, on each side: it is found from a few points of the lamp only
 constexpr float uncertainty = 4e-6f;  // of directions, in radians
 
+/// Glint::way
+std::int32_t way_by(int reflections, int crossings) {
+  return reflections > 0 ? glint_way(reflections, std::min(crossings, 15)) : 0;
+}
+
 /// A part of the picture, in pixels.
 struct PictureBox {
   float left = 1e30f, top = 1e30f, right = -1e30f, bottom = -1e30f;
+  std::int32_t way = 0;  // see Glint
+  float share = 0;       // of the light of the lamp's middle that the surfaces send this way
 
   void include(Pair<float> at) {
     left = std::min(left, at.x), right = std::max(right, at.x);
@@ -63,6 +70,12 @@ std::vector<Vec3f> points_of(const LightColumns<float>& lamp) {
   return points;
 }
 
+/// How the camera sees a point of a lamp.
+struct Sight {
+  Vec3f direction;
+  float share = 0;  // of light that the surfaces send this way; 0: not seen
+};
+
 class Finder {
  public:
   explicit Finder(const SceneView& s) : s_(s) {}
@@ -73,7 +86,7 @@ class Finder {
       const std::int32_t ball = s_.chains.ball[k], light = s_.chains.light[k];
       lamp_ = load_light<float>(s_.lights, light);
       points_ = points_of(lamp_);
-      if (seen.insert(light).second) add([&](Vec3f point, int) { return point - s_.camera.center; }, 1);
+      if (seen.insert(light).second) add([&](Vec3f point, int) { return Sight{point - s_.camera.center, 1}; }, 1, 0);
       if (ball >= s_.chains.first_pane)
         by_pane(ball - s_.chains.first_pane);
       else if (ball >= s_.chains.first_mirror)
@@ -86,17 +99,19 @@ class Finder {
   std::vector<PictureBox> boxes;
 
  private:
-  /// Adds the boxes of `roots` images. direction(point, root): in which the camera sees that point of the lamp; zero
-  /// if it does not.
-  void add(auto direction, int roots) {
+  /// Adds the boxes of `roots` images. sight(point, root): of that point of the lamp. way: see Glint.
+  void add(auto sight, int roots, std::int32_t way) {
     for (int root = 0; root < roots; ++root) {
       PictureBox box;
+      box.way = way;
       for (const Vec3f& point : points_) {
         Pair<float> at{};
-        const Vec3f d = direction(point, root);
-        if (dot(d, d) > 0 && project(s_.camera, d, at)) box.include(at);
+        const Sight seen = sight(point, root);
+        if (seen.share > 0 && project(s_.camera, seen.direction, at)) box.include(at);
         // Most images are not in the picture: their middle tells.
-        if (&point == points_.data() && !is_near_picture(box)) break;
+        if (&point != points_.data()) continue;
+        if (!is_near_picture(box)) break;
+        box.share = seen.share;
       }
       if (is_near_picture(box)) boxes.push_back(box);
     }
@@ -109,26 +124,26 @@ class Finder {
 
   void by_mirror(int mirror) {
     const ChainMirror<float> m = load_mirror<float>(s_.chains, mirror);
-    const auto direction = [&](Vec3f point, int) {
+    const auto sight = [&](Vec3f point, int) {
       const MirrorWay<float> way = mirror_way(m, s_.camera.center, point);
-      return way.found ? way.direction : Vec3f{};
+      return way.found ? Sight{way.direction, 1} : Sight{};
     };
-    add(direction, 1);
+    add(sight, 1, 0);
   }
 
-  /// Straight through, and reflected at the faces at the ends of each edge.
+  /// Straight through, reflected at the outside, and reflected within, by the faces at the ends of each edge.
   void by_pane(int number) {
     const ChainPane<float> pane = load_pane<float>(s_.chains, number);
     for (std::int32_t across = 0; across < 3; ++across)
-      for (const float crossings : {0.0f, 1.0f, 2.0f}) {
-        const auto direction = [&](Vec3f point, int) {
-          const PaneSight<float> sight = sight_of(pane, s_.camera.center, point, across);
-          const bool outside = sight.near_gap > 0 && sight.far_gap > 0;
-          if (!outside || sight.same != (crossings != 1)) return Vec3f{};
-          const PaneWay<float> way = pane_way(pane, sight, {across, crossings, {0, 0}});
-          return way.found ? way.direction : Vec3f{};
+      for (int crossings = 0; crossings <= most_reflections + 1; ++crossings) {
+        const auto sight = [&](Vec3f point, int) {
+          const PaneSight<float> ends = sight_of(pane, s_.camera.center, point, across);
+          const bool outside = ends.near_gap > 0 && ends.far_gap > 0;
+          if (!outside || ends.same != (crossings % 2 == 0)) return Sight{};
+          const PaneWay<float> way = pane_way(pane, ends, {across, static_cast<float>(crossings), {0, 0}});
+          return way.found && way.share >= least_share ? Sight{way.direction, way.share} : Sight{};
         };
-        add(direction, 1);
+        add(sight, 1, crossings == 0 ? way_by(1, 0) : way_by(crossings - 1, 2));
       }
   }
 
@@ -137,16 +152,34 @@ class Finder {
     asked_.ball = load_ball<float>(s_.chains, ball, 0.0f);
     asked_.lamp = lamp_;
     if (!ask(points_.front())) return;
-    std::set<std::array<int, 3>> words;
-    for (std::uint32_t i = 0; i <= drawn_words; ++i) {
-      // The main word, which has the digit 0, first. A word that starts with another digit is drawn octal by octal.
-      const std::uint32_t digits = i == 0 ? 0 : 7u << 29 | i * golden_ratio >> 3;
-      const DrawnWord<float> drawn = draw_word(asked_.ball, asked_.ends, digits);
-      const ChainWord<float>& w = drawn.word;
-      const std::array<int, 3> name{static_cast<int>(w.outer), static_cast<int>(w.inner),
-                                    static_cast<int>(w.inner_reflected)};
-      if (drawn.drawn && words.insert(name).second) by_word(w);
+    const bool hollow = asked_.ball.hollow, both_out = asked_.ends.both_out;
+    if (both_out) by_word({1, 0, 0});
+    if (asked_.ball.mirror) return;
+    for (int reflections = 0; reflections <= most_reflections; ++reflections) {
+      if (hollow) by_layers(reflections);
+      if (!hollow || (both_out && is_thick(asked_.ball))) by_word(word_of(reflections, 0, 0));
     }
+  }
+
+  /// Words that meet a shell's inner sphere, with so many reflections at the outer one. On each of its ways through the
+  /// shell, from the outer sphere to the outer sphere, light is reflected at the inner one, or goes through it, perhaps
+  /// reflected within.
+  void by_layers(int reflections) {
+    const int ways = reflections + crossings() - 1, halves = 2 - crossings();
+    for (int turned = 0; turned <= ways; ++turned) {
+      const int through = 2 * (ways - turned) + halves,
+                most = through > 0 ? most_reflections - reflections - turned : 0;
+      for (int within = 0; within <= most; ++within)
+        by_word(word_of(reflections, turned + through + within, turned + within));
+    }
+  }
+
+  /// How often light is let in or out at the outer sphere.
+  int crossings() const { return asked_.ends.both_out ? 2 : 1; }
+
+  ChainWord<float> word_of(int outer_reflected, int inner, int inner_reflected) const {
+    return {static_cast<float>(crossings() + outer_reflected), static_cast<float>(inner),
+            static_cast<float>(inner_reflected)};
   }
 
   bool ask(Vec3f point) {
@@ -164,7 +197,7 @@ class Finder {
   }
 
   void add_word(const ChainWord<float>& word, EndSigns<float> sign) {
-    const auto direction = [&](Vec3f point, int root) -> Vec3f {
+    const auto sight = [&](Vec3f point, int root) -> Sight {
       if (!ask(point)) return {};
       ChainFound<float> found;
       found.sign = sign;
@@ -174,10 +207,18 @@ class Finder {
       const TurnRoot<float> one = take_root(found.chain.turn, roots, asked_.plane.angle, static_cast<float>(root));
       found.found = one.found, found.s = one.s, found.slope = one.slope, found.sense = one.sense;
       const ChainRays<float> rays = rays_of(asked_, word, found);
-      return rays.found && rays.share >= least_share ? rays.direction : Vec3f{};
+      return rays.found && rays.share >= least_share ? Sight{rays.direction, rays.share} : Sight{};
     };
-    add(direction, most_roots);
+    add(sight, most_roots, way_of(word));
     ask(points_.front());
+  }
+
+  /// Samples that start within the glass are not steered.
+  std::int32_t way_of(const ChainWord<float>& w) const {
+    if (asked_.ball.mirror || asked_.plane.near < asked_.ball.radius) return 0;
+    if (w.outer < static_cast<float>(crossings())) return way_by(1, 0);  // off the outside of the glass
+    const int reflections = static_cast<int>(w.outer + w.inner_reflected) - crossings();
+    return way_by(reflections, static_cast<int>(w.outer + w.inner) - reflections);
   }
 
   const SceneView& s_;
@@ -186,37 +227,49 @@ class Finder {
   ChainAsked<float> asked_{};
 };
 
+struct WeighedGlint {
+  Glint glint;
+  float weight;  // among those of its pixel
+};
+
 /// The parts of a box in the pixels of which it fills less than half: samples hit larger parts often enough.
-void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<Glint>& glints) {
+void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<WeighedGlint>& glints) {
   const float extra = uncertainty / pixel_angle;
   const float wide = margin * (box.right - box.left) + extra, high = margin * (box.bottom - box.top) + extra;
   box.left -= wide, box.right += wide, box.top -= high, box.bottom += high;
   if (!(box.right - box.left < largest && box.bottom - box.top < largest)) return;
   for (float y = std::max(std::floor(box.top), 0.0f); y < box.bottom && y < static_cast<float>(s.height); ++y)
     for (float x = std::max(std::floor(box.left), 0.0f); x < box.right && x < static_cast<float>(s.width); ++x) {
-      Glint g{x, y, std::max(box.left - x, 0.0f), std::max(box.top - y, 0.0f), 0, 0, 0, 0, 0};
+      Glint g{x, y, std::max(box.left - x, 0.0f), std::max(box.top - y, 0.0f), 0, 0, 0, 0, 0, box.way};
       g.width = std::min(box.right - x, 1.0f) - g.left, g.height = std::min(box.bottom - y, 1.0f) - g.top;
-      if (g.width > 0 && g.height > 0 && g.width * g.height < 0.5f) glints.push_back(g);
+      if (g.width > 0 && g.height > 0 && g.width * g.height < 0.5f)
+        glints.push_back({g, std::sqrt(std::sqrt(box.share))});
     }
 }
 
-/// Gives the glints of each pixel equal shares of the samples that are drawn within them.
-std::vector<Glint> share_out(std::vector<Glint> glints) {
-  const auto before = [](const Glint& a, const Glint& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
+/// Gives each glint its part of the samples of its pixel that are drawn within boxes, by weight. Were that the light
+/// which each brings, the darkest would be met by single samples, which then count for much.
+std::vector<Glint> share_out(std::vector<WeighedGlint> glints) {
+  const auto before = [](const WeighedGlint& a, const WeighedGlint& b) {
+    return a.glint.y != b.glint.y ? a.glint.y < b.glint.y : a.glint.x < b.glint.x;
+  };
   std::stable_sort(glints.begin(), glints.end(), before);
   std::vector<Glint> out;
   for (auto first = glints.begin(); first != glints.end();) {
-    const auto last = std::upper_bound(first, glints.end(), *first, before);
-    const std::size_t count = std::min(static_cast<std::size_t>(last - first), most_in_pixel);
-    const float share = glint_share / static_cast<float>(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      Glint g = *(first + static_cast<std::ptrdiff_t>(i));
-      g.begin = share * static_cast<float>(i);
-      g.end = i + 1 == count ? glint_share : share * static_cast<float>(i + 1);
+    const auto next = std::upper_bound(first, glints.end(), *first, before);
+    std::stable_sort(first, next, [](const WeighedGlint& a, const WeighedGlint& b) { return a.weight > b.weight; });
+    const auto last = first + std::min<std::ptrdiff_t>(next - first, most_in_pixel);
+    const auto add = [](float sum, const WeighedGlint& g) { return sum + g.weight; };
+    const float scale = glint_share / std::accumulate(first, last, 0.0f, add);
+    float begin = 0, weight = 0;
+    for (auto at = first; at != last; ++at) {
+      Glint g = at->glint;
+      weight += at->weight;
+      g.begin = begin, g.end = begin = at + 1 == last ? glint_share : scale * weight;
       g.density = (g.end - g.begin) / (g.width * g.height);
-      out.push_back(g);
+      if (g.begin < g.end) out.push_back(g);
     }
-    first = last;
+    first = next;
   }
   return out;
 }
@@ -228,7 +281,7 @@ std::vector<Glint> find_glints(const SceneView& scene) {
   Finder finder(scene);
   finder.find();
   const float pixel_angle = length(scene.camera.du) / length(scene.camera.corner);
-  std::vector<Glint> glints;
+  std::vector<WeighedGlint> glints;
   for (const PictureBox& box : finder.boxes) cut(box, pixel_angle, scene, glints);
   return share_out(std::move(glints));
 }

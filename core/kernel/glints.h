@@ -15,7 +15,19 @@ struct Glint {
   float left, top, width, height;  ///< of the box, from the pixel's upper left corner, in pixels
   float begin, end;                ///< random numbers in [begin, end) choose this box
   float density;                   ///< what the box adds to the density of its places: (end - begin) / area
+  std::int32_t way;                ///< see glint_way(); 0: without reflections by glass
 };
+
+/// What samples in a box still have to meet on the way to its lamp: so many reflections by glass and ways through its
+/// surface, each at most 15.
+inline constexpr std::int32_t glint_way(std::int32_t reflections, std::int32_t crossings) {
+  return 256 + 16 * reflections + crossings;
+}
+
+/// How closely samples in a box keep to that way, weighed by what glass sends there. To a lamp that is seen by several
+/// inner reflections glass sends few samples, each of which would be a bright speck. The rest keeps to the glass's own
+/// odds, so that light which comes in another way is found, too.
+inline constexpr float glint_steering = 0.75f;
 
 /// Share of the samples of a pixel with glints that are drawn within their boxes.
 inline constexpr float glint_share = 0.5f;
@@ -38,16 +50,24 @@ struct SceneView;
 /// Only of lamps and balls that rest, for a camera without a lens, and only where one fills less than half of a pixel.
 std::vector<Glint> find_glints(const SceneView& scene);
 
-/// Moves the places of samples, each in its own pixel (x, y), towards the glints there. at: points in the unit square,
-/// evenly distributed on entry. Returns the weight of each sample: 1 / density of its place.
+/// Samples in pixels with glints.
 template <class F>
-TYNDALL_INLINE F aim_at_glints(Glints glints, F x, F y, Pair<F>& at) {
+struct AtGlints {
+  F weight;      ///< 1 / density of the sample's place
+  IntOf<F> way;  ///< that of the box in which it was drawn, or else the one with most reflections there; 0: none
+};
+
+/// Moves the places of samples, each in its own pixel (x, y), towards the glints there. at: points in the unit square,
+/// evenly distributed on entry.
+template <class F>
+TYNDALL_INLINE AtGlints<F> aim_at_glints(Glints glints, F x, F y, Pair<F>& at) {
   const Pair<F> even = at;
   const auto in_pixel = [&](const Glint& g) { return mask_and(equal(x, F(g.x)), equal(y, F(g.y))); };
   const auto drawn = [&](const Glint& g) {
     return mask_and(in_pixel(g), mask_and(less_equal(F(g.begin), even.x), less(even.x, F(g.end))));
   };
   F density = F(1.0f);
+  IntOf<F> way = IntOf<F>(0);
   for (const Glint* g = glints.first; g != glints.last; ++g) {
     const auto here = in_pixel(*g);
     if (!any(here)) continue;
@@ -58,15 +78,19 @@ TYNDALL_INLINE F aim_at_glints(Glints glints, F x, F y, Pair<F>& at) {
     const auto chosen = drawn(*g);
     at.x = select(chosen, mul_add(along_x, F(g->width), F(g->left)), at.x);
     at.y = select(chosen, mul_add(even.y, F(g->height), F(g->top)), at.y);
+    way = select(chosen, IntOf<F>(g->way), way);
   }
+  const auto by_chance = less_equal(F(glint_share), even.x);
   for (const Glint* g = glints.first; g != glints.last; ++g) {
     const F right = F(g->left + g->width), bottom = F(g->top + g->height);
     const auto across = mask_and(less_equal(F(g->left), at.x), less(at.x, right));
     const auto down = mask_and(less_equal(F(g->top), at.y), less(at.y, bottom));
     const auto inside = mask_or(drawn(*g), mask_and(in_pixel(*g), mask_and(across, down)));
     density = select(inside, density + F(g->density), density);
+    const IntOf<F> its = IntOf<F>(g->way);
+    way = select(mask_and(mask_and(inside, by_chance), less(way, its)), its, way);
   }
-  return F(1.0f) / density;
+  return {F(1.0f) / density, way};
 }
 
 }  // namespace tyndall

@@ -31,7 +31,7 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, auto& sampl
                        take(queue.dz, p.ray.direction.z)};
     p.ray.time = take(queue.time, p.ray.time);
     p.slot = take(queue.slot, p.slot);
-    if (s.has_chains()) p.weight = take(queue.weight, p.weight);
+    if (s.has_chains()) p.weight = take(queue.weight, p.weight), p.way = take(queue.way, p.way);
     p.dice.low = as_uint(take(queue.low, as_int(p.dice.low)));
     p.dice.high = as_uint(take(queue.high, as_int(p.dice.high)));
     queue.next += __builtin_popcount(fresh);
@@ -150,7 +150,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
                                  mask_and(equal(p.depth, IntOf<F>(1)), mask_from_bits<F>(p.first)));
     if (any(second)) note_second(p, e, second, shared), p.second |= bits(second);
   }
-  const Vec3<F> carried = p.throughput * e.colour;
+  Vec3<F> carried = p.throughput * e.colour;
   const auto lost = lose(p, met, carried + e.point);
   // A path that carries nothing any more has ended by itself: it does not count as cut.
   const auto useful = mask_and(mask_and_not(met, lost), less(F(0.0f), max_component(carried)));
@@ -168,7 +168,9 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
     p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
   }
   if (s.has_chains()) ask_for_chains(s, p, e, scattering, chains, shadow_rays);
-  const auto on = mask_and(scattering, scatter(s, p, e, unit, u));
+  F weight;
+  const auto on = mask_and(scattering, scatter(s, p, e, unit, u, weight));
+  if (s.has_chains()) carried = select(on, weight * carried, carried);
   if (p.straight) {
     const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));
     p.straight &= ~bits(mask_and_not(scattering, mirrored));
@@ -176,9 +178,13 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
-  // Roulette never ends a path before its second vertex can be shared.
-  const auto survivors =
-      shares ? mask_or(roulette(p, mask_and_not(lanes, first)), mask_and(lanes, first)) : roulette(p, lanes);
+  // Roulette never ends a path before its second vertex can be shared, nor on the way to a glint.
+  auto spared = first, survivors = lanes;
+  if (s.has_chains()) spared = seeks_glint(p);
+  if (shares || s.has_chains())
+    survivors = mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
+  else
+    survivors = roulette(p, lanes);
   p.dice.next_event();
   return survivors;
 }

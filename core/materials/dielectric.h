@@ -65,18 +65,36 @@ TYNDALL_INLINE F schlick(F cos_in, F eta) {
   return select(total, F(1.0f), share);
 }
 
-/// Reflects with the probability of the reflected share, else refracts.
-/// The direction by Snell's law in vector form: (d + (cos_in - n cos_out) n) / eta.
+/// A smooth boundary where a ray meets it.
 template <class F>
-TYNDALL_INLINE Scattered<F> scatter(const Dielectric<F>& glass, const Incident<F>& in) {
+struct Boundary {
+  F eta;             ///< refractive index of the far side over that of the near side
+  F scaled_cos_out;  ///< refracted_cosine()
+  F reflected;       ///< share of the light that is reflected
+};
+
+template <class F>
+TYNDALL_INLINE Boundary<F> boundary_at(const Dielectric<F>& glass, const Incident<F>& in) {
   const F eta = select(in.along, F(1.0f) / glass.refractive_index, glass.refractive_index);
   const F g = refracted_cosine(in.cosine, eta);
-  const F share = in.schlick ? schlick(in.cosine, eta) : fresnel(in.cosine, eta, g);
-  const auto reflects = less(in.dice.one(dimension::lobe), share);
-  const Vec3<F> bent = along(in.direction, in.cosine - g, in.facing);
-  const F scale = select(equal(eta, F(1.0f)), F(1.0f), F(1.0f) / sqrt(max(dot(bent, bent), F(1e-30f))));
+  return {eta, g, in.schlick ? schlick(in.cosine, eta) : fresnel(in.cosine, eta, g)};
+}
+
+/// What leaves a boundary that reflects in some lanes and refracts in the others.
+/// The direction by Snell's law in vector form: (d + (cos_in - n cos_out) n) / eta.
+template <class F>
+TYNDALL_INLINE Scattered<F> leave_boundary(const Boundary<F>& b, const Incident<F>& in, MaskOf<F> reflects) {
+  const Vec3<F> bent = along(in.direction, in.cosine - b.scaled_cos_out, in.facing);
+  const F scale = select(equal(b.eta, F(1.0f)), F(1.0f), F(1.0f) / sqrt(max(dot(bent, bent), F(1e-30f))));
   return {select(reflects, reflect(in.direction, in.normal), scale * bent), less(F(1.0f), F(0.0f)), mask_not(reflects),
           F(one_direction)};
+}
+
+/// Reflects with the probability of the reflected share, else refracts.
+template <class F>
+TYNDALL_INLINE Scattered<F> scatter(const Dielectric<F>& glass, const Incident<F>& in) {
+  const Boundary<F> b = boundary_at(glass, in);
+  return leave_boundary(b, in, less(in.dice.one(dimension::lobe), b.reflected));
 }
 
 }  // namespace tyndall

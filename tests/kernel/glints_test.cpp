@@ -1,5 +1,6 @@
 #include "core/kernel/glints.h"
 
+#include "core/kernel/replay.h"
 #include "core/kernel/scene_view.h"
 #include "tests/support/probe.h"
 
@@ -60,7 +61,7 @@ TEST_CASE("glints: weighed samples keep the mean of every part of a pixel, where
   const float share = glint_share / 3;
   const auto box = [&](float left, float top, float width, float height, int place) {
     const float begin = share * static_cast<float>(place);
-    return Glint{7, 5, left, top, width, height, begin, begin + share, share / (width * height)};
+    return Glint{7, 5, left, top, width, height, begin, begin + share, share / (width * height), place};
   };
   const std::vector<Glint> list{box(0.1f, 0.2f, 0.5f, 0.1f, 0), box(0.4f, 0.1f, 0.3f, 0.6f, 1),
                                 box(0.5f, 0.25f, 0.001f, 0.002f, 2)};
@@ -72,7 +73,7 @@ TEST_CASE("glints: weighed samples keep the mean of every part of a pixel, where
   for (int i = 0; i < count; ++i) {
     const float x = u(engine);
     Pair<float> at{x, u(engine)};
-    const auto weight = static_cast<double>(aim_at_glints(glints, 7.0f, 5.0f, at)) / count;
+    const auto weight = static_cast<double>(aim_at_glints(glints, 7.0f, 5.0f, at).weight) / count;
     const auto inside = [&](const Glint& g) {
       return at.x >= g.left && at.x < g.left + g.width && at.y >= g.top && at.y < g.top + g.height;
     };
@@ -88,8 +89,39 @@ TEST_CASE("glints: weighed samples keep the mean of every part of a pixel, where
   CHECK(smallest == doctest::Approx(2e-6).epsilon(0.01).scale(0));
   CHECK(hits / count == doctest::Approx(glint_share / 3).epsilon(0.02).scale(0));
   Pair<float> at{0.25f, 0.75f};
-  CHECK(aim_at_glints(glints, 7.0f, 6.0f, at) == 1);  // the pixel below
+  CHECK(aim_at_glints(glints, 7.0f, 6.0f, at).weight == 1);  // the pixel below
   CHECK(at.x == 0.25f);
+  at = {0.9f, 0.3f};  // is moved to (0.8, 0.3), beside the boxes
+  CHECK(aim_at_glints(glints, 7.0f, 5.0f, at).way == 0);
+  at = {0.21f, 0.4f};  // is moved into the middle box, where the small one is not
+  CHECK(aim_at_glints(glints, 7.0f, 5.0f, at).way == 1);
+}
+
+TEST_CASE("glints: a lamp seen by reflections within glass is met by many samples, not by a few bright ones") {
+  for (const bool hollow : {false, true}) {
+    Scene scene = lamp_and_ball(glass(1.5), 0.03);
+    scene.materials[0] = lambertian(0);
+    if (hollow) add(scene, sphere({0, 1.2, 0}, -0.8), glass(1.5));
+    const RenderScene compiled = compile(scene);
+    const SceneViewOf made(compiled);
+    const SceneView& view = made.view();
+    // Of the pixels that show the lamp by two reflections: the second moment of their samples, over their squared mean.
+    double squared_means = 0, second_moments = 0;
+    for (int i = 0; i < view.glint_count; ++i) {
+      const Glint& g = view.glints[i];
+      if (g.way < glint_way(2, 0) || g.way >= glint_way(3, 0)) continue;
+      constexpr int samples = 4096;
+      double sum = 0, squares = 0;
+      for (std::uint32_t k = 0; k < samples; ++k) {
+        const PathReplay path = replay(view, static_cast<int>(g.x), static_cast<int>(g.y), k);
+        const auto value = static_cast<double>(path.radiance.x) / samples;
+        sum += value, squares += samples * value * value;
+      }
+      squared_means += sum * sum, second_moments += squares;
+    }
+    REQUIRE(squared_means > 0);
+    CHECK(second_moments / squared_means < (hollow ? 400 : 50));
+  }
 }
 
 TEST_CASE("glints: a lamp's image in a mirror ball, in glass and beside it is found, unless the camera has a lens") {
