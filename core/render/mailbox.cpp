@@ -121,18 +121,18 @@ std::shared_ptr<const PixelReport> Mailbox::pixel() const {
 
 void Mailbox::note_shown(std::uint64_t pass) {
   const std::lock_guard lock(mutex_);
-  if (shown_pass_ && pass <= *shown_pass_) return;
+  if (pass <= shown_pass_) return;
   shown_pass_ = pass;
   shown_at_ = Clock::now();
   wake(false);
 }
 
 std::optional<double> Mailbox::wait_until_shown(std::uint64_t pass) {
+  constexpr auto patience = std::chrono::milliseconds(50);
   std::unique_lock lock(mutex_);
-  if (!shown_pass_) return {};
-  const auto patience = std::chrono::milliseconds(*shown_pass_ == 0 ? 1000 : 50);
-  news_.wait_for(lock, patience, [&] { return *shown_pass_ >= pass || give_up_; });
-  if (*shown_pass_ < pass) return {};
+  if (shown_pass_ == 0) return {};
+  news_.wait_for(lock, patience, [&] { return shown_pass_ >= pass || give_up_; });
+  if (shown_pass_ < pass) return {};
   return seconds_between(posted_at_, shown_at_);
 }
 

@@ -81,9 +81,9 @@ class Mailbox {
   /// Takes what was asked for, and lowers the flag to give up.
   Orders take();
   std::vector<std::promise<Film>> take_film_requests();
-  /// Waits until the frame of that pass is on the screen, until something else is asked for, or 50 ms; 1 s for the
-  /// first frame of all, for which the graphics driver still has much to prepare. Returns the seconds that it took from
-  /// the frame's posting to the screen, if it is there. Does not wait if no caller has ever told of a screen.
+  /// Waits until the frame of that pass is on the screen, until something else is asked for, or 50 ms. Returns the
+  /// seconds that it took from the frame's posting to the screen, if it is there. Does not wait if no caller has ever
+  /// told of a frame on the screen.
   std::optional<double> wait_until_shown(std::uint64_t pass);
   /// True as soon as a caller wants something that cannot wait for the end of the pass that is under way.
   const std::atomic<bool>& give_up() const { return give_up_; }
@@ -113,8 +113,7 @@ class Mailbox {
   bool paused_ = false, other_pixel_ = false;
   std::vector<std::promise<Film>> films_;
 
-  std::optional<std::uint64_t>
-      shown_pass_;  ///< Frame::pass of the newest frame on the screen, or 0; none: nobody tells
+  std::uint64_t shown_pass_ = 0;  ///< Frame::pass of the newest frame on the screen; 0: nobody tells
   Clock::time_point shown_at_, posted_at_;
 
   std::shared_ptr<const Frame> latest_;

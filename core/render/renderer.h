@@ -50,9 +50,8 @@ class Renderer {
   void set_threads(int threads);
   /// How many pixels of a screen the picture takes: a first picture does not sample more. <= 0: as many as it has.
   void set_shown_pixels(std::int64_t pixels);
-  /// The frame of that pass is on the screen; 0: there is a screen, with no frame yet. Once this was called, the
-  /// renderer gives way to the screen: after the first frame of an edit it goes on when that was shown, or after 50 ms
-  /// (1 s for the first one of all).
+  /// The frame of that pass is on the screen. Once this was called, the renderer gives way to the screen: after the
+  /// first frame of an edit it goes on when that was shown, or after 50 ms.
   void note_shown(std::uint64_t pass);
 
   /// This part of the picture gets all further samples, as soon as each pixel has one, until it has as many as the

@@ -13,7 +13,6 @@ RendererPair::RendererPair(int threads, std::string isa, std::function<void()> o
       threads_(threads),
       renderer_({threads, isa_}, on_frame_) {
   share_.set_threads(threads);
-  renderer_.note_shown(0);
 }
 
 RendererPair::~RendererPair() {
