@@ -22,7 +22,6 @@ struct Paths {
   IntOf<F> slot;            ///< 2 · pixel within the tile + half; place in SharedPaths in kernels that share
   F weight;                 ///< of the sample, see glints.h; only in scenes with chains
   IntOf<F> way;             ///< what is left of its way to a glint, or 0: see glint_way(); only in scenes with chains
-  F odds;                   ///< of that way so far: its probability if it is steered over that by the glass alone
   std::uint32_t alive = 0;  ///< bit i: lane i follows a path
   std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps
   /// Bit i: its first, its second vertex is one of those that are shared (share.h). 0 in kernels that do not share.
