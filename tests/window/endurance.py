@@ -4,15 +4,16 @@
 Usage: endurance.py PROCESS WINDOW ORIGINAL SCENE LOG MINUTES
 
 Every half a minute the input stops and the scene is written anew, as an editor does: the window reads it. The memory
-that it has then is comparable, but where another method is rendered beside the picture, or where the window still shows
-another scene, such as a much larger one: such points are left out. So are the first ten minutes, in which histories and
-caches fill. After them the slope must be 0 within its 95 % confidence interval, or less than 1 % of the memory in
-MINUTES. 0 minutes: ends after these ten, and memory is not judged.
+that it has then is compared with that of other such points at which the window held as many pictures: one, or a second
+one beside it, with a film of its own. Points at which it still shows a much larger scene are left out, and so are the
+first ten minutes, in which histories and caches fill. After them the slope must be 0 within its 95 % confidence
+interval, or less than 1 % of the memory in MINUTES. 0 minutes: ends after these ten, and memory is not judged.
 
-The slope is the median of those between all pairs of points, with Kendall's test for its confidence interval (P. K.
-Sen, Estimates of the Regression Coefficient Based on Kendall's Tau, Journal of the American Statistical Association 63,
-1968). Least squares would be misled by the few points in which the window still holds what the input before them asked
-for: their spread is not normal.
+The slope is the median of those between all pairs of comparable points, with Kendall's test for its confidence interval
+(P. K. Sen, Estimates of the Regression Coefficient Based on Kendall's Tau, Journal of the American Statistical
+Association 63, 1968; over groups of points, R. M. Hirsch, J. R. Slack and R. A. Smith, Techniques of Trend Analysis for
+Monthly Water Quality Data, Water Resources Research 18, 1982). Least squares would be misled by the few points in which
+the window still holds what the input before them asked for: their spread is not normal.
 
 Counted is memory of the process alone. Pages of libraries that are in memory come and go with what the system does
 with them: the compiler of shaders in software OpenGL alone has 110 MB of them.
@@ -72,19 +73,21 @@ def memory(process):
         return 0
 
 
-def slope(points):
-    """Of kB over seconds: the median, and the two ends of its 95 % confidence interval. At least three points."""
-    n = len(points)
-    slopes = sorted((b[1] - a[1]) / (b[0] - a[0]) for i, a in enumerate(points) for b in points[i + 1:])
-    spread = 1.96 * math.sqrt(n * (n - 1) * (2 * n + 5) / 18)
+def slope(groups):
+    """Of kB over seconds: the median, and the two ends of its 95 % confidence interval. None: too few points."""
+    slopes = sorted((b[1] - a[1]) / (b[0] - a[0])
+                    for points in groups for i, a in enumerate(points) for b in points[i + 1:])
+    if len(slopes) < 3:
+        return None
+    spread = 1.96 * math.sqrt(sum(n * (n - 1) * (2 * n + 5) / 18 for n in map(len, groups)))
     first = max(math.floor((len(slopes) - spread) / 2), 0)
     return statistics.median(slopes), slopes[first], slopes[-1 - first]
 
 
-def is_split(log):
-    """Whether the window shows two methods side by side, which takes the memory of two pictures."""
-    lines = [line for line in log.read_text(errors="replace").split("\n") if " split.a" in line]
-    return bool(lines) and lines[-1].startswith("widget")
+def has_two_pictures(log):
+    """Whether the window holds two pictures side by side, which take the memory of two."""
+    lines = [line for line in log.read_text(errors="replace").split("\n") if line.startswith("pictures ")]
+    return bool(lines) and lines[-1] == "pictures 2"
 
 
 def calm(tool, original, scene):
@@ -106,7 +109,7 @@ def main():
     seed = random.randrange(1 << 32)
     random.seed(seed)
     print("seed", seed, flush=True)
-    tool, start, points, steps = Input(window), time.monotonic(), [], 0
+    tool, start, groups, steps = Input(window), time.monotonic(), ([], []), 0
     while (now := time.monotonic() - start) < 60 * (WARM_UP + minutes):
         until = time.monotonic() + 25
         while time.monotonic() < until:
@@ -117,20 +120,20 @@ def main():
                 print(f"the window ended after {now:.0f} s and {steps} steps")
                 return 1
         calm(tool, original, scene)
-        split = is_split(log)
+        two = has_two_pictures(log)
         point = (time.monotonic() - start, memory(process))
-        print(f"{point[0]:6.0f} s  {steps:6} steps  {point[1]} kB{', two methods' if split else ''}", flush=True)
-        points += [] if split else [point]
+        print(f"{point[0]:6.0f} s  {steps:6} steps  {point[1]} kB{', two pictures' if two else ''}", flush=True)
+        if point[0] > 60 * WARM_UP:
+            groups[two].append(point)
     if minutes == 0:
         return 0
-    points = [(x, y) for x, y in points if x > 60 * WARM_UP]
-    usual = statistics.median(y for _, y in points) if points else 0
-    points = [(x, y) for x, y in points if y < 1.5 * usual]
-    if len(points) < 3:
+    level = statistics.median(y for points in groups for _, y in points)
+    groups = [[(x, y) for x, y in points if y < 1.5 * statistics.median(y for _, y in points)] for points in groups]
+    found = slope(groups)
+    if not found:
         print("too short to tell a slope")
         return 1
-    value, low, high = slope(points)
-    level = statistics.median(y for _, y in points)
+    value, low, high = found
     growth = value * 60 * minutes / level
     print(f"memory {level:.0f} kB, slope {value:.3f} kB/s, with 95 % confidence from {low:.3f} to {high:.3f}, "
           f"{100 * growth:.2f} % in {minutes:g} minutes")
