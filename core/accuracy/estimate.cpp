@@ -1,5 +1,6 @@
 #include "core/accuracy/estimate.h"
 
+#include "core/accuracy/error_sum.h"
 #include "core/accuracy/relative.h"
 
 #include <algorithm>
@@ -157,36 +158,73 @@ void for_bands(const Film& film, Crew* crew, const std::function<void(int)>& job
   for (int band = 0; band < bands_of(film); ++band) job(band);
 }
 
-/// Sums over pixels: of the squared relative errors, of their squares, and of the errors with the pixels' own means.
+/// The squared relative errors of pixels, and the sum of those with the pixels' own means.
 struct Spread {
-  double sum = 0, squares = 0, own = 0;
+  ErrorSum freed;
+  double own = 0;
 };
+
+Spread spread_of(const Film& film, Crew* crew) {
+  std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
+  const auto width = static_cast<std::size_t>(film.region.width());
+  for_bands(film, crew, [&](int band) {
+    Spread& to = bands[static_cast<std::size_t>(band)];
+    for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
+      const std::size_t first = static_cast<std::size_t>(y) * width;
+      for (std::size_t x = 0; x < width; ++x) to.freed.add({first + x, errors.freed[x]});
+      for (const double error : errors.own) to.own += error;
+    });
+  });
+  Spread all;
+  for (const Spread& band : bands) all.freed.add(band.freed), all.own += band.own;
+  return all;
+}
+
+/// n / (g² + 0.01) of a pixel whose level g is known.
+double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
+  const Vec3f a = half_mean(film, film.pixels[pixel], 0), b = half_mean(film, film.pixels[pixel], 1);
+  const auto of_channel = [](double in_a, double in_b, double g) {
+    return std::min((in_a - in_b) * (in_a - in_b) / 4 / (g * g + floor_of_square), double{largest});
+  };
+  return (of_channel(a.x, b.x, level.x) + of_channel(a.y, b.y, level.y) + of_channel(a.z, b.z, level.z)) / 3;
+}
+
+/// Asks for the levels of the pixels that decide the sum, and takes the errors that they have with these instead. With
+/// the sum becoming less others may come to decide it, so this is done until none does.
+void ask_levels(const Film& film, const LevelsOf& levels_of, ErrorSum& sum) {
+  constexpr double decisive_share = 0.01, decisive_multiple = 16;  // of the sum, and of the mean
+  const double share = std::max(decisive_share, decisive_multiple / static_cast<double>(film.pixels.size()));
+  const std::vector<PixelError> errors = sum.largest();
+  for (auto next = errors.begin();;) {
+    const double least = share * sum.sum();
+    std::vector<std::size_t> pixels;
+    while (next != errors.end() && next->error >= least) pixels.push_back((next++)->pixel);
+    const std::vector<Vec3f> levels = pixels.empty() ? std::vector<Vec3f>() : levels_of(pixels);
+    if (levels.empty()) return;
+    std::vector<PixelError> better;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      better.push_back({pixels[i], error_at_level(film, pixels[i], levels[i])});
+    sum.replace(better);
+  }
+}
 
 /// See ErrorEstimate.
 bool few_matter(const Spread& all, double pixels) {
   constexpr double few = 0.35, fewer = 0.22, hidden = 0.36;
   // Small pictures show some spread by chance alone: the second term takes off as much.
-  const double spread = std::sqrt(all.squares) - 3 / std::sqrt(pixels) * all.sum;
-  return spread > few * all.sum || (spread > fewer * all.sum && all.own < hidden * all.sum);
+  const double sum = all.freed.sum(), spread = std::sqrt(all.freed.squares()) - 3 / std::sqrt(pixels) * sum;
+  return spread > few * sum || (spread > fewer * sum && all.own < hidden * sum);
 }
 
 }  // namespace
 
-ErrorEstimate estimate_error(const Film& film, Crew* crew) {
+ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& levels_of) {
   if (film.pixels.empty()) return {};
-  std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
-  for_bands(film, crew, [&](int band) {
-    Spread& to = bands[static_cast<std::size_t>(band)];
-    for_rows_of_band(film, band, [&](int, const RowErrors& errors) {
-      for (const double error : errors.freed) to.sum += error, to.squares += error * error;
-      for (const double error : errors.own) to.own += error;
-    });
-  });
-  Spread all;
-  for (const Spread& band : bands) all.sum += band.sum, all.squares += band.squares, all.own += band.own;
-  if (all.sum == infinity) return {};
+  Spread all = spread_of(film, crew);
+  if (all.freed.sum() == infinity) return {};
+  if (levels_of) ask_levels(film, levels_of, all.freed);
   const auto pixels = static_cast<double>(film.pixels.size());
-  return {std::sqrt(all.sum / pixels), few_matter(all, pixels)};
+  return {std::sqrt(all.freed.sum() / pixels), few_matter(all, pixels)};
 }
 
 double estimated_relative_error(const Film& film, Crew* crew) { return estimate_error(film, crew).relative_error; }

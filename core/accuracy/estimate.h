@@ -2,6 +2,8 @@
 #include "core/base/crew.h"
 #include "core/film/film.h"
 
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -19,8 +21,11 @@
 /// empty half; s = max(0, mean of A B - mu²): how much the true levels around differ, as A B estimates the square of a
 /// level without bias. The first part of w is Wiener's weight of a level of variance s that is seen with a noise of n
 /// (or nu, if that is more: n itself comes from two numbers). The second, and min(A, B), keep a pixel that both halves
-/// show to differ from those around it, such as a small lamp. Without any pixel around, g = m. What is left: a lamp
-/// smaller than a pixel, met by one half only, looks like a rare path, and its error is taken for larger than it is.
+/// show to differ from those around it, such as a small lamp. Without any pixel around, g = m.
+///
+/// What is left: a lamp smaller than a pixel, met by one half only, looks like a rare path; and a rare path beside a
+/// lamp looks like that lamp. Where the scene is at hand, samples of their own can tell the levels of the few pixels
+/// that decide the estimate: see LevelsOf.
 namespace tyndall {
 
 struct ErrorEstimate {
@@ -35,8 +40,15 @@ struct ErrorEstimate {
   bool rests_on_few_pixels = false;
 };
 
+/// Returns the levels of some pixels, given by their places in the film, from samples that are not the film's; nothing
+/// if they cannot be had now. It is asked for the pixels whose squared error is at least 1 % of the picture's sum and
+/// 16 times the mean, at most 32 of them, one by one or several at once. How many samples a level takes is for it to
+/// say.
+using LevelsOf = std::function<std::vector<Vec3f>(const std::vector<std::size_t>& pixels)>;
+
 /// crew: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
-ErrorEstimate estimate_error(const Film& film, Crew* crew = nullptr);
+/// levels_of: called on the calling thread; empty: g is found from the film alone.
+ErrorEstimate estimate_error(const Film& film, Crew* crew = nullptr, const LevelsOf& levels_of = {});
 
 /// The relative error of estimate_error alone.
 double estimated_relative_error(const Film& film, Crew* crew = nullptr);

@@ -133,7 +133,7 @@ bool Director::go_on_from(Film* film) {
       film->first_sample != 0 || film->unit != scene.film_unit)
     return false;
   picture_.go_on(std::move(*film), progression_options(*shown_.scene, 1, first_));
-  picture_.estimate_now(*crew_);
+  picture_.estimate_now(engine(), mail_.give_up());
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();

@@ -11,6 +11,13 @@
 /// Takes samples with all threads, so that it can be interrupted within 2 ms without losing what was computed.
 namespace tyndall {
 
+/// What a pass needs to run: threads, kernels and the scene that these read.
+struct RenderEngine {
+  Crew& crew;
+  const Kernels& kernels;
+  const SceneView& scene;
+};
+
 /// How a pass is cut into units of work.
 struct Tiling {
   int edge = 0;         ///< of tiles, in pixels; 0: chosen

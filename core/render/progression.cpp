@@ -145,6 +145,7 @@ void Progression::begin(PassSchedule schedule, const ProgressionOptions& options
   tally_ = {};
   last_write_ = Clock::now();
   pass_seconds_ = 0;
+  levels_.forget();
   estimate_ = {};
   estimate_of_ = 0;
   next_estimate_ = options.estimates.seconds;
@@ -155,9 +156,9 @@ void Progression::set_first(const Region& first) {
   schedule_.set_first(first);
 }
 
-void Progression::estimate_now(Crew& crew) {
+void Progression::estimate_now(const RenderEngine& engine, const std::atomic<bool>& give_up) {
   if (taken() < 2) return;
-  estimate_ = estimate_error(film_, &crew);
+  estimate_ = estimate_error(film_, engine, levels_, give_up);
   estimate_of_ = taken();
 }
 
@@ -180,8 +181,7 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
   if (!whole) return false;
   finish_pass();
   if (!estimate_is_due(limits)) return true;
-  estimate_ = estimate_error(film_, &engine.crew);
-  estimate_of_ = taken();
+  estimate_now(engine, give_up);
   next_estimate_ = (1 + options_.estimates.growth) * tally_.seconds + options_.estimates.seconds;
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/accuracy/estimate.h"
 #include "core/compile/render_scene.h"
+#include "core/render/levels.h"
 #include "core/render/pass.h"
 
 #include <algorithm>
@@ -55,13 +56,6 @@ struct ProgressionOptions {
   bool count_breaks = false;  ///< the time between passes counts as rendering time, as in blocking renders
   PassLength length;
   EstimateTimes estimates;
-};
-
-/// What a pass needs to run: threads, kernels and the scene that these read.
-struct RenderEngine {
-  Crew& crew;
-  const Kernels& kernels;
-  const SceneView& scene;
 };
 
 /// Decides which samples of a film come next. In this order: what an interrupted pass has left; a coarse pass; the
@@ -122,8 +116,9 @@ class Progression {
   /// Goes on with a film that was rendered from the same scene with the same `adaptive`.
   void go_on(Film film, const ProgressionOptions& options);
 
-  /// Estimates the error of the film that go_on() took, if it has two samples a pixel.
-  void estimate_now(Crew& crew);
+  /// Estimates the error of the film as it is, if it has two samples a pixel. If `give_up` is set meanwhile, it is
+  /// found from the film alone (see LevelsOf).
+  void estimate_now(const RenderEngine& engine, const std::atomic<bool>& give_up);
 
   /// Whether the picture is finished.
   bool reached(const Limits& limits) const;
@@ -173,6 +168,7 @@ class Progression {
   Clock::time_point last_write_;
   std::optional<Clock::time_point> running_from_;  ///< set while run_pass() runs: its time counts from then on
   double pass_seconds_ = 0;                        ///< seconds spent on the pass that is under way
+  PixelLevels levels_;
   ErrorEstimate estimate_;
   std::uint32_t estimate_of_ = 0;  ///< samples a pixel that the estimate was made from
   double next_estimate_ = 0;       ///< when the next one is due, in seconds of rendering

@@ -141,8 +141,10 @@ class Rendering {
     result.threads = crew_->size();
     result.kernels = kernels_;
     result.interrupted = stopped_;
-    if (picture_.estimate_is_new()) result.estimate = picture_.estimate();
     const bool whole = !picture_.within_pass();
+    const std::atomic<bool> never = false;
+    if (progress_ && !picture_.estimate_is_new()) picture_.estimate_now(*engine_, never);
+    if (picture_.taken() >= 2 && (progress_ || picture_.estimate_is_new())) result.estimate = picture_.estimate();
     result.film = picture_.take_film();
     clean_->finish(result.film, picture_.taken(), whole, result);
     result.first_rejected = find_rejected(kernels_, view_.view(), result.film);
@@ -167,6 +169,14 @@ class Rendering {
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress,
                     Film film) {
   return Rendering(scene, options, progress, std::move(film)).run();
+}
+
+ErrorEstimate estimate_error(const RenderScene& scene, const Kernels& kernels, const Film& film, int threads) {
+  const SceneViewOf view(scene);
+  Crew crew(threads);
+  PixelLevels levels;
+  const std::atomic<bool> never = false;
+  return estimate_error(film, {crew, kernels, view.view()}, levels, never);
 }
 
 FinishedPicture finished_picture(const RenderResult& result) {

@@ -57,11 +57,12 @@ struct RenderResult {
   std::uint64_t rays = 0, shadow_rays = 0;
   double seconds = 0;  ///< from the first sample started to the last film write, thread start included
   int threads = 0;
-  Kernels kernels{};                        ///< those that made the film
-  bool interrupted = false;                 ///< the callback said stop
-  std::optional<ErrorEstimate> estimate{};  ///< of this film; absent if neither a limit nor the callback asked for it
-  std::optional<CleanPicture> clean{};      ///< the clean view of the film as it is, if it was asked for
-  double seconds_clean = 0;  ///< spent on filtering in all; only what came before the end is in `seconds`
+  Kernels kernels{};         ///< those that made the film
+  bool interrupted = false;  ///< the callback said stop
+  /// Of this film, with levels of the pixels that decide it; absent if neither a limit nor the callback asked for it.
+  std::optional<ErrorEstimate> estimate{};
+  std::optional<CleanPicture> clean{};  ///< the clean view of the film as it is, if it was asked for
+  double seconds_clean = 0;             ///< spent on filtering in all; only what came before the end is in `seconds`
 };
 
 /// Called on the calling thread between passes, and about every 50 ms within long ones. Returns false to stop.
@@ -72,6 +73,9 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 /// std::bad_alloc where the film does not fit into memory.
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
+
+/// The error of a film of the scene, with levels of the pixels that decide it (see LevelsOf). threads: 0: all cores.
+ErrorEstimate estimate_error(const RenderScene& scene, const Kernels& kernels, const Film& film, int threads = 0);
 
 /// Everything that is reported about a finished film. For each part the whole film has to be read, so the parts are
 /// found once, here, and given to all that print or write them.

@@ -1,6 +1,7 @@
 #include "core/accuracy/estimate.h"
 #include "core/accuracy/rare.h"
 #include "core/render/caustics.h"
+#include "core/render/render.h"
 #include "tests/support/pictures.h"
 #include "tests/support/random_room.h"
 #include "tests/support/references.h"
@@ -42,13 +43,14 @@ void add_cases(const std::string& name, const Scene& scene, std::uint32_t refere
   const Reference reference = reference_of(scene, reference_spp);
   const RenderScene compiled = compile(scene);
   const double chance = chance_of_caustics(scene, compiled);
+  const Kernels kernels = choose_kernels("").value();
   Film film;
   for (const std::uint32_t spp : counts) {
     RenderOptions options;
     options.spp = spp;
     film = render(compiled, options, {}, std::move(film)).film;
     const double truth = std::sqrt(std::max(true_relative_mse(film, reference), 1e-30));
-    const ErrorEstimate estimate = estimate_error(film);
+    const ErrorEstimate estimate = estimate_error(compiled, kernels, film);
     const double estimated = estimate.relative_error;
     cases.push_back({name, spp, estimated / truth, has_rare_bright_paths(estimate, spp, chance)});
     const Case& one = cases.back();

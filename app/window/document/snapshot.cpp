@@ -21,6 +21,7 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   result.film = std::move(film);
   result.threads = snapshot.threads;
   result.kernels = choose_kernels(snapshot.isa).value();
+  result.estimate = estimate_error(compiled, result.kernels, result.film, 1);
   const FinishedPicture finished = finished_picture(result);
   const std::string stats =
       embedded_stats_text({snapshot.document.origin->title, scene, compiled, result, finished, 0, 0, 0});

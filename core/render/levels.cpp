@@ -1,0 +1,57 @@
+#include "core/render/levels.h"
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+constexpr std::uint32_t unit_samples = 1024;
+constexpr std::uint32_t units = PixelLevels::samples / unit_samples;
+
+}  // namespace
+
+std::vector<Vec3f> PixelLevels::of(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
+                                   const std::atomic<bool>& give_up) {
+  std::vector<std::size_t> unknown;
+  std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(unknown),
+               [&](std::size_t pixel) { return !known_.contains(pixel); });
+  if (!unknown.empty() && !find(unknown, film, engine, give_up)) return {};
+  std::vector<Vec3f> levels;
+  for (const std::size_t pixel : pixels) levels.push_back(known_.at(pixel));
+  return levels;
+}
+
+bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
+                       const std::atomic<bool>& give_up) {
+  SceneView scene = engine.scene;
+  scene.seed = ~scene.seed;  // samples that have nothing to do with the film's
+  scene.shares = false;      // a pixel's samples without those of its group
+  const auto width = static_cast<std::size_t>(film.region.width());
+  std::vector<FilmPixel> parts(pixels.size() * units);
+  engine.crew.for_each(static_cast<int>(parts.size()), [&](int i) {
+    if (give_up.load(std::memory_order_relaxed)) return;
+    const std::size_t part = static_cast<std::size_t>(i), pixel = pixels[part / units];
+    const int x = film.region.x0 + static_cast<int>(pixel % width),
+              y = film.region.y0 + static_cast<int>(pixel / width);
+    const auto first = static_cast<std::uint32_t>(part % units) * unit_samples;
+    UnitCounts counts;
+    engine.kernels.render_unit(scene, {{x, y, x + 1, y + 1}, 1, 0, first, first + unit_samples}, film.unit,
+                               &parts[part], counts);
+  });
+  if (give_up.load(std::memory_order_relaxed)) return false;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    FilmPixel whole;
+    for (std::size_t k = 0; k < units; ++k) add_pixel(whole, parts[i * units + k]);
+    known_[pixels[i]] = mean(film, whole);
+  }
+  return true;
+}
+
+ErrorEstimate estimate_error(const Film& film, const RenderEngine& engine, PixelLevels& levels,
+                             const std::atomic<bool>& give_up) {
+  return estimate_error(film, &engine.crew, [&](const std::vector<std::size_t>& pixels) {
+    return levels.of(pixels, film, engine, give_up);
+  });
+}
+
+}  // namespace tyndall
