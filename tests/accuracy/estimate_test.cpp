@@ -166,6 +166,50 @@ TEST_CASE("estimated error: by hand for a pixel that one half shows bright, and 
   CHECK(both == doctest::Approx(16 / (1 + 0.01)).epsilon(1e-5).scale(0));  // at least what both halves show
 }
 
+TEST_CASE("estimated error: the levels of the pixels that decide it are asked for, and taken") {
+  // 40,000 pixels without an error, one that one half shows bright, and one a hundred times as wrong.
+  Film film = make_film(200, 200, {0, 0, 200, 200}, 0, 64);
+  for (FilmPixel& pixel : film.pixels) {
+    for (const std::uint32_t half : {0u, 1u}) add_sample(pixel, half, {0.3f, 0.3f, 0.3f}, 1 / film.unit);
+    pixel.taken = 2;
+  }
+  add_sample(film.at(50, 60), 0, {8, 8, 8}, 1 / film.unit);
+  add_sample(film.at(150, 160), 1, {800, 800, 800}, 1 / film.unit);
+  const std::size_t rare = film.index(50, 60), lamp = film.index(150, 160);
+  std::vector<std::vector<std::size_t>> asked;
+  const auto estimate = [&](Vec3f rare_level, Vec3f lamp_level) {
+    asked.clear();
+    return estimate_error(film, nullptr, [&](const std::vector<std::size_t>& pixels) {
+      asked.push_back(pixels);
+      std::vector<Vec3f> levels;
+      for (const std::size_t pixel : pixels) levels.push_back(pixel == lamp ? lamp_level : rare_level);
+      return levels;
+    });
+  };
+  // With the level of a lamp its error is so small that the other one decides.
+  const ErrorEstimate known = estimate({0.3f, 2, 0}, {400, 200, 100});
+  CHECK(asked == std::vector<std::vector<std::size_t>>{{lamp}, {rare}});
+  const double of_lamp = 400.0 * 400 * (1 / 160000.01 + 1 / 40000.01 + 1 / 10000.01) / 3;
+  const double of_rare = 4.0 * 4 * (1 / 0.1 + 1 / 4.01 + 1 / 0.01) / 3;
+  CHECK(known.relative_error == doctest::Approx(std::sqrt((of_lamp + of_rare) / 40000)).epsilon(1e-5).scale(0));
+  CHECK(known.rests_on_few_pixels);
+  // A rare path's level hardly changes its error, and the rest stays hidden behind it.
+  CHECK(estimate({}, {0.3f, 0.3f, 0.3f}).relative_error ==
+        doctest::Approx(estimated_relative_error(film)).epsilon(1e-3).scale(0));
+  CHECK(asked == std::vector<std::vector<std::size_t>>{{lamp}});
+  // Where levels cannot be had, the film alone tells.
+  const auto never = [](const std::vector<std::size_t>&) { return std::vector<Vec3f>(); };
+  CHECK(estimate_error(film, nullptr, never).relative_error == estimated_relative_error(film));
+}
+
+TEST_CASE("estimated error: no levels are asked for where the noise is even") {
+  const auto unwanted = [](const std::vector<std::size_t>& pixels) {
+    FAIL("asked for " << pixels.size());
+    return std::vector<Vec3f>();
+  };
+  CHECK(std::isfinite(estimate_error(noisy_film(16, 1), nullptr, unwanted).relative_error));
+}
+
 TEST_CASE("estimated error: pixels that have an empty half tell nothing about the ones around them") {
   Film film = flat_film(8.3f, 0.3f);
   film.at(3, 4).rejected[1] = 1;

@@ -118,7 +118,7 @@ TEST_CASE("progression: ends at the first of the limits, but not before a pass")
   picture.run_pass(engine, rough, false);
   CHECK(picture.reached(rough));
   CHECK(picture.estimate_is_new());
-  CHECK(picture.error() == estimated_relative_error(picture.film()));
+  CHECK(picture.error() == estimate_error(scene, kernels, picture.film()).relative_error);
   CHECK_FALSE(picture.reached({}));
 }
 

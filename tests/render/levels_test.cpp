@@ -1,0 +1,100 @@
+#include "core/render/levels.h"
+
+#include "core/compile/compile.h"
+#include "core/render/render.h"
+#include "core/scene/load.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+/// Levels of single pixels, from samples of their own.
+using namespace tyndall;
+
+namespace {
+
+Scene small(const char* name) {
+  Scene scene = load_scene(name).scene;
+  scene.width = 40, scene.height = 30;
+  scene.render.adaptive = false;
+  return scene;
+}
+
+Film film_of(const RenderScene& scene, Region region, std::uint32_t spp) {
+  RenderOptions options;
+  options.spp = spp;
+  options.region = region;
+  return render(scene, options).film;
+}
+
+/// A scene, and what it takes to render it.
+struct Ready {
+  RenderScene scene;
+  SceneViewOf view{scene};
+  Kernels kernels = *choose_kernels("");
+  Crew crew;
+  RenderEngine engine{crew, kernels, view.view()};
+
+  Ready(const Scene& from, int threads) : scene(compile(from)), crew(threads) {}
+};
+
+}  // namespace
+
+TEST_CASE("levels: those of the film, within their errors, from other samples") {
+  for (const char* name : {"cornell-box", "showroom"}) {  // the first one shares second vertices
+    CAPTURE(name);
+    Ready ready(small(name), 2);
+    const Region region{7, 5, 31, 22};
+    const Film film = film_of(ready.scene, region, PixelLevels::samples);
+    const std::vector<std::size_t> pixels{0, 100, 207, film.pixels.size() - 1};
+    PixelLevels levels;
+    const std::vector<Vec3f> found = levels.of(pixels, film, ready.engine, false);
+    REQUIRE(found.size() == pixels.size());
+    double worst = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const FilmPixel& pixel = film.pixels[pixels[i]];
+      const auto expected = static_cast<double>(mean(film, pixel).y), level = static_cast<double>(found[i].y);
+      CHECK(level == doctest::Approx(expected).epsilon(0.05).scale(0.01));
+      worst = std::max(worst, std::abs(level - expected));
+    }
+    CHECK(worst > 0);
+  }
+}
+
+TEST_CASE("levels: the same bits for any number of threads, any order of questions and any region") {
+  const Scene scene = small("showroom");
+  Ready one(scene, 1), three(scene, 3);
+  const Film whole = film_of(one.scene, {0, 0, 40, 30}, 2), part = film_of(one.scene, {8, 4, 24, 20}, 2);
+  PixelLevels first, second, third;
+  const auto at_once = first.of({whole.index(9, 9), whole.index(20, 15)}, whole, one.engine, false);
+  const auto later = second.of({whole.index(20, 15)}, whole, three.engine, false);
+  const auto again = second.of({whole.index(9, 9), whole.index(20, 15)}, whole, three.engine, false);
+  const auto in_part = third.of({part.index(9, 9), part.index(20, 15)}, part, three.engine, false);
+  REQUIRE(at_once.size() == 2);
+  REQUIRE(later.size() == 1);
+  CHECK(later[0] == at_once[1]);
+  CHECK(again == at_once);
+  CHECK(in_part == at_once);
+}
+
+TEST_CASE("levels: none when it is given up, and they are found when asked again") {
+  Ready ready(small("cornell-box"), 2);
+  const Film film = film_of(ready.scene, {0, 0, 40, 30}, 2);
+  PixelLevels levels;
+  CHECK(levels.of({5, 6}, film, ready.engine, true).empty());
+  const auto found = levels.of({5, 6}, film, ready.engine, false);
+  CHECK(found.size() == 2);
+  CHECK(levels.of({6, 5}, film, ready.engine, true).size() == 2);  // they are known
+}
+
+TEST_CASE("levels: the error of a picture with a lamp that is smaller than a pixel") {
+  // Single samples meet the lamp by chance: from the film alone it looks like a rare path.
+  Scene scene = small("stress-light-and-fuzz");
+  scene.width = 111, scene.height = 83;
+  const RenderScene compiled = compile(scene);
+  const Film film = film_of(compiled, {0, 0, 111, 83}, 4);
+  const Kernels kernels = *choose_kernels("");
+  const double alone = estimated_relative_error(film), known = estimate_error(compiled, kernels, film).relative_error;
+  CHECK(alone > 5 * known);
+  CHECK(estimate_error(compiled, kernels, film, 1).relative_error == known);
+}
