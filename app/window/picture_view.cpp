@@ -72,7 +72,11 @@ SplitLabels PictureView::labels() const {
 }
 
 void PictureView::draw_halves(Ui& ui, const Rect& image) const {
-  if (ui.log) ui.log->changed("pictures", left_.frame || left_.display ? "2" : "1");
+  if (ui.log && right_.frame) {
+    const Frame& frame = *right_.frame;
+    ui.log->changed("pictures", fmt::format("{} of {} x {}{}", left_.frame || left_.display ? 2 : 1, frame.width,
+                                            frame.height, frame.clean ? " clean" : ""));
+  }
   if (!shows_halves()) return;
   if (ui.log && left_.frame && right_.frame)
     ui.log->changed("halves", fmt::format("A {:.2f} B {:.2f}", left_.frame->seconds, right_.frame->seconds));

@@ -1,6 +1,6 @@
 #include "core/accuracy/estimate.h"
 
-#include "core/accuracy/error_sum.h"
+#include "core/base/error_sum.h"
 #include "core/accuracy/relative.h"
 
 #include <algorithm>
@@ -189,25 +189,6 @@ double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
   return (of_channel(a.x, b.x, level.x) + of_channel(a.y, b.y, level.y) + of_channel(a.z, b.z, level.z)) / 3;
 }
 
-/// Asks for the levels of the pixels that decide the sum, and takes the errors that they have with these instead. With
-/// the sum becoming less others may come to decide it, so this is done until none does.
-void ask_levels(const Film& film, const LevelsOf& levels_of, ErrorSum& sum) {
-  constexpr double decisive_share = 0.01, decisive_multiple = 16;  // of the sum, and of the mean
-  const double share = std::max(decisive_share, decisive_multiple / static_cast<double>(film.pixels.size()));
-  const std::vector<PixelError> errors = sum.largest();
-  for (auto next = errors.begin();;) {
-    const double least = share * sum.sum();
-    std::vector<std::size_t> pixels;
-    while (next != errors.end() && next->error >= least) pixels.push_back((next++)->pixel);
-    const std::vector<Vec3f> levels = pixels.empty() ? std::vector<Vec3f>() : levels_of(pixels);
-    if (levels.empty()) return;
-    std::vector<PixelError> better;
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-      better.push_back({pixels[i], error_at_level(film, pixels[i], levels[i])});
-    sum.replace(better);
-  }
-}
-
 /// See ErrorEstimate.
 bool few_matter(const Spread& all, double pixels) {
   constexpr double few = 0.35, fewer = 0.22, hidden = 0.36;
@@ -222,7 +203,8 @@ ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& level
   if (film.pixels.empty()) return {};
   Spread all = spread_of(film, crew);
   if (all.freed.sum() == infinity) return {};
-  if (levels_of) ask_levels(film, levels_of, all.freed);
+  const auto error_at = [&](std::size_t pixel, Vec3f level) { return error_at_level(film, pixel, level); };
+  if (levels_of) ask_levels(levels_of, film.pixels.size(), error_at, all.freed);
   const auto pixels = static_cast<double>(film.pixels.size());
   return {std::sqrt(all.freed.sum() / pixels), few_matter(all, pixels)};
 }

@@ -1,9 +1,8 @@
 #pragma once
 #include "core/base/crew.h"
+#include "core/base/error_sum.h"
 #include "core/film/film.h"
 
-#include <cstddef>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -25,7 +24,7 @@
 ///
 /// What is left: a lamp smaller than a pixel, met by one half only, looks like a rare path; and a rare path beside a
 /// lamp looks like that lamp. Where the scene is at hand, samples of their own can tell the levels of the few pixels
-/// that decide the estimate: see LevelsOf.
+/// that decide the estimate: see ask_levels().
 namespace tyndall {
 
 struct ErrorEstimate {
@@ -40,14 +39,8 @@ struct ErrorEstimate {
   bool rests_on_few_pixels = false;
 };
 
-/// Returns the levels of some pixels, given by their places in the film, from samples that are not the film's; nothing
-/// if they cannot be had now. It is asked for the pixels whose squared error is at least 1 % of the picture's sum and
-/// 16 times the mean, at most 32 of them, one by one or several at once. How many samples a level takes is for it to
-/// say.
-using LevelsOf = std::function<std::vector<Vec3f>(const std::vector<std::size_t>& pixels)>;
-
 /// crew: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
-/// levels_of: called on the calling thread; empty: g is found from the film alone.
+/// levels_of: see ask_levels(); called on the calling thread; empty: g is found from the film alone.
 ErrorEstimate estimate_error(const Film& film, Crew* crew = nullptr, const LevelsOf& levels_of = {});
 
 /// The relative error of estimate_error alone.

@@ -4,10 +4,10 @@
 Usage: endurance.py PROCESS WINDOW ORIGINAL SCENE LOG MINUTES
 
 Every half a minute the input stops and the scene is written anew, as an editor does: the window reads it. The memory
-that it has then is compared with that of other such points at which the window held as many pictures: one, or a second
-one beside it, with a film of its own. Points at which it still shows a much larger scene are left out, and so are the
-first ten minutes, in which histories and caches fill. After them the slope must be 0 within its 95 % confidence
-interval, or less than 1 % of the memory in MINUTES. 0 minutes: ends after these ten, and memory is not judged.
+that it has then is compared with that of other such points at which the window held the same: as many pictures, of the
+same size, clean or not. Points at which it still shows a much larger scene are left out, and so are the first ten
+minutes, in which histories and caches fill. After them the slope must be 0 within its 95 % confidence interval, or less
+than 1 % of the memory in MINUTES. 0 minutes: ends after these ten, and memory is not judged.
 
 The slope is the median of those between all pairs of comparable points, with Kendall's test for its confidence interval
 (P. K. Sen, Estimates of the Regression Coefficient Based on Kendall's Tau, Journal of the American Statistical
@@ -84,13 +84,26 @@ def slope(groups):
     return statistics.median(slopes), slopes[first], slopes[-1 - first]
 
 
-def has_two_pictures(log):
-    """Whether the window holds two pictures side by side, which take the memory of two."""
+def held(log):
+    """What the window holds, such as "1 of 320 x 200 clean"."""
     lines = [line for line in log.read_text(errors="replace").split("\n") if line.startswith("pictures ")]
-    return bool(lines) and lines[-1] == "pictures 2"
+    return lines[-1].removeprefix("pictures ") if lines else ""
 
 
-def calm(tool, original, scene):
+def wait_for_rest(log):
+    """Until the window rests, or 15 seconds: a picture without a limit, for example, never does."""
+    size = log.stat().st_size
+    time.sleep(3)  # by then it has seen that the scene's file is another one
+    for _ in range(60):
+        time.sleep(0.2)
+        with log.open(errors="replace") as file:
+            file.seek(size)
+            lines = [line for line in file if not line.startswith("drawn")]
+        if lines and lines[-1] == "rest\n":
+            return
+
+
+def calm(tool, original, scene, log):
     """Brings the window to the scene as it was at the start."""
     tool.send("key", "Escape")
     tool.send("key", "Escape")
@@ -100,7 +113,7 @@ def calm(tool, original, scene):
     new = scene.with_suffix(".new")
     shutil.copy(original, new)
     new.rename(scene)
-    time.sleep(5)
+    wait_for_rest(log)
 
 
 def main():
@@ -109,7 +122,7 @@ def main():
     seed = random.randrange(1 << 32)
     random.seed(seed)
     print("seed", seed, flush=True)
-    tool, start, groups, steps = Input(window), time.monotonic(), ([], []), 0
+    tool, start, groups, steps = Input(window), time.monotonic(), {}, 0
     while (now := time.monotonic() - start) < 60 * (WARM_UP + minutes):
         until = time.monotonic() + 25
         while time.monotonic() < until:
@@ -119,17 +132,16 @@ def main():
             if memory(process) == 0:
                 print(f"the window ended after {now:.0f} s and {steps} steps")
                 return 1
-        calm(tool, original, scene)
-        two = has_two_pictures(log)
+        calm(tool, original, scene, log)
         point = (time.monotonic() - start, memory(process))
-        print(f"{point[0]:6.0f} s  {steps:6} steps  {point[1]} kB{', two pictures' if two else ''}", flush=True)
+        print(f"{point[0]:6.0f} s  {steps:6} steps  {point[1]} kB  {held(log)}", flush=True)
         if point[0] > 60 * WARM_UP:
-            groups[two].append(point)
+            groups.setdefault(held(log), []).append(point)
     if minutes == 0:
         return 0
-    level = statistics.median(y for points in groups for _, y in points)
-    groups = [[(x, y) for x, y in points if y < 1.5 * statistics.median(y for _, y in points)] for points in groups]
-    found = slope(groups)
+    level = statistics.median(y for points in groups.values() for _, y in points)
+    found = slope([[(x, y) for x, y in points if y < 1.5 * statistics.median(y for _, y in points)]
+                   for points in groups.values()])
     if not found:
         print("too short to tell a slope")
         return 1

@@ -25,7 +25,8 @@ namespace tyndall {
 ///   state rendering|paused|finished
 ///   reading CURVE: SECONDS RELMSE    what the chart says under the mouse
 ///   accuracy TEXT                    the lines beneath the chart
-///   pictures 1|2                     that the window holds: 2 while another one is shown beside the first
+///   pictures 1|2 of WIDTH x HEIGHT [clean]
+///                                    that the window holds: 2 while another one is shown beside the first
 ///   halves A SECONDS B SECONDS       of rendering, in a split view
 ///   cursor plain|divider
 ///   message TEXT                     what the user is told; without TEXT: it has gone from the screen

@@ -1,5 +1,8 @@
 #pragma once
+#include "core/base/vec.h"
+
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 /// Sums of pixels' squared errors.
@@ -35,5 +38,17 @@ class ErrorSum {
   double least_ = 0;               ///< no error up to this can be among the largest
   std::vector<PixelError> apart_;  ///< up to 2 · most_apart, among them the largest
 };
+
+/// Returns the levels (mean radiances) of some pixels, given by their places in the film, from samples that are not the
+/// film's; nothing if they cannot be had now. How many samples a level takes is for it to say.
+using LevelsOf = std::function<std::vector<Vec3f>(const std::vector<std::size_t>& pixels)>;
+
+/// Squared errors are relative to levels, which a film alone cannot tell of bright pixels: a lamp smaller than a pixel
+/// looks like a rare path. This asks for the levels of the pixels that decide a sum over so many pixels, some at once,
+/// and replaces their errors by error_at(pixel, level). These are pixels whose error is at least 1 % of the sum and 16
+/// times the mean. As the sum becomes less, others may come to decide it: it goes on until none does, or most_apart
+/// pixels are known.
+void ask_levels(const LevelsOf& levels_of, std::size_t pixels,
+                const std::function<double(std::size_t pixel, Vec3f level)>& error_at, ErrorSum& sum);
 
 }  // namespace tyndall

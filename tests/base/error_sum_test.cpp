@@ -1,4 +1,4 @@
-#include "core/accuracy/error_sum.h"
+#include "core/base/error_sum.h"
 
 #include <doctest/doctest.h>
 

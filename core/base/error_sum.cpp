@@ -1,4 +1,4 @@
-#include "core/accuracy/error_sum.h"
+#include "core/base/error_sum.h"
 
 #include <algorithm>
 
@@ -60,6 +60,24 @@ void ErrorSum::replace(const std::vector<PixelError>& better) {
   for (const PixelError& one : better)
     for (PixelError& old : apart_)
       if (old.pixel == one.pixel) old.error = one.error;
+}
+
+void ask_levels(const LevelsOf& levels_of, std::size_t pixels,
+                const std::function<double(std::size_t pixel, Vec3f level)>& error_at, ErrorSum& sum) {
+  constexpr double decisive_share = 0.01, decisive_multiple = 16;  // of the sum, and of the mean
+  const double share = std::max(decisive_share, decisive_multiple / static_cast<double>(pixels));
+  const std::vector<PixelError> errors = sum.largest();
+  for (auto next = errors.begin();;) {
+    const double least = share * sum.sum();
+    std::vector<std::size_t> decisive;
+    while (next != errors.end() && next->error >= least) decisive.push_back((next++)->pixel);
+    const std::vector<Vec3f> levels = decisive.empty() ? std::vector<Vec3f>() : levels_of(decisive);
+    if (levels.empty()) return;
+    std::vector<PixelError> better;
+    for (std::size_t i = 0; i < decisive.size(); ++i)
+      better.push_back({decisive[i], error_at(decisive[i], levels[i])});
+    sum.replace(better);
+  }
 }
 
 }  // namespace tyndall
