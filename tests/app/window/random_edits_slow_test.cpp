@@ -3,20 +3,29 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <malloc.h>
+#include <vector>
 
 using namespace tyndall;
 
-TEST_CASE("10,000 random edits: the picture is that of the saved scene, and memory stays what it was after 1,000") {
-  std::int64_t early = 0, late = 0;
-  const auto memory = [] {
+TEST_CASE("12,000 random edits: the picture is that of the saved scene, and memory does not grow with them") {
+  // Without a screen this process has 13 MB, and holes that edits leave in its heap come and go by up to 1.3 MB. So
+  // these are medians over 2,000 edits, and may differ by 2 MB: 2.5 % of what a window has, and 200 bytes an edit,
+  // where a scene that is kept takes thousands.
+  std::vector<std::int64_t> early, late;
+  test::check_random_edits("many_random_edits", 12000, 7, [&](int edits) {
+    if (edits % 100 != 0 || edits < 1000 || (edits > 3000 && edits < 10000)) return;
     malloc_trim(0);
-    return test::process_memory("VmRSS");
-  };
-  test::check_random_edits("many_random_edits", 10000, 7, [&](int edits) {
-    if (edits == 1000) early = memory();
-    if (edits == 10000) late = memory();
+    (edits <= 3000 ? early : late).push_back(test::process_memory("VmRSS"));
   });
-  MESSAGE("MB after 1,000 edits: ", early / 1000000, ", after 10,000: ", late / 1000000);
-  CHECK(static_cast<double>(late) < 1.05 * static_cast<double>(early));
+  const auto median = [](std::vector<std::int64_t> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+  };
+  MESSAGE("kB after 1,000 edits: ", median(early) / 1000, ", after 10,000: ", median(late) / 1000);
+  CHECK(median(late) - median(early) < 2e6);
 }
