@@ -1,8 +1,8 @@
 #pragma once
 #include "core/accuracy/estimate.h"
 #include "core/compile/render_scene.h"
-#include "core/render/levels.h"
 #include "core/render/pass.h"
+#include "core/render/single_pixels.h"
 
 #include <algorithm>
 #include <chrono>

@@ -6,7 +6,7 @@
 #include "core/film/film.h"
 #include "core/image/image.h"
 #include "core/kernel/kernels.h"
-#include "core/render/rejected.h"
+#include "core/render/single_pixels.h"
 #include "core/scene/scene.h"
 
 #include <functional>

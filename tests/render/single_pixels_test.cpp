@@ -1,4 +1,4 @@
-#include "core/render/levels.h"
+#include "core/render/single_pixels.h"
 
 #include "core/compile/compile.h"
 #include "core/render/render.h"

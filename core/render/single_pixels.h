@@ -3,10 +3,12 @@
 #include "core/render/pass.h"
 
 #include <atomic>
+#include <cstddef>
 #include <unordered_map>
 #include <vector>
 
-/// The levels of single pixels, for estimates of a film's error (see LevelsOf).
+/// What single pixels tell when samples of theirs are taken apart from the film: their levels, for estimates of the
+/// film's error (see ask_levels()), and which of their samples had to be left out.
 namespace tyndall {
 
 /// Levels of pixels from samples of their own, remembered as long as the scene stays the same. A level is a pure
@@ -31,5 +33,18 @@ class PixelLevels {
 /// The error of a film, with levels of the pixels that decide it.
 ErrorEstimate estimate_error(const Film& film, const RenderEngine& engine, PixelLevels& levels,
                              const std::atomic<bool>& give_up);
+
+/// A sample that a film left out because it was not finite or out of range. In full-image coordinates.
+struct RejectedSample {
+  int x = 0, y = 0;
+  std::uint32_t sample = 0;
+  bool operator==(const RejectedSample&) const = default;
+};
+
+/// The first `most` of a film's rejected samples, ordered by row, pixel and index. A film only counts them, so the
+/// pixels that have some are sampled once more, by the kernels that made the film: that needs no memory while
+/// rendering, and which samples are named does not depend on the order in which threads met them.
+std::vector<RejectedSample> find_rejected(const Kernels& kernels, const SceneView& scene, const Film& film,
+                                          std::size_t most = 4);
 
 }  // namespace tyndall
