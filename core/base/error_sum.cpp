@@ -74,8 +74,7 @@ void ask_levels(const LevelsOf& levels_of, std::size_t pixels,
     const std::vector<Vec3f> levels = decisive.empty() ? std::vector<Vec3f>() : levels_of(decisive);
     if (levels.empty()) return;
     std::vector<PixelError> better;
-    for (std::size_t i = 0; i < decisive.size(); ++i)
-      better.push_back({decisive[i], error_at(decisive[i], levels[i])});
+    for (std::size_t i = 0; i < decisive.size(); ++i) better.push_back({decisive[i], error_at(decisive[i], levels[i])});
     sum.replace(better);
   }
 }
