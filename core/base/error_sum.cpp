@@ -5,7 +5,7 @@
 namespace tyndall {
 namespace {
 
-/// A strict order, so that no two standard libraries choose other pixels.
+/// Of equal errors, that of the earlier pixel counts as larger: so every standard library sorts them alike.
 bool is_larger(const PixelError& a, const PixelError& b) {
   return a.error != b.error ? a.error > b.error : a.pixel < b.pixel;
 }

@@ -122,6 +122,26 @@ TEST_CASE("progression: ends at the first of the limits, but not before a pass")
   CHECK_FALSE(picture.reached({}));
 }
 
+TEST_CASE("progression: levels that an estimate has asked for are not those of the next scene") {
+  Scene lit = load_scene("stress-light-and-fuzz").scene;
+  lit.width = 111, lit.height = 83;
+  Scene dim = lit;  // the same pixels decide, at half the level
+  for (Material& material : dim.materials)
+    if (std::holds_alternative<Light<>>(material.kind)) material.colour = 0.5 * std::get<Vec3d>(material.colour);
+  Crew crew(2);
+  const Kernels kernels = *choose_kernels("");
+  Progression picture;
+  for (const Scene& scene : {lit, dim}) {
+    const RenderScene compiled = compile(scene);
+    const SceneViewOf view(compiled);
+    picture.start(compiled, {0, 0, compiled.width, compiled.height}, 0, {});
+    while (!picture.reached({.spp = 4})) picture.run_pass({crew, kernels, view.view()}, {.spp = 4}, false);
+    picture.estimate_now({crew, kernels, view.view()}, false);
+    CHECK(picture.error() == estimate_error(compiled, kernels, picture.film()).relative_error);
+    CHECK(picture.error() != estimated_relative_error(picture.film()));  // some were asked for
+  }
+}
+
 TEST_CASE("progression: the error is estimated when it is due, not after each pass") {
   const RenderScene scene = small_scene();
   Crew crew(1);
