@@ -117,7 +117,7 @@ class Progression {
   void go_on(Film film, const ProgressionOptions& options);
 
   /// Estimates the error of the film as it is, if it has two samples a pixel. If `give_up` is set meanwhile, it is
-  /// found from the film alone (see LevelsOf).
+  /// found from the film alone (see ask_levels()).
   void estimate_now(const RenderEngine& engine, const std::atomic<bool>& give_up);
 
   /// Whether the picture is finished.
