@@ -74,7 +74,8 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
 
-/// The error of a film of the scene, with levels of the pixels that decide it (see ask_levels()). threads: 0: all cores.
+/// The error of a film of the scene, with levels of the pixels that decide it (see ask_levels()). threads: 0: all
+/// cores.
 ErrorEstimate estimate_error(const RenderScene& scene, const Kernels& kernels, const Film& film, int threads = 0);
 
 /// Everything that is reported about a finished film. For each part the whole film has to be read, so the parts are
