@@ -12,9 +12,6 @@ if [[ $(ldd "$tyndall") == *lib[at]san* ]]; then
 else
   ulimit -v 6000000 # kB: where random input asks for a huge picture, this machine is to stay usable
 fi
-# What the program frees goes back to the system at once, so that only what it holds is measured. With the C library's own
-# settings, which users have, the holes in the heaps of its threads count too: they grew by 3 MB in half an hour.
-export MALLOC_ARENA_MAX=1 MALLOC_MMAP_THRESHOLD_=131072 MALLOC_TRIM_THRESHOLD_=131072
 start scene.json -t 1
 sends 1 '^size 1000 900$' xdotool windowsize "$window" 1000 900
 python3 -B "$root/tests/window/endurance.py" "$pid" "$window" original scene.json "$scratch/log" "$minutes" ||
