@@ -3,8 +3,10 @@
 #include "core/clean/filter_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace tyndall {
 using namespace filter;
@@ -69,15 +71,14 @@ struct Cleaner::Memory {
   CleanPicture made;
   ZeroedFloats sums, coefficients;
   std::vector<std::uint8_t> shines;
-  std::vector<double> row_bias, row_noise, row_squares;
+  std::vector<double> row_noise;  ///< for each row the sum of its pixels' relative variance
   int cells_x = 0, cells_y = 0;
   std::ptrdiff_t cell_stride = 0;
 
   void resize(int width, int height) {
     work.resize(width, height, outputs + 3);
     if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
-    for (std::vector<double>* rows : {&row_bias, &row_noise, &row_squares})
-      rows->resize(static_cast<std::size_t>(height));
+    row_noise.resize(static_cast<std::size_t>(height));
     if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
     cells_x = cells_in(width), cells_y = cells_in(height);
     constexpr int lanes = 16;
@@ -105,6 +106,40 @@ bool few_matter(double sum, double squares, double pixels) {
   return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
 }
 
+/// Judges a pixel anew, whose level is known; in units of the planes. Returns its squared relative error.
+double judge_at_level(const FilterView& v, std::size_t pixel, Vec3f level) {
+  const auto width = static_cast<std::size_t>(v.width);
+  const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel / width) * v.stride + static_cast<int>(pixel % width);
+  const std::array<float, 3> levels{level.x, level.y, level.z};
+  float bias = 0, noise = 0;
+  for (std::size_t c = 0; c < levels.size(); ++c) {
+    const float a = v.half[c][at], b = v.half[3 + c][at], pb = v.filtered[3 + c][at], pa = 2 * v.filtered[c][at] - pb;
+    const float per = 1 / (3 * (levels[c] * levels[c] + v.floor));
+    bias += (pa - a) * (pb - b) * per;
+    noise += (pa - pb) * (pa - pb) / 4 * per;
+  }
+  v.error[at] = bias + noise, v.noise[at] = noise;
+  return static_cast<double>(v.error[at]);
+}
+
+double sum_of_row(const FilterView& v, const float* plane, int y) {
+  const float* row = plane + y * v.stride;
+  double sum = 0;
+  for (int x = 0; x < v.width; ++x) sum += static_cast<double>(row[x]);
+  return sum;
+}
+
+/// The squared relative errors of the pixels of some rows.
+ErrorSum errors_of_rows(const FilterView& v, int first, int end) {
+  ErrorSum sum;
+  for (int y = first; y < end; ++y) {
+    const float* row = v.error + y * v.stride;
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width);
+    for (int x = 0; x < v.width; ++x) sum.add({pixel + static_cast<std::size_t>(x), static_cast<double>(row[x])});
+  }
+  return sum;
+}
+
 /// Resizes in so small steps that it gives up soon.
 void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool>& give_up) {
   constexpr std::size_t step = std::size_t{1} << 18u;
@@ -112,12 +147,6 @@ void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool
   for (std::size_t size = std::min(numbers.size(), count); size < count && !give_up.load(std::memory_order_relaxed);)
     numbers.resize(size = std::min(size + step, count));
   if (numbers.size() > count) numbers.resize(count);
-}
-
-double sum_of(const std::vector<double>& rows) {
-  double sum = 0;
-  for (const double row : rows) sum += row;
-  return sum;
 }
 
 }  // namespace
@@ -142,14 +171,14 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   for (int k = 0; k < seen_features; ++k) v.seen[k] = input.seen.plane(k);
   v.sharp = input.seen.plane(seen_features);
   v.level = work.plane(outputs), v.gain = work.plane(outputs + 1), v.distance = work.plane(outputs + 2);
-  v.error = v.gain;
+  v.error = v.gain, v.noise = v.distance;
   v.pairs = pairs.data(), v.sums = sums.data(), v.shines = shines.data(), v.cell_stride = cell_stride;
   v.coefficients = coefficients.data();
-  v.row_bias = row_bias.data(), v.row_noise = row_noise.data(), v.row_squares = row_squares.data();
   return v;
 }
 
-bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out) {
+bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out,
+                  const LevelsOf& levels_of) {
   Memory& m = *memory_;
   m.resize(input.width, input.height);
   const FilterView v = m.view_of(input);
@@ -182,17 +211,30 @@ bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& 
                      each(m.cells_y + 1, [&](int row) { m.steps.fit_blocks(v, row); }) &&
                      each(m.cells_y, [&](int row) { m.steps.predict(v, row); }) && mix(Rival::blurred) &&
                      mix(Rival::raw) && each_pixel_row([&](int y) { m.steps.judge(v, y); });
-  if (!whole) return false;
+  std::vector<ErrorSum> bands(static_cast<std::size_t>(m.cells_y));
+  const auto sum_errors = [&](int band) {
+    bands[static_cast<std::size_t>(band)] =
+        errors_of_rows(v, band * cell_edge, std::min((band + 1) * cell_edge, v.height));
+  };
+  if (!whole || !each(m.cells_y, sum_errors)) return false;
+  ErrorSum errors;
+  for (const ErrorSum& band : bands) errors.add(band);
+  const auto judge_anew = [&](std::size_t pixel, Vec3f level) {
+    return judge_at_level(v, pixel, 1 / input.scale * level);
+  };
+  if (levels_of) ask_levels(levels_of, width * height, judge_anew, errors);
   const bool copied = each_pixel_row([&](int y) {
     const std::size_t row = static_cast<std::size_t>(y) * width;
     put_picture(v, input.scale, y, m.made.rgb.data() + 3 * row);
     m.steps.tell(v, y, m.made.pixel_error.data() + row);
+    m.row_noise[static_cast<std::size_t>(y)] = sum_of_row(v, v.noise, y);
   });
   if (!copied) return false;
   const double pixels = static_cast<double>(width * height);
-  const double error = std::max(sum_of(m.row_bias), 0.0) + sum_of(m.row_noise);
+  // Squared bias, which the errors hold beside noise, may be negative by chance.
+  const double error = std::max(errors.sum(), std::accumulate(m.row_noise.begin(), m.row_noise.end(), 0.0));
   m.made.relative_error = std::sqrt(error / pixels);
-  m.made.rests_on_few_pixels = few_matter(error, sum_of(m.row_squares), pixels);
+  m.made.rests_on_few_pixels = few_matter(error, errors.squares(), pixels);
   std::swap(out, m.made);
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/crew.h"
+#include "core/base/error_sum.h"
 #include "core/base/target.h"
 #include "core/film/film.h"
 
@@ -109,8 +110,10 @@ class Cleaner {
 
   /// Filters a picture whose pixels all have samples in both halves. Returns false, and leaves `out` as it was, if
   /// `give_up` is set before the end: then each thread ends after the row of pixels, or of 8 x 8 pixels, that it is at,
-  /// which takes less than 1 ms. The same bits for any number of threads. Throws std::bad_alloc.
-  bool run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out);
+  /// which takes less than 1 ms. levels_of: tells the levels of the pixels that decide the error (see ask_levels());
+  /// empty: they are found from the picture alone. The same bits for any number of threads. Throws std::bad_alloc.
+  bool run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out,
+           const LevelsOf& levels_of = {});
 
  private:
   struct Memory;

@@ -57,10 +57,8 @@ struct FilterView {
   std::uint8_t* shines;            ///< whether the cell has emission
   std::ptrdiff_t cell_stride = 0;  ///< from a sum of a row of cells to the next
   float* coefficients;             ///< of each block, row by row: output by output, term by term
-  float* error;                    ///< estimated squared relative error of each pixel
-  double* row_bias;                ///< for each row the sum of its pixels' squared relative bias; may be negative
-  double* row_noise;               ///< the same of their relative variance
-  double* row_squares;             ///< for each row the sum of the squares of its pixels' errors
+  float* error;                    ///< estimated squared relative error of each pixel, which may be negative by chance
+  float* noise;                    ///< of that the relative variance; the rest is squared bias
 
   TYNDALL_INLINE bool has_emission() const { return emission[0] != nullptr; }
 };
@@ -76,8 +74,8 @@ struct FilterSteps {
   void (*predict)(const FilterView& view, int cell_row);            ///< writes filtered, level
   void (*compare)(const FilterView& view, Rival rival, int y);      ///< writes gain, distance
   void (*mix)(const FilterView& view, Rival rival, int y);          ///< changes filtered, level
-  void (*judge)(const FilterView& view, int y);                     ///< writes error, row_bias, row_noise; then
-                                                                    ///< filtered[0 .. 2] are the picture
+  void (*judge)(const FilterView& view, int y);                     ///< writes error, noise; then filtered[0 .. 2]
+                                                                    ///< are the picture, [3 .. 5] B of it
   void (*tell)(const FilterView& view, int y, float* pixel_error);  ///< fills a row of CleanPicture::pixel_error
 };
 

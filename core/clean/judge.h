@@ -4,26 +4,6 @@
 /// How wrong the chosen picture is: choice.h has the formula.
 namespace tyndall::filter {
 
-/// A sum over a row of pixels, which are dealt out to so many slots that the order is the same for all numbers of
-/// lanes.
-struct RowSum {
-  static constexpr int slots = 16;
-  alignas(64) float slot[slots] = {};
-
-  double total() const {
-    double sum = 0;
-    for (int i = 0; i < slots; ++i) sum += static_cast<double>(slot[i]);
-    return sum;
-  }
-};
-
-/// Adds the values of pixels from x on.
-template <class F>
-TYNDALL_INLINE void add_pixels(F values, int x, RowSum& sum) {
-  float* slot = sum.slot + x % RowSum::slots;
-  store(slot, load<F>(slot) + values);
-}
-
 /// What a channel of both halves shows in the 3 x 3 pixels around each lane's pixel.
 template <class F>
 struct Surroundings {
@@ -68,36 +48,29 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
 /// numbers were too large for single precision, becomes raw.
 template <class F>
 TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
-  RowSum bias_sum, noise_sum, squares;
   for (int x = 0; x < v.width; x += lanes_of<F>) {
     for (int output = 0; output < outputs; ++output)
       fetch(v, v.half[output], y + 2, x), fetch(v, v.filtered[output], y + 1, x);
     const std::ptrdiff_t at = y * v.stride + x;
-    F bias = F(0.0f), noise = F(0.0f), picture[3];
+    F bias = F(0.0f), noise = F(0.0f);
     for (int c = 0; c < 3; ++c) {
       const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
       F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
       const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
       pa = select(finite, pa, a), pb = select(finite, pb, b);
-      picture[c] = F(0.5f) * (pa + pb);
+      const F picture = F(0.5f) * (pa + pb);
       const F known = known_level(v, a, b, load<F>(v.sharp + at), look_around<F>(v, c, y, x));
-      const F level = max(min(picture[c], known), F(0.0f));
+      const F level = max(min(picture, known), F(0.0f));
       const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));
       bias = mul_add((pa - a) * (pb - b), per, bias);
       noise = mul_add(F(0.25f) * ((pa - pb) * (pa - pb)), per, noise);
+      store(v.filtered[c] + at, picture);
+      store(v.filtered[3 + c] + at, pb);
     }
-    for (int c = 0; c < 3; ++c) store(v.filtered[c] + at, picture[c]);
-    const auto inside = less(places<F>(x), splat<F>(static_cast<float>(v.width)));
-    bias = select(inside, bias, F(0.0f)), noise = select(inside, noise, F(0.0f));
     store(v.error + at, bias + noise);
-    add_pixels(bias, x, bias_sum);
-    add_pixels(noise, x, noise_sum);
-    add_pixels((bias + noise) * (bias + noise), x, squares);
+    store(v.noise + at, noise);
   }
   clear_behind(v.error + y * v.stride, v.width);
-  v.row_bias[y] = bias_sum.total();
-  v.row_noise[y] = noise_sum.total();
-  v.row_squares[y] = squares.total();
 }
 
 /// The relative error of each pixel of a row: the root of the mean of view.error over the window around it. A mean that

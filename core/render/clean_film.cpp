@@ -11,8 +11,8 @@ namespace tyndall {
 
 FilmCleaner::FilmCleaner(const Kernels& kernels) : cleaner_(find_target(kernels.isa).value_or(Target::scalar)) {}
 
-bool FilmCleaner::run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up,
-                      CleanPicture& out) {
+bool FilmCleaner::run(const Film& film, const RenderEngine& engine, PixelLevels* levels,
+                      const std::atomic<bool>& give_up, CleanPicture& out) {
   if (!read_film(film, engine.crew, give_up, input_)) return false;
   input_.shared = engine.scene.shares;
   const bool seen = seen_.parts > 0 && seen_.region == film.region && seen_.parts == parts_of_pixels(seen_, input_.spp);
@@ -22,7 +22,8 @@ bool FilmCleaner::run(const Film& film, const RenderEngine& engine, const std::a
     if (!find_first_seen(film.region, engine, give_up, input_, made)) return false;
     seen_ = made;
   }
-  return cleaner_.run(input_, engine.crew, give_up, out);
+  return cleaner_.run(input_, engine.crew, give_up, out,
+                      levels ? levels_of(film, engine, *levels, give_up) : LevelsOf());
 }
 
 namespace {
@@ -51,7 +52,7 @@ bool CoarseCleaner::run(int step, const RenderEngine& engine, double unit, const
   cleaner_.change_scene();
   return Pass(whole, 0, least_clean_spp, 1, 0, {.shares = scene.shares})
              .run(coarse.crew, coarse.kernels, scene, film_, give_up) &&
-         cleaner_.run(film_, coarse, give_up, out);
+         cleaner_.run(film_, coarse, nullptr, give_up, out);
 }
 
 CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa) {
@@ -60,7 +61,9 @@ CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads,
   Crew crew(threads);
   const SceneViewOf view(scene);
   CleanPicture picture;
-  FilmCleaner(*kernels).run(film, {crew, *kernels, view.view()}, false, picture);
+  PixelLevels levels;
+  const std::atomic<bool> never = false;
+  FilmCleaner(*kernels).run(film, {crew, *kernels, view.view()}, &levels, never, picture);
   return picture;
 }
 
@@ -129,10 +132,10 @@ bool LiveClean::make_coarse(const Film& film, double paths_per_second, const Ren
   return true;
 }
 
-bool LiveClean::make(const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up) {
+bool LiveClean::make(Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    const bool whole = cleaner_.run(picture.film(), engine, give_up, picture_);
+    const bool whole = cleaner_.run(picture.film(), engine, &picture.levels(), give_up, picture_);
     last_seconds_ = seconds_since(start);
     spent_ += last_seconds_;
     if (!whole) return false;

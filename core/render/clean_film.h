@@ -43,8 +43,10 @@ class FilmCleaner {
 
   /// The scene has changed: what is first seen has to be found anew.
   void change_scene() { seen_ = {}; }
-  /// See Cleaner::run. Every pixel of the film must have least_clean_spp samples or more.
-  bool run(const Film& film, const RenderEngine& engine, const std::atomic<bool>& give_up, CleanPicture& out);
+  /// See Cleaner::run. Every pixel of the film must have least_clean_spp samples or more. levels: of its pixels; null:
+  /// the picture's error is of no interest.
+  bool run(const Film& film, const RenderEngine& engine, PixelLevels* levels, const std::atomic<bool>& give_up,
+           CleanPicture& out);
 
  private:
   Cleaner cleaner_;
@@ -86,7 +88,7 @@ class LiveClean {
   /// more samples are to be taken.
   bool is_due(const Progression& picture, bool at_rest) const;
   /// Makes one. False if `give_up` was set before the end: then it stays due.
-  bool make(const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up);
+  bool make(Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up);
   /// Makes a coarse one, if a whole one would take long: see coarse_clean_step. paths_per_second: <= 0: unknown. False
   /// if none is wanted or needed, or if `give_up` was set before the end.
   bool make_coarse(const Film& film, double paths_per_second, const RenderEngine& engine,

@@ -129,6 +129,8 @@ class Progression {
                 const std::function<void()>& poll = {});
 
   const Film& film() const { return film_; }
+  /// What is known of its pixels' levels.
+  PixelLevels& levels() { return levels_; }
   Film take_film() { return std::move(film_); }
   /// Gives back the film that take_film() returned, unchanged.
   void put_back(Film film) { film_ = std::move(film); }

@@ -36,8 +36,12 @@ Kernels kernels_of(const RenderOptions& options) {
 /// before.
 class CleanView {
  public:
-  CleanView(const RenderOptions& options, const RenderEngine& engine)
-      : wanted_(options.clean), target_(options.target_error), engine_(engine), cleaner_(engine.kernels) {}
+  CleanView(const RenderOptions& options, const RenderEngine& engine, PixelLevels& levels)
+      : wanted_(options.clean),
+        target_(options.target_error),
+        engine_(engine),
+        levels_(levels),
+        cleaner_(engine.kernels) {}
 
   /// Whether its error is small enough to stop. Filters only so often that this takes at most a quarter of the time.
   bool is_good(const Progression& picture) {
@@ -59,7 +63,8 @@ class CleanView {
  private:
   void make(const Film& film, std::uint32_t taken) {
     const auto start = std::chrono::steady_clock::now();
-    cleaner_.run(film, engine_, false, clean_);
+    const std::atomic<bool> never = false;
+    cleaner_.run(film, engine_, &levels_, never, clean_);
     seconds_ += seconds_since(start);
     cleaned_ = taken;
   }
@@ -67,6 +72,7 @@ class CleanView {
   bool wanted_;
   double target_;
   RenderEngine engine_;
+  PixelLevels& levels_;
   FilmCleaner cleaner_;
   CleanPicture clean_;
   std::uint32_t cleaned_ = 0;  ///< samples a pixel that the newest clean view was made from
@@ -90,7 +96,7 @@ class Rendering {
       picture_.go_on(std::move(film), how);
     crew_.emplace(options.threads);
     engine_.emplace(RenderEngine{*crew_, kernels_, view_.view()});
-    clean_.emplace(options, *engine_);
+    clean_.emplace(options, *engine_, picture_.levels());
   }
 
   RenderResult run() {

@@ -48,11 +48,14 @@ bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film,
   return true;
 }
 
+LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels,
+                   const std::atomic<bool>& give_up) {
+  return [&](const std::vector<std::size_t>& pixels) { return levels.of(pixels, film, engine, give_up); };
+}
+
 ErrorEstimate estimate_error(const Film& film, const RenderEngine& engine, PixelLevels& levels,
                              const std::atomic<bool>& give_up) {
-  return estimate_error(film, &engine.crew, [&](const std::vector<std::size_t>& pixels) {
-    return levels.of(pixels, film, engine, give_up);
-  });
+  return estimate_error(film, &engine.crew, levels_of(film, engine, levels, give_up));
 }
 
 std::vector<RejectedSample> find_rejected(const Kernels& kernels, const SceneView& scene, const Film& film,

@@ -217,6 +217,36 @@ void add_emission(CleanInput& input, int half, int x, int y, float value) {
 
 }  // namespace
 
+TEST_CASE("clean: what a lone bright pixel means for the error depends on its level, which can be asked for") {
+  Known k = known_picture(96, 64, 0.2f);
+  constexpr std::size_t speck = 30 * 96 + 40;
+  for (int c = 0; c < 3; ++c) k.input.halves.plane(c)[30 * k.input.halves.stride() + 40] = 400;  // in one half alone
+  Crew crew(2);
+  std::vector<std::vector<std::size_t>> asked;
+  const auto with_level = [&](float level) {
+    CleanPicture picture;
+    const auto levels_of = [&](const std::vector<std::size_t>& pixels) {
+      asked.push_back(pixels);
+      return std::vector<Vec3f>(pixels.size(), {level, level, level});
+    };
+    REQUIRE(Cleaner(available_targets().back()).run(k.input, crew, false, picture, levels_of));
+    return picture;
+  };
+  const CleanPicture alone = clean(k.input), path = with_level(0.5f), lamp = with_level(200);
+  CHECK(asked.front() == std::vector<std::size_t>{speck});
+  for (const CleanPicture& picture : {path, lamp}) {
+    CHECK(picture.rgb == alone.rgb);
+    const double off = static_cast<double>(picture.rgb[3 * speck] - k.truth[3 * speck]);
+    CHECK(off == doctest::Approx(200).epsilon(0.05));
+  }
+  constexpr double pixels = 96 * 64;
+  const double without = clean(known_picture(96, 64, 0.2f).input).relative_error;
+  CHECK(path.relative_error == doctest::Approx(std::sqrt(200 * 200 / (0.25 + 0.01) / pixels)).epsilon(0.1));
+  CHECK(lamp.relative_error == doctest::Approx(std::sqrt(1 / pixels + without * without)).epsilon(0.1));
+  CHECK(path.pixel_error[speck] > 50 * lamp.pixel_error[speck]);
+  CHECK(path.rests_on_few_pixels);
+}
+
 TEST_CASE("clean: lamps smaller than a pixel shine in their own pixels only, however few samples have met them") {
   Known k = known_picture(96, 64, 0.3f);
   k.input.emission.resize(96, 64, 6);
