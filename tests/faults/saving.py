@@ -48,7 +48,7 @@ def rendering(tyndall, folder, threads, options):
     """Processor seconds of a render with its saving, seconds of its rendering, and its Mrays/s."""
     (folder / "c.exr").unlink(missing_ok=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([tyndall, *RENDER, "--spp", "16", "-t", threads, "-o", "c.exr", "--stats", "c.json", *options], cwd=folder,
+    subprocess.run([tyndall, *RENDER, "--spp", "48", "-t", threads, "-o", "c.exr", "--stats", "c.json", *options], cwd=folder,
                    check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     stats = json.loads((folder / "c.json").read_text())
@@ -70,7 +70,7 @@ def main():
               f"99 % {times[min(int(0.99 * len(times)), len(times) - 1)]:.2f} s, at most {times[-1]:.2f} s", flush=True)
     for name, options in (("no checkpoints", ["--checkpoint", "0"]), ("one in 10 s", ["--checkpoint", "10"]),
                           ("one a second", ["--checkpoint", "1"])):
-        runs = sorted(rendering(arguments.tyndall, arguments.scratch, threads, options) for _ in range(5))
+        runs = sorted(rendering(arguments.tyndall, arguments.scratch, threads, options) for _ in range(3))
         work, wall, rate = runs[len(runs) // 2]
         print(f"{name}: {work:.2f} s of processor time, {wall:.2f} s of rendering, {rate:.2f} Mrays/s", flush=True)
 
