@@ -20,11 +20,12 @@ bool is_set(const char* variable) {
   return value && *value;
 }
 
-/// Lets freed memory go back to the system, so that a window that is kept open does not grow. Left to itself, glibc takes
-/// ever larger blocks from its heap, where what is freed stays between what is used: after a quarter of an hour of random
-/// input a small window took 174 MB, and takes 152 MB this way. The price is 300 new pages, or 0.7 ms, for each picture
-/// while the camera is dragged in a window of 1280 x 720. And it gives each thread a heap of its own, with holes of its
-/// own: they grew by 3 to 5 MB in half an hour, and do not in one heap for all. Called before the first thread starts.
+/// Lets freed memory go back to the system, so that a window that is kept open does not grow. Left to itself, glibc
+/// takes ever larger blocks from its heap, where what is freed stays between what is used: after a quarter of an hour
+/// of random input a small window took 174 MB, and takes 152 MB this way. The price is 300 new pages, or 0.7 ms, for
+/// each picture while the camera is dragged in a window of 1280 x 720. And it gives each thread a heap of its own, with
+/// holes of its own: they grew by 3 to 5 MB in half an hour, and do not in one heap for all. Called before the first
+/// thread starts.
 void give_freed_memory_back() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 256 * 1024);
