@@ -233,6 +233,7 @@ TEST_CASE("clean: what a lone bright pixel means for the error depends on its le
     return picture;
   };
   const CleanPicture alone = clean(k.input), path = with_level(0.5f), lamp = with_level(200);
+  REQUIRE_FALSE(asked.empty());
   CHECK(asked.front() == std::vector<std::size_t>{speck});
   for (const CleanPicture& picture : {path, lamp}) {
     CHECK(picture.rgb == alone.rgb);
