@@ -13,7 +13,7 @@ bool is_larger(const PixelError& a, const PixelError& b) {
 }  // namespace
 
 void ErrorSum::add(PixelError one) {
-  if (one.error <= least_) {
+  if (!(one.error > least_)) {  // also one that is not a number, which has no place in an order
     sum_ += one.error, squares_ += one.error * one.error;
     return;
   }

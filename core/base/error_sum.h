@@ -16,7 +16,8 @@ struct PixelError {
 
 /// A sum of squared errors, and of their squares, which holds the largest errors apart. So these can be replaced by
 /// better ones later, even if they are so large that the others would be lost in the rounding of one sum. The same
-/// numbers added in the same order give the same bits.
+/// numbers added in the same order give the same bits. What is not a number makes the sum none, and is never among the
+/// largest.
 class ErrorSum {
  public:
   static constexpr std::size_t most_apart = 32;

@@ -106,7 +106,8 @@ bool few_matter(double sum, double squares, double pixels) {
   return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
 }
 
-/// Judges a pixel anew, whose level is known; in units of the planes. Returns its squared relative error.
+/// Does for one pixel what judge_of() does for a row, with a level that is known, in units of the planes. Returns the
+/// squared relative error.
 double judge_at_level(const FilterView& v, std::size_t pixel, Vec3f level) {
   const auto width = static_cast<std::size_t>(v.width);
   const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel / width) * v.stride + static_cast<int>(pixel % width);

@@ -110,8 +110,9 @@ class Cleaner {
 
   /// Filters a picture whose pixels all have samples in both halves. Returns false, and leaves `out` as it was, if
   /// `give_up` is set before the end: then each thread ends after the row of pixels, or of 8 x 8 pixels, that it is at,
-  /// which takes less than 1 ms. levels_of: tells the levels of the pixels that decide the error (see ask_levels());
-  /// empty: they are found from the picture alone. The same bits for any number of threads. Throws std::bad_alloc.
+  /// which takes less than 1 ms. levels_of: tells the levels of the pixels that decide the error (see ask_levels()),
+  /// and has to notice `give_up` itself; empty: they are found from the picture alone. The same bits for any number of
+  /// threads. Throws std::bad_alloc.
   bool run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out,
            const LevelsOf& levels_of = {});
 

@@ -30,7 +30,7 @@ class PixelLevels {
   std::unordered_map<std::size_t, Vec3f> known_;  ///< by their places in the film
 };
 
-/// These levels of a film's pixels, for ask_levels(). Holds references to all four.
+/// Asks `levels` for those of a film's pixels. What is returned refers to all four arguments.
 LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels, const std::atomic<bool>& give_up);
 
 /// The error of a film, with levels of the pixels that decide it.

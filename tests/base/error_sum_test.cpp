@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 
 using namespace tyndall;
@@ -62,4 +64,17 @@ TEST_CASE("sum of errors: what a huge error hid is there again once it is replac
   all.replace({{1000, 0.5}});
   CHECK(all.sum() == doctest::Approx(without.sum() + 0.5).epsilon(1e-12).scale(0));
   CHECK(all.squares() == doctest::Approx(without.squares() + 0.25).epsilon(1e-12).scale(0));
+}
+
+TEST_CASE("sum of errors: what is not a number is told by the sum, and is none of the largest") {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  ErrorSum all;
+  for (const PixelError& one : random_errors(200)) {
+    all.add(one);
+    all.add({1000 + one.pixel, none});
+  }
+  CHECK(std::isnan(all.sum()));
+  const std::vector<PixelError> largest = all.largest();
+  CHECK(largest.size() == ErrorSum::most_apart);
+  for (const PixelError& one : largest) CHECK(one.pixel < 1000);
 }
