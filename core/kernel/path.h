@@ -63,6 +63,13 @@ TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
   return mask_and_not(lanes, ended);
 }
 
+/// Roulette that does not ask the lanes in `spared`: a path never ends before its second vertex can be shared, nor on
+/// the way to a glint.
+template <class F>
+TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> spared) {
+  return mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
+}
+
 /// Finds the lanes in which `part` of the path's state is not finite, and returns them. Their radiance is made not a
 /// number, so that the film rejects and counts the sample.
 template <class F>
@@ -178,13 +185,9 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
-  // Roulette never ends a path before its second vertex can be shared, nor on the way to a glint.
-  auto spared = first, survivors = lanes;
-  if (s.has_chains()) spared = seeks_glint(p);
-  if (shares || s.has_chains())
-    survivors = mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
-  else
-    survivors = roulette(p, lanes);
+  const auto survivors = shares           ? roulette_but(p, lanes, first)
+                         : s.has_chains() ? roulette_but(p, lanes, seeks_glint(p))
+                                          : roulette(p, lanes);
   p.dice.next_event();
   return survivors;
 }
