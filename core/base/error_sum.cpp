@@ -12,11 +12,7 @@ bool is_larger(const PixelError& a, const PixelError& b) {
 
 }  // namespace
 
-void ErrorSum::add(PixelError one) {
-  if (!(one.error > least_)) {  // also one that is not a number, which has no place in an order
-    sum_ += one.error, squares_ += one.error * one.error;
-    return;
-  }
+void ErrorSum::set_apart(PixelError one) {
   apart_.push_back(one);
   if (apart_.size() == 2 * most_apart) trim();
 }

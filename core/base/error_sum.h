@@ -22,7 +22,12 @@ class ErrorSum {
  public:
   static constexpr std::size_t most_apart = 32;
 
-  void add(PixelError one);
+  void add(PixelError one) {
+    if (one.error > least_)
+      set_apart(one);
+    else  // also what is not a number, which has no place in an order
+      sum_ += one.error, squares_ += one.error * one.error;
+  }
   void add(const ErrorSum& other);
   double sum() const;
   double squares() const;
@@ -33,6 +38,7 @@ class ErrorSum {
   void replace(const std::vector<PixelError>& better);
 
  private:
+  void set_apart(PixelError one);
   void trim();
 
   double sum_ = 0, squares_ = 0;   ///< of those that are not apart

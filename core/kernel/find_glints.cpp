@@ -16,6 +16,7 @@ constexpr int most_pairs = 32;        // so that an edit stays quick
 constexpr int most_reflections = 4;   // of a word; more carry too little light to be seen
 constexpr int most_roots = 4;         // of a word between two points
 constexpr float least_share = 1e-6f;  // of light, below which a word is left out
+constexpr float seldom_share = 0.1f;  // of light, below which a word's whole image is steered for
 constexpr std::ptrdiff_t most_in_pixel = 16;
 constexpr float largest = 16;         // box, in pixels across
 constexpr float margin = 0.1f;        // of a box, on each side: it is found from a few points of the lamp only
@@ -232,7 +233,8 @@ struct WeighedGlint {
   float weight;  // among those of its pixel
 };
 
-/// The parts of a box in the pixels of which it fills less than half: samples hit larger parts often enough.
+/// The parts of a box in the pixels of which it fills less than half: samples hit larger parts often enough. All of its
+/// parts where glass sends little light its way: there samples would seldom take it.
 void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<WeighedGlint>& glints) {
   const float extra = uncertainty / pixel_angle;
   const float wide = margin * (box.right - box.left) + extra, high = margin * (box.bottom - box.top) + extra;
@@ -242,8 +244,8 @@ void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<Weig
     for (float x = std::max(std::floor(box.left), 0.0f); x < box.right && x < static_cast<float>(s.width); ++x) {
       Glint g{x, y, std::max(box.left - x, 0.0f), std::max(box.top - y, 0.0f), 0, 0, 0, 0, 0, box.way};
       g.width = std::min(box.right - x, 1.0f) - g.left, g.height = std::min(box.bottom - y, 1.0f) - g.top;
-      if (g.width > 0 && g.height > 0 && g.width * g.height < 0.5f)
-        glints.push_back({g, std::sqrt(std::sqrt(box.share))});
+      const bool seldom_met = g.width * g.height < 0.5f || (box.way > 0 && box.share < seldom_share);
+      if (g.width > 0 && g.height > 0 && seldom_met) glints.push_back({g, std::sqrt(std::sqrt(box.share))});
     }
 }
 

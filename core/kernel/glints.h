@@ -47,7 +47,8 @@ TYNDALL_INLINE Glints glints_in_rows(Glints all, int begin, int end) {
 struct SceneView;
 
 /// The glints of the lamps that chains look for, as the camera sees them while nothing is in the way; sorted by row.
-/// Only of lamps and balls that rest, for a camera without a lens, and only where one fills less than half of a pixel.
+/// Only of lamps and balls that rest, for a camera without a lens, and only where one fills less than half of a pixel
+/// or glass sends little light its way.
 std::vector<Glint> find_glints(const SceneView& scene);
 
 /// Samples in pixels with glints.

@@ -16,6 +16,7 @@ const std::vector<Part>& parts() {
       {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
       {"tree", "build time, memory and speed of trees over spheres", measure_tree},
       {"edits", "milliseconds from an edit to its picture, interactive renderer", measure_edits},
+      {"clean", "milliseconds that the clean view of a film takes", measure_clean},
       {"start", "wall time of the smallest render as a process", measure_start},
       {"against", "speed and seconds to relMSE 0.01 beside the program that --against names, in pairs",
        measure_against},
