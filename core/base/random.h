@@ -32,6 +32,7 @@ inline constexpr std::uint32_t chain_word = 0x40000000u;
 inline constexpr std::uint32_t chain_root = 0x40000001u;
 inline constexpr std::uint32_t chain_asked = 0x40000002u;
 inline constexpr std::uint32_t chain_pair = 0x40000003u;
+inline constexpr std::uint32_t chain_word_tail = 0x40000004u;
 }  // namespace dimension
 
 inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions

@@ -201,8 +201,8 @@ TYNDALL_INLINE void add_through_pane(const ChainAsked<F>& a, Vec3<F> point, Mask
 template <class F>
 struct ChainLooked {
   ChainRays<F> rays;
-  UintOf<F> digits;     ///< of the word
-  ChainFound<F> chain;  ///< by a ball
+  Decisions<F> decisions;  ///< of the word
+  ChainFound<F> chain;     ///< by a ball
 };
 
 template <class F>
@@ -210,12 +210,12 @@ TYNDALL_INLINE ChainLooked<F> look_for_chain(const auto& s, const Paths<F>& p, c
                                              const ChainAsked<F>& a, MaskOf<F> lanes) {
   ChainLooked<F> out{};
   out.rays.found = less(F(1.0f), F(0.0f));
-  out.digits = p.dice.alone(dimension::chain_word);
+  out.decisions = {p.dice.alone(dimension::chain_word), p.dice.alone(dimension::chain_word_tail)};
   const IntOf<F> events_left = IntOf<F>(s.max_depth) - p.depth;
   const auto by_mirror = mask_and(mask_and(lanes, a.by_mirror), less(IntOf<F>(1), events_left));
   if (s.chains.has_balls()) {
     const auto valid = mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine));
-    const DrawnWord<F> drawn = draw_word(a.ball, a.ends, out.digits);
+    const DrawnWord<F> drawn = draw_word(a.ball, a.ends, out.decisions);
     const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), events_left);
     const auto by_ball = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_pane);
     const auto here = mask_and(mask_and(by_ball, valid), mask_and(drawn.drawn, fits));
@@ -275,7 +275,7 @@ template <class F>
     const ChainFound<F>& c = looked.chain;
     const InsideWay<F> way = inside_way(a.ball, a.plane, a.ends, c.sign.near, c.sign.far, c.sense,
                                         c.chain.turn.most * (F(1.0f) - c.s * c.s));
-    const F passes = pass_inside(s, a.ball, a.ends, way, looked.digits, p.ray.time, crowded, shadow_rays);
+    const F passes = pass_inside(s, a.ball, a.ends, way, looked.decisions, p.ray.time, crowded, shadow_rays);
     weight = select(crowded, weight * passes, weight);
   }
   Vec3<F> colour = light_radiance(s, lamp, a.at.point, arrives);

@@ -204,14 +204,14 @@ TYNDALL_INLINE Vec3<F> point_at(const ChainBall<F>& b, const InsideWay<F>& way, 
   return along(along(b.center, radius * a.cos, way.out), radius * a.sin, way.side);
 }
 
-/// Share of light that passes along the way within the ball: below 1 in fog, 0 where a surface is in the way. digits:
-/// those from which the word was drawn, so that the same events follow in the same order.
+/// Share of light that passes along the way within the ball: below 1 in fog, 0 where a surface is in the way.
+/// decisions: those by which the word was drawn, so that the same events follow in the same order.
 template <class F>
 TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEnds<F>& e, InsideWay<F> way,
-                             UintOf<F> digits, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
+                             const Decisions<F>& decisions, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
   using I = IntOf<F>;
-  WordWalk<F> walk = start_walk(b, e, digits);
-  walk.decide.digits = select(walk.main, UintOf<F>(0xffffffffu), walk.decide.digits);
+  WordWalk<F> walk = start_walk(b, e, decisions);
+  walk.decide.high = select(walk.main, UintOf<F>(0xffffffffu), walk.decide.high);  // no reflections
   walk.open = mask_and(lanes, mask_and_not(mask_or(walk.open, walk.main), b.mirror));
   auto clear = lanes;
   F share = F(1.0f);

@@ -160,10 +160,10 @@ TYNDALL_INLINE ChainWord<F> main_word(const ChainBall<F>& b, const ChainEnds<F>&
           select(b.hollow, select(e.both_out, two, select(e.deep, one, none)), none), none};
 }
 
-// A word is drawn by decisions, each of which takes one octal digit of a random number. First: is it the main word?
+// A word is drawn by decisions, each of which takes one octal digit of 64 random bits. First: is it the main word?
 // If not: does the light reflect off the outside of the glass? Does it go past the inner sphere of a thick shell? Then,
 // at each event: is it reflected?
-inline constexpr int most_decisions = 7;        ///< about events at most; longer words are left to scattering
+inline constexpr int most_decisions = 16;       ///< about events at most; longer words are left to scattering
 inline constexpr std::int32_t main_digits = 6;  ///< how many of the eight digits mean the main word
 inline constexpr float take_main = 0.125f * main_digits;
 inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes" in each of the other decisions
@@ -186,14 +186,15 @@ TYNDALL_INLINE MaskOf<F> same_word(const ChainWord<F>& a, const ChainWord<F>& b)
                   equal(a.inner_reflected, b.inner_reflected));
 }
 
-/// The decisions that 32 random bits make, three bits each, from the highest down.
+/// The decisions that 64 random bits make, three bits each, from the highest down.
 template <class F>
 struct Decisions {
-  UintOf<F> digits;
+  UintOf<F> high, low;
   /// Whether the next digit, 0 ... 7, is below `limit`. Moves on to the digit after it.
   TYNDALL_INLINE MaskOf<F> below(std::int32_t limit) {
-    const auto yes = less(as_int(shift_right<29>(digits)), IntOf<F>(limit));
-    digits = shift_left<3>(digits);
+    const auto yes = less(as_int(shift_right<29>(high)), IntOf<F>(limit));
+    high = shift_left<3>(high) | shift_right<29>(low);
+    low = shift_left<3>(low);
     return yes;
   }
 };
@@ -209,10 +210,10 @@ struct WordWalk {
 };
 
 template <class F>
-TYNDALL_INLINE WordWalk<F> start_walk(const ChainBall<F>& b, const ChainEnds<F>& e, UintOf<F> digits) {
+TYNDALL_INLINE WordWalk<F> start_walk(const ChainBall<F>& b, const ChainEnds<F>& e, const Decisions<F>& decisions) {
   using I = IntOf<F>;
   WordWalk<F> walk;
-  walk.decide = {digits};
+  walk.decide = decisions;
   walk.main = mask_or(b.mirror, walk.decide.below(main_digits));
   walk.off = mask_and_not(mask_and(e.both_out, walk.decide.below(3)), walk.main);
   const auto past = mask_and(mask_and(e.both_out, is_thick(b)), walk.decide.below(3));
@@ -241,11 +242,11 @@ TYNDALL_INLINE WordEvent<F> step_walk(WordWalk<F>& walk) {
   return event;
 }
 
-/// Draws a word. digits: 32 random bits.
+/// Draws a word by random decisions.
 template <class F>
-TYNDALL_INLINE DrawnWord<F> draw_word(const ChainBall<F>& b, const ChainEnds<F>& e, UintOf<F> digits) {
+TYNDALL_INLINE DrawnWord<F> draw_word(const ChainBall<F>& b, const ChainEnds<F>& e, const Decisions<F>& decisions) {
   const F one = F(1.0f), none = F(0.0f);
-  WordWalk<F> walk = start_walk(b, e, digits);
+  WordWalk<F> walk = start_walk(b, e, decisions);
   ChainWord<F> w{select(e.both_out, one, none), none, none};
   for (int i = 0; i < most_decisions && any(walk.open); ++i) {
     const WordEvent<F> event = step_walk(walk);
