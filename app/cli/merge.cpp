@@ -38,8 +38,8 @@ void check_part(const Parts& parts, const StoredFilm& part) {
   const std::string& name = part.part.name;
   if (part.scene.render.adaptive)
     throw UsageError(name + ": found an adaptive render, expected a range of samples that every pixel has");
-  if (!parts.frames.empty() && !same_samples(parts.scene, part.scene))
-    throw UsageError(name + ": found a film of another scene or other settings than in " + parts.frames.front().name);
+  const std::string found = parts.frames.empty() ? "" : differing_scene(part.scene, parts.scene);
+  if (!found.empty()) throw UsageError(name + ": found " + found + " as in " + parts.frames.front().name);
   if (!part.label.version.empty() && !parts.version.empty() && part.label.version != parts.version)
     throw UsageError(fmt::format("{}: found a film of version {}, expected {} as in {}", name, part.label.version,
                                  parts.version, parts.of_version));
@@ -58,10 +58,11 @@ Parts read_parts(const std::vector<std::filesystem::path>& files) {
   return parts;
 }
 
-MemoryPlan memory_plan(const Film& film, const Scene& scene, const std::vector<std::filesystem::path>& files,
+MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vector<std::filesystem::path>& files,
                        const ImageForm& form) {
   MemoryPlan plan;
-  plan.width = film.region.width(), plan.height = film.region.height();
+  plan.width = part.film.region.width(), plan.height = part.film.region.height();
+  plan.place = part.name;
   plan.emission = has_lamps(scene);
   plan.files = files;
   plan.form = form;
@@ -75,7 +76,7 @@ int run(const MergeCommand& command) {
   check_outputs(outputs_of("--output", command.outputs), command.parts);
   for (const auto& file : command.outputs) check_can_write(file);
   const Parts parts = read_parts(command.parts);
-  MemoryPlan plan = memory_plan(parts.frames.front().film, parts.scene, command.outputs, command.form);
+  MemoryPlan plan = memory_plan(parts.frames.front(), parts.scene, command.outputs, command.form);
   plan.parts = parts.frames.size() > 1;
   plan.clean = command.denoise;
   check_memory(plan, free_memory());
@@ -97,7 +98,7 @@ int run(const DenoiseCommand& command) {
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
   const StoredFilm stored = read_stored_frame(command.film);
-  MemoryPlan plan = memory_plan(stored.part.film, stored.scene, command.outputs, command.form);
+  MemoryPlan plan = memory_plan(stored.part, stored.scene, command.outputs, command.form);
   plan.clean = true;
   check_memory(plan, free_memory());
   const Film film = read_film_alone(command.film);

@@ -71,12 +71,13 @@ void check_if_ignored(const RenderCommand& command, const RenderSettings& settin
   if (given.contains("sharing") && settings.sharing) ignored("--sharing on", "sharing is a");
 }
 
-MemoryPlan memory_plan(const RenderCommand& command, const Scene& scene, const Region& region) {
+MemoryPlan memory_plan(const RenderCommand& command, const LoadedScene& loaded, const Region& region) {
   // Without the option only renders of more than half a minute copy their film, and only if there is memory for it.
   const bool copies = command.checkpoint > 0;
   return {.width = region.width(),
           .height = region.height(),
-          .emission = has_lamps(scene),
+          .place = loaded.name + ": /image",
+          .emission = has_lamps(loaded.scene),
           .clean = command.denoise,
           .checkpoints = copies,
           .files = command.outputs,
@@ -97,7 +98,7 @@ void prepare(Job& job) {
   check_outputs(outputs, job.loaded.files);
   for (const auto& file : command.outputs) check_can_write(file);
   if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
-  check_memory(memory_plan(command, job.loaded.scene, *job.options.region), free_memory());
+  check_memory(memory_plan(command, job.loaded, *job.options.region), free_memory());
   job.begin = find_start(command, job.loaded, job.options, job.kernels);
   job.samples_before = totals(job.begin.film).samples;
   if (!job.begin.note.empty()) complain(job.begin.note);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace tyndall {
@@ -62,10 +63,6 @@ RenderOptions render_options(const RenderCommand& command, const LoadedScene& lo
 
 namespace {
 
-std::string differing(const std::string& what, const std::string& film, const std::string& asked) {
-  return film == asked ? "" : what + " " + film + ", expected " + asked;
-}
-
 /// The first setting that differs, such as "other settings (seed 0), expected seed 9"; "": none does.
 std::string differing_settings(const RenderSettings& film, const RenderSettings& asked) {
   std::string text;
@@ -78,12 +75,20 @@ std::string differing_settings(const RenderSettings& film, const RenderSettings&
   return text;
 }
 
+}  // namespace
+
 std::string differing_scene(const Scene& film, const Scene& asked) {
   if (same_samples(film, asked)) return "";
   const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
-  if (size(film) != size(asked)) return differing("a film of another image size,", size(film), size(asked));
+  if (size(film) != size(asked)) return "a film of another image size, " + size(film) + ", expected " + size(asked);
   const std::string settings = differing_settings(film.render, asked.render);
   return settings.empty() ? "a film of another scene, expected the same scene" : settings;
+}
+
+namespace {
+
+std::string differing(const std::string& what, const std::string& film, const std::string& asked) {
+  return film == asked ? "" : what + " " + film + ", expected " + asked;
 }
 
 std::string region_text(const Region& r) {
@@ -139,6 +144,25 @@ bool invites(const std::filesystem::path& file, const RenderOptions& options, co
   }
 }
 
+/// Throws UsageError if a render would replace an unfinished film that it does not go on from. on: the scene of the
+/// film in `kept` that it goes on from; null: it starts anew.
+void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const std::filesystem::path& kept,
+                      const Scene* on) {
+  for (const auto& file : outputs) {
+    std::error_code error;
+    if (file == kept || !is_exr(file) || !std::filesystem::is_regular_file(file, error)) continue;
+    try {
+      const auto label = read_film_label(file);
+      if (!label || !label->unfinished) continue;
+      if (on && same_samples(*on, read_stored_frame(file).scene)) continue;  // a copy from when it was interrupted
+    } catch (const ImageFileError&) {
+      continue;  // no film
+    }
+    throw UsageError(file.string() + ": found an unfinished film, expected it to be the first .exr output, which is " +
+                     "gone on with; --fresh replaces it");
+  }
+}
+
 RenderStart start_with(StoredFilm stored, const RenderCommand& command, const LoadedScene& loaded,
                        const RenderOptions& options) {
   RenderStart start;
@@ -157,14 +181,9 @@ RenderStart start_with(StoredFilm stored, const RenderCommand& command, const Lo
   return start;
 }
 
-}  // namespace
-
-RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
-                       const Kernels& kernels) {
-  const std::filesystem::path file = kept_film(command.outputs, command.form);
-  if (command.resume && file.empty())
-    throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
-  if (command.fresh || file.empty()) return {};
+/// The film in `file`, if it is to be gone on with.
+std::optional<StoredFilm> find_film(const std::filesystem::path& file, const RenderCommand& command,
+                                    const LoadedScene& loaded, const RenderOptions& options, const Kernels& kernels) {
   std::error_code error;
   const bool exists = std::filesystem::exists(file, error);
   if (command.resume && !exists)
@@ -178,7 +197,21 @@ RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, 
   const std::string found = difference(stored, command, loaded, options, kernels);
   if (!found.empty() && !command.resume && !stored.label.unfinished) return {};
   if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);
-  return start_with(std::move(stored), command, loaded, options);
+  return stored;
+}
+
+}  // namespace
+
+RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
+                       const Kernels& kernels) {
+  const std::filesystem::path file = kept_film(command.outputs, command.form);
+  if (command.resume && file.empty())
+    throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
+  if (command.fresh) return {};
+  std::optional<StoredFilm> stored;
+  if (!file.empty()) stored = find_film(file, command, loaded, options, kernels);
+  spare_unfinished(command.outputs, file, stored ? &stored->scene : nullptr);
+  return stored ? start_with(std::move(*stored), command, loaded, options) : RenderStart{};
 }
 
 }  // namespace tyndall

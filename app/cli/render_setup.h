@@ -27,8 +27,13 @@ struct RenderStart {
 
 /// Looks at the film in the .exr output. One that fits is gone on with if it is unfinished, has just the samples that
 /// are asked for, or --resume asks for it. Throws UsageError where --resume finds no film that fits, and for an
-/// unfinished one that does not fit: it says what differs. Any other file is replaced in the end.
+/// unfinished one that does not fit: it says what differs; likewise for unfinished ones in further outputs. Any other
+/// file is replaced in the end.
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels);
+
+/// How a film's scene differs from the one that is asked for if their samples do, as "found X, expected Y" without
+/// "found"; "": they are the same.
+std::string differing_scene(const Scene& film, const Scene& asked);
 
 }  // namespace tyndall

@@ -109,7 +109,7 @@ void check_memory(const MemoryPlan& plan, const FreeMemory& free) {
                                [&plan](const auto& file) { return image_ending(file, plan.form) == ".png"; });
   if (plan.width * plan.height > max_image_pixels || (png && (3 * plan.width + 1) * plan.height >= 1 << 30))
     throw UsageError(
-        fmt::format("found an image of {} pixels, expected at most 2^28, which is what image files hold", size));
+        fmt::format("{}: found {} pixels, expected at most 2^28, which is what image files hold", plan.place, size));
   check_needed((plan.parts ? "merging films of " : "a render of ") + size + " pixels", memory_needed(plan), free);
 }
 

@@ -10,6 +10,7 @@ namespace tyndall {
 /// What memory depends on. All commands hold one film, and write files of it.
 struct MemoryPlan {
   std::int64_t width = 0, height = 0;  ///< of the film
+  std::string place;                   ///< what says so, as messages call it: "cover.json: /image"
   bool emission = false;               ///< whether the film records emission: the scene has lamps
   bool clean = false;                  ///< whether the picture is filtered
   bool checkpoints = false;            ///< whether the film is copied while it is rendered

@@ -44,6 +44,12 @@ void add_choices(JsonText& json, const RenderSettings& settings) {
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
 }
 
+/// What was done of the settings that are no figures above, which are the youngest.
+void add_rest(JsonText& json, const RunFigures& run) {
+  json.add("sharing", SceneViewOf(run.compiled).view().shares);  // not only allowed
+  add_choices(json, run.settings.render);
+}
+
 /// Of the clean view.
 void add_clean(JsonText& json, const RunFigures& run) {
   const std::optional<CleanPicture>& clean = run.result.clean;
@@ -66,8 +72,6 @@ void add_losses(JsonText& json, const RunFigures& run, const FilmTotals& sum) {
   json.add("most_spp", sum.most_taken);
   json.add("rare_bright_paths", run.rare_bright_paths);
   json.add("caustics", name_of(run.settings.render.caustics));
-  json.add("sharing", SceneViewOf(run.compiled).view().shares);  // what was done, not only what was allowed
-  add_choices(json, run.settings.render);
 }
 
 }  // namespace
@@ -97,6 +101,7 @@ std::string stats_text(const RunFigures& run) {
   add_clean(json, run);
   json.add("seconds_denoise", run.result.seconds_clean);
   json.add("denoised_hash", clean_hash(run));
+  add_rest(json, run);
   return json.text();
 }
 
@@ -114,6 +119,7 @@ std::string embedded_stats_text(const RunFigures& run) {
   add_losses(json, run, sum);
   add_clean(json, run);
   json.add("denoised_hash", clean_hash(run));
+  add_rest(json, run);
   return json.text();
 }
 

@@ -45,6 +45,18 @@ refused 'samples up to' "${box[@]}" --samples 0:1
 expect 2 "$tyndall" "${box[@]}" --spp 10000 --resume --isa scalar -q -o k.exr
 complains 'instruction set' '--fresh'
 
+# Nor is one in a further output, which no render goes on with, nor where the output is to hold no film.
+refused 'first .exr output' "${box[@]}" --spp 10000 -o first.exr
+refused 'first .exr output' "${box[@]}" --spp 10000 --exr-film no
+[ ! -e first.exr ] || fail 'a refused render wrote its first output'
+cp killed.exr first.exr
+expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o first.exr -o k.exr --stats k.json
+complains 'goes on from'
+same 'a render with two films that went on' "$(json k.json image_hash)" "$whole"
+cmp -s first.exr k.exr || fail 'its two films differ'
+cp killed.exr k.exr
+rm first.exr
+
 # The same command goes on by itself, and says so; what fewer samples ask for is written as it is.
 expect 0 "$tyndall" "${box[@]}" --spp 1 -q -o k.exr --stats k.json
 complains 'more than the 1 asked for'

@@ -46,7 +46,7 @@ fi
 
 # What image files cannot hold is refused, too, whatever memory there is.
 expect 2 "$tyndall" render quads --size 20000x13500 --spp 1 -o big.png
-complains '20000x13500' '2^28'
+complains 'quads: /image: found 20000x13500' '2^28'
 expect 2 "$tyndall" render quads --size 1x268435456 --spp 1 -o big.png
 [ ! -e big.png ] || fail 'an image was written'
 
