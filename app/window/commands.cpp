@@ -16,7 +16,7 @@ void Commands::take(const InputEvents& events) {
       pacing_.on_event();
       continue;
     }
-    if (!press.typing && !asks() && objects_.has_keys() && objects_.take_key(press.key)) continue;
+    if (!press.typing && !asks() && objects_.has_keys() && objects_.take_press(press)) continue;
     if (objects_.active() && !answers) continue;
     if (!command || (press.typing && !asks()) || (asks() && !answers)) continue;
     act(*command);
@@ -217,7 +217,7 @@ void Commands::escape() {
 void Commands::draw(Ui& ui, const Rect& area) {
   const int chosen = palette_.draw(ui, area);
   if (chosen >= 0) later_ = [this, command = palette_commands_[static_cast<std::size_t>(chosen)]] { act(command); };
-  if (shows_help_) draw_help(ui, area, shows_help_);
+  if (shows_help_) draw_help(ui, shows_help_);
   const ReferenceWish wish = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
   if (wish.file) session_.references().open(*wish.file);
   if (wish.render) session_.render_reference();

@@ -102,8 +102,10 @@ bool ObjectTools::act(Action action) {
   }
 }
 
-bool ObjectTools::take_key(int key) {
-  if (!menu_.take_key(key) && !handles_.take_key(key)) return false;
+bool ObjectTools::take_press(const KeyPress& press) {
+  const bool taken = press.character != '\0' ? handles_.take_character(press.character)
+                                             : menu_.take_key(press.key) || handles_.take_key(press.key);
+  if (!taken) return false;
   pacing_.on_event();
   return true;
 }

@@ -22,8 +22,8 @@ class ObjectTools {
 
   /// Carries out an action on objects; what is no such action is left. Returns whether it was one.
   bool act(Action action);
-  /// A key that a menu or a movement waits for; key: GLFW's number. Returns whether it was meant for one.
-  bool take_key(int key);
+  /// A key or character that a menu or a movement waits for. Returns whether it was meant for one.
+  bool take_press(const KeyPress& press);
   /// Closes the menu, or takes back what is being moved. Returns whether there was anything.
   bool escape();
   /// Lets the selection follow an undo or a redo. before: the scene that was open before it.

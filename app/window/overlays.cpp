@@ -9,7 +9,8 @@
 namespace tyndall {
 namespace {
 
-constexpr ImGuiWindowFlags box_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+constexpr ImGuiWindowFlags box_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
 
 /// Begins a box with round corners, in the middle of an area or at its foot.
@@ -45,9 +46,13 @@ void draw_message(Ui& ui, const Rect& area, const Message& message) {
   end_box();
 }
 
-void draw_help(Ui& ui, const Rect& area, bool& open) {
-  const float s = ui.scale;
-  begin_box(ui, "##help", middle(area), {0.5f, 0.5f}, ImGuiWindowFlags_NoNav);
+void draw_help(Ui& ui, bool& open) {
+  // Within the window, however small it is: what is too wide is wrapped, and what is too high is scrolled to.
+  const float s = ui.scale, margin = 8 * s;
+  const ImVec2 room{ImGui::GetIO().DisplaySize.x - 2 * margin, ImGui::GetIO().DisplaySize.y - 2 * margin};
+  ImGui::SetNextWindowSizeConstraints({0, 0}, room);
+  begin_box(ui, "##help", {margin + room.x / 2, margin + room.y / 2}, {0.5f, 0.5f}, ImGuiWindowFlags_NoNav);
+  ImGui::PushTextWrapPos(room.x - 40 * s);
   compat::push_font(ui.fonts.strong);
   ImGui::TextUnformatted("Mouse and keys");
   ImGui::PopFont();
@@ -58,6 +63,7 @@ void draw_help(Ui& ui, const Rect& area, bool& open) {
     ImGui::SameLine(210 * s);
     ImGui::TextColored(palette::dim, "%s", line.effect.c_str());
   }
+  ImGui::PopTextWrapPos();
   const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);
   if (outside && !ImGui::IsWindowAppearing()) open = false;
   if (ui.log) ui.log->changed("help", "open");

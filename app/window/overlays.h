@@ -43,7 +43,7 @@ void draw_status(Ui& ui, const Rect& rect, const std::vector<StatusCell>& cells)
 void draw_message(Ui& ui, const Rect& area, const Message& message);
 
 /// The table of inputs; sets `open` to false when it is clicked away.
-void draw_help(Ui& ui, const Rect& area, bool& open);
+void draw_help(Ui& ui, bool& open);
 
 void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines);
 

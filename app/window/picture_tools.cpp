@@ -52,7 +52,7 @@ void PictureTools::look_through_next() {
 /// Begins to draw a rectangle, or gives one up.
 void PictureTools::refine() {
   const Region now = session_.renderers().refined_first();
-  if (rectangle_.cancel()) return;
+  if (rectangle_.cancel()) return session_.messages().dismiss();
   if (now.width() > 0) {
     session_.renderers().refine_first({});
     return session_.messages().say("the whole picture is refined again");
@@ -65,7 +65,7 @@ void PictureTools::refine() {
 
 bool PictureTools::escape() {
   pacing_.on_event();
-  if (rectangle_.cancel()) return true;
+  if (rectangle_.cancel()) return session_.messages().dismiss(), true;
   if (inspector_.drop_path()) return true;
   if (!inspector_.on()) return false;
   inspector_.set_on(false, session_.renderers());

@@ -49,7 +49,7 @@ int MainWindow::run() {
     const bool looked = looks_.collect(), came = gallery_.collect();
     if (events.any || session_.collect() || looked || came) pacing_.on_event();
     for (const KeyPress& press : events.keys)
-      if (log_) log_->line("key " + std::to_string(press.key));
+      if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
     commands_.take(events);
     const double now = clock_seconds();
     if (session_.collect_errors()) pacing_.wake_at(now);

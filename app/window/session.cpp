@@ -141,7 +141,8 @@ void Session::shown(Half half, const std::shared_ptr<const Frame>& frame) {
 
 /// Pauses a picture once where the command line said so; another edit, or Space, goes on.
 void Session::pause_at_limits(const Frame& frame) {
-  const bool reached = frame.seconds >= limits_.seconds || frame.relative_error <= limits_.error;
+  const bool good = limits_.error > 0 && frame.relative_error <= limits_.error;
+  const bool reached = frame.seconds >= limits_.seconds || good;
   if (!reached || frame.spp == 0 || frame.finished || frame.edit == limited_edit_ || renderers_.paused()) return;
   limited_edit_ = frame.edit;
   renderers_.pause(true);

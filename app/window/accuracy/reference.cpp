@@ -5,6 +5,7 @@
 #include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/image/image_io_file.h"
+#include "core/render/mailbox.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
 
@@ -89,7 +90,7 @@ std::optional<Reference> rendered_reference(const ReferenceOrder& order,
 
 ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
   if (reference.image.width != scene.width || reference.image.height != scene.height) return ReferenceFit::other_size;
-  if (!(without_method(reference.scene) == without_method(scene))) return ReferenceFit::other_scene;
+  if (!change_between(without_method(reference.scene), without_method(scene)).none()) return ReferenceFit::other_scene;
   const RenderSettings &one = reference.scene.render, &other = scene.render;
   const bool same = reference.known_method && one.seed == other.seed && one.sampler == other.sampler;
   return same ? ReferenceFit::same_samples : ReferenceFit::fits;

@@ -4,24 +4,16 @@
 #include "app/window/edit/arrange.h"
 
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
 // GLFW's numbers of keys.
-constexpr int key_enter = 257, key_backspace = 259, key_keypad_enter = 335, key_keypad_0 = 320, key_keypad_9 = 329,
-              key_keypad_point = 330, key_keypad_minus = 333;
+constexpr int key_enter = 257, key_backspace = 259, key_keypad_enter = 335;
 constexpr double click_way = 4;     // units of the design; a press that goes less far is a click
 constexpr double fine_share = 0.1;  // of the mouse's way that counts while Shift is held
-
-/// The character that a key types into a number; '\0': none.
-char typed_by(int key) {
-  if ((key >= '0' && key <= '9') || key == '.' || key == '-') return static_cast<char>(key);
-  if (key >= key_keypad_0 && key <= key_keypad_9) return static_cast<char>('0' + key - key_keypad_0);
-  if (key == key_keypad_point || key == ',') return '.';
-  return key == key_keypad_minus ? '-' : '\0';
-}
 
 }  // namespace
 
@@ -58,13 +50,24 @@ bool HandleTool::take_key(int key) {
     confirmed_ = true;
   else if (key == key_backspace && !typed_.empty())
     typed_.pop_back();
-  else if (const char character = typed_by(key); character != '\0' && drag_->handle.kind != HandleKind::plane)
-    typed_ += character;
   else
     return false;
+  read_typed();
+  return true;
+}
+
+bool HandleTool::take_character(char character) {
+  const bool in_number = std::string_view("0123456789.,+-*/^()").find(character) != std::string_view::npos;
+  const bool in_name = !typed_.empty() && std::string_view("pisqrt").find(character) != std::string_view::npos;
+  if (!drag_ || drag_->handle.kind == HandleKind::plane || !(in_number || in_name)) return false;
+  typed_ += character;
+  read_typed();
+  return true;
+}
+
+void HandleTool::read_typed() {
   double number = 0;
   drag_->typed = parse_number(typed_, "", number) ? std::optional(number) : std::nullopt;
-  return true;
 }
 
 void HandleTool::end() {

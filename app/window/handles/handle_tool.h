@@ -23,6 +23,8 @@ class HandleTool {
   void grab(const Mouse& mouse, const ObjectPaths& selected, const Scene& scene);
   /// A key while something is moved; key: GLFW's number. Returns whether it was meant for this.
   bool take_key(int key);
+  /// A character of a number or a sum that is typed meanwhile ("1/4", "2*pi"). Returns whether it was meant for this.
+  bool take_character(char character);
   /// Gives up what is being done, and takes it back with the next drawing.
   void cancel() { cancelled_ = drag_.has_value(); }
 
@@ -46,6 +48,7 @@ class HandleTool {
   bool begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene);
   void follow_mouse(const Mouse& mouse, const PictureFrame& frame, Scene& scene);
   void choose_axis(HandleKind kind);
+  void read_typed();
   void end();
 
   std::optional<HandleDrag> drag_;

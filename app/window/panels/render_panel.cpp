@@ -108,11 +108,11 @@ void split_row(Ui& ui, PanelState& state) {
 }
 
 std::string clean_meaning(const PanelState& state) {
-  if (state.facts.clean == 0) return "";
+  if (state.facts.clean == 0) return "as it is in files";
   const CleanFrame* clean = state.facts.frame ? state.facts.frame->clean.get() : nullptr;
   if (!clean) return "from 2 samples a pixel on";
   if (clean->spp == 0) return "coarse at first, then filtered from 2 spp on";
-  return fmt::format("filtered at {} spp; saved files are not filtered", format_count(clean->spp));
+  return fmt::format("filtered at {} spp; files are not", format_count(clean->spp));
 }
 
 void clean_row(Ui& ui, PanelState& state) {

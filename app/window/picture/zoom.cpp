@@ -22,7 +22,7 @@ Rect ImageZoom::place(const Rect& area, const Rect& fit, int width, int height, 
   return image_ = {x0, y0, x0 + w, y0 + h};
 }
 
-/// What is at (x, y) now is there at the new scale, too.
+/// What is at (x, y) now is there at the new scale, too. A picture that is smaller than the area goes to its middle.
 void ImageZoom::set(float scale, float x, float y) {
   if (image_.width() <= 0 || image_.height() <= 0) return;
   const float u = (x - image_.x0) / image_.width(), v = (y - image_.y0) / image_.height();
@@ -30,6 +30,7 @@ void ImageZoom::set(float scale, float x, float y) {
   scale_ = scale;
   at_x_ = u + ((area_.x0 + area_.x1) / 2 - x) / w;
   at_y_ = v + ((area_.y0 + area_.y1) / 2 - y) / h;
+  if (scale < fit_) at_x_ = at_y_ = 0.5f;
   limit();
 }
 

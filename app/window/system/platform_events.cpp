@@ -70,6 +70,10 @@ void deliver(GLFWwindow* window, const RawInput& input) {
     case RawInput::Kind::key:
       return deliver_key(window, input);
     case RawInput::Kind::character:
+      if (input.character < 128) {
+        const bool typing = ImGui::GetIO().WantTextInput;
+        state_of(window).events.keys.push_back({0, {}, typing, static_cast<char>(input.character)});
+      }
       return ImGui_ImplGlfw_CharCallback(window, input.character);
     case RawInput::Kind::button:
       return deliver_button(state_of(window), input);

@@ -92,6 +92,8 @@ TEST_CASE("an image of Tyndall belongs to its own scene, textures and all; the s
     CHECK(reference.about == std::string(name) + ".png (8 bit)");
     Scene scene = document.scene;
     CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
+    scene.camera.focus_distance = 3;  // without a lens that changes nothing
+    CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
     scene.render.fresnel = FresnelKind::schlick;
     CHECK(fit_of(reference, scene) == ReferenceFit::same_samples);
     scene.render.seed = 5;

@@ -111,7 +111,10 @@ TEST_CASE("G moves without a button until a click, whose release is not for othe
 TEST_CASE("G, then an axis, then a number and Enter: exactly that far; the same axis again frees it") {
   Hand hand;
   hand.tool.grab(hand.mouse, hand.selected, hand.scene);
-  for (const int key : {'Z', 'Z', 'X', '-', '1', '.', '5', '7'}) CHECK(hand.tool.take_key(key));
+  CHECK_FALSE(hand.tool.take_character('1'));  // along no axis
+  for (const int key : {'Z', 'Z', 'X'}) CHECK(hand.tool.take_key(key));
+  CHECK_FALSE(hand.tool.take_character('p'));  // no number begins with it
+  for (const char character : {'-', '1', '.', '5', '7'}) CHECK(hand.tool.take_character(character));
   CHECK(hand.tool.take_key(259));  // Backspace
   hand.move(30, 10);
   hand.update();
@@ -121,6 +124,23 @@ TEST_CASE("G, then an axis, then a number and Enter: exactly that far; the same 
   hand.update();
   CHECK(hand.center() == Vec3d{-1.5, 0, 0});
   CHECK_FALSE(hand.tool.take_key('X'));
+}
+
+TEST_CASE("what is typed for an axis may be a sum; until it is one the mouse decides") {
+  Hand hand;
+  hand.tool.grab(hand.mouse, hand.selected, hand.scene);
+  CHECK(hand.tool.take_key('Y'));
+  for (const char character : std::string("1/")) CHECK(hand.tool.take_character(character));
+  hand.update();
+  CHECK(hand.tool.said().find("(typed: 1/)") != std::string::npos);
+  CHECK(hand.tool.take_character('4'));
+  hand.update();
+  CHECK(hand.center() == Vec3d{0, 0.25, 0});
+  for (int i = 0; i < 3; ++i) CHECK(hand.tool.take_key(259));
+  for (const char character : std::string("2*pi")) CHECK(hand.tool.take_character(character));
+  CHECK(hand.tool.take_key(key_enter));
+  hand.update();
+  CHECK(hand.center().y == doctest::Approx(2 * 3.14159265358979));
 }
 
 TEST_CASE("Esc and a right click take back what was moved") {
