@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace tyndall {
 namespace {
@@ -197,6 +198,16 @@ bool few_matter(const Spread& all, double pixels) {
   return spread > few * sum || (spread > fewer * sum && all.own < hidden * sum);
 }
 
+/// Whether no light was found yet although the scene has lamps, of which alone emission is recorded.
+bool awaits_light(const Film& film) {
+  const auto is_black = [](const FilmPixel& pixel) {
+    return std::all_of(std::begin(pixel.sum), std::end(pixel.sum), [](const auto& half) {
+      return std::all_of(std::begin(half), std::end(half), [](const auto& sum) { return sum.value() == 0; });
+    });
+  };
+  return !film.emission.empty() && std::all_of(film.pixels.begin(), film.pixels.end(), is_black);
+}
+
 }  // namespace
 
 ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& levels_of) {
@@ -206,7 +217,7 @@ ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& level
   const auto error_at = [&](std::size_t pixel, Vec3f level) { return error_at_level(film, pixel, level); };
   if (levels_of) ask_levels(levels_of, film.pixels.size(), error_at, all.freed);
   const auto pixels = static_cast<double>(film.pixels.size());
-  return {std::sqrt(all.freed.sum() / pixels), few_matter(all, pixels)};
+  return {std::sqrt(all.freed.sum() / pixels), few_matter(all, pixels) || (all.freed.sum() == 0 && awaits_light(film))};
 }
 
 double estimated_relative_error(const Film& film, Crew* crew) { return estimate_error(film, crew).relative_error; }

@@ -35,7 +35,8 @@ struct ErrorEstimate {
   /// and not yet in others; or lamps smaller than a pixel. True where the standard deviation of the mean of the pixels'
   /// squared errors is more than 0.35 of it, which in large pictures means that it rests on about 8 pixels. Already
   /// above 0.22 (about 20 pixels) if the error also depends much on how levels are found: if its square would be below
-  /// 0.36 of what it is with the pixels' own means for g. False while a half of any pixel is empty.
+  /// 0.36 of what it is with the pixels' own means for g. True as well for a black film of a scene with lamps: no light
+  /// was found yet. False while a half of any pixel is empty.
   bool rests_on_few_pixels = false;
 };
 

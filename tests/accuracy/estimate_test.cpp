@@ -273,3 +273,17 @@ TEST_CASE("few pixels: the error of even noise does not rest on a few of them, t
   Crew crew(2);
   CHECK(estimate_error(film, &crew).rests_on_few_pixels);
 }
+
+TEST_CASE("a black film has no error, but where there are lamps it is told that no light was found yet") {
+  for (const bool lamps : {false, true}) {
+    Film film = make_film(4, 3, {0, 0, 4, 3}, 0, 1, lamps);
+    for (FilmPixel& pixel : film.pixels) {
+      for (std::uint32_t half = 0; half < 2; ++half) add_sample(pixel, half, {0, 0, 0}, 1);
+      pixel.taken = 2;
+    }
+    CHECK(estimate_error(film).relative_error == 0);
+    CHECK(estimate_error(film).rests_on_few_pixels == lamps);
+    for (std::uint32_t half = 0; half < 2; ++half) add_sample(film.pixels[5], half, {0, 1, 0}, 1);
+    CHECK_FALSE(estimate_error(film).rests_on_few_pixels);
+  }
+}

@@ -24,3 +24,10 @@ start scene.json --spp 3
 wait_for '^state finished$'
 wait_for '^frame 1 3 '
 finish
+
+# Without a limit a picture that is black at first is no picture without error: it goes on until its lamp is found.
+start stress-small-light --integrator path --spp 40
+wait_for '^state finished$'
+wait_for '^frame 1 40 '
+grep -q '^message paused' log && fail 'a black picture pauses at an error that nobody asked for'
+finish

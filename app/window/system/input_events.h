@@ -13,7 +13,7 @@ struct Modifiers {
 struct KeyPress {
   int key = 0;  ///< GLFW's number; letters by what is printed on the user's keyboard
   Modifiers modifiers;
-  bool typing = false;  ///< a control took the keyboard when it was pressed
+  bool typing = false;    ///< a control took the keyboard when it was pressed
   char character = '\0';  ///< the ASCII character that was typed, in a press of its own after that of the key, key 0
 };
 
