@@ -11,7 +11,7 @@ namespace tyndall {
 namespace {
 
 constexpr const char* types[] = {Lambertian<>::type, Metal<>::type, Dielectric<>::type, Light<>::type, "fog within"};
-constexpr int fog_within = 4;
+constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, fog_within = 4;
 constexpr double usual_power = 5;  // of what becomes a light
 constexpr Vec3d usual_albedo{0.8, 0.8, 0.8};
 
@@ -51,26 +51,42 @@ std::vector<Object>& siblings(Scene& scene, const ObjectPath& path) {
   return std::get<Group>(find_object(scene, ObjectPath(path.begin(), path.end() - 1))->kind).objects;
 }
 
-/// The colour of a material that changes its kind. before: the kind it had.
-ColourOrTexture colour_for(const MaterialKinds<double>& kind, const Material& before) {
-  const bool lit = std::holds_alternative<Light<>>(before.kind), lights = std::holds_alternative<Light<>>(kind);
-  if (!colour_name(kind)) return Material().colour;
-  if (!colour_name(before.kind)) return lights ? Vec3d{usual_power, usual_power, usual_power} : usual_albedo;
+using KindsOfMaterial = MaterialMemory::mapped_type;
+
+/// The last colour of a material that has none now: of when it was of the kind `type`, else of another one.
+ColourOrTexture known_colour(const KindsOfMaterial& known, int type) {
+  const auto of_type = known[static_cast<std::size_t>(type)];
+  if (of_type) return of_type->colour;
+  if (type == light) return Vec3d{usual_power, usual_power, usual_power};
+  for (const auto& other : known)
+    if (other && colour_name(other->kind) && !std::holds_alternative<Light<>>(other->kind)) return other->colour;
+  return usual_albedo;
+}
+
+/// The colour of a material that becomes one of the kind `type`. before: the kind it had.
+ColourOrTexture colour_for(int type, const Material& before, const KindsOfMaterial& known) {
+  const bool lit = std::holds_alternative<Light<>>(before.kind), lights = type == light;
+  if (type == dielectric) return Material().colour;
+  if (!colour_name(before.kind)) return known_colour(known, type);
   const Vec3d* colour = std::get_if<Vec3d>(&before.colour);
   if (!colour || lit == lights) return before.colour;
   const LampColour lamp = lamp_colour(*colour);
-  if (lights) return lamp_radiance({lamp.colour, usual_power});
-  return without_noise(usual_albedo.x * lamp.colour);
+  if (!lights) return without_noise(usual_albedo.x * lamp.colour);
+  const Vec3d* radiance = known[light] ? std::get_if<Vec3d>(&known[light]->colour) : nullptr;
+  return lamp_radiance({lamp.colour, radiance ? lamp_colour(*radiance).power : usual_power});
 }
 
-void set_kind(Material& material, int type) {
+void set_kind(Material& material, int type, MaterialMemory& memory) {
   const Material before = material;
   if (static_cast<std::size_t>(type) == before.kind.index()) return;
-  if (type == 0) material.kind = Lambertian<>{};
-  if (type == 1) material.kind = Metal<>{};
-  if (type == 2) material.kind = Dielectric<>{};
-  if (type == 3) material.kind = Light<>{};
-  material.colour = colour_for(material.kind, before);
+  KindsOfMaterial& known = memory[material.name];
+  known[before.kind.index()] = before;
+  if (type == lambertian) material.kind = Lambertian<>{};
+  if (type == metal) material.kind = Metal<>{};
+  if (type == dielectric) material.kind = Dielectric<>{};
+  if (type == light) material.kind = Light<>{};
+  if (const auto& same = known[static_cast<std::size_t>(type)]) material.kind = same->kind;
+  material.colour = colour_for(type, before, known);
 }
 
 /// Puts fog of that colour behind the object, with its very shape and place.
@@ -111,7 +127,7 @@ std::string why_not(const Scene& scene, const ObjectPath& path, int type) {
   return "";
 }
 
-ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type) {
+ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type, MaterialMemory& memory) {
   if (type == surface_type(scene, path) || !why_not(scene, path, type).empty()) return path;
   ObjectPath now = path;
   if (const ObjectPath fog = filling(scene, path); !fog.empty()) {
@@ -127,7 +143,10 @@ ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type) {
   const bool glass = std::holds_alternative<Dielectric<>>(material().kind);
   if (type == fog_within && !glass) make_single_user(scene, now);
   const Material before = material();
-  set_kind(material(), type == fog_within ? 2 : type);
+  set_kind(material(), type == fog_within ? dielectric : type, memory);
+  const auto* texture = std::get_if<TextureIndex>(&material().colour);
+  if (texture && static_cast<std::size_t>(texture->index) >= scene.textures.size())
+    material().colour = usual_albedo;  // it was remembered from before the file was read again
   if (type == fog_within) fill(scene, now, glass ? ColourOrTexture(Vec3d{1, 1, 1}) : before.colour);
   return now;
 }

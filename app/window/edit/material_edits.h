@@ -2,6 +2,7 @@
 #include "app/window/edit/object_list.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,10 +17,15 @@ std::span<const char* const> surface_types();
 int surface_type(const Scene& scene, const ObjectPath& path);
 /// Why the object cannot be of that type: one line; "": it can.
 std::string why_not(const Scene& scene, const ObjectPath& path, int type);
-/// Gives the object's material another type; its colour stays as far as the new type has one. All objects with that
-/// material change. Fog within is a medium behind the object in its list, which goes again with another type; an object
-/// that shared its material gets its own then, unless that is glass already. Returns where the object is afterwards.
-ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type);
+/// Materials, by their names, as they were before they were given another type: the last of each kind, since the scene
+/// was opened.
+using MaterialMemory =
+    std::map<std::string, std::array<std::optional<Material>, std::variant_size_v<MaterialKinds<double>>>>;
+/// Gives the object's material another type; its colour stays as far as both types have one, and what else the new type
+/// has is as it was when the material was of that type. All objects with that material change. Fog within is a medium
+/// behind the object in its list, which goes again with another type; an object that shared its material gets its own
+/// then, unless that is glass already. Returns where the object is afterwards.
+ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type, MaterialMemory& memory);
 
 /// Gives the object a material of its own, a copy of the present one with a new name. Nothing happens if no other
 /// object has it.

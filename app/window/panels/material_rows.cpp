@@ -79,7 +79,7 @@ void type_row(Ui& ui, PanelState& state, ObjectPath& path) {
     choices.push_back({types[k], missing[k].empty() ? nullptr : missing[k].c_str()});
   int type = surface_type(state.scene, path);
   Row row{"type", "Type", {}, {}, "", "what kind of material it is; the colour stays", ""};
-  if (combo_row(ui, row, choices, type)) path = set_surface_type(state.scene, path, type);
+  if (combo_row(ui, row, choices, type)) path = set_surface_type(state.scene, path, type, state.materials);
 }
 
 }  // namespace

@@ -121,6 +121,7 @@ void forget_scene(PanelState& state) {
   state.also.clear();
   state.objects = {};
   state.backgrounds = {};
+  state.materials = {};
 }
 
 void object_panel(Ui& ui, PanelState& state) {

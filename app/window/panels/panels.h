@@ -87,6 +87,7 @@ struct PanelState {
   bool drags = false;            ///< a number is being dragged
   bool cancel_drag = false;      ///< it goes back to what it was, in the next drawing
   BackgroundMemory backgrounds;
+  MaterialMemory materials;
   LiveHistogram histogram;
   std::map<std::string, CameraSlots> cameras;  ///< by the scene's title
   ObjectsView objects;

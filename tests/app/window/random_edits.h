@@ -89,7 +89,8 @@ class RandomEdits {
   void other_type(Scene& scene) {
     const ObjectPath path = any_object(scene);
     const int type = below(static_cast<int>(surface_types().size()));
-    if (surface_type(scene, path) >= 0 && why_not(scene, path, type).empty()) set_surface_type(scene, path, type);
+    if (surface_type(scene, path) >= 0 && why_not(scene, path, type).empty())
+      set_surface_type(scene, path, type, memory_);
   }
   void other_settings(RenderSettings& render) {
     render.integrator = static_cast<Integrator>(below(count_of<Integrator>()));
@@ -100,6 +101,7 @@ class RandomEdits {
 
   Session& session_;
   Engine engine_;
+  MaterialMemory memory_;
   int edits_ = 0;
 };
 

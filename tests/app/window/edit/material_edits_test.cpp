@@ -36,21 +36,61 @@ TEST_CASE("types are listed as the scene file names them, and each object says i
 }
 
 TEST_CASE("another type keeps the colour as far as it has one") {
+  MaterialMemory memory;
   Scene scene = example();
-  set_surface_type(scene, {0}, lambertian);
+  set_surface_type(scene, {0}, lambertian, memory);
   CHECK(material(scene, {1}) == Material{"gold", Vec3d{0.8, 0.6, 0.2}, Lambertian<>{}});  // it is shared
-  set_surface_type(scene, {0}, light);
+  set_surface_type(scene, {0}, light, memory);
   CHECK(std::get<Vec3d>(material(scene, {0}).colour) == Vec3d{5, 3.75, 1.25});
-  set_surface_type(scene, {0}, metal);
+  set_surface_type(scene, {0}, metal, memory);
   CHECK(std::get<Vec3d>(material(scene, {0}).colour) == Vec3d{0.8, 0.6, 0.2});
-  set_surface_type(scene, {0}, dielectric);
+  set_surface_type(scene, {0}, dielectric, memory);
   CHECK(material(scene, {0}) == Material{"gold", Material().colour, Dielectric<>{}});
   CHECK_FALSE(check(scene).has_value());
 }
 
-TEST_CASE("fog within a ball is glass with a medium of its very shape, which another type takes out again") {
+TEST_CASE("a type that a material had before is as it was, but for its colour if that has stayed or changed since") {
+  MaterialMemory memory;
   Scene scene = example();
-  CHECK(set_surface_type(scene, {1}, fog_within) == ObjectPath{1});
+  const auto gold = [&]() -> Material& { return scene.materials[0]; };
+  gold().kind = Metal<>{0.8};
+  set_surface_type(scene, {0}, dielectric, memory);
+  std::get<Dielectric<>>(gold().kind).refractive_index = 1.7;
+  set_surface_type(scene, {0}, fog_within, memory);
+  set_surface_type(scene, {0}, metal, memory);
+  CHECK(gold() == Material{"gold", Vec3d{0.8, 0.6, 0.2}, Metal<>{0.8}});
+  set_surface_type(scene, {0}, lambertian, memory);
+  gold().colour = Vec3d{0.4, 0.2, 0.1};
+  set_surface_type(scene, {0}, light, memory);
+  gold().colour = Vec3d{40, 20, 10};
+  set_surface_type(scene, {0}, metal, memory);
+  CHECK(std::get<Metal<>>(gold().kind).fuzz == 0.8);
+  CHECK(std::get<Vec3d>(gold().colour) == Vec3d{0.8, 0.4, 0.2});
+  set_surface_type(scene, {0}, light, memory);
+  CHECK(std::get<Vec3d>(gold().colour) == Vec3d{40, 20, 10});
+  set_surface_type(scene, {0}, dielectric, memory);
+  CHECK(std::get<Dielectric<>>(gold().kind).refractive_index == 1.7);
+  gold().name = "brass";  // of which nothing is known
+  set_surface_type(scene, {0}, metal, memory);
+  CHECK(gold() == Material{"brass", Vec3d{0.8, 0.8, 0.8}, Metal<>{}});
+  CHECK_FALSE(check(scene).has_value());
+}
+
+TEST_CASE("a texture that is not there any more is not remembered") {
+  MaterialMemory memory;
+  Scene scene = example();
+  scene.textures.resize(1);
+  scene.materials[0].colour = TextureIndex{0};
+  set_surface_type(scene, {0}, dielectric, memory);
+  scene.textures.clear();
+  set_surface_type(scene, {0}, lambertian, memory);
+  CHECK(std::get<Vec3d>(scene.materials[0].colour) == Vec3d{0.8, 0.8, 0.8});
+}
+
+TEST_CASE("fog within a ball is glass with a medium of its very shape, which another type takes out again") {
+  MaterialMemory memory;
+  Scene scene = example();
+  CHECK(set_surface_type(scene, {1}, fog_within, memory) == ObjectPath{1});
   CHECK(surface_type(scene, {1}) == fog_within);
   CHECK(surface_type(scene, {0}) == metal);  // it had the same material
   REQUIRE(scene.objects.size() == 5);
@@ -58,28 +98,30 @@ TEST_CASE("fog within a ball is glass with a medium of its very shape, which ano
   CHECK(std::get<Vec3d>(fog.albedo) == Vec3d{0.8, 0.6, 0.2});
   CHECK(companions(scene, {1}) == ObjectPaths{{2}});
   CHECK_FALSE(check(scene).has_value());
-  set_surface_type(scene, {1}, dielectric);
+  set_surface_type(scene, {1}, dielectric, memory);
   CHECK(scene.objects.size() == 4);
   CHECK(surface_type(scene, {1}) == dielectric);
 }
 
 TEST_CASE("fog that stands before its ball is found, and the ball with its new place") {
+  MaterialMemory memory;
   Scene scene = example();
-  set_surface_type(scene, {2}, fog_within);
+  set_surface_type(scene, {2}, fog_within, memory);
   std::swap(scene.objects[2], scene.objects[3]);
   CHECK(surface_type(scene, {3}) == fog_within);
-  CHECK(set_surface_type(scene, {3}, metal) == ObjectPath{2});
+  CHECK(set_surface_type(scene, {3}, metal, memory) == ObjectPath{2});
   CHECK(surface_type(scene, {2}) == metal);
 }
 
 TEST_CASE("what cannot hold fog says why") {
+  MaterialMemory memory;
   Scene scene = example();
   CHECK(why_not(scene, {0}, fog_within).empty());
   CHECK(why_not(scene, {3}, fog_within) == "a quad has no inside for fog");
   std::get<Sphere<>>(std::get<Solid3d>(scene.objects[0].kind).shape).radius = -1;
   CHECK_FALSE(why_not(scene, {0}, fog_within).empty());
   const Scene before = scene;
-  set_surface_type(scene, {0}, fog_within);
+  set_surface_type(scene, {0}, fog_within, memory);
   CHECK(scene == before);
 }
 
