@@ -55,7 +55,7 @@ using KindsOfMaterial = MaterialMemory::mapped_type;
 
 /// The last colour of a material that has none now: of when it was of the kind `type`, else of another one.
 ColourOrTexture known_colour(const KindsOfMaterial& known, int type) {
-  const auto of_type = known[static_cast<std::size_t>(type)];
+  const auto& of_type = known[static_cast<std::size_t>(type)];
   if (of_type) return of_type->colour;
   if (type == light) return Vec3d{usual_power, usual_power, usual_power};
   for (const auto& other : known)
