@@ -44,9 +44,9 @@ void add_choices(JsonText& json, const RenderSettings& settings) {
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
 }
 
-/// What was done of the settings that are no figures above, which are the youngest.
+/// The settings that no figure before tells. They stand last, because figures are only ever appended.
 void add_rest(JsonText& json, const RunFigures& run) {
-  json.add("sharing", SceneViewOf(run.compiled).view().shares);  // not only allowed
+  json.add("sharing", SceneViewOf(run.compiled).view().shares);  // whether it was done, not only allowed
   add_choices(json, run.settings.render);
 }
 

@@ -198,7 +198,7 @@ bool few_matter(const Spread& all, double pixels) {
   return spread > few * sum || (spread > fewer * sum && all.own < hidden * sum);
 }
 
-/// Whether no light was found yet although the scene has lamps, of which alone emission is recorded.
+/// Whether no light was found yet although the scene has lamps. Films record emission only if it has.
 bool awaits_light(const Film& film) {
   const auto is_black = [](const FilmPixel& pixel) {
     return std::all_of(std::begin(pixel.sum), std::end(pixel.sum), [](const auto& half) {
