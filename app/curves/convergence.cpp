@@ -26,14 +26,15 @@ std::string method_of(const RenderSettings& settings, const RenderSettings& file
 }
 
 void Convergence::add(std::uint64_t edit, const std::string& method, ErrorPoint point) {
-  if (edit != current_.edit || (!current_.points.empty() && point.seconds < current_.points.back().seconds)) {
+  const ErrorPoint* last = current_.points.empty() ? nullptr : &current_.points.back();
+  if (edit == current_.edit && last && point.rel_mse == last->rel_mse) return;  // not estimated anew
+  if (edit != current_.edit || (last && point.seconds < last->seconds)) {
     keep_current();
     current_ = {method, {}, edit};
   }
   const bool good = point.seconds > 0 && point.rel_mse > 0 && std::isfinite(point.rel_mse);
   if (!good) return;
   std::vector<ErrorPoint>& points = current_.points;
-  if (!points.empty() && point.rel_mse == points.back().rel_mse) return;  // not estimated anew
   if (points.size() > 1 && point.seconds < 1.04 * points[points.size() - 2].seconds) points.pop_back();
   points.push_back(point);
 }
@@ -45,8 +46,11 @@ void Convergence::clear() {
 
 void Convergence::keep_current() {
   if (current_.points.size() < 3 || current_.points.back().seconds < least_seconds) return;
-  std::erase_if(earlier_, [&](const ErrorCurve& curve) { return curve.method == current_.method; });
-  earlier_.push_back(std::move(current_));
+  const auto same = std::ranges::find(earlier_, current_.method, &ErrorCurve::method);
+  if (same != earlier_.end())
+    *same = std::move(current_);
+  else
+    earlier_.push_back(std::move(current_));
   if (earlier_.size() > most_earlier) earlier_.erase(earlier_.begin());
 }
 

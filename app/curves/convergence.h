@@ -26,7 +26,7 @@ class Convergence {
   void clear();
 
   const ErrorCurve& current() const { return current_; }
-  /// Oldest first; of each method only the newest.
+  /// Of each method only the newest, in the place of the one before it, so that a method keeps its colour in the chart.
   const std::vector<ErrorCurve>& earlier() const { return earlier_; }
 
   static constexpr std::size_t most_earlier = 4;

@@ -21,7 +21,13 @@ struct ChartLine {
   float width;  ///< in units of the design
 };
 
-ChartLine line_of(const NamedCurve& named) {
+/// Of the curves of earlier edits, each in a hue of its own.
+constexpr ThemeTone earlier_tones[Convergence::most_earlier]{{{0.50f, 0.72f, 0.52f, 1}, {0.20f, 0.47f, 0.23f, 1}},
+                                                             {{0.68f, 0.58f, 0.84f, 1}, {0.42f, 0.30f, 0.62f, 1}},
+                                                             {{0.82f, 0.51f, 0.62f, 1}, {0.62f, 0.25f, 0.38f, 1}},
+                                                             {{0.68f, 0.66f, 0.42f, 1}, {0.43f, 0.41f, 0.12f, 1}}};
+
+ChartLine line_of(const NamedCurve& named, std::size_t index) {
   switch (named.role) {
     case NamedCurve::Role::earlier:
       break;
@@ -32,8 +38,17 @@ ChartLine line_of(const NamedCurve& named) {
     case NamedCurve::Role::current:
       return {named.curve, named.name, shade(palette::blue), 2.5f};
   }
-  return {named.curve, named.name, shade(palette::dim, 0.7f), 1.5f};
+  return {named.curve, named.name, shade(earlier_tones[index % std::size(earlier_tones)], 0.8f), 1.5f};
 }
+
+/// How the named curves are drawn; the earlier ones come first among them.
+std::vector<ChartLine> lines_of(const std::vector<NamedCurve>& named) {
+  std::vector<ChartLine> lines;
+  for (const NamedCurve& one : named) lines.push_back(line_of(one, lines.size()));
+  return lines;
+}
+
+ImU32 target_colour() { return shade(palette::blue, 0.4f); }
 
 /// Where the chart is on the screen.
 struct Plot {
@@ -43,9 +58,9 @@ struct Plot {
   std::vector<const ErrorCurve*> curves;  ///< of the lines
   ChartAxes axes;
 
-  Plot(const Ui& the_ui, const std::vector<NamedCurve>& named, const Rect& frame)
-      : draw(ImGui::GetWindowDrawList()), ui(the_ui) {
-    for (const NamedCurve& one : named) lines.push_back(line_of(one)), curves.push_back(one.curve);
+  Plot(const Ui& the_ui, std::vector<ChartLine> the_lines, const Rect& frame)
+      : draw(ImGui::GetWindowDrawList()), ui(the_ui), lines(std::move(the_lines)) {
+    for (const ChartLine& line : lines) curves.push_back(line.curve);
     axes = axes_for(curves, frame);
   }
   ImVec2 at(const ErrorPoint& p) const { return {axes.x(p.seconds), axes.y(p.rel_mse)}; }
@@ -84,8 +99,7 @@ void draw_grid(const Plot& plot) {
 void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   const Rect& f = plot.axes.frame;
   const float y = plot.axes.y(target_rel_mse);
-  plot.draw->AddLine({f.x0, y}, {f.x1, y}, shade(palette::blue, 0.35f));
-  plot.text({f.x0 + 5 * plot.ui.scale, y - ImGui::GetFontSize() - 1}, shade(palette::blue, 0.9f), "1 % error");
+  plot.draw->AddLine({f.x0, y}, {f.x1, y}, target_colour());
   if (curve.points.empty()) return;
   const ErrorPoint last = curve.points.back();
   const double end = 10 * plot.axes.times.most();
@@ -105,50 +119,44 @@ void draw_curve(const Plot& plot, const ChartLine& line) {
     plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
 }
 
-/// Where a name of that size can stand near the end of its curve without covering curves or other words: beneath it,
-/// where a falling curve leaves room, else above. Nothing where there is no room.
-std::optional<Rect> place_of_name(const Plot& plot, ImVec2 end, float width, const std::vector<Rect>& words) {
-  const Rect& f = plot.axes.frame;
-  const float line = ImGui::GetFontSize(), s = plot.ui.scale;
-  const auto free = [&](const Rect& at) {
-    const auto overlaps = [&](const Rect& w) { return at.x0 < w.x1 && at.x1 > w.x0 && at.y0 < w.y1 && at.y1 > w.y0; };
-    return at.y0 >= f.y0 && at.y1 <= f.y1 && std::none_of(words.begin(), words.end(), overlaps) &&
-           !any_crosses(plot.curves, plot.axes, at);
-  };
-  const float right = std::max(f.x0 + 4 * s + width, std::min(end.x - 2 * s, f.x1));
-  constexpr float steps[] = {0, 1, 2, -1, -2, -3, 3, 4};  // lines beneath the end
-  for (const float left_by : {0.0f, 0.5f, 1.0f})
-    for (const float step : steps) {
-      const float x = std::max(f.x0 + 4 * s, right - width * (1 + left_by));
-      const float y = step < 0 ? end.y - 5 * s + step * line : end.y + 5 * s + step * line;
-      const Rect at{x, y, x + width, y + line};
-      if (free(at)) return at;
-    }
-  return {};
-}
-
-void draw_name(const Plot& plot, const ChartLine& curve, std::vector<Rect>& words) {
-  if (curve.curve->points.empty()) return;
-  const ImVec2 end = plot.at(curve.curve->points.back());
-  const auto at = place_of_name(plot, end, ImGui::CalcTextSize(curve.name.c_str()).x, words);
-  if (!at) return;
-  words.push_back(*at);
-  plot.text({at->x0, at->y0}, curve.colour, curve.name);
-}
-
 void draw_lines(const Plot& plot) {
   const Rect& f = plot.axes.frame;
-  const ErrorCurve& current = *plot.curves.back();
   plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
-  draw_guides(plot, current);
+  draw_guides(plot, *plot.curves.back());
   for (const ChartLine& line : plot.lines) draw_curve(plot, line);
-  const float target = plot.axes.y(target_rel_mse);
-  std::vector<Rect> words{{f.x0, target - ImGui::GetFontSize() - 1, f.x0 + 64 * plot.ui.scale, target - 1}};
-  for (auto line = plot.lines.rbegin(); line != plot.lines.rend(); ++line) draw_name(plot, *line, words);
   plot.draw->PopClipRect();
-  if (!current.points.empty())
-    plot.draw->AddCircleFilled(plot.at(current.points.back()), 4 * plot.ui.scale, shade(palette::blue));
+  for (const ChartLine& line : plot.lines)
+    if (!line.curve->points.empty())
+      plot.draw->AddCircleFilled(plot.at(line.curve->points.back()), 1.6f * line.width * plot.ui.scale, line.colour);
 }
+
+/// The lines of the chart by name, beneath it: nothing is written over the curves.
+class Legend {
+ public:
+  Legend(const Ui& ui, std::vector<ChartLine> lines, float left, float right)
+      : scale_(ui.scale), lines_(std::move(lines)) {
+    std::erase_if(lines_, [](const ChartLine& line) { return line.curve->points.empty(); });
+    std::ranges::reverse(lines_);  // the current one first
+    lines_.push_back({nullptr, "1 % error", target_colour(), 1.5f});
+    std::vector<float> widths;
+    for (const ChartLine& line : lines_) widths.push_back(ImGui::CalcTextSize(line.name.c_str()).x + 18 * scale_);
+    rows_ = rows_of_names(widths, {left, 0, right, ImGui::GetFontSize() + 2 * scale_}, 12 * scale_);
+  }
+  float height() const { return rows_.back().y1; }
+  void draw(ImDrawList* list, float top) const {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const Rect& at = rows_[i];
+      const float middle = top + (at.y0 + at.y1) / 2;
+      list->AddLine({at.x0, middle}, {at.x0 + 13 * scale_, middle}, lines_[i].colour, lines_[i].width * scale_);
+      list->AddText({at.x0 + 18 * scale_, top + at.y0 + scale_}, shade(palette::dim), lines_[i].name.c_str());
+    }
+  }
+
+ private:
+  float scale_;
+  std::vector<ChartLine> lines_;
+  std::vector<Rect> rows_;
+};
 
 /// Marks the point of the curve nearest to the mouse, and shows its numbers in a tooltip.
 void read_out(Ui& ui, const Plot& plot) {
@@ -181,11 +189,17 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   const LiveAccuracy& accuracy = *state.facts.accuracy;
   log_item(ui, "chart", accuracy.curves(Half::current).current().method);
   compat::push_font(ui.fonts.small);
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, shade(palette::ink), 6 * s);
-  const Rect frame{at.x + 38 * s, at.y + 10 * s, at.x + size.x - 14 * s, at.y + size.y - 22 * s};
-  const Plot plot(ui, accuracy.named_curves(), frame);
+  const ImVec2 end{at.x + size.x, at.y + size.y};
+  ImGui::GetWindowDrawList()->AddRectFilled(at, end, shade(palette::ink), 6 * s);
+  const std::vector<ChartLine> lines = lines_of(accuracy.named_curves());
+  const Legend legend(ui, lines, at.x + 10 * s, end.x - 10 * s);
+  const float foot = end.y - legend.height() - 6 * s;
+  const Plot plot(ui, lines, {at.x + 38 * s, at.y + 10 * s, end.x - 14 * s, std::max(at.y + 40 * s, foot - 22 * s)});
+  plot.draw->PushClipRect(at, end, true);
   draw_grid(plot);
   draw_lines(plot);
+  legend.draw(plot.draw, foot);
+  plot.draw->PopClipRect();
   ImGui::PopFont();
   read_out(ui, plot);
 }

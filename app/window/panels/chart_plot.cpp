@@ -46,32 +46,15 @@ std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> cur
   return nearest;
 }
 
-namespace {
-
-/// Cuts [from, to], the part of a line that is inside so far, by low <= start + t way <= high.
-void cut(float start, float way, float low, float high, float& from, float& to) {
-  if (way == 0) {
-    if (start < low || start > high) to = -1;
-    return;
+std::vector<Rect> rows_of_names(std::span<const float> widths, const Rect& first, float gap) {
+  std::vector<Rect> rows;
+  float x = first.x0, y = first.y0;
+  for (const float width : widths) {
+    if (x > first.x0 && x + width > first.x1) x = first.x0, y += first.height();
+    rows.push_back({x, y, x + width, y + first.height()});
+    x += width + gap;
   }
-  const float a = (low - start) / way, b = (high - start) / way;
-  from = std::max(from, std::min(a, b));
-  to = std::min(to, std::max(a, b));
-}
-
-}  // namespace
-
-bool any_crosses(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, const Rect& rect) {
-  for (const ErrorCurve* curve : curves)
-    for (std::size_t k = 1; k < curve->points.size(); ++k) {
-      const ErrorPoint &p = curve->points[k - 1], &q = curve->points[k];
-      const float x = axes.x(p.seconds), y = axes.y(p.rel_mse);
-      float from = 0, to = 1;
-      cut(x, axes.x(q.seconds) - x, rect.x0, rect.x1, from, to);
-      cut(y, axes.y(q.rel_mse) - y, rect.y0, rect.y1, from, to);
-      if (from <= to) return true;
-    }
-  return false;
+  return rows;
 }
 
 }  // namespace tyndall

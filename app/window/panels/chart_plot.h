@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 /// Where the curves of the live chart are, in window units with y down. No drawing happens here.
 namespace tyndall {
@@ -25,8 +26,9 @@ struct ChartAxes {
 /// Axes that hold all curves and the target.
 ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame);
 
-/// Whether one of the curves goes through a rectangle.
-bool any_crosses(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, const Rect& rect);
+/// Where names of these widths stand: side by side from the left, `gap` apart, and in further rows beneath. first: the
+/// first row; a name that is wider has a row of its own.
+std::vector<Rect> rows_of_names(std::span<const float> widths, const Rect& first, float gap);
 
 /// A place on one of the curves.
 struct CurveReading {

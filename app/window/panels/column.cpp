@@ -18,6 +18,8 @@ constexpr Tab tabs[] = {{"Object", ""},
                         {"Objects", "Objects"},
                         {"Scenes", "Scenes"}};
 
+constexpr float chart_height = 166;  // in units of the design
+
 constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -122,7 +124,7 @@ void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
 
 void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (column.width() <= 0 || column.height() <= 0) return;
-  const float s = ui.scale, chart = 150 * s, head = 34 * s;
+  const float s = ui.scale, chart = chart_height * s, head = 34 * s;
   const bool has_tabs = column.height() > 8 * head;
   const auto lines = static_cast<float>(accuracy_lines(*state.facts.accuracy).size());
   const bool folded = ui.folded.contains(tabs[4].section);
@@ -148,7 +150,7 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
                             {"Image", image_panel},
                             {"", histogram_part},
                             {"Render", render_panel}};
-    if (!fixed_chart) parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, 150 * u.scale); }});
+    if (!fixed_chart) parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, chart_height * u.scale); }});
     for (const Part& part : {Part{"", background_panel}, Part{"Objects", objects_panel}, Part{"Scenes", scenes_panel},
                              Part{"", window_panel}})
       parts.push_back(part);

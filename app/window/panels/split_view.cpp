@@ -28,16 +28,19 @@ void Divider::drag_to(const Rect& image, float mouse_x) {
 
 namespace {
 
-/// What a half is, on a dark ground in the half's upper outer corner.
+/// What a half is, on a dark ground in the half's upper outer corner; in several lines where the half is narrow.
 void draw_label(Ui& ui, const Rect& half, const std::string& text, bool right) {
-  const float s = ui.scale, pad = 8 * s, height = ImGui::GetFontSize() + 2 * pad;
-  const float mark = ImGui::CalcTextSize("A").x + pad, width = mark + ImGui::CalcTextSize(text.c_str()).x + 2 * pad;
+  const float s = ui.scale, pad = 8 * s, mark = ImGui::CalcTextSize("A").x + pad;
+  const float room = std::max(half.width() - mark - 4 * pad, 40 * s);
+  const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+  const float width = mark + words.x + 2 * pad, height = words.y + 2 * pad;
   const float x = right ? half.x1 - width - pad : half.x0 + pad, y = half.y0 + pad;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({half.x0, half.y0}, {half.x1, half.y1}, true);
   draw->AddRectFilled({x, y}, {x + width, y + height}, shade(palette::ink, 0.85f), 5 * s);
   draw->AddText({x + pad, y + pad}, shade(right ? palette::blue : palette::amber), right ? "B" : "A");
-  draw->AddText({x + pad + mark, y + pad}, shade(palette::text), text.c_str());
+  draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {x + pad + mark, y + pad}, shade(palette::text), text.c_str(),
+                nullptr, room);
   draw->PopClipRect();
   if (ui.log) ui.log->widget(right ? "split.b" : "split.a", half, text);
 }

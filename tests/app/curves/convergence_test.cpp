@@ -35,6 +35,15 @@ TEST_CASE("the newest run of each method stays, and not more than a few") {
   CHECK(same == 1);
 }
 
+TEST_CASE("a newer run takes the place of the one of its method") {
+  Convergence runs;
+  for (const char* method : {"mis", "path", "mis", "nee"}) run(runs, runs.current().edit + 1, method, 2);
+  REQUIRE(runs.earlier().size() == 2);
+  CHECK(runs.earlier()[0].method == "mis");
+  CHECK(runs.earlier()[0].edit == 3);
+  CHECK(runs.earlier()[1].method == "path");
+}
+
 TEST_CASE("starting over is a run of its own though the edit is the same") {
   Convergence runs;
   run(runs, 1, "a", 5);
@@ -66,6 +75,17 @@ TEST_CASE("a frame whose error was not estimated anew makes no point") {
   CHECK(runs.current().points[1].seconds == doctest::Approx(5));
 }
 
+TEST_CASE("the same picture at an earlier time, as a repeated filter gives it, leaves the curve as it is") {
+  Convergence runs;
+  run(runs, 1, "a", 5);
+  const std::size_t points = runs.current().points.size();
+  ErrorPoint again = runs.current().points.back();
+  again.seconds *= 0.99;
+  runs.add(1, "a", again);
+  CHECK(runs.current().points.size() == points);
+  CHECK(runs.earlier().empty());
+}
+
 TEST_CASE("curves have names of their own: two of one method, and the halves of a split view") {
   Convergence runs, kept;
   run(runs, 1, "mis", 3);
@@ -78,9 +98,9 @@ TEST_CASE("curves have names of their own: two of one method, and the halves of 
     for (const NamedCurve& one : named) text += one.name + ";";
     return text;
   };
-  CHECK(names(named_curves(runs, nullptr)) == "path before;mis;path;");
+  CHECK(names(named_curves(runs, nullptr)) == "mis;path before;path;");
   const auto named = named_curves(runs, &kept);
-  CHECK(names(named) == "path before;mis;A: nee;B: path;");
+  CHECK(names(named) == "mis;path before;A: nee;B: path;");
   CHECK(named[2].curve == &kept.current());
   CHECK(named.back().role == NamedCurve::Role::current);
 }

@@ -57,14 +57,10 @@ TEST_CASE("the axes hold all curves and the target") {
   CHECK(axes_for({}, axes.frame).errors.least() < target_rel_mse);
 }
 
-TEST_CASE("a curve crosses a rectangle where it goes through it, not where it passes by") {
-  const ErrorCurve curve = falling(0.01, 0.1, 10);
-  const ErrorCurve* const curves[] = {&curve};
-  const float x = axes.x(1), y = axes.y(0.01);  // from there it falls by one pixel for every two
-  CHECK(any_crosses(curves, axes, {x - 5, y - 5, x + 5, y + 5}));
-  CHECK(any_crosses(curves, axes, {x + 24, y + 2, x + 28, y + 30}));  // between two points
-  CHECK_FALSE(any_crosses(curves, axes, {x - 45, y + 5, x - 5, y + 15}));
-  CHECK_FALSE(any_crosses(curves, axes, {x + 25, y - 40, x + 45, y - 5}));
-  CHECK_FALSE(any_crosses(curves, axes, {axes.x(10) + 1, y, axes.x(10) + 9, y + 200}));
-  CHECK_FALSE(any_crosses({}, axes, axes.frame));
+TEST_CASE("names stand side by side while there is room, then in rows beneath") {
+  const float widths[] = {60, 30, 30, 200, 10};
+  const auto rows = rows_of_names(widths, {10, 5, 110, 20}, 8);
+  const Rect expected[] = {{10, 5, 70, 20}, {78, 5, 108, 20}, {10, 20, 40, 35}, {10, 35, 210, 50}, {10, 50, 20, 65}};
+  REQUIRE(rows.size() == std::size(expected));
+  for (std::size_t i = 0; i < rows.size(); ++i) CHECK(rows[i] == expected[i]);
 }
