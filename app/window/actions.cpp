@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -55,6 +56,29 @@ constexpr ActionEntry entries[] = {
     {Action::palette, "all actions by name", {'K', true}},
     {Action::help, "this table", {key_f1}, {'H'}},
 };
+
+constexpr const char* words_of_preferences = "font size preferences settings";
+constexpr std::pair<Action, const char*> other_words[] = {{Action::grab, "translate"},
+                                                          {Action::duplicate, "copy clone"},
+                                                          {Action::remove, "remove erase"},
+                                                          {Action::own_material, "copy the material"},
+                                                          {Action::frame, "zoom to centre center"},
+                                                          {Action::inspect, "pick probe value"},
+                                                          {Action::replay, "path fireflies variance"},
+                                                          {Action::actual_size, "zoom 1:1 100 %"},
+                                                          {Action::refine_first, "region crop"},
+                                                          {Action::pause, "stop resume continue"},
+                                                          {Action::restart, "restart clear"},
+                                                          {Action::snapshot, "screenshot export image"},
+                                                          {Action::clean, "denoise filter"},
+                                                          {Action::clean_beside_raw, "denoise filter compare"},
+                                                          {Action::panels, "show the column"},
+                                                          {Action::larger_text, words_of_preferences},
+                                                          {Action::smaller_text, words_of_preferences},
+                                                          {Action::usual_text, words_of_preferences},
+                                                          {Action::other_theme, "colours colors preferences settings"},
+                                                          {Action::quit, "exit"},
+                                                          {Action::help, "help keys shortcuts"}};
 
 const HelpLine mouse_lines[] = {{"Left drag", "orbit; on a handle of the selection: move, turn, size it"},
                                 {"Middle drag", "pan"},
@@ -114,6 +138,12 @@ void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
 }  // namespace
 
 std::span<const ActionEntry> actions() { return entries; }
+
+const char* other_words_for(Action action) {
+  for (const auto& [of, words] : other_words)
+    if (of == action) return words;
+  return "";
+}
 
 const ActionEntry* find_action(Action action) {
   const auto found = std::find_if(std::begin(entries), std::end(entries),

@@ -76,6 +76,8 @@ struct ActionEntry {
 
 /// All actions but the views and sections, which have lists of their own.
 std::span<const ActionEntry> actions();
+/// Words that are not in an action's name by which the palette finds it, too; "": none.
+const char* other_words_for(Action action);
 /// The entry of an action; null for Action::view and Action::section.
 const ActionEntry* find_action(Action action);
 

@@ -123,15 +123,15 @@ void Commands::open_palette() {
   palette_commands_.clear();
   for (const ActionEntry& entry : actions()) {
     if (entry.action == Action::palette) continue;
-    items.push_back({entry.name, entry.key.code != 0 ? text_of(entry.key) : ""});
+    items.push_back({entry.name, entry.key.code != 0 ? text_of(entry.key) : "", other_words_for(entry.action)});
     palette_commands_.push_back({entry.action});
   }
   for (int k = 0; k < view_count; ++k) {
-    items.push_back({std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : ""});
+    items.push_back({std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : "", ""});
     palette_commands_.push_back({Action::view, k});
   }
   for (int k = 0; const Tab& tab : column_tabs()) {
-    items.push_back({std::string("go to: ") + tab.name, ""});
+    items.push_back({std::string("go to: ") + tab.name, "", ""});
     palette_commands_.push_back({Action::section, k++});
   }
   palette_.open(std::move(items));

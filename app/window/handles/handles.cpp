@@ -12,7 +12,8 @@ namespace tyndall {
 namespace {
 
 // Units of the design.
-constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius = 82, least_grip = 26, reach = 9;
+constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius = 82, least_grip = 26, reach = 9,
+                 grip_room = 16;
 constexpr double least_seen = 0.05;  // of PictureFrame::seen_way(): with less, it has no direction
 constexpr int ring_points = 64;
 
@@ -60,20 +61,31 @@ void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out)
   out.push_back(std::move(ring));
 }
 
+bool is_arrow(const Handle& handle) { return handle.points.size() == 2; }
+
+/// Where a grip can be taken: at its place, or as far outside along its way as it needs to lie on no other handle. A
+/// grip that is seen from its end stays. Nothing where it is not in front of the camera.
+std::optional<WindowPoint> place_of_grip(const PictureFrame& frame, const SizeGrip& grip, WindowPoint middle,
+                                         const std::vector<Handle>& others) {
+  const auto free = [&](WindowPoint at) {
+    const auto near = [&](const Handle& other) {
+      return is_arrow(other) && distance_to_line(at, other.points[0], other.points[1]) < grip_room * frame.scale;
+    };
+    return distance(at, middle) >= least_grip * frame.scale && std::none_of(others.begin(), others.end(), near);
+  };
+  const double step = frame.scale * frame.unit_at(grip.at);  // a unit of the design, across the line of sight
+  for (double outside = 0; outside <= arrow_start + arrow + grip_room; ++outside)
+    if (const auto at = frame.point(grip.at + outside * step * grip.way); at && free(*at)) return at;
+  return frame.point(grip.at);
+}
+
 void add_grips(const Scene& scene, const PictureFrame& frame, const ObjectPath& path, std::vector<Handle>& out) {
   const CameraAxes axes = axes_of(scene.camera);
   const std::vector<SizeGrip> grips = size_grips(scene, path, normalize(axes.right - axes.up));
   const auto middle = frame.point(middle_of(scene, path));
-  for (std::size_t k = 0; k < grips.size(); ++k) {
-    auto at = frame.point(grips[k].at);
-    if (!at || !middle) continue;
-    const double away = distance(*at, *middle), least = least_grip * frame.scale;
-    if (away < least) {  // so small that the grip would lie on the other handles
-      const auto outside = frame.point(grips[k].at + (least - away) * frame.unit_at(grips[k].at) * grips[k].way);
-      if (outside) at = outside;
-    }
-    out.push_back({HandleKind::size, k, {*at}});
-  }
+  const std::vector<Handle> others = out;
+  for (std::size_t k = 0; middle && k < grips.size(); ++k)
+    if (const auto at = place_of_grip(frame, grips[k], *middle, others)) out.push_back({HandleKind::size, k, {*at}});
 }
 
 }  // namespace

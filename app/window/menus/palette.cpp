@@ -43,7 +43,7 @@ std::vector<int> matching_items(const std::vector<PaletteItem>& items, const std
   const std::string wanted = lower(text);
   std::vector<int> found;
   for (std::size_t k = 0; k < items.size(); ++k) {
-    const std::string label = lower(items[k].label);
+    const std::string label = lower(items[k].label + " " + items[k].also);
     std::istringstream words(wanted);
     bool all = true;
     for (std::string word; words >> word;) all = all && label.find(word) != std::string::npos;

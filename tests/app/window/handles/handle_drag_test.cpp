@@ -178,3 +178,23 @@ TEST_CASE("the handle under the mouse is the one that is meant") {
   CHECK(std::count_if(of_box.begin(), of_box.end(), [](auto& h) { return h.kind == HandleKind::turn; }) == 1);
   CHECK(std::count_if(of_box.begin(), of_box.end(), [](auto& h) { return h.kind == HandleKind::size; }) == 6);
 }
+
+TEST_CASE("from wherever a box is seen, its grips keep off the arrows, and both can be taken") {
+  for (const double size : {0.1, 0.5, 1.0})
+    for (const double height : {0.1, 0.5, 2.0, 8.0})
+      for (int degrees = 3; degrees < 360; degrees += 11) {
+        Scene scene = example();
+        std::get<Box<>>(std::get<Solid3d>(scene.objects[1].kind).shape) = {{-size, -size, -size}, {size, size, size}};
+        scene.objects[1].transform.clear();
+        const double angle = degrees * 0.017453292519943295;
+        scene.camera.look_from = {10 * std::cos(angle), height, 10 * std::sin(angle)};
+        const auto handles = handles_of(scene, frame_of(scene, image, 1), {{1}}, {0, 0, 0});
+        for (const Handle& handle : handles) {
+          if (handle.kind == HandleKind::turn || handle.kind == HandleKind::plane) continue;
+          const auto found = handle_at(handles, handle.points.back(), 1);
+          INFO(size, " ", height, " ", degrees, " ", static_cast<int>(handle.kind), " ", handle.grip);
+          REQUIRE(found);
+          CHECK((found->kind == HandleKind::size) == (handle.kind == HandleKind::size));
+        }
+      }
+}

@@ -9,7 +9,7 @@ using namespace tyndall;
 namespace {
 
 const std::vector<PaletteItem> items{
-    {"save the scene", "Ctrl + S"}, {"save as", ""}, {"add a lamp", ""}, {"undo", "Ctrl + Z"}};
+    {"save the scene", "Ctrl + S", ""}, {"save as", "", ""}, {"add a lamp", "", ""}, {"undo", "Ctrl + Z", ""}};
 
 /// The palette over a picture.
 struct Drawn {
@@ -49,6 +49,14 @@ TEST_CASE("items are found by all words, in any order and case; those that begin
   CHECK(matching_items(items, "scene save") == std::vector<int>{0});
   CHECK(matching_items(items, "a") == std::vector<int>{2, 0, 1});
   CHECK(matching_items(items, "nothing").empty());
+}
+
+TEST_CASE("actions are found by other words, too; the words of the name come before them") {
+  const std::vector<PaletteItem> with_others{
+      {"larger text", "", "font size"}, {"full screen", "", ""}, {"size of the film", "", ""}};
+  CHECK(matching_items(with_others, "font") == std::vector<int>{0});
+  CHECK(matching_items(with_others, "larger font") == std::vector<int>{0});
+  CHECK(matching_items(with_others, "size") == std::vector<int>{2, 0});
 }
 
 TEST_CASE("typing and Enter choose the first that fits, the arrow keys another one") {
