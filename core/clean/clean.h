@@ -89,7 +89,7 @@ void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input);
 /// The filtered picture.
 struct CleanPicture {
   int width = 0, height = 0;
-  std::vector<float> rgb;  ///< 3 floats a pixel, linear, top row first
+  std::vector<float> rgb;  ///< 3 floats a pixel, linear, top row first; never negative
   /// Estimated relative error: its square estimates the picture's relMSE.
   double relative_error = std::numeric_limits<double>::infinity();
   /// Whether the estimate means little, because few pixels make up most of it: see ErrorEstimate::rests_on_few_pixels.

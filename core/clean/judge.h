@@ -45,7 +45,8 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
 }
 
 /// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because
-/// numbers were too large for single precision, becomes raw.
+/// numbers were too large for single precision, becomes raw. Light is never negative: where the filter's is, as a
+/// linear function may fall below 0 beside a bright speck, 0 is nearer to the truth. The error is that of the filter's.
 template <class F>
 TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
   for (int x = 0; x < v.width; x += lanes_of<F>) {
@@ -58,7 +59,7 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
       F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
       const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
       pa = select(finite, pa, a), pb = select(finite, pb, b);
-      const F picture = F(0.5f) * (pa + pb);
+      const F picture = max(F(0.5f) * (pa + pb), F(0.0f));
       const F known = known_level(v, a, b, load<F>(v.sharp + at), look_around<F>(v, c, y, x));
       const F level = max(min(picture, known), F(0.0f));
       const F per = F(1.0f / 3.0f) / mul_add(level, level, splat<F>(v.floor));

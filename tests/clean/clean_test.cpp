@@ -115,6 +115,17 @@ TEST_CASE("clean: without noise the picture stays as it is, also where nothing t
   CHECK(picture.relative_error < 1e-2);
 }
 
+TEST_CASE("clean: nowhere negative, though the light beside bright specks is extrapolated below 0") {
+  Known k = known_picture(96, 64, 0.3f);
+  std::mt19937 engine(3);
+  for (int speck = 0; speck < 40; ++speck) {
+    const std::ptrdiff_t at = static_cast<int>(engine() % 64u) * k.input.halves.stride() + engine() % 96u;
+    for (int c = 0; c < 3; ++c) k.input.halves.plane(3 * (speck % 2) + c)[at] = 300;
+  }
+  const CleanPicture picture = clean(k.input);
+  CHECK(*std::min_element(picture.rgb.begin(), picture.rgb.end()) == 0);
+}
+
 TEST_CASE("clean: the same bits for any number of threads, and once more after another picture") {
   const Known k = known_picture(203, 77, 0.7f), other = known_picture(64, 64, 0.3f);
   const CleanPicture one = clean(k.input, 1);
