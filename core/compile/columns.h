@@ -35,8 +35,15 @@ struct BoxFace {
 };
 BoxFace box_face_edges(const Box<>& box, std::int32_t face);
 
-/// Appends an element for each sphere, quad or box face. uv, motion: whether the columns that only image textures, or
-/// only moving spheres, need are filled.
-void append_elements(const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& elements);
+/// Which columns of elements are filled beside those that every scene needs.
+struct MoreColumns {
+  bool uv = false;      ///< for image textures
+  bool motion = false;  ///< for moving spheres
+  bool plane = false;   ///< for textures of any kind
+};
+
+/// Appends an element for each sphere, quad or box face. checker: the shape's texture; null: it has another or none.
+void append_elements(const PlacedShape& shape, Vec3d origin, const MoreColumns& more, const Checker<>* checker,
+                     Elements& elements);
 
 }  // namespace tyndall

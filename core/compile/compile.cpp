@@ -113,11 +113,19 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
   return out.bvh->order;
 }
 
+/// The checker of a material; null: it has another texture or none.
+const Checker<>* checker_of(const Scene& scene, std::int32_t material) {
+  const Material& m = scene.materials[static_cast<std::size_t>(material)];
+  const auto* texture = std::get_if<TextureIndex>(&m.colour);
+  return texture ? std::get_if<Checker<>>(&scene.textures[static_cast<std::size_t>(texture->index)].kind) : nullptr;
+}
+
 void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
   std::vector<std::int32_t> first_element;
+  const MoreColumns more{out.needs.image_textures, out.needs.moving_spheres, out.needs.textures};
   for (const PlacedShape& shape : flat.shapes) {
     first_element.push_back(out.elements.count());
-    append_elements(shape, out.origin, out.needs.image_textures, out.needs.moving_spheres, out.elements);
+    append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
   }
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {

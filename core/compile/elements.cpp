@@ -10,44 +10,65 @@ void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
   map.offset[i] = static_cast<float>(-dot(row, zero_at));
 }
 
-void append(Elements& e, Vec3f xyz, float inverse_radius, Vec3f move, bool motion, const PlacedShape& shape) {
-  e.x.push_back(xyz.x), e.y.push_back(xyz.y), e.z.push_back(xyz.z);
-  e.inverse_radius.push_back(inverse_radius);
-  if (motion) e.move_x.push_back(move.x), e.move_y.push_back(move.y), e.move_z.push_back(move.z);
-  e.material.push_back(shape.material);
-  e.object.push_back(shape.object);
-}
+/// Where elements are appended, and which columns they fill.
+struct Appender {
+  const PlacedShape& shape;
+  Vec3d origin;
+  const MoreColumns& more;
+  const Checker<>* checker;
+  Elements& to;
 
-void append_flat_uv(Elements& e, Vec3d corner, Vec3d u, Vec3d v) {
-  const Reciprocal r = reciprocal_edges(u, v);
-  for (const Vec3d row : {r.a, r.b})
-    for (const double c : {row.x, row.y, row.z, -dot(row, corner)}) e.uv.push_back(static_cast<float>(c));
-}
-
-void append_shape(const Sphere<>& s, const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& e) {
-  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
-  append(e, to_float(place(shape.placement, s.center) - origin), static_cast<float>(1 / s.radius),
-         to_float(turn(shape.placement, way)), motion, shape);
-  if (!uv) return;
-  const Vec3d x_axis = turn(shape.placement, {1, 0, 0});  // (cos, 0, -sin)
-  for (const double c : {x_axis.x, -x_axis.z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}) e.uv.push_back(static_cast<float>(c));
-}
-
-void append_shape(const Quad<>& q, const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& e) {
-  const Vec3d u = turn(shape.placement, q.u), v = turn(shape.placement, q.v);
-  append(e, to_float(normalize(cross(u, v))), 0, {}, motion, shape);
-  if (uv) append_flat_uv(e, place(shape.placement, q.corner) - origin, u, v);
-}
-
-void append_shape(const Box<>& b, const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& e) {
-  for (std::int32_t i = 0; i < 6; ++i) {
-    const BoxFace face = box_face_edges(b, i);
-    append(e, to_float(turn(shape.placement, face.normal)), 0, {}, motion, shape);
-    if (uv)
-      append_flat_uv(e, place(shape.placement, face.corner) - origin, turn(shape.placement, face.u),
-                     turn(shape.placement, face.v));
+  void append(Vec3f xyz, float inverse_radius, Vec3f move, double plane) const {
+    to.x.push_back(xyz.x), to.y.push_back(xyz.y), to.z.push_back(xyz.z);
+    to.inverse_radius.push_back(inverse_radius);
+    if (more.motion) to.move_x.push_back(move.x), to.move_y.push_back(move.y), to.move_z.push_back(move.z);
+    if (more.plane) to.plane.push_back(static_cast<float>(plane));
+    to.material.push_back(shape.material);
+    to.object.push_back(shape.object);
   }
-}
+
+  /// See Elements::plane. normal: unit; point: on the flat, in the world.
+  double plane_of(Vec3d normal, Vec3d point) const {
+    constexpr double near = 1e-3;  // of a cell
+    const double own = dot(normal, point - origin);
+    for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+      if (!checker || std::abs(normal.*axis) < 1 - 1e-12) continue;
+      const double cells = point.*axis / checker->scale, border = std::round(cells);
+      if (std::abs(cells - border) >= near) return own;
+      const double within = std::floor(cells) < border ? border - near : border + near;
+      return own + normal.*axis * (within - cells) * checker->scale;
+    }
+    return own;
+  }
+
+  void append_flat(Vec3d normal, Vec3d corner, Vec3d u, Vec3d v) const {
+    append(to_float(normal), 0, {}, more.plane ? plane_of(normal, corner) : 0);
+    if (!more.uv) return;
+    const Reciprocal r = reciprocal_edges(u, v);
+    for (const Vec3d row : {r.a, r.b})
+      for (const double c : {row.x, row.y, row.z, -dot(row, corner - origin)}) to.uv.push_back(static_cast<float>(c));
+  }
+  Vec3d turned(Vec3d way) const { return turn(shape.placement, way); }
+  Vec3d placed(Vec3d point) const { return place(shape.placement, point); }
+
+  void operator()(const Sphere<>& s) const {
+    const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
+    append(to_float(placed(s.center) - origin), static_cast<float>(1 / s.radius), to_float(turned(way)), 0);
+    if (!more.uv) return;
+    const Vec3d x_axis = turned({1, 0, 0});  // (cos, 0, -sin)
+    for (const double c : {x_axis.x, -x_axis.z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}) to.uv.push_back(static_cast<float>(c));
+  }
+  void operator()(const Quad<>& q) const {
+    const Vec3d u = turned(q.u), v = turned(q.v);
+    append_flat(normalize(cross(u, v)), placed(q.corner), u, v);
+  }
+  void operator()(const Box<>& b) const {
+    for (std::int32_t i = 0; i < 6; ++i) {
+      const BoxFace face = box_face_edges(b, i);
+      append_flat(turned(face.normal), placed(face.corner), turned(face.u), turned(face.v));
+    }
+  }
+};
 
 }  // namespace
 
@@ -96,8 +117,9 @@ Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin) {
   return map;
 }
 
-void append_elements(const PlacedShape& shape, Vec3d origin, bool uv, bool motion, Elements& elements) {
-  std::visit([&](const auto& s) { append_shape(s, shape, origin, uv, motion, elements); }, shape.shape);
+void append_elements(const PlacedShape& shape, Vec3d origin, const MoreColumns& more, const Checker<>* checker,
+                     Elements& elements) {
+  std::visit(Appender{shape, origin, more, checker, elements}, shape.shape);
 }
 
 }  // namespace tyndall

@@ -74,6 +74,10 @@ struct Elements {
   /// For image textures. Flats: u and v as affine functions of the point (8 floats). Spheres: cosine and sine of the
   /// rotation into the sphere's own frame in the first two. Filled only if there are image textures.
   std::vector<float> uv;
+  /// For textures: of flats the distance from the origin, along the normal, of the plane in which a texture is looked
+  /// up. It is the flat's own, but where that lies on the border between two layers of a checker's cells, within the
+  /// layer that floor() says, so that rounding does not choose the cell. Spheres: 0. Filled only if there are textures.
+  std::vector<float> plane;
   std::vector<std::vector<int>> object;  ///< path of indices into Scene::objects: which object it belongs to
   int count() const { return static_cast<int>(material.size()); }
 };

@@ -64,7 +64,7 @@ struct SceneView {
   const BvhLeaf* leaves;
   int element_count, material_count;
   // elements
-  const float *x, *y, *z, *inverse_radius, *move_x, *move_y, *move_z, *uv;
+  const float *x, *y, *z, *inverse_radius, *move_x, *move_y, *move_z, *uv, *plane;
   const std::int32_t *material, *light_of;
   LightView lights;
   // materials

@@ -120,12 +120,26 @@ TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, M
   return colour;
 }
 
+/// Where a texture is looked up for a point of a surface: on flats exactly in Elements::plane, so that the rounding of
+/// the point does not decide between the cells of a checker on either side of the flat.
+template <class F>
+TYNDALL_INLINE Vec3<F> texture_point(const SceneView& s, const SurfacePoint<F>& p) {
+  const auto flat = equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f));
+  if (!any(flat)) return p.point;
+  const Vec3<F> normal{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
+                       lookup<F>(s.z, s.element_count, p.element)};
+  const F gap = lookup<F>(s.plane, s.element_count, p.element) - dot(normal, p.point);
+  return select(flat, along(p.point, gap, normal), p.point);
+}
+
 template <class F>
 TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
   const Vec3<F> colour{lookup<F>(s.red, s.material_count, p.material), lookup<F>(s.green, s.material_count, p.material),
                        lookup<F>(s.blue, s.material_count, p.material)};
   if (!s.has_textures()) return colour;
-  return textured(s, colour, lookup_int<F>(s.texture_of, s.material_count, p.material), lanes, p.point, &p);
+  const IntOf<F> texture = lookup_int<F>(s.texture_of, s.material_count, p.material);
+  if (!any(mask_and(lanes, less_equal(IntOf<F>(0), texture)))) return colour;
+  return textured(s, colour, texture, lanes, texture_point<F>(s, p), &p);
 }
 
 /// Radiance that a light sends from a point on it. element: the light's.

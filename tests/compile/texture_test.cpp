@@ -129,6 +129,40 @@ TEST_CASE("textures in world space: a pattern far away is the one near by, not a
   }
 }
 
+TEST_CASE("checker: on a flat in the border between cells rounding does not choose the cell") {
+  const double scale = 0.32, beside = 1e-4;
+  const auto shapes_at = [](double z) {
+    return std::vector<Object>{
+        {"", Solid3d{Quad<>{{-3, -3, z}, {6, 0, 0}, {0, 6, 0}}, 0}, {}},
+        {"", Solid3d{Box<>{{-3, -3, z - 1}, {3, 3, z}}, 0}, {}},
+        {"", Solid3d{Box<>{{-z, -3, -3}, {1 - z, 3, 3}}, 0}, {RotateY{90}}},
+    };
+  };
+  for (const int cell : {0, 1, -3, 7, -10})
+    for (const Vec3d away : {Vec3d{0, 0, 0}, Vec3d{0.7321, 0.4113, -0.3779}})
+      for (std::size_t shape = 0; shape < 3; ++shape) {
+        Scene scene = textured_wall(Checker<>{scale, {0, 0, 0}, {1, 1, 1}}, {0, 0, cell * scale});
+        scene.camera.look_from = {2.1, -1.3, cell * scale + 3.7};
+        scene.objects = {shapes_at(cell * scale)[shape]};
+        if (length(away) > 0) drag_origin(scene, away);
+        Scene moved = scene;
+        moved.objects[0] = shapes_at(cell * scale + beside)[shape];
+        for (const Kernels& kernels : available_kernels()) {
+          const auto found = seen(compile(scene), kernels), expected = seen(compile(moved), kernels);
+          int wrong = 0, odd = 0;
+          for (std::size_t i = 0; i < found.size(); ++i) {
+            wrong += found[i].albedo.x == expected[i].albedo.x ? 0 : 1;
+            odd += found[i].albedo.x == 1.0f ? 1 : 0;
+          }
+          CAPTURE(cell);
+          CAPTURE(shape);
+          CHECK(wrong <= edge * edge / 200);  // along the borders within the flat
+          CHECK(odd > edge * edge / 4);
+          CHECK(odd < edge * edge * 3 / 4);
+        }
+      }
+}
+
 TEST_CASE("images: u and v of quads run along their edges, wherever the origin is") {
   const Quad<> quad{{-1, -1, 0}, {2, 0, 0}, {0.5, 2, 0}};
   for (const Vec3d away : {Vec3d{0, 0, 0}, Vec3d{40, 30, -20}}) {

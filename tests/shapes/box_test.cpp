@@ -94,7 +94,7 @@ TEST_CASE("box: turned and moved, hits are on its surface and the face's normal 
     const Placement placement{uniform(engine, -180, 180), in_cube(engine, 5)};
     const Affine map = box_map({-half, half}, placement, {});
     Elements elements;
-    append_elements({Box<>{-half, half}, placement, 0, {}}, {}, false, false, elements);
+    append_elements({Box<>{-half, half}, placement, 0, {}}, {}, {}, nullptr, elements);
     REQUIRE(elements.count() == 6);
     int wrong = 0;
     for (int k = 0; k < 300; ++k) {
