@@ -76,6 +76,7 @@ bool MainWindow::hidden() const {
 }
 
 double MainWindow::waiting_time(double now) {
+  if (takes_in_again_) return 0;
   const double sends = std::max(0.0, session_.send_time() - now);
   if (hidden()) {  // nothing to draw until an event shows the window again
     alarm_.due = std::numeric_limits<double>::infinity();
@@ -150,9 +151,8 @@ void MainWindow::draw(double now) {
   picture_.show(platform_, layout, {.stops = stops, .pixels = looks_.shows_pixels()});
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
-  if (!fresh) return;
-  picture_.note_shown();  // from here on the workers go on with it, unless a newer scene is sent at once
-  if (send(clock_seconds())) awaits_until_ = clock_seconds() + longest_await;
+  takes_in_again_ = fresh && std::isfinite(session_.send_time());
+  if (!takes_in_again_) picture_.note_shown();  // from here on the workers go on with it
 }
 
 /// Where things are for a picture of that shape.

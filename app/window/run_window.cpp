@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -53,9 +54,9 @@ int MainWindow::run() {
     commands_.take(events);
     const double now = clock_seconds();
     if (session_.collect_errors()) pacing_.wake_at(now);
-    const bool due = picture_due(now);
-    if (!due) send(now);
-    if (due || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
+    const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
+    if (!due && !again) send(now);
+    if (due || again || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
   }
   platform_.hide();  // a comparison or a snapshot may still take a second
   return end_of_signal();
