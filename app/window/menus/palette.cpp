@@ -41,18 +41,23 @@ bool palette_line(Ui& ui, const PaletteItem& item, bool marked, bool scroll) {
 
 std::vector<int> matching_items(const std::vector<PaletteItem>& items, const std::string& text) {
   const std::string wanted = lower(text);
-  std::vector<int> found;
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    const std::string label = lower(items[k].label + " " + items[k].also);
+  const auto holds_all = [&](const std::string& where) {
     std::istringstream words(wanted);
     bool all = true;
-    for (std::string word; words >> word;) all = all && label.find(word) != std::string::npos;
-    if (all) found.push_back(static_cast<int>(k));
+    for (std::string word; words >> word;) all = all && where.find(word) != std::string::npos;
+    return all;
+  };
+  std::vector<int> ranked[3];  // the label begins with the text, holds all words, does so with the other words
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const std::string label = lower(items[k].label);
+    const int rank = !wanted.empty() && label.starts_with(wanted)    ? 0
+                     : holds_all(label)                              ? 1
+                     : holds_all(label + " " + lower(items[k].also)) ? 2
+                                                                     : -1;
+    if (rank >= 0) ranked[rank].push_back(static_cast<int>(k));
   }
-  std::stable_partition(found.begin(), found.end(), [&](int k) {
-    return !wanted.empty() && lower(items[static_cast<std::size_t>(k)].label).starts_with(wanted);
-  });
-  return found;
+  for (const auto& next : {ranked[1], ranked[2]}) ranked[0].insert(ranked[0].end(), next.begin(), next.end());
+  return ranked[0];
 }
 
 void Palette::open(std::vector<PaletteItem> items) {

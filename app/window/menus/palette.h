@@ -14,8 +14,8 @@ struct PaletteItem {
   std::string also;   ///< other words by which it is found
 };
 
-/// The numbers of the items whose labels or other words hold all words of the text, in any order and in small letters
-/// or capitals; those whose label begins with the text come first.
+/// The numbers of the items whose labels hold all words of the text, in any order and in small letters or capitals;
+/// those that begin with the text come first, and those of which some words are among the other words come last.
 std::vector<int> matching_items(const std::vector<PaletteItem>& items, const std::string& text);
 
 /// A box over the picture in which the user types part of an action's name and chooses one with the arrow keys and

@@ -57,6 +57,8 @@ TEST_CASE("actions are found by other words, too; the words of the name come bef
   CHECK(matching_items(with_others, "font") == std::vector<int>{0});
   CHECK(matching_items(with_others, "larger font") == std::vector<int>{0});
   CHECK(matching_items(with_others, "size") == std::vector<int>{2, 0});
+  const std::vector<PaletteItem> views{{"clean view on or off", "", "denoise"}, {"view: noise", "", ""}};
+  CHECK(matching_items(views, "view noise") == std::vector<int>{1, 0});
 }
 
 TEST_CASE("typing and Enter choose the first that fits, the arrow keys another one") {
