@@ -91,7 +91,8 @@ SceneViewOf::SceneViewOf(const RenderScene& s, ViewFor purpose) : view_{} {
   v.leaves = s.bvh ? s.bvh->leaves.data() : nullptr;
   const Elements& e = s.elements;
   v.x = e.x.data(), v.y = e.y.data(), v.z = e.z.data(), v.inverse_radius = e.inverse_radius.data();
-  v.move_x = e.move_x.data(), v.move_y = e.move_y.data(), v.move_z = e.move_z.data(), v.uv = e.uv.data(), v.plane = e.plane.data();
+  v.move_x = e.move_x.data(), v.move_y = e.move_y.data(), v.move_z = e.move_z.data(), v.uv = e.uv.data(),
+  v.plane = e.plane.data();
   v.material = e.material.data(), v.light_of = e.light.data();
   v.lights = view_of(s.lights);
   v.element_count = static_cast<int>(e.material.size());

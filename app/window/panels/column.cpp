@@ -150,7 +150,8 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
                             {"Image", image_panel},
                             {"", histogram_part},
                             {"Render", render_panel}};
-    if (!fixed_chart) parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, chart_height * u.scale); }});
+    if (!fixed_chart)
+      parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, chart_height * u.scale); }});
     for (const Part& part : {Part{"", background_panel}, Part{"Objects", objects_panel}, Part{"Scenes", scenes_panel},
                              Part{"", window_panel}})
       parts.push_back(part);
