@@ -143,6 +143,7 @@ void MainWindow::draw(double now) {
   use_mouse_and_keys(layout, now);
   apply_panels(now);
   session_.set_input_time(0);
+  if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
   if (!fresh && send(now)) {
     awaits_until_ = now + longest_await;
     return platform_.drop_frame();
@@ -152,7 +153,7 @@ void MainWindow::draw(double now) {
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
   takes_in_again_ = fresh && std::isfinite(session_.send_time());
-  if (!takes_in_again_) picture_.note_shown();  // from here on the workers go on with it
+  if (!takes_in_again_) picture_.note_shown();  // else once the newer scene is ready
 }
 
 /// Where things are for a picture of that shape.

@@ -63,15 +63,15 @@ void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out)
 
 bool is_arrow(const Handle& handle) { return handle.points.size() == 2; }
 
-/// Where a grip can be taken: at its place, or as far outside along its way as it needs to lie on no other handle. A
-/// grip that is seen from its end stays. Nothing where it is not in front of the camera.
+/// Where a grip can be taken: at its place, or as far outside along its way as it needs to keep off the middle and the
+/// arrows. A grip that is seen from its end stays. Nothing where it is not in front of the camera.
 std::optional<WindowPoint> place_of_grip(const PictureFrame& frame, const SizeGrip& grip, WindowPoint middle,
-                                         const std::vector<Handle>& others) {
+                                         const std::vector<Handle>& handles) {
   const auto free = [&](WindowPoint at) {
     const auto near = [&](const Handle& other) {
       return is_arrow(other) && distance_to_line(at, other.points[0], other.points[1]) < grip_room * frame.scale;
     };
-    return distance(at, middle) >= least_grip * frame.scale && std::none_of(others.begin(), others.end(), near);
+    return distance(at, middle) >= least_grip * frame.scale && std::none_of(handles.begin(), handles.end(), near);
   };
   const double step = frame.scale * frame.unit_at(grip.at);  // a unit of the design, across the line of sight
   for (double outside = 0; outside <= arrow_start + arrow + grip_room; ++outside)
@@ -83,9 +83,8 @@ void add_grips(const Scene& scene, const PictureFrame& frame, const ObjectPath& 
   const CameraAxes axes = axes_of(scene.camera);
   const std::vector<SizeGrip> grips = size_grips(scene, path, normalize(axes.right - axes.up));
   const auto middle = frame.point(middle_of(scene, path));
-  const std::vector<Handle> others = out;
   for (std::size_t k = 0; middle && k < grips.size(); ++k)
-    if (const auto at = place_of_grip(frame, grips[k], *middle, others)) out.push_back({HandleKind::size, k, {*at}});
+    if (const auto at = place_of_grip(frame, grips[k], *middle, out)) out.push_back({HandleKind::size, k, {*at}});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "app/window/edit/arrange.h"
 #include "app/window/tools/camera_control.h"
+#include "core/base/math.h"
 
 #include <doctest/doctest.h>
 
@@ -186,7 +187,7 @@ TEST_CASE("from wherever a box is seen, its grips keep off the arrows, and both 
         Scene scene = example();
         std::get<Box<>>(std::get<Solid3d>(scene.objects[1].kind).shape) = {{-size, -size, -size}, {size, size, size}};
         scene.objects[1].transform.clear();
-        const double angle = degrees * 0.017453292519943295;
+        const double angle = degrees * pi / 180;
         scene.camera.look_from = {10 * std::cos(angle), height, 10 * std::sin(angle)};
         const auto handles = handles_of(scene, frame_of(scene, image, 1), {{1}}, {0, 0, 0});
         for (const Handle& handle : handles) {
