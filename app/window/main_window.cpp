@@ -148,8 +148,7 @@ void MainWindow::draw(double now) {
     awaits_until_ = now + longest_await;
     return platform_.drop_frame();
   }
-  const bool stops = view_entry(panels_.view).stops;
-  picture_.show(platform_, layout, {.stops = stops, .pixels = looks_.shows_pixels()});
+  picture_.show(platform_, layout, view_entry(panels_.view).stops, looks_.shows_pixels());
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
   takes_in_again_ = fresh && std::isfinite(session_.send_time());

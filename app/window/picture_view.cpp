@@ -95,40 +95,50 @@ bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bo
   return has_it;
 }
 
-void PictureView::upload() {
+/// How a frame's picture looks, or, of null, a map of errors: views that are not the picture have no exposure.
+Look PictureView::look_of(const Frame* frame, bool stops) const {
+  if (!frame || frame->view != View::beauty) return {};
+  const Display& display = session_.editor().scene().display;
+  return {display.exposure, display.tone_map, display.dither, stops};
+}
+
+/// Puts a picture on a side's display, unless it is there.
+void PictureView::upload(Side& side, const std::shared_ptr<const void>& what, const ShownPicture& picture,
+                         const Look& look) {
+  if (what == side.uploaded && look == side.look) return;
+  if (!side.display) side.display = std::make_unique<FrameDisplay>();
+  side.display->upload(picture, look);
+  side.uploaded = what;
+  side.look = look;
+}
+
+/// What a frame shows. clean: its clean view, if it has one.
+void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops) {
+  const Look look = look_of(frame.get(), stops);
+  if (const auto filtered = clean ? clean_of(frame) : nullptr)
+    upload(side, filtered,
+           {filtered->rgba, filtered->grid.columns, filtered->grid.rows, filtered->grid.spacing, frame->width,
+            frame->height},
+           look);
+  else
+    upload(side, frame, {frame->rgba, frame->columns, frame->rows, frame->spacing, frame->width, frame->height}, look);
+}
+
+void PictureView::upload_all(bool stops) {
   if (!session_.renderers().split() && !shows_raw_beside()) left_ = {};
-  const auto map = session_.accuracy().map();
-  const auto& frame = right_.frame;
-  if (map && map != right_.uploaded)
-    right_.display->upload({map->rgba, map->width, map->height, 1, map->width, map->height});
-  if (map)
-    right_.uploaded = map;
-  else if (frame)
-    upload_picture(right_, frame, true);
+  if (const auto map = session_.accuracy().map())
+    upload(right_, map, {map->rgba, map->width, map->height, 1, map->width, map->height}, look_of(nullptr, stops));
+  else if (right_.frame)
+    upload_frame(right_, right_.frame, true, stops);
   if (!shows_halves()) return;
   const bool beside = shows_raw_beside();
   const auto& left = beside ? right_.frame : left_.frame;
-  if (!left) return;
-  if (!left_.display) left_.display = std::make_unique<FrameDisplay>();
-  upload_picture(left_, left, !beside);
+  if (left) upload_frame(left_, left, !beside, stops);
 }
 
-/// Puts what a frame shows on a side's display, unless it is there. clean: its clean view, if it has one.
-void PictureView::upload_picture(Side& side, const std::shared_ptr<const Frame>& frame, bool clean) {
-  const auto filtered = clean ? clean_of(frame) : nullptr;
-  const auto shown = filtered ? std::shared_ptr<const void>(filtered) : frame;
-  if (shown == side.uploaded) return;
-  if (filtered)
-    side.display->upload({filtered->rgba, filtered->grid.columns, filtered->grid.rows, filtered->grid.spacing,
-                          frame->width, frame->height});
-  else
-    side.display->upload({frame->rgba, frame->columns, frame->rows, frame->spacing, frame->width, frame->height});
-  side.uploaded = shown;
-}
-
-void PictureView::show(Platform& platform, const Layout& layout, const Look& more) {
+void PictureView::show(Platform& platform, const Layout& layout, bool stops, bool squares) {
   try {
-    upload();
+    upload_all(stops);
   } catch (const IoError& error) {
     session_.messages().say(error.what(), true);
   }
@@ -136,24 +146,15 @@ void PictureView::show(Platform& platform, const Layout& layout, const Look& mor
   const float dots = static_cast<float>(window.framebuffer_width) / static_cast<float>(std::max(1, window.width));
   const auto in_dots = [dots](const Rect& r) { return Rect{r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}; };
   const Rect whole = in_dots(layout.image), visible = overlap(layout.image, layout.area), clip = in_dots(visible);
-  const int height = window.framebuffer_height;
-  const Display& display = session_.editor().scene().display;
-  const auto look = [&](const Frame* frame) {
-    const bool plain = session_.accuracy().map() || (frame && frame->view != View::beauty);
-    Look shown = more;
-    shown.stops = more.stops && !plain;
-    if (!plain) shown.exposure = display.exposure, shown.tone_map = display.tone_map, shown.dither = display.dither;
-    return shown;
+  const auto draw = [&](const FrameDisplay& display, const Rect& within) {
+    display.draw(whole, window.framebuffer_width, window.framebuffer_height, within, squares);
   };
-  const bool halves = shows_halves() && left_.display;
-  right_.display->prepare(look(right_.frame.get()));
-  if (halves) left_.display->prepare(look(shows_raw_beside() ? right_.frame.get() : left_.frame.get()));
   platform.clear();
-  right_.display->draw(whole, height, clip);
-  if (halves) {
+  draw(*right_.display, clip);
+  if (shows_halves() && left_.display) {
     Rect left = clip;
     left.x1 = std::round(divider_.x(visible)) * dots;
-    left_.display->draw(whole, height, left);
+    draw(*left_.display, left);
   }
   platform.end_frame();
 }

@@ -30,24 +30,28 @@ class PictureView {
   void draw_halves(Ui& ui, const Rect& image) const;
   /// Moves the divider with the mouse. free: nothing else has the mouse. Returns whether the divider has it.
   bool drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free);
-  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing.
-  /// more: what the window wants besides the scene's exposure and curve.
-  void show(Platform& platform, const Layout& layout, const Look& more);
+  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing. stops: as Look says;
+  /// squares: enlarged pixels are squares.
+  void show(Platform& platform, const Layout& layout, bool stops, bool squares);
 
  private:
-  /// A half, and what its display holds: its frame or a map of errors.
+  /// A half, and what its display holds: its frame or a map of errors, and how that looks.
   struct Side {
     std::shared_ptr<const Frame> frame;
     std::shared_ptr<const void> uploaded;
+    Look look;
     std::unique_ptr<FrameDisplay> display;
   };
   bool shows_halves() const;
   bool shows_raw_beside() const;
   SplitLabels labels() const;
   static std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame);
-  static void upload_picture(Side& side, const std::shared_ptr<const Frame>& frame, bool clean);
+  Look look_of(const Frame* frame, bool stops) const;
+  static void upload(Side& side, const std::shared_ptr<const void>& what, const ShownPicture& picture,
+                     const Look& look);
+  void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops);
+  void upload_all(bool stops);
   std::string text_of(Half half) const;
-  void upload();
 
   Session& session_;
   Side left_, right_;  ///< without a split view all is in right_

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace tyndall {
@@ -40,50 +41,128 @@ Rgb times(const Rgb (&matrix)[3], const Rgb& v) {
   return {row(matrix[0]), row(matrix[1]), row(matrix[2])};
 }
 
-/// Code values in [0, 1] for a screen of gamma 2.2.
-Rgb agx(const Rgb& light) {
-  constexpr float darkest = -12.473931f, stops = 16.5f;  // log2(0.18) - 10; up to log2(0.18) + 6.5
-  Rgb shown = times(agx_inset, light);
-  for (float& v : shown) {
-    const float x = std::clamp((std::log2(std::max(v, 1e-10f)) - darkest) / stops, 0.0f, 1.0f);
-    v = std::pow(agx_contrast(x), 2.2f);
+/// A function of light as straight pieces, 64 for each doubling from 2^-40 to 2^20, which stand for all that is darker
+/// or brighter; what is not a number is as dark.
+class Pieces {
+ public:
+  template <class Function>
+  explicit Pieces(const Function& exact) : ends_(count + 1) {
+    for (std::uint32_t i = 0; i <= count; ++i) ends_[i] = exact(std::bit_cast<float>(first + (i << piece_bits)));
   }
-  shown = times(agx_outset, shown);
-  for (float& v : shown) v = std::pow(std::clamp(v, 0.0f, 1.0f), 1 / 2.2f);
-  return shown;
-}
-
-/// Code values in [0, 1] of light that was multiplied by the exposure; negative light and what is not a number is 0.
-Rgb screen_values(Rgb light, ToneMap curve) {
-  for (float& v : light) v = v > 0 ? std::min(v, 1e6f) : 0.0f;
-  if (curve == ToneMap::agx) return agx(light);
-  for (float& v : light) v = srgb_encode(std::min(curve == ToneMap::aces ? aces(v) : v, 1.0f));
-  return light;
-}
-
-/// The screen's 0 to 255 of each channel, not yet rounded, is handed to round(pixel, value).
-template <class Round>
-std::vector<std::uint8_t> map_pixels(const std::vector<float>& rgb, double exposure, ToneMap curve,
-                                     const Round& round) {
-  const double gain = std::exp2(exposure);
-  std::vector<std::uint8_t> bytes(rgb.size());
-  const auto exposed = [&](std::size_t i) { return static_cast<float>(static_cast<double>(rgb[i]) * gain); };
-  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-    const Rgb shown = screen_values({exposed(i), exposed(i + 1), exposed(i + 2)}, curve);
-    for (std::size_t c = 0; c < 3; ++c) bytes[i + c] = static_cast<std::uint8_t>(round(i / 3, 255 * shown[c]));
+  float operator()(float light) const {
+    const float within = light > darkest ? std::min(light, brightest) : darkest;
+    const std::uint32_t at = std::bit_cast<std::uint32_t>(within) - first, i = at >> piece_bits;
+    const float share = static_cast<float>(at & (piece - 1)) * (1.0f / piece);
+    return ends_[i] + share * (ends_[i + 1] - ends_[i]);
   }
-  return bytes;
-}
 
-/// Threshold of ordered dithering in a square of 8 x 8 pixels: each of (2 k + 1) / 128 - 1/2, k from 0 to 63, once.
+ private:
+  static constexpr std::uint32_t piece_bits = 23 - 6, piece = 1u << piece_bits;
+  static constexpr float darkest = 0x1p-40f, brightest = 0x1p20f - 1;
+  static constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(darkest), count = 60 * 64;
+  std::vector<float> ends_;
+};
+
+/// Code values of 0 to 255, channel by channel.
+class ChannelCurve {
+ public:
+  explicit ChannelCurve(ToneMap curve) : code_(curve == ToneMap::aces ? aces_code() : srgb_code()) {}
+  Rgb operator()(const Rgb& light) const { return {code_(light[0]), code_(light[1]), code_(light[2])}; }
+
+ private:
+  static const Pieces& srgb_code() {
+    static const Pieces code([](float v) { return 255 * srgb_encode(std::min(v, 1.0f)); });
+    return code;
+  }
+  static const Pieces& aces_code() {
+    static const Pieces code([](float v) { return 255 * srgb_encode(std::min(aces(v), 1.0f)); });
+    return code;
+  }
+  const Pieces& code_;
+};
+
+/// Code values of 0 to 255 for a screen of gamma 2.2.
+class AgxCurve {
+ public:
+  Rgb operator()(Rgb light) const {
+    for (float& v : light) v = v > 0 ? std::min(v, 1e6f) : 0.0f;
+    Rgb shown = times(agx_inset, light);
+    for (float& v : shown) v = contrast_(v);
+    shown = times(agx_outset, shown);
+    for (float& v : shown) v = code_(v);
+    return shown;
+  }
+
+ private:
+  static float linear_contrast(float light) {
+    constexpr float darkest = -12.473931f, stops = 16.5f;  // log2(0.18) - 10; up to log2(0.18) + 6.5
+    return std::pow(agx_contrast(std::clamp((std::log2(light) - darkest) / stops, 0.0f, 1.0f)), 2.2f);
+  }
+  static const Pieces& contrast() {
+    static const Pieces values(linear_contrast);
+    return values;
+  }
+  static const Pieces& code() {
+    static const Pieces values([](float v) { return 255 * std::pow(std::min(v, 1.0f), 1 / 2.2f); });
+    return values;
+  }
+  const Pieces &contrast_ = contrast(), &code_ = code();
+};
+
+/// What is added before a value is cut to a whole number.
+using Offsets = std::array<std::array<float, 8>, 8>;
+
+/// To the nearest.
+constexpr Offsets nearest = [] {
+  Offsets halves;
+  for (auto& row : halves) row.fill(0.5f);
+  return halves;
+}();
+
+/// Ordered dithering in a square of 8 x 8 pixels: each of (2 k + 1) / 128, k from 0 to 63, once.
 /// B. E. Bayer: An Optimum Method for Two-Level Rendition of Continuous-Tone Pictures, 1973.
-float bayer(unsigned x, unsigned y) {
-  unsigned rank = 0;
-  for (unsigned bit = 0; bit < 3; ++bit) {
-    const unsigned across = x >> bit & 1u, down = y >> bit & 1u;
-    rank |= ((across ^ down) << 1u | down) << 2u * (2 - bit);
+constexpr Offsets bayer = [] {
+  Offsets offsets;
+  for (unsigned y = 0; y < 8; ++y)
+    for (unsigned x = 0; x < 8; ++x) {
+      unsigned rank = 0;
+      for (unsigned bit = 0; bit < 3; ++bit) {
+        const unsigned across = x >> bit & 1u, down = y >> bit & 1u;
+        rank |= ((across ^ down) << 1u | down) << 2u * (2 - bit);
+      }
+      offsets[y][x] = static_cast<float>(2 * rank + 1) / 128;
+    }
+  return offsets;
+}();
+
+/// How pixels lie in memory and in the picture. channels: floats and bytes a pixel, 3 or 4.
+struct Pixels {
+  std::size_t channels, width;
+  DitherOrigin origin;
+};
+
+template <class Curve>
+void map_pixels(const std::vector<float>& light, double exposure, const Curve& curve, const Offsets& offsets,
+                const Pixels& pixels, std::vector<std::uint8_t>& bytes) {
+  const float gain = std::exp2(static_cast<float>(exposure));
+  bytes.resize(light.size());
+  unsigned y = static_cast<unsigned>(pixels.origin.y);
+  for (std::size_t row = 0; row < light.size(); row += pixels.channels * pixels.width, ++y) {
+    const std::size_t end = std::min(light.size(), row + pixels.channels * pixels.width);
+    unsigned x = static_cast<unsigned>(pixels.origin.x);
+    for (std::size_t i = row; i + 2 < end; i += pixels.channels, ++x) {
+      const Rgb code = curve({gain * light[i], gain * light[i + 1], gain * light[i + 2]});
+      for (std::size_t c = 0; c < 3; ++c)
+        bytes[i + c] = static_cast<std::uint8_t>(static_cast<int>(code[c] + offsets[y % 8][x % 8]));
+      if (pixels.channels == 4) bytes[i + 3] = 255;
+    }
   }
-  return static_cast<float>(2 * rank + 1) / 128 - 0.5f;
+}
+
+void map_by(ToneMap curve, const std::vector<float>& light, double exposure, const Offsets& offsets,
+            const Pixels& pixels, std::vector<std::uint8_t>& bytes) {
+  if (curve == ToneMap::agx) return map_pixels(light, exposure, AgxCurve(), offsets, pixels, bytes);
+  map_pixels(light, exposure, ChannelCurve(curve), offsets, pixels, bytes);
 }
 
 }  // namespace
@@ -97,16 +176,21 @@ float agx_contrast(float x) {
 }
 
 std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve) {
-  return map_pixels(rgb, exposure, curve, [](std::size_t, float value) { return std::lround(value); });
+  std::vector<std::uint8_t> bytes;
+  map_by(curve, rgb, exposure, nearest, {3, rgb.size(), {}}, bytes);
+  return bytes;
 }
 
 std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
                                             DitherOrigin origin) {
-  return map_pixels(rgb, exposure, curve, [&](std::size_t pixel, float value) {
-    const unsigned x = static_cast<unsigned>(pixel % static_cast<std::size_t>(width)) + static_cast<unsigned>(origin.x);
-    const unsigned y = static_cast<unsigned>(pixel / static_cast<std::size_t>(width)) + static_cast<unsigned>(origin.y);
-    return std::lround(value + bayer(x, y));
-  });
+  std::vector<std::uint8_t> bytes;
+  map_by(curve, rgb, exposure, bayer, {3, static_cast<std::size_t>(width), origin}, bytes);
+  return bytes;
+}
+
+void tone_map_rgba(const std::vector<float>& rgba, double exposure, ToneMap curve, int width, bool dither,
+                   std::vector<std::uint8_t>& bytes) {
+  map_by(curve, rgba, exposure, dither ? bayer : nearest, {4, static_cast<std::size_t>(width), {}}, bytes);
 }
 
 }  // namespace tyndall

@@ -8,7 +8,7 @@
 /// Turns linear light into the 8-bit values of a screen.
 namespace tyndall {
 
-/// How light beyond what a screen can show is treated. shaders/display.frag draws the same curves, by the same numbers.
+/// How light beyond what a screen can show is treated.
 enum class ToneMap { srgb, aces, agx };
 
 constexpr Word word(ToneMap map) {
@@ -33,7 +33,8 @@ float agx_contrast(float x);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-/// 8-bit sRGB of curve(linear · 2^exposure), clipped to [0, 1]; NaN gives 0. rgb: 3 floats a pixel.
+/// 8-bit sRGB of curve(linear · 2^exposure), clipped to [0, 1]; NaN gives 0. rgb: 3 floats a pixel. The curves are kept
+/// as short straight pieces, within 1/200 of a step of 8 bits.
 /// `aces`: the fit by K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015.
 /// `agx`: T. Sobotka, AgX (github.com/sobotka/AgX), base contrast, without the looks and the later work in wider
 /// gamuts, which is why it is called an approximation. It shows 0.18 at half of the screen's scale (code value 0.5),
@@ -49,5 +50,9 @@ struct DitherOrigin {
 /// over 8 x 8 pixels of a flat area is within 1/128 of a step. width: pixels a row.
 std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
                                             DitherOrigin origin);
+
+/// The same for a texture: `rgba` has 4 floats a pixel, of which the last is not read, `bytes` gets 4, the last is 255.
+void tone_map_rgba(const std::vector<float>& rgba, double exposure, ToneMap curve, int width, bool dither,
+                   std::vector<std::uint8_t>& bytes);
 
 }  // namespace tyndall

@@ -41,6 +41,41 @@ TEST_CASE("tone map: counts exposure in stops, clips to [0, 1], and makes what i
   CHECK(tone_map({0, 1e-30f, 1e30f}, 2000, ToneMap::srgb) == Bytes{0, 255, 255});
 }
 
+// The formulas themselves, in double; a grey stays a grey in AgX, and its code value is the contrast's.
+TEST_CASE("tone map: the straight pieces are within 1/200 of a step of the curves") {
+  const auto srgb = [](double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; };
+  const auto aces = [](double v) { return v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14); };
+  const auto agx = [](double v) {
+    return static_cast<double>(agx_contrast(static_cast<float>((std::log2(v) + 12.473931) / 16.5)));
+  };
+  for (double light = 2e-4; light < 16; light *= 1.0003) {
+    const auto value = static_cast<float>(light);
+    const double exact[] = {srgb(std::min(light, 1.0)), srgb(std::min(aces(light), 1.0)), agx(light)};
+    for (const ToneMap curve : {ToneMap::srgb, ToneMap::aces, ToneMap::agx}) {
+      const double shown = tone_map({value, value, value}, 0, curve)[1];
+      REQUIRE(std::abs(shown - 255 * exact[static_cast<int>(curve)]) <= 0.5 + 1 / 200.0);
+    }
+  }
+}
+
+TEST_CASE("tone map: a texture has the bytes of a picture, and an alpha of 255") {
+  std::vector<float> rgb, rgba;
+  for (int i = 0; i < 3 * 13 * 7; ++i) {
+    rgb.push_back(std::exp2(static_cast<float>(i % 97) / 8 - 9));
+    rgba.push_back(rgb.back());
+    if (i % 3 == 2) rgba.push_back(std::nanf(""));
+  }
+  for (const ToneMap curve : {ToneMap::srgb, ToneMap::aces, ToneMap::agx})
+    for (const bool dither : {false, true}) {
+      const auto picture = dither ? tone_map_dithered(rgb, 1, curve, 13, {}) : tone_map(rgb, 1, curve);
+      std::vector<std::uint8_t> texture;
+      tone_map_rgba(rgba, 1, curve, 13, dither, texture);
+      REQUIRE(texture.size() == rgba.size());
+      for (std::size_t i = 0; i < texture.size(); ++i)
+        REQUIRE(texture[i] == (i % 4 == 3 ? 255 : picture[i / 4 * 3 + i % 4]));
+    }
+}
+
 // The fit x(2.51x + 0.03) / (x(2.43x + 0.59) + 0.14) by hand, then sRGB: 0.18 -> 0.2669 -> 141.1, 0.5 -> 0.6163 ->
 // 205.9, 1 -> 0.8038 -> 231.6; it reaches 1 at x = 7.2.
 TEST_CASE("tone map: ACES") {

@@ -1,6 +1,5 @@
 #include "app/window/picture/display.h"
 
-#include "app/window/picture/stops.h"
 #include "core/base/error.h"
 #include "shaders.h"
 
@@ -39,146 +38,76 @@ GLuint link_program() {
   return program;
 }
 
-GLuint make_texture(GLint filter) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  for (const GLenum name : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    glTexParameteri(GL_TEXTURE_2D, name, filter);
-  for (const GLenum name : std::array<GLenum, 2>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    glTexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
-  return texture;
-}
-
 int whole(float v) { return static_cast<int>(std::lround(v)); }
-
-/// Copies a part of the framebuffer that is read to a place in the window. from: x0, y0, x1, y1.
-void copy(const std::array<int, 4>& from, const Rect& to, int framebuffer_height, GLenum filter) {
-  glBlitFramebuffer(from[0], from[1], from[2], from[3], whole(to.x0), framebuffer_height - whole(to.y0), whole(to.x1),
-                    framebuffer_height - whole(to.y1), GL_COLOR_BUFFER_BIT, filter);
-}
 
 }  // namespace
 
 FrameDisplay::FrameDisplay() : program_(link_program()) {
-  scale_at_ = glGetUniformLocation(program_, "scale");
-  curve_at_ = glGetUniformLocation(program_, "curve");
-  dither_at_ = glGetUniformLocation(program_, "dither");
-  glUseProgram(program_);
-  glUniform3fv(glGetUniformLocation(program_, "stops"), static_cast<int>(stop_colours.size()), &stop_colours[0].r);
+  place_at_ = glGetUniformLocation(program_, "place");
+  part_at_ = glGetUniformLocation(program_, "part");
   glGenVertexArrays(1, &vertices_);
-  make(whole_);
-  make(coarse_);
+  glGenTextures(1, &texture_);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  for (const GLenum name : std::array<GLenum, 2>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &greatest_);
 }
 
 FrameDisplay::~FrameDisplay() {
-  for (const Surface* surface : {&whole_, &coarse_}) {
-    glDeleteFramebuffers(1, &surface->target);
-    glDeleteTextures(1, &surface->light);
-    glDeleteTextures(1, &surface->bytes);
-  }
+  glDeleteTextures(1, &texture_);
   glDeleteVertexArrays(1, &vertices_);
   glDeleteProgram(program_);
 }
 
-void FrameDisplay::make(Surface& surface) {
-  surface.light = make_texture(GL_NEAREST);
-  surface.bytes = make_texture(GL_LINEAR);
-  glGenFramebuffers(1, &surface.target);
-}
-
-void FrameDisplay::resize(Surface& surface, int columns, int rows) const {
-  if (columns > greatest_ || rows > greatest_)
-    throw IoError("the picture is larger than the display can show: " + std::to_string(columns) + "x" +
-                  std::to_string(rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
-  glBindTexture(GL_TEXTURE_2D, surface.light);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
-  glBindTexture(GL_TEXTURE_2D, surface.bytes);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, columns, rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-  glBindFramebuffer(GL_FRAMEBUFFER, surface.target);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, surface.bytes, 0);
-  const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!complete) throw IoError("the display cannot hold the picture");
-  surface.columns = columns;
-  surface.rows = rows;
-}
-
-void FrameDisplay::upload(const ShownPicture& picture) {
-  Surface& surface = picture.spacing > 1 ? coarse_ : whole_;
-  if (picture.columns != surface.columns || picture.rows != surface.rows)
-    resize(surface, picture.columns, picture.rows);
-  glBindTexture(GL_TEXTURE_2D, surface.light);
+void FrameDisplay::upload(const ShownPicture& picture, const Look& look) {
+  if (picture.columns > greatest_ || picture.rows > greatest_)
+    throw IoError("the picture is larger than the display can show: " + std::to_string(picture.columns) + "x" +
+                  std::to_string(picture.rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
+  screen_bytes(picture.rgba, picture.columns, look, bytes_);
+  glBindTexture(GL_TEXTURE_2D, texture_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, surface.columns, surface.rows, GL_RGBA, GL_FLOAT, picture.rgba.data());
-  shown_ = &surface;
+  if (picture.columns == columns_ && picture.rows == rows_)
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns_, rows_, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
+  else
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.columns, picture.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 bytes_.data());
+  columns_ = picture.columns;
+  rows_ = picture.rows;
   spacing_ = picture.spacing;
   width_ = picture.width;
   height_ = picture.height;
-  fresh_ = true;
 }
 
-void FrameDisplay::tone_map(const Look& look) {
-  glBindFramebuffer(GL_FRAMEBUFFER, shown_->target);
-  glViewport(0, 0, shown_->columns, shown_->rows);
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glUseProgram(program_);
-  glUniform1f(scale_at_, static_cast<float>(std::exp2(look.exposure)));
-  glUniform1i(curve_at_, look.stops ? -1 : static_cast<int>(look.tone_map));
-  glUniform1i(dither_at_, look.dither && !look.stops ? 1 : 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, shown_->light);
-  glBindVertexArray(vertices_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  look_ = look;
-  fresh_ = false;
-}
-
-/// Where the texture has to be drawn so that its places are over the pixels that they stand for.
-Rect FrameDisplay::place_of_picture(const Rect& where) const {
-  if (spacing_ <= 1) return where;
-  const float across = where.width() / static_cast<float>(width_), down = where.height() / static_cast<float>(height_);
-  const float first = 0.5f * (1 - spacing_);  // where the first place begins, in pixels of the image
-  const float x0 = where.x0 + first * across, y0 = where.y0 + first * down;
-  return {x0, y0, x0 + spacing_ * across * static_cast<float>(shown_->columns),
-          y0 + spacing_ * down * static_cast<float>(shown_->rows)};
-}
-
-/// Beyond the last places of a coarse picture their colours go on to the edge of the image.
-void FrameDisplay::fill_rim(const Rect& where, const Rect& place, int framebuffer_height) const {
-  const int right = shown_->columns, bottom = shown_->rows;
-  if (place.x1 < where.x1)
-    copy({right - 1, 0, right, bottom}, {place.x1, place.y0, where.x1, place.y1}, framebuffer_height, GL_NEAREST);
-  if (place.y1 < where.y1)
-    copy({0, bottom - 1, right, bottom}, {place.x0, place.y1, std::max(place.x1, where.x1), where.y1},
-         framebuffer_height, GL_NEAREST);
-}
-
-void FrameDisplay::prepare(const Look& look) {
-  if (!empty() && (fresh_ || !(look == look_))) tone_map(look);
-}
-
-void FrameDisplay::draw(const Rect& where, int framebuffer_height, const Rect& clip) const {
-  if (empty() || where.width() < 1 || where.height() < 1) return;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, shown_->target);
-  const Rect place = place_of_picture(where);
+void FrameDisplay::draw(const Rect& where, int framebuffer_width, int framebuffer_height, const Rect& clip,
+                        bool squares) const {
+  if (columns_ == 0 || where.width() < 1 || where.height() < 1) return;
+  const int x0 = whole(where.x0), y0 = whole(where.y0), x1 = whole(where.x1), y1 = whole(where.y1);
   // Whole multiples show the pixels as they are.
-  const bool multiple = spacing_ <= 1 && (whole(place.x1) - whole(place.x0)) % width_ == 0 &&
-                        (whole(place.y1) - whole(place.y0)) % height_ == 0;
-  const bool squares = multiple || (look_.pixels && spacing_ <= 1);
+  const bool multiple = (x1 - x0) % width_ == 0 && (y1 - y0) % height_ == 0;
+  const GLint filter = spacing_ <= 1 && (multiple || squares) ? GL_NEAREST : GL_LINEAR;
   const Rect seen{std::max(clip.x0, where.x0), std::max(clip.y0, where.y0), std::min(clip.x1, where.x1),
                   std::min(clip.y1, where.y1)};
+  glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
   glScissor(whole(seen.x0), framebuffer_height - whole(seen.y1), std::max(0, whole(seen.x1) - whole(seen.x0)),
             std::max(0, whole(seen.y1) - whole(seen.y0)));
-  copy({0, 0, shown_->columns, shown_->rows}, place, framebuffer_height, squares ? GL_NEAREST : GL_LINEAR);
-  if (spacing_ > 1) fill_rim(where, place, framebuffer_height);
+  glUseProgram(program_);
+  const float across = 2 / static_cast<float>(framebuffer_width), down = 2 / static_cast<float>(framebuffer_height);
+  glUniform4f(place_at_, static_cast<float>(x0) * across - 1, 1 - static_cast<float>(y0) * down,
+              static_cast<float>(x1) * across - 1, 1 - static_cast<float>(y1) * down);
+  // The first place of a coarse picture is in the middle of a pixel of the image, not of `spacing` pixels.
+  const float columns = spacing_ * static_cast<float>(columns_), rows = spacing_ * static_cast<float>(rows_);
+  const float first = 0.5f * (spacing_ - 1);
+  glUniform4f(part_at_, first / columns, first / rows, (first + static_cast<float>(width_)) / columns,
+              (first + static_cast<float>(height_)) / rows);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  for (const GLenum name : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_2D, name, filter);
+  glBindVertexArray(vertices_);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glBindVertexArray(0);
   glDisable(GL_SCISSOR_TEST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
 }  // namespace tyndall
