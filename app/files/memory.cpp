@@ -75,8 +75,8 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
 }
 
 std::uint64_t memory_needed(const WindowPlan& plan) {
-  constexpr std::uint64_t libraries = 144'000'000;  // of the window, fonts and OpenGL
-  const std::uint64_t pictures = 43, filter = 172, film = bytes_per_pixel(plan.emission);
+  constexpr std::uint64_t libraries = 134'000'000;  // of the window, fonts and OpenGL
+  const std::uint64_t pictures = 31, filter = 172, film = bytes_per_pixel(plan.emission);
   const std::uint64_t all = pixels(plan.width, plan.height);
   const std::uint64_t coarse = std::min<std::uint64_t>(all / 4, 256'000);  // pixels of the first clean view
   const std::uint64_t clean = plan.clean ? filter * all + (film + filter) * coarse : 0;
