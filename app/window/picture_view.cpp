@@ -95,9 +95,9 @@ bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bo
   return has_it;
 }
 
-/// How a frame's picture looks, or, of null, a map of errors: views that are not the picture have no exposure.
-Look PictureView::look_of(const Frame* frame, bool stops) const {
-  if (!frame || frame->view != View::beauty) return {};
+/// How a frame looks: views that are not the picture are shown as they are.
+Look PictureView::look_of(const Frame& frame, bool stops) const {
+  if (frame.view != View::beauty) return {};
   const Display& display = session_.editor().scene().display;
   return {display.exposure, display.tone_map, display.dither, stops};
 }
@@ -112,9 +112,9 @@ void PictureView::upload(Side& side, const std::shared_ptr<const void>& what, co
   side.look = look;
 }
 
-/// What a frame shows. clean: its clean view, if it has one.
+/// Puts what a frame shows on a side's display. clean: its clean view, if it has one.
 void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops) {
-  const Look look = look_of(frame.get(), stops);
+  const Look look = look_of(*frame, stops);
   if (const auto filtered = clean ? clean_of(frame) : nullptr)
     upload(side, filtered,
            {filtered->rgba, filtered->grid.columns, filtered->grid.rows, filtered->grid.spacing, frame->width,
@@ -127,7 +127,7 @@ void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& f
 void PictureView::upload_all(bool stops) {
   if (!session_.renderers().split() && !shows_raw_beside()) left_ = {};
   if (const auto map = session_.accuracy().map())
-    upload(right_, map, {map->rgba, map->width, map->height, 1, map->width, map->height}, look_of(nullptr, stops));
+    upload(right_, map, {map->rgba, map->width, map->height, 1, map->width, map->height}, {});
   else if (right_.frame)
     upload_frame(right_, right_.frame, true, stops);
   if (!shows_halves()) return;

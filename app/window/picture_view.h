@@ -46,7 +46,7 @@ class PictureView {
   bool shows_raw_beside() const;
   SplitLabels labels() const;
   static std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame);
-  Look look_of(const Frame* frame, bool stops) const;
+  Look look_of(const Frame& frame, bool stops) const;
   static void upload(Side& side, const std::shared_ptr<const void>& what, const ShownPicture& picture,
                      const Look& look);
   void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops);

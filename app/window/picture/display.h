@@ -27,8 +27,8 @@ class FrameDisplay {
 
   /// Takes a new picture, or another look at it. Throws IoError if it is larger than the display can show.
   void upload(const ShownPicture& picture, const Look& look);
-  /// Draws the image into `where`, in pixels of the framebuffer of so many pixels, y down, as far as it is within
-  /// `clip`. Between the places of a coarse picture colours are blended. squares: enlarged pixels are squares.
+  /// Draws the image into `where`, in pixels of the framebuffer, y down, as far as it is within `clip`. Between the
+  /// places of a coarse picture colours are blended. squares: enlarged pixels are squares.
   void draw(const Rect& where, int framebuffer_width, int framebuffer_height, const Rect& clip, bool squares) const;
 
  private:
