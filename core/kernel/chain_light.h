@@ -1,12 +1,13 @@
 #pragma once
+#include "core/base/reservoir.h"
 #include "core/kernel/chain_trail.h"
 #include "core/kernel/event.h"
 
 /// Light that a lamp sends to a point through or off one ball, off one flat mirror or through one pane, such as the
 /// bright spot under a glass ball: solved for, where scattering would have to find it by chance. First a ball, mirror
-/// or pane and a lamp are chosen, then a point of the lamp, then which surfaces of the ball the light meets and how (of
-/// a pane before the point). All chains between the two points that do so are found; one of them, drawn at random, is
-/// tested for things in its way, and counts for all.
+/// or pane and a lamp are chosen, then points of the lamp, then which surfaces of the ball the light meets and how (of
+/// a pane before the points). All chains between the points that do so are found; one of them, drawn in proportion to
+/// what each would bring if nothing were in its way, is tested for things in its way, and counts for all.
 /// As scattering finds the same paths, both are weighed by the power heuristic.
 namespace tyndall {
 
@@ -23,33 +24,10 @@ struct ChainAsked {
   MaskOf<F> by_mirror, by_pane;
   IntOf<F> light;
   LightColumns<F> lamp;
+  Vec3<F> asking;  ///< the point that asks for light, as seen from the lamp
   LampPoint<F> at;
   ChainPlane<F> plane;
   ChainEnds<F> ends;
-};
-
-/// One chain, drawn from all that there are between two points by one word.
-template <class F>
-struct ChainFound {
-  MaskOf<F> found;
-  ChainTurn<F> chain;
-  EndSigns<F> sign;
-  F s, slope, sense;  ///< see TurnRoot
-  F count;            ///< how many there are
-};
-
-/// The parts of a chain between its ends and the ball or mirror, and what it is worth.
-template <class F>
-struct ChainRays {
-  MaskOf<F> found;
-  Vec3<F> direction, arrive;  ///< unit: in which a path leaves the near end, and in which it arrives at the lamp
-  F near_way, far_way;        ///< distances from each end to the ball
-  IntOf<F> wall;              ///< the element to which the near end's way leads
-  IntOf<F> from;              ///< Ray::from of the way to the lamp
-  F share;                    ///< of light that the surfaces send this way
-  F density;                  ///< of the direction at the near end, per steradian, with which it is asked for
-  F count;                    ///< how many like this there are: the inverse of the probability to take this one
-  F fog;                      ///< within a pane: its density times the length of the way there
 };
 
 /// Draws a way through a pane, and gives the ball within which the lamp sees the asking point over it.
@@ -83,18 +61,23 @@ TYNDALL_INLINE ChainAsked<F> ask_chain(const auto& s, const Event<F>& e, F time,
     a.mirror = load_mirror<F>(c, select(a.by_mirror, mirror, IntOf<F>(0)));
     a.ball.center = select(a.by_mirror, mirrored(a.mirror, point), a.ball.center);  // see seen_by_mirror()
   }
-  Vec3<F> asking = point;
+  a.asking = point;
   if (c.has_panes() && any(mask_and(lanes, a.by_pane))) {
     const ChainBall<F> seen = ask_pane(s, e, time, dice, lanes, a);
     a.ball.center = select(a.by_pane, seen.center, a.ball.center);
     a.ball.radius = select(a.by_pane, seen.radius, a.ball.radius);
-    asking = select(a.by_pane, seen.center, asking);
+    a.asking = select(a.by_pane, seen.center, a.asking);
   }
-  a.at = sample_lamp(a.lamp, a.ball, asking, time, dice.pair(dimension::chain_point));
-  if (!c.has_balls()) return a;
+  return a;
+}
+
+/// Draws the point of the lamp with which `a` goes on.
+template <class F>
+TYNDALL_INLINE void aim_at_lamp(const auto& s, Vec3<F> point, F time, Pair<F> u, ChainAsked<F>& a) {
+  a.at = sample_lamp(a.lamp, a.ball, a.asking, time, u);
+  if (!s.chains.has_balls()) return;
   a.plane = plane_of(a.ball, point, a.at.point);
   a.ends = ends_of(a.ball, a.plane.near, a.plane.far);
-  return a;
 }
 
 /// Density, per steradian, with which an event that asks for chains (at a Lambertian surface or in fog) scatters into a
@@ -106,131 +89,59 @@ TYNDALL_INLINE F scattered_density(const auto& s, const Paths<F>& p, const Event
   return select(e.medium, phase_density(s, e.g, p.ray.direction, direction), diffuse);
 }
 
-/// Finds all chains of a word between the two points, and takes one of them. For an end within the ball both signs are
-/// tried (see EndSigns). pick: a random number in [0, 1).
-template <class F>
-TYNDALL_INLINE ChainFound<F> find_chain(const auto& s, const ChainAsked<F>& a, const ChainWord<F>& word, F pick,
-                                        MaskOf<F> lanes) {
-  ChainFound<F> out;
-  out.sign = {F(1.0f), F(1.0f)};
-  out.chain = turn_of(s.chains, a.ball, a.ends, word, out.sign);
-  const auto here = mask_and(lanes, out.chain.possible), one_in = mask_and_not(here, a.ends.both_out);
-  TurnRoots<F> roots = list_roots(out.chain.turn, a.plane.angle, here);
-  out.count = roots.count;
-  if (!any(one_in)) {
-    const TurnRoot<F> root = take_root(out.chain.turn, roots, a.plane.angle, floor(pick * out.count));
-    out.found = root.found, out.s = root.s, out.slope = root.slope, out.sense = root.sense;
-    return out;
-  }
-  const auto near_in = less(a.plane.near, a.ball.radius);
-  const EndSigns<F> flipped{select(near_in, F(-1.0f), F(1.0f)), select(near_in, F(1.0f), F(-1.0f))};
-  const ChainTurn<F> other = turn_of(s.chains, a.ball, a.ends, word, flipped);
-  const TurnRoots<F> others = list_roots(other.turn, a.plane.angle, one_in);
-  out.count = roots.count + others.count;
-  F index = floor(pick * out.count);
-  const auto second = less_equal(roots.count, index);
-  index = select(second, index - roots.count, index);
-  choose(second, others, roots);
-  for (int i = 0; i < 2; ++i) out.chain.turn.times[i] = select(second, other.turn.times[i], out.chain.turn.times[i]);
-  out.sign = {select(second, flipped.near, F(1.0f)), select(second, flipped.far, F(1.0f))};
-  const TurnRoot<F> root = take_root(out.chain.turn, roots, a.plane.angle, index);
-  out.found = root.found, out.s = root.s, out.slope = root.slope, out.sense = root.sense;
-  return out;
-}
-
 template <class F>
 TYNDALL_INLINE ChainRays<F> rays_of(const ChainAsked<F>& a, const ChainWord<F>& word, const ChainFound<F>& c) {
   const Turn<F>& turn = c.chain.turn;
-  const F p = turn.most * (F(1.0f) - c.s * c.s);
+  const F at = c.root.s, p = turn.most * (F(1.0f) - at * at);
   const auto ray = [&](F reach, F side, Vec3<F> out, Vec3<F> across) __attribute__((always_inline)) {
-    const F inverse = F(1.0f) / reach, cosine = depth_of(turn, reach, c.s) * inverse;
-    return along((side * cosine) * out, c.sense * p * inverse, across);
+    const F inverse = F(1.0f) / reach, cosine = depth_of(turn, reach, at) * inverse;
+    return along((side * cosine) * out, c.root.sense * p * inverse, across);
   };
   ChainRays<F> r;
-  r.found = c.found, r.count = c.count, r.fog = F(0.0f);
+  r.found = c.root.found, r.count = F(1.0f), r.fog = F(0.0f);
   r.direction = ray(a.ends.near_reach, -c.sign.near, a.plane.near_out, a.plane.near_side);
   r.arrive = ray(a.ends.far_reach, c.sign.far, a.plane.far_out, a.plane.far_side);
-  r.near_way = way_to_ball(a.ball, turn, a.ends.near, a.ends.near_reach, c.sign.near, c.s);
-  r.far_way = way_to_ball(a.ball, turn, a.ends.far, a.ends.far_reach, c.sign.far, c.s);
+  r.near_way = way_to_ball(a.ball, turn, a.ends.near, a.ends.near_reach, c.sign.near, at);
+  r.far_way = way_to_ball(a.ball, turn, a.ends.far, a.ends.far_reach, c.sign.far, at);
   const IntOf<F> wall = select(a.ends.deep, a.ball.inner, a.ball.outer);
   const auto near_in = less(a.plane.near, a.ball.radius), far_in = less(a.plane.far, a.ball.radius);
   r.wall = select(near_in, wall, a.ball.outer);
   r.from = select(far_in, wall, a.ball.outer) * IntOf<F>(4) + select(far_in, IntOf<F>(1), IntOf<F>(0));
   r.share = share_of(a.ball, a.ends, word, p);
   const F cosine = lamp_cosine(a.lamp, a.at.normal, r.arrive);
-  const F spread = spread_of(c.chain, a.ends, a.plane.sine, c.s, c.slope, cosine);
-  r.density = spread * a.at.density * (a.probability * word_probability(a.ball, a.ends, word));
+  const F spread = spread_of(c.chain, a.ends, a.plane.sine, at, c.root.slope, cosine);
+  const F probability = a.probability * word_probability(a.ball, a.ends, word);
+  r.density = spread * (points_tried(a.ball) * a.at.density) * probability;
   return r;
 }
 
-/// Puts the chains of `lanes`, which ask for a mirror, among the others.
 template <class F>
-TYNDALL_INLINE void add_mirrored(const ChainAsked<F>& a, Vec3<F> point, MaskOf<F> lanes, ChainRays<F>& r) {
+TYNDALL_INLINE ChainRays<F> rays_off_mirror(const ChainAsked<F>& a, Vec3<F> point) {
   const MirrorWay<F> way = mirror_way(a.mirror, point, a.at.point);
-  r.found = mask_or(mask_and(lanes, way.found), mask_and_not(r.found, lanes));
-  r.direction = select(lanes, way.direction, r.direction), r.arrive = select(lanes, way.arrive, r.arrive);
-  r.near_way = select(lanes, way.near_way, r.near_way), r.far_way = select(lanes, way.far_way, r.far_way);
-  const IntOf<F> side = select(way.behind, IntOf<F>(1), IntOf<F>(0));
-  r.wall = select(lanes, a.ball.outer, r.wall), r.from = select(lanes, a.ball.outer * IntOf<F>(4) + side, r.from);
   const F cosine = lamp_cosine(a.lamp, a.at.normal, way.arrive);
-  const F density = way.spread / max(cosine, F(1e-30f)) * a.at.density * a.probability;
-  r.density = select(lanes, density, r.density);
-  r.share = select(lanes, F(1.0f), r.share), r.count = select(lanes, F(1.0f), r.count);
+  ChainRays<F> r;
+  r.found = way.found, r.direction = way.direction, r.arrive = way.arrive;
+  r.near_way = way.near_way, r.far_way = way.far_way;
+  r.wall = a.ball.outer, r.from = a.ball.outer * IntOf<F>(4) + select(way.behind, IntOf<F>(1), IntOf<F>(0));
+  r.density = way.spread / max(cosine, F(1e-30f)) * a.at.density * a.probability;
+  r.share = F(1.0f), r.count = F(1.0f), r.fog = F(0.0f);
+  return r;
 }
 
-/// Puts the chains of `lanes`, which ask for a pane, among the others.
 template <class F>
-TYNDALL_INLINE void add_through_pane(const ChainAsked<F>& a, Vec3<F> point, MaskOf<F> lanes, ChainRays<F>& r) {
+TYNDALL_INLINE ChainRays<F> rays_through_pane(const ChainAsked<F>& a, Vec3<F> point) {
   const PaneSight<F> s = sight_of(a.pane, point, a.at.point, a.way.word.across);
   const PaneWay<F> way = pane_way(a.pane, s, a.way.word);
-  r.found = mask_or(mask_and(lanes, way.found), mask_and_not(r.found, lanes));
-  r.direction = select(lanes, way.direction, r.direction), r.arrive = select(lanes, way.arrive, r.arrive);
-  r.near_way = select(lanes, way.near_way, r.near_way), r.far_way = select(lanes, way.far_way, r.far_way);
   const IntOf<F> lower = a.pane.element + a.way.word.across + a.way.word.across, one = IntOf<F>(1);
-  const IntOf<F> first = select(less(F(0.0f), s.near.height), lower + one, lower);
   const IntOf<F> last = select(less(F(0.0f), s.far.height), lower + one, lower);
-  r.wall = select(lanes, first, r.wall), r.from = select(lanes, last * IntOf<F>(4), r.from);
   const F cosine = lamp_cosine(a.lamp, a.at.normal, way.arrive);
-  const F density = way.spread / max(cosine, F(1e-30f)) * a.at.density * a.probability;
-  r.density = select(lanes, density, r.density), r.share = select(lanes, way.share, r.share);
-  r.count = select(lanes, F(1.0f) / max(a.way.probability, F(1e-30f)), r.count);
-  r.fog = select(lanes, a.pane.fog * way.within, r.fog);
-}
-
-/// A chain for each lane.
-template <class F>
-struct ChainLooked {
-  ChainRays<F> rays;
-  Decisions<F> decisions;  ///< of the word
-  ChainFound<F> chain;     ///< by a ball
-};
-
-template <class F>
-TYNDALL_INLINE ChainLooked<F> look_for_chain(const auto& s, const Paths<F>& p, const Event<F>& e,
-                                             const ChainAsked<F>& a, MaskOf<F> lanes) {
-  ChainLooked<F> out{};
-  out.rays.found = less(F(1.0f), F(0.0f));
-  out.decisions = {p.dice.alone(dimension::chain_word), p.dice.alone(dimension::chain_word_tail)};
-  const IntOf<F> events_left = IntOf<F>(s.max_depth) - p.depth;
-  const auto by_mirror = mask_and(mask_and(lanes, a.by_mirror), less(IntOf<F>(1), events_left));
-  if (s.chains.has_balls()) {
-    const auto valid = mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine));
-    const DrawnWord<F> drawn = draw_word(a.ball, a.ends, out.decisions);
-    const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), events_left);
-    const auto by_ball = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_pane);
-    const auto here = mask_and(mask_and(by_ball, valid), mask_and(drawn.drawn, fits));
-    if (any(here)) {
-      out.chain = find_chain(s, a, drawn.word, p.dice.one_alone(dimension::chain_root), here);
-      out.rays = rays_of(a, drawn.word, out.chain);
-    }
-  }
-  if (s.chains.has_mirrors() && any(by_mirror)) add_mirrored(a, e.point, by_mirror, out.rays);
-  if (!s.chains.has_panes()) return out;
-  const PaneWord<F>& word = a.way.word;
-  const F events = word.crossings + F(1.0f) + abs(word.image[0]) + abs(word.image[1]);
-  const auto by_pane = mask_and(mask_and(mask_and(lanes, a.by_pane), a.way.drawn), less(to_int(events), events_left));
-  if (any(by_pane)) add_through_pane(a, e.point, by_pane, out.rays);
-  return out;
+  ChainRays<F> r;
+  r.found = way.found, r.direction = way.direction, r.arrive = way.arrive;
+  r.near_way = way.near_way, r.far_way = way.far_way;
+  r.wall = select(less(F(0.0f), s.near.height), lower + one, lower), r.from = last * IntOf<F>(4);
+  r.density = way.spread / max(cosine, F(1e-30f)) * a.at.density * a.probability;
+  r.share = way.share, r.count = F(1.0f) / max(a.way.probability, F(1e-30f)), r.fog = a.pane.fog * way.within;
+  return r;
 }
 
 /// The factor by which the lamp's radiance counts if nothing is in the way, the weight of the power heuristic included.
@@ -246,21 +157,122 @@ TYNDALL_INLINE F weight_of(const auto& s, const Paths<F>& p, const Event<F>& e, 
   return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
 }
 
+/// The chain that each lane takes out of those which it finds: at random, in proportion to their weights. (J. Talbot,
+/// D. Cline, P. Egbert, Importance Resampling for Global Illumination, Eurographics Symposium on Rendering 2005)
+template <class F>
+struct ChainTaken {
+  Reservoir<F> reservoir;
+  ChainRays<F> rays{};
+  Vec3<F> lamp{};         ///< the point of the lamp where it starts
+  ChainEnds<F> ends{};    ///< with those, and
+  InsideWay<F> inside{};  ///< this way, if its ball is crowded
+};
+
+/// Offers what weight_of() tells of these rays. Returns which lanes take them.
+template <class F>
+TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const Paths<F>& p, const Event<F>& e, const ChainAsked<F>& a,
+                                    const ChainRays<F>& rays, ChainTaken<F>& taken) {
+  const auto takes = taken.reservoir.offer(weight_of(s, p, e, a, rays));
+  if (!any(takes)) return takes;
+  const auto put = [takes](const auto& from, auto& to) __attribute__((always_inline)) { to = select(takes, from, to); };
+  ChainRays<F>& r = taken.rays;
+  put(rays.direction, r.direction), put(rays.arrive, r.arrive), put(rays.near_way, r.near_way);
+  put(rays.far_way, r.far_way), put(rays.wall, r.wall), put(rays.from, r.from), put(rays.fog, r.fog);
+  put(a.at.point, taken.lamp);
+  return takes;
+}
+
+/// Keeps the way of a chain within its crowded ball.
+template <class F>
+TYNDALL_INLINE void keep_inside(const ChainAsked<F>& a, const ChainFound<F>& c, MaskOf<F> lanes, ChainTaken<F>& taken) {
+  const F p = c.chain.turn.most * (F(1.0f) - c.root.s * c.root.s);
+  const InsideWay<F> way = inside_way(a.ball, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, p);
+  InsideWay<F>& to = taken.inside;
+  to.out = select(lanes, way.out, to.out), to.side = select(lanes, way.side, to.side);
+  to.p = select(lanes, way.p, to.p), to.angle = select(lanes, way.angle, to.angle);
+  const auto put = [lanes](const auto& from, auto& mask) __attribute__((always_inline)) {
+    mask = mask_or(mask_and(lanes, from), mask_and_not(mask, lanes));
+  };
+  put(a.ends.both_out, taken.ends.both_out), put(a.ends.deep, taken.ends.deep), put(a.ends.valid, taken.ends.valid);
+}
+
+/// Offers all chains of a word by a ball. For an end within the ball both signs are tried (see EndSigns).
+template <class F>
+TYNDALL_INLINE void offer_word(const auto& s, const Paths<F>& p, const Event<F>& e, const ChainAsked<F>& a,
+                               const ChainWord<F>& word, MaskOf<F> lanes, ChainTaken<F>& taken) {
+  const auto near_in = less(a.plane.near, a.ball.radius);
+  const EndSigns<F> signs[2] = {{F(1.0f), F(1.0f)},
+                                {select(near_in, F(-1.0f), F(1.0f)), select(near_in, F(1.0f), F(-1.0f))}};
+  for (int i = 0; i < 2; ++i) {
+    const auto here = i == 0 ? lanes : mask_and_not(lanes, a.ends.both_out);
+    if (!any(here)) continue;
+    ChainFound<F> c{turn_of(s.chains, a.ball, a.ends, word, signs[i]), signs[i], {}};
+    const TurnRoots<F> roots = list_roots(c.chain.turn, a.plane.angle, mask_and(here, c.chain.possible));
+    for (F index = F(0.0f); any(less(index, roots.count)); index = index + F(1.0f)) {
+      c.root = take_root(c.chain.turn, roots, a.plane.angle, index);
+      const auto takes = offer_rays(s, p, e, a, rays_of(a, word, c), taken), crowded = mask_and(takes, a.ball.crowded);
+      if (s.chains.crowds && any(crowded)) keep_inside(a, c, crowded, taken);
+    }
+  }
+}
+
+/// Offers the ways off a flat mirror and through a pane.
+template <class F>
+TYNDALL_INLINE void offer_flat(const auto& s, const Paths<F>& p, const Event<F>& e, const ChainAsked<F>& a,
+                               MaskOf<F> lanes, IntOf<F> events_left, ChainTaken<F>& taken) {
+  const auto by_mirror = mask_and(mask_and(lanes, a.by_mirror), less(IntOf<F>(1), events_left));
+  if (s.chains.has_mirrors() && any(by_mirror)) {
+    ChainRays<F> rays = rays_off_mirror(a, e.point);
+    rays.found = mask_and(rays.found, by_mirror);
+    offer_rays(s, p, e, a, rays, taken);
+  }
+  if (!s.chains.has_panes()) return;
+  const PaneWord<F>& word = a.way.word;
+  const F events = word.crossings + F(1.0f) + abs(word.image[0]) + abs(word.image[1]);
+  const auto by_pane = mask_and(mask_and(mask_and(lanes, a.by_pane), a.way.drawn), less(to_int(events), events_left));
+  if (!any(by_pane)) return;
+  ChainRays<F> rays = rays_through_pane(a, e.point);
+  rays.found = mask_and(rays.found, by_pane);
+  offer_rays(s, p, e, a, rays, taken);
+}
+
+template <class F>
+TYNDALL_INLINE ChainTaken<F> take_chain(const auto& s, const Paths<F>& p, const Event<F>& e, ChainAsked<F> a,
+                                        const Decisions<F>& decisions, MaskOf<F> lanes) {
+  ChainTaken<F> taken{{p.dice.one_alone(dimension::chain_root)}};
+  const IntOf<F> events_left = IntOf<F>(s.max_depth) - p.depth;
+  const auto by_ball = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_pane);
+  const Pair<F> u = p.dice.pair(dimension::chain_point);
+  for (int i = 0; i < most_points; ++i) {
+    const auto here = mask_and(by_ball, less(F(static_cast<float>(i)), points_tried(a.ball)));
+    if (i > 0 && !any(here)) break;
+    const F shift = F(static_cast<float>(i) / most_points), x = u.x + shift, y = u.y + shift;
+    aim_at_lamp(s, e.point, p.ray.time, {x - floor(x), y - floor(y)}, a);
+    if (i == 0) offer_flat(s, p, e, a, lanes, events_left, taken);
+    if (!any(here)) break;
+    const auto valid = mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine));
+    const DrawnWord<F> drawn = draw_word(a.ball, a.ends, decisions);
+    const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), events_left);
+    offer_word(s, p, e, a, drawn.word, mask_and(mask_and(here, valid), mask_and(drawn.drawn, fits)), taken);
+  }
+  return taken;
+}
+
 /// Light that reaches events at Lambertian surfaces and in fog by chains, times what the path carries. Each test for
 /// things in the way adds one to shadow_rays.
 template <class F>
 [[gnu::noinline]] static Vec3<F> chain_light(const SceneView& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                              std::uint32_t& shadow_rays) {
   const ChainAsked<F> a = ask_chain<F>(s, e, p.ray.time, p.dice, lanes);
-  const ChainLooked<F> looked = look_for_chain(s, p, e, a, lanes);
-  const ChainRays<F>& found = looked.rays;
-  if (!any(found.found)) return zero3<F>();
-  F weight = weight_of(s, p, e, a, found);
+  const Decisions<F> decisions{p.dice.alone(dimension::chain_word), p.dice.alone(dimension::chain_word_tail)};
+  const ChainTaken<F> taken = take_chain(s, p, e, a, decisions, lanes);
+  const ChainRays<F>& found = taken.rays;
+  F weight = taken.reservoir.weight;
   auto arrives = less(F(0.0f), weight);
   if (!any(arrives)) return zero3<F>();
   const IntOf<F> lamp = lookup_int<F>(s.lights.element, s.lights.count, a.light);
   const Ray<F> near{e.point, found.direction, p.ray.time, e.from};
-  const Ray<F> far{along(a.at.point, -found.far_way, found.arrive), found.arrive, p.ray.time, found.from};
+  const Ray<F> far{along(taken.lamp, -found.far_way, found.arrive), found.arrive, p.ray.time, found.from};
   for (int leg = 0; leg < 2; ++leg) {
     const Ray<F>& ray = leg == 0 ? near : far;
     const F way = leg == 0 ? found.near_way : found.far_way;
@@ -272,13 +284,10 @@ template <class F>
   if (s.has_media() && s.chains.has_panes()) weight = weight * transmittance(found.fog);
   const auto crowded = mask_and(arrives, a.ball.crowded);
   if (s.chains.crowds && any(crowded)) {
-    const ChainFound<F>& c = looked.chain;
-    const InsideWay<F> way = inside_way(a.ball, a.plane, a.ends, c.sign.near, c.sign.far, c.sense,
-                                        c.chain.turn.most * (F(1.0f) - c.s * c.s));
-    const F passes = pass_inside(s, a.ball, a.ends, way, looked.decisions, p.ray.time, crowded, shadow_rays);
+    const F passes = pass_inside(s, a.ball, taken.ends, taken.inside, decisions, p.ray.time, crowded, shadow_rays);
     weight = select(crowded, weight * passes, weight);
   }
-  Vec3<F> colour = light_radiance(s, lamp, a.at.point, arrives);
+  Vec3<F> colour = light_radiance(s, lamp, taken.lamp, arrives);
   const auto metal = mask_and(arrives, a.ball.mirror);
   if (any(metal)) {
     const SurfacePoint<F> at = surface_at(s, near, found.near_way, found.wall);

@@ -106,6 +106,14 @@ TYNDALL_INLINE F lamp_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3<
   return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
 }
 
+/// From how many points of the lamp an event seeks light by a ball; sample_lamp() draws each. Solid glass focuses: a
+/// few points of the lamp may bring almost all of the light, so that a second one is worth its time.
+inline constexpr int most_points = 2;
+template <class F>
+TYNDALL_INLINE F points_tried(const ChainBall<F>& b) {
+  return select(mask_or(b.mirror, b.hollow), F(1.0f), F(static_cast<float>(most_points)));
+}
+
 /// The plane that holds a chain: that of its two ends and the ball's centre. The near end is the point that asks for
 /// light, the far end the lamp's point.
 template <class F>
@@ -161,6 +169,28 @@ TYNDALL_INLINE F way_to_ball(const ChainBall<F>& b, const Turn<F>& turn, F end, 
   const F from_end = depth_of(turn, reach, s), to_wall = depth_of(turn, wall, s);
   return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
 }
+
+/// One of the chains that there are between two points by one word.
+template <class F>
+struct ChainFound {
+  ChainTurn<F> chain;
+  EndSigns<F> sign;
+  TurnRoot<F> root;
+};
+
+/// The parts of a chain between its ends and the ball or mirror, and what it is worth.
+template <class F>
+struct ChainRays {
+  MaskOf<F> found;
+  Vec3<F> direction, arrive;  ///< unit: in which a path leaves the near end, and in which it arrives at the lamp
+  F near_way, far_way;        ///< distances from each end to the ball
+  IntOf<F> wall;              ///< the element to which the near end's way leads
+  IntOf<F> from;              ///< Ray::from of the way to the lamp
+  F share;                    ///< of light that the surfaces send this way
+  F density;                  ///< of the direction at the near end, per steradian, with which it is asked for
+  F count;                    ///< inverse of the probability to find this one of several with the same density
+  F fog;                      ///< within a pane: its density times the length of the way there
+};
 
 // The part of a chain that is within its ball. It is tested only if the ball is crowded: if other surfaces, fog or a
 // lamp are in it or reach into it.

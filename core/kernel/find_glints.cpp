@@ -200,13 +200,10 @@ class Finder {
   void add_word(const ChainWord<float>& word, EndSigns<float> sign) {
     const auto sight = [&](Vec3f point, int root) -> Sight {
       if (!ask(point)) return {};
-      ChainFound<float> found;
-      found.sign = sign;
-      found.chain = turn_of(s_.chains, asked_.ball, asked_.ends, word, sign);
+      ChainFound<float> found{turn_of(s_.chains, asked_.ball, asked_.ends, word, sign), sign, {}};
       if (!found.chain.possible) return {};
       const TurnRoots<float> roots = list_roots(found.chain.turn, asked_.plane.angle, true);
-      const TurnRoot<float> one = take_root(found.chain.turn, roots, asked_.plane.angle, static_cast<float>(root));
-      found.found = one.found, found.s = one.s, found.slope = one.slope, found.sense = one.sense;
+      found.root = take_root(found.chain.turn, roots, asked_.plane.angle, static_cast<float>(root));
       const ChainRays<float> rays = rays_of(asked_, word, found);
       return rays.found && rays.share >= least_share ? Sight{rays.direction, rays.share} : Sight{};
     };

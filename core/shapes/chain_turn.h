@@ -210,22 +210,6 @@ TYNDALL_INLINE TurnRoots<F> list_roots(const Turn<F>& turn, F angle, MaskOf<F> l
   return roots;
 }
 
-/// Replaces b by a in the lanes of `here`.
-template <class F>
-TYNDALL_INLINE void choose(MaskOf<F> here, const TurnRoots<F>& a, TurnRoots<F>& b) {
-  const auto put = [&](F from, F & to) __attribute__((always_inline)) { to = select(here, from, to); };
-  const auto put_piece = [&](const Piece<F>& from, Piece<F>& to) __attribute__((always_inline)) {
-    put(from.low, to.low), put(from.high, to.high), put(from.at_low, to.at_low), put(from.at_high, to.at_high);
-  };
-  const auto put_counts = [&](const TurnCounts<F>& from, TurnCounts<F>& to) __attribute__((always_inline)) {
-    put(from.forth_first, to.forth_first), put(from.forth, to.forth);
-    put(from.back_first, to.back_first), put(from.back, to.back);
-  };
-  put_piece(a.pieces.outer, b.pieces.outer), put_piece(a.pieces.inner, b.pieces.inner);
-  b.pieces.folded = mask_or(mask_and(here, a.pieces.folded), mask_and_not(b.pieces.folded, here));
-  put_counts(a.outer, b.outer), put_counts(a.inner, b.inner), put(a.count, b.count);
-}
-
 /// Computes way number `index` of the list, counted from 0.
 template <class F>
 TYNDALL_INLINE TurnRoot<F> take_root(const Turn<F>& turn, const TurnRoots<F>& roots, F angle, F index) {
