@@ -71,7 +71,6 @@ SignalWatch::~SignalWatch() {
 }
 
 int SignalWatch::received() const { return received_signal; }
-bool SignalWatch::save_requested() const { return save_request; }
 bool SignalWatch::take_save_request() const { return save_request.exchange(false); }
 
 }  // namespace tyndall

@@ -19,8 +19,7 @@ class SignalWatch {
 
   /// The signal that asked for an end, or 0.
   int received() const;
-  /// Whether SIGUSR1 came since the last call of take_save_request().
-  bool save_requested() const;
+  /// Whether SIGUSR1 came since the last call.
   bool take_save_request() const;
 };
 

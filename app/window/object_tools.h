@@ -55,7 +55,6 @@ class ObjectTools {
   void add(Addition what);
   void duplicate();
   void remove();
-  void rename();
   void own_material();
   bool needs_selection();
   ObjectPaths selected() const { return all_selected(panels_); }

@@ -80,13 +80,14 @@ struct Cleaner::Memory {
     if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
     row_noise.resize(static_cast<std::size_t>(height));
     if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
-    cells_x = cells_in(width), cells_y = cells_in(height);
+    cells_x = cells_y = 0;  // should there be no memory for the new size
     constexpr int lanes = 16;
-    cell_stride = std::ptrdiff_t{(cells_x + 2 + 2 * lanes) / lanes} * lanes;
-    const auto rows = static_cast<std::size_t>(cells_y) + 2, row = static_cast<std::size_t>(cell_stride);
+    cell_stride = std::ptrdiff_t{(cells_in(width) + 2 + 2 * lanes) / lanes} * lanes;
+    const auto rows = static_cast<std::size_t>(cells_in(height)) + 2, row = static_cast<std::size_t>(cell_stride);
     sums.resize(rows * all_sums * row + row);
     shines.assign(rows * row + row, 0);
     coefficients.resize((rows - 1) * outputs * terms * row);
+    cells_x = cells_in(width), cells_y = cells_in(height);
   }
   FilterView view_of(const CleanInput& input);
 };

@@ -21,6 +21,7 @@ constexpr std::size_t large_page = std::size_t{1} << 21u, group = 64;
 
 void ZeroedFloats::resize(std::size_t count) {
   memory_.reset();
+  first_ = nullptr;
   std::size_t bytes = count * sizeof(float) + group;
   memory_.reset(static_cast<float*>(std::calloc(bytes, 1)));
   if (!memory_) throw std::bad_alloc();
@@ -35,9 +36,10 @@ void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
 
 bool Planes::resize(int width, int height, int count) {
   if (width == width_ && height == height_ && count == count_) return false;
-  width_ = width, height_ = height, count_ = count;
+  width_ = height_ = count_ = 0;  // should there be no memory for the new size
   stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
   data_.resize(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin);
+  width_ = width, height_ = height, count_ = count;
   return true;
 }
 
@@ -113,9 +115,11 @@ bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, C
   input.width = film.region.width(), input.height = film.region.height();
   input.scale = scale_of(film);
   input.halves.resize(input.width, input.height, filter::outputs);
+  const auto rows = static_cast<std::size_t>(input.height);
+  input.dark_rows.reserve(rows);
   if (input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms))
-    input.dark_rows.assign(static_cast<std::size_t>(input.height), 1);
-  std::vector<std::uint64_t> samples(static_cast<std::size_t>(input.height));
+    input.dark_rows.assign(rows, 1);
+  std::vector<std::uint64_t> samples(rows);
   crew.for_each(input.height, [&](int y) {
     if (give_up.load(std::memory_order_relaxed)) return;
     samples[static_cast<std::size_t>(y)] = read_row(film, y, input);

@@ -47,7 +47,7 @@ struct Orders {
 };
 
 /// Messages between any number of callers and the one thread that renders. A newer scene replaces one that has not been
-/// taken yet. No call but wait() sleeps. Scenes are shared, never copied.
+/// taken yet. No call but wait() and wait_until_shown() sleeps. Scenes are shared, never copied.
 class Mailbox {
  public:
   // For callers, on any thread.

@@ -30,7 +30,6 @@ class MemoryOf {
   /// A new one whose kept members may hold an old picture. When its last owner drops it, its memory comes back here.
   /// pixels: of the film; memory of pictures of another film size is not kept.
   std::shared_ptr<T> take(std::size_t pixels) {
-    constexpr std::size_t most = 2;
     if (std::exchange(pixels_, pixels) != pixels) spare_ = std::make_shared<Spare>();
     auto made = std::make_unique<T>();
     {
@@ -40,12 +39,14 @@ class MemoryOf {
     return {made.release(), [spare = spare_](T* done) {
               const std::unique_ptr<T> owner(done);
               const std::lock_guard lock(spare->mutex);
-              if (spare->left.size() < most) move_kept(*done, spare->left.emplace_back());
+              if (spare->left.size() < most_spare) move_kept(*done, spare->left.emplace_back());
             }};
   }
 
  private:
+  static constexpr std::size_t most_spare = 2;
   struct Spare {
+    Spare() { left.reserve(most_spare); }  // so that giving memory back, which nobody could refuse, needs none
     std::mutex mutex;
     std::vector<T> left;  ///< empty but for the kept members
   };

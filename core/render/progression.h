@@ -26,8 +26,8 @@ struct Limits {
 
 /// How many samples a pixel each pass takes. The first pass takes one.
 struct PassLength {
-  double growth = 1;  ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
-  std::uint32_t most = 32;
+  double growth = 1;        ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
+  std::uint32_t most = 32;  ///< samples of the longest pass
   double seconds =
       std::numeric_limits<double>::infinity();  ///< about how long a pass may take, by the last one's speed
 };
@@ -77,9 +77,7 @@ class PassSchedule {
   void set_first(const Region& first) { options_.first = first; }
 
   const Pass* pass() const { return pass_.get(); }  ///< null between passes
-  bool pass_is_coarse() const { return pass_ && coarse_; }
-  std::uint32_t pass_end() const { return end_; }  ///< what taken() becomes with the pass that is under way
-  std::uint32_t taken() const { return taken_; }   ///< samples of every pixel; after adaptive rounds their mean
+  std::uint32_t taken() const { return taken_; }    ///< samples of every pixel; after adaptive rounds their mean
   std::uint32_t most() const { return std::max(taken_, most_); }  ///< samples of those that were refined first
   bool coarse_done() const { return coarse_done_; }
   int coarse_step() const { return options_.coarse_step; }

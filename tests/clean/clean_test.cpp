@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <random>
 
 using namespace tyndall;
@@ -408,3 +409,15 @@ TEST_CASE("clean: emission is found in rows that are not known to be dark, and n
   k.input.dark_rows[20] = 1;
   CHECK(clean(k.input).rgb != unknown.rgb);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // both end the program where memory runs out
+TEST_CASE("clean view: planes that memory did not suffice for are asked for anew") {
+  constexpr int huge = 1 << 22;
+  Planes planes;
+  REQUIRE(planes.resize(8, 8, 1));
+  CHECK_THROWS_AS(planes.resize(huge, huge, 8), std::bad_alloc);
+  CHECK_THROWS_AS(planes.resize(huge, huge, 8), std::bad_alloc);
+  REQUIRE(planes.resize(8, 8, 1));
+  CHECK(planes.plane(0)[7] == 0);
+}
+#endif

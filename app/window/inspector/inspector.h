@@ -27,7 +27,6 @@ class Inspector {
   void find_path(const RendererPair& renderers, const std::shared_ptr<const Scene>& scene);
   /// Takes the path off the picture. Returns whether there was one.
   bool drop_path();
-  bool shows_path() const { return path_ != nullptr; }
 
   /// The cursor is there; click: in the picture, nothing where it is beside. Watches that pixel while it is on.
   void point_at(std::optional<PictureClick> click, RendererPair& renderers);
