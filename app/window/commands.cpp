@@ -96,8 +96,11 @@ void Commands::act_on_document(Action action) {
     case Action::reset_camera:
       return reset_camera();
     case Action::undo:
+      session_.editor().undo();
+      return pacing_.on_event();
     case Action::redo:
-      return step(action);
+      session_.editor().redo();
+      return pacing_.on_event();
     case Action::save:
       return save();
     case Action::save_as:
@@ -107,15 +110,6 @@ void Commands::act_on_document(Action action) {
     default:
       return;
   }
-}
-
-void Commands::step(Action action) {
-  const Scene before = session_.editor().scene();
-  if (action == Action::undo)
-    session_.editor().undo();
-  else
-    session_.editor().redo();
-  objects_.after_step(before);
 }
 
 void Commands::open_palette() {
@@ -161,8 +155,10 @@ void Commands::save() {
   const Origin& origin = *session_.editor().document().origin;
   if (origin.file.empty())
     save_as();
+  else if (file_differs(origin))
+    dialog_ = {Dialog::Kind::overwrite, {}, true};
   else if (origin.comments)
-    ask_comments(dialog_);
+    dialog_ = {Dialog::Kind::comments, {}, true};
   else
     session_.editor().save(origin.file);
 }
@@ -211,7 +207,7 @@ void Commands::escape() {
   else if (session_.messages().current().error)
     session_.messages().dismiss();
   else
-    panels_.selected.clear(), panels_.also.clear();
+    objects_.select_all({});
 }
 
 void Commands::draw(Ui& ui, const Rect& area) {

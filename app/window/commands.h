@@ -64,7 +64,6 @@ class Commands {
   void act_on_document(Action action);
   void reset_camera();
   void frame_selection();
-  void step(Action action);
   void open_palette();
   void save();
   void save_as();

@@ -188,7 +188,7 @@ void MainWindow::fill_panels() {
   panels_.facts.can_show_errors = session_.can_show_errors();
   panels_.wishes = {};
   ui_.size = target_distance(panels_.scene.camera);
-  drop_lost_selection(panels_);
+  set_selected(panels_, session_.editor().selection());
 }
 
 void MainWindow::draw_interface(const Layout& layout) {
@@ -235,6 +235,7 @@ void MainWindow::apply_panels(double now) {
   const Wishes& wishes = panels_.wishes;
   objects_.finish_edit();
   session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
+  session_.editor().select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   commands_.carry_out();
   if (wishes.open) session_.editor().open(*wishes.open);

@@ -28,8 +28,8 @@ std::string log_name(const char* name) {
 }  // namespace
 
 void ObjectTools::select_all(const ObjectPaths& paths) {
-  panels_.selected = paths.empty() ? ObjectPath{} : paths.front();
-  panels_.also.assign(paths.begin() + (paths.empty() ? 0 : 1), paths.end());
+  session_.editor().select(paths);
+  set_selected(panels_, paths);
   pacing_.on_event();
 }
 
@@ -116,10 +116,6 @@ bool ObjectTools::escape() {
   handles_.cancel();
   pacing_.on_event();
   return true;
-}
-
-void ObjectTools::after_step(const Scene& before) {
-  select_all(selection_after(before, session_.editor().scene(), selected()));
 }
 
 void ObjectTools::add(Addition what) {

@@ -24,10 +24,10 @@ class ObjectTools {
   bool act(Action action);
   /// A key or character that a menu or a movement waits for. Returns whether it was meant for one.
   bool take_press(const KeyPress& press);
+  /// These are selected from now on, and nothing else.
+  void select_all(const ObjectPaths& paths);
   /// Closes the menu, or takes back what is being moved. Returns whether there was anything.
   bool escape();
-  /// Lets the selection follow an undo or a redo. before: the scene that was open before it.
-  void after_step(const Scene& before);
 
   /// The mouse in the picture, before the tool that orbits; moves objects of the panels' scene. free: nothing else has
   /// the mouse. Returns whether this has it.
@@ -58,7 +58,6 @@ class ObjectTools {
   void own_material();
   bool needs_selection();
   ObjectPaths selected() const { return all_selected(panels_); }
-  void select_all(const ObjectPaths& paths);
 
   Session& session_;
   PanelState& panels_;

@@ -83,8 +83,6 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
   draw->PopClipRect();
 }
 
-void ask_comments(Dialog& dialog) { dialog = {Dialog::Kind::comments, {}, true}; }
-
 void ask_name(Dialog& dialog, const std::filesystem::path& suggestion) {
   dialog = {Dialog::Kind::save_as, {}, true};
   std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
@@ -94,9 +92,15 @@ namespace {
 
 using Decision = std::optional<std::filesystem::path>;
 
-Decision comments_question(Ui& ui, Dialog& dialog, const Document& document) {
-  ImGui::TextUnformatted(("Saving " + document.origin->title + " loses its comments.").c_str());
-  note(ui, "Scenes are written in normal form, which has none.", false);
+/// Asks before saving destroys something of the document's file.
+Decision loss_question(Ui& ui, Dialog& dialog, const Document& document) {
+  const std::string& title = document.origin->title;
+  const bool comments = dialog.kind == Dialog::Kind::comments;
+  ImGui::TextUnformatted((comments ? "Saving " + title + " loses its comments."
+                                   : "Another program has changed " + title + " since it was read.")
+                             .c_str());
+  note(ui, comments ? "Scenes are written in normal form, which has none." : "Saving replaces what it holds now.",
+       false);
   ImGui::Dummy({0, 4 * ui.scale});
   Decision decision;
   if (small_button(ui, "dialog.save", "Save anyway")) decision = document.origin->file;
@@ -148,11 +152,12 @@ void end_dialog() { end_box(); }
 
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
   using enum Dialog::Kind;
-  if (dialog.kind != comments && dialog.kind != save_as && dialog.kind != replace) return {};
+  const bool loss = dialog.kind == comments || dialog.kind == overwrite;
+  if (!loss && dialog.kind != save_as && dialog.kind != replace) return {};
   begin_dialog(ui, area);
   Decision decision;
   const Dialog::Kind shown = dialog.kind;
-  if (shown == Dialog::Kind::comments) decision = comments_question(ui, dialog, document);
+  if (loss) decision = loss_question(ui, dialog, document);
   if (shown == Dialog::Kind::save_as) decision = name_question(ui, dialog);
   if (shown == Dialog::Kind::replace) decision = replace_question(ui, dialog);
   if (dialog.kind == shown) dialog.fresh = false;

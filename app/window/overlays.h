@@ -49,12 +49,21 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
 
 /// A question that waits for an answer.
 struct Dialog {
-  enum class Kind { none, comments, save_as, replace, reference, close, changed_file, halves } kind = Kind::none;
+  enum class Kind {
+    none,
+    comments,
+    overwrite,
+    save_as,
+    replace,
+    reference,
+    close,
+    changed_file,
+    halves
+  } kind = Kind::none;
   char name[512] = {};  ///< of the file that is typed
   bool fresh = false;   ///< it was opened in this drawing
 };
 
-void ask_comments(Dialog& dialog);
 void ask_name(Dialog& dialog, const std::filesystem::path& suggestion);
 /// Draws the question; returns the file to write once that is decided. empty path: the document's own.
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);

@@ -57,7 +57,10 @@ void Session::restore_edits(const WindowOptions& options) {
   const std::filesystem::path file = kept_.take_over(options.scene_named ? editor_.document().origin->what : "");
   kept_changes_ = editor_.changes();
   try {
-    if (!file.empty()) editor_.restore(read_kept(file, options.read_edits));
+    if (!file.empty()) {
+      Kept kept = read_kept(file, options.read_edits);
+      editor_.restore(std::move(kept.document), kept.file_changed);
+    }
   } catch (const std::exception& error) {
     kept_.leave();
     messages_.say("cannot restore edits: " + std::string(error.what()), true);

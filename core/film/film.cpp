@@ -1,5 +1,7 @@
 #include "core/film/film.h"
 
+#include "core/base/fnv1a.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -96,19 +98,20 @@ std::vector<float> resolve(const Film& film) {
 
 namespace {
 
-/// FNV-1a of 4 bytes, lowest first. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
-std::uint64_t fnv1a(std::uint64_t hash, std::uint32_t word) {
-  for (int shift = 0; shift < 32; shift += 8) hash = (hash ^ (word >> shift & 0xffu)) * 0x100000001b3u;
-  return hash;
+/// Of 4 bytes, lowest first.
+std::uint64_t hash_of(std::uint32_t word, std::uint64_t before) {
+  char bytes[4];
+  for (int k = 0; k < 4; ++k) bytes[k] = static_cast<char>(word >> 8 * k & 0xffu);
+  return fnv1a({bytes, 4}, before);
 }
 
 }  // namespace
 
 std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  hash = fnv1a(hash, static_cast<std::uint32_t>(width));
-  hash = fnv1a(hash, static_cast<std::uint32_t>(height));
-  for (const float value : rgb) hash = fnv1a(hash, value == 0 ? 0u : std::bit_cast<std::uint32_t>(value));
+  std::uint64_t hash = fnv1a("");
+  hash = hash_of(static_cast<std::uint32_t>(width), hash);
+  hash = hash_of(static_cast<std::uint32_t>(height), hash);
+  for (const float value : rgb) hash = hash_of(value == 0 ? 0u : std::bit_cast<std::uint32_t>(value), hash);
   return hash;
 }
 

@@ -1,5 +1,6 @@
 #include "core/image/whole_file.h"
 
+#include "core/base/fnv1a.h"
 #include "core/image/image_io_file.h"
 
 #include <sys/file.h>
@@ -34,18 +35,11 @@ std::string hexadecimal(std::uint64_t number) {
   return text;
 }
 
-/// FNV-1a. Fowler, Noll, Vo: The FNV Non-Cryptographic Hash Algorithm.
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
-
 /// A number that another writer of the same file hardly has, too. If it has, O_EXCL tells, and the next one is taken.
 std::uint64_t likely_unique() {
   static std::atomic<std::uint64_t> count{0};
   const auto now = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-  return hash_of(std::to_string(now) + ' ' + std::to_string(getpid()) + ' ' + std::to_string(++count));
+  return fnv1a(std::to_string(now) + ' ' + std::to_string(getpid()) + ' ' + std::to_string(++count));
 }
 
 /// What the names of all temporary files of a target begin with: its name, or if that would become too long, its
@@ -57,7 +51,7 @@ std::string temporary_prefix(const fs::path& folder, const std::string& name) {
   if (name.size() <= room) return name + temporary_mark;
   std::size_t cut = room - 1 - digits_of_number;
   while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xc0) == 0x80) --cut;  // no half letters of UTF-8
-  return name.substr(0, cut) + '~' + hexadecimal(hash_of(name)) + temporary_mark;
+  return name.substr(0, cut) + '~' + hexadecimal(fnv1a(name)) + temporary_mark;
 }
 
 /// Where a chain of symbolic links ends.

@@ -173,6 +173,7 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
 Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
   std::error_code error;
   const fs::path target = fs::weakly_canonical(fs::absolute(to, error), error);
+  if (target == fs::weakly_canonical(fs::absolute(from, error), error)) return scene;
   for (Texture& texture : scene.textures) {
     auto* image = std::get_if<Image>(&texture.kind);
     if (!image || fs::path(image->file).is_absolute()) continue;

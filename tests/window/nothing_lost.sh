@@ -96,6 +96,24 @@ wait_until has_value gold.fuzz 0.8
 chord ctrl z
 wait_until has_value gold.fuzz 0.6
 
+# What another program has saved is not written over without a question, even where it cannot be read.
+echo '{ "tyndall": 1, ' >scene.json
+wait_for '^message scene.json: '
+type_value gold.fuzz.value 0.61
+lines=$(here)
+chord ctrl s
+wait_for '^widget dialog.save ' "$lines"
+cp "$screen/Xvfb_screen0" overwrite.xwd
+click dialog.cancel
+wait_for '^gone dialog.save' "$lines"
+[ "$(cat scene.json)" = '{ "tyndall": 1, ' ] || fail "the file was written over"
+lines=$(here)
+chord ctrl s
+wait_for '^widget dialog.save ' "$lines"
+click dialog.save
+wait_for '^saved scene.json' "$lines"
+grep -q '"fuzz": 0.61' scene.json || fail "not saved"
+
 # Closing while a snapshot is written: the window stays until the files are there, and says so.
 finish
 begin scene.json --set /image/width=900 --set /image/height=800

@@ -4,7 +4,9 @@
 #include "core/render/mailbox.h"
 #include "core/scene/check.h"
 
+#include <cmath>
 #include <exception>
+#include <optional>
 #include <utility>
 
 namespace tyndall {
@@ -36,40 +38,38 @@ void Editor::edit(Scene next, std::uint64_t gesture) {
   const bool same = same_picture(next, scene());
   history_.record({std::move(next), document().origin}, gesture);
   ++changes_;
-  if (messages_.current().error) messages_.dismiss();
+  if (messages_.current().error) drop_message();
   if (!same) events_.picture_changed();
 }
 
-void Editor::undo() {
-  const Scene before = scene();
-  step(history_.undo(), before, "nothing to undo");
-}
+void Editor::undo() { step(&History::undo, "nothing to undo"); }
+void Editor::redo() { step(&History::redo, "nothing to redo"); }
 
-void Editor::redo() {
+void Editor::step(bool (History::*move)(), const char* otherwise) {
   const Scene before = scene();
-  step(history_.redo(), before, "nothing to redo");
-}
-
-void Editor::step(bool moved, const Scene& before, const char* otherwise) {
-  if (!moved) return messages_.say(otherwise);
+  const ObjectPaths selected = selection();
+  if (!(history_.*move)()) return messages_.say(otherwise);
   ++changes_;
+  ObjectPaths now = paths_after(before, scene(), selected);
+  if (!now.empty() && now.size() == selected.size()) select(std::move(now));
+  if (std::isfinite(messages_.current().until)) drop_message();  // it was about what is undone now
   if (!same_picture(before, scene())) events_.picture_changed();
   watch();
 }
 
-void Editor::go_to_unsaved() {
-  const Scene before = scene();
-  history_.go_to_unsaved();
-  step(true, before, "");
-}
+/// Takes the message away that an edit has answered. What is wrong with the file stays true.
+void Editor::drop_message() { unreadable_.empty() ? messages_.dismiss() : messages_.say(unreadable_, true); }
 
-void Editor::restore(Document restored) {
+void Editor::go_to_unsaved() { step(&History::go_to_unsaved, ""); }
+
+void Editor::restore(Document restored, bool file_changed) {
   const std::string title = restored.origin->title;
   if (restored.origin->what == document().origin->what) restored.origin = document().origin;
   history_.record(std::move(restored), 0);
   ++changes_;
   events_.picture_changed();
   watch();
+  if (file_changed && edited(document())) changed_file_ = Document{document().origin->saved, document().origin};
   messages_.say("restored the edits of " + title + " that were not saved; Ctrl + Z: without them");
 }
 
@@ -90,8 +90,10 @@ void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
     history_.set_origin(next.origin);  // the file now holds what is shown
     return;
   }
+  const ObjectPaths selected = own_file ? paths_after(scene(), next.scene, selection()) : ObjectPaths{};
   const std::string left = !own_file && edited(document()) ? document().origin->title : "";
   history_.record(std::move(next), 0);
+  select(selected);
   if (!same) {
     if (!own_file) events_.other_scene();
     events_.picture_changed();
@@ -134,10 +136,19 @@ void Editor::reload() {
   const fs::path file = document().origin->file;
   const bool first = reload_ && file == reloads_;
   read_in_background([this, file, first]() -> JobQueue::Result {
-    Document next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
-    return [this, file, next = std::move(next)] {
+    std::optional<Document> next;
+    std::string wrong;
+    try {
+      next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
+    } catch (const std::exception& error) {
+      wrong = error.what();
+    }
+    return [this, file, next = std::move(next), wrong] {
+      if (document().origin->file != file) return;
+      unreadable_ = wrong;
+      if (!next) return messages_.say(wrong, true);
       if (log_) log_->line("read " + file.string());
-      if (document().origin->file == file) take_file(next);
+      take_file(*next);
     };
   });
 }
@@ -156,6 +167,7 @@ void Editor::watch() {
   const fs::path& file = document().origin->file;
   if (file == watched_) return;
   watch_.reset();
+  unreadable_.clear();
   watched_ = file;
   if (file.empty()) return;
   watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, events_.wake(); });
@@ -167,6 +179,8 @@ void Editor::save(const fs::path& file) {
     history_.set_origin(save_document(document(), file));
     ++changes_;
     watch();
+    unreadable_.clear();
+    changed_file_.reset();
     messages_.say(saved);
     if (log_) log_->line(saved);
   } catch (const std::exception& error) {

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 /// This room holds the document, that is the scene that is edited with its history and its file, and the work that is
 /// done for it in the background. It knows nothing of rendering.
@@ -48,6 +49,10 @@ class Editor {
   void edit(Scene scene, std::uint64_t gesture);
   void undo();
   void redo();
+  /// What is selected. Edits, undo and redo keep it, wherever it stands then; what undo or redo take away gives place
+  /// to what was selected there.
+  const ObjectPaths& selection() const { return history_.selection(); }
+  void select(ObjectPaths selection) { history_.select(std::move(selection)); }
   /// Counts the edits, undone ones and saved ones too: the same number means the same document.
   std::uint64_t changes() const { return changes_; }
 
@@ -55,14 +60,16 @@ class Editor {
   const Document* unsaved() const { return history_.unsaved(); }
   /// Shows these edits, if another scene was opened since.
   void go_to_unsaved();
-  /// Goes on with edits of an earlier window; one undo goes back to the scene as it was opened.
-  void restore(Document document);
+  /// Goes on with edits of an earlier window; one undo goes back to the scene as it was opened. file_changed: another
+  /// program has changed the file since, which the user is asked about.
+  void restore(Document document, bool file_changed);
 
   /// Opens a file or a built-in scene, in the background. what: as the command line takes it.
   void open(const std::string& what);
   /// Reads the film of the first scene, if that was opened from an image, in the background.
   void open_film(const LoadedScene& scene);
-  /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced.
+  /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced: see
+  /// file_differs().
   void save(const std::filesystem::path& file);
 
   /// Runs `read` in the background. Then collect() calls the function that it returned, or shows what it threw as a
@@ -79,7 +86,8 @@ class Editor {
 
  private:
   void show(Document document, bool own_file, const OpenedFilm& film = {});
-  void step(bool moved, const Scene& before, const char* otherwise);
+  void step(bool (History::*move)(), const char* otherwise);
+  void drop_message();
   void watch();
   void reload();
   void take_file(const Document& file);
@@ -92,6 +100,7 @@ class Editor {
   UiLog* log_;
   History history_;
   std::uint64_t changes_ = 0;
+  std::string unreadable_;                ///< what is wrong with the file as it is now; empty: nothing
   std::optional<Document> changed_file_;  ///< what the file holds, while the user is asked about it
   std::atomic<bool> file_changed_ = false;
   std::filesystem::path watched_;

@@ -1,58 +1,73 @@
 #include "app/window/document/history.h"
 
+#include "core/scene/load.h"
+
 #include <utility>
 
 namespace tyndall {
 
-History::History(Document start) { steps_.push_back(std::move(start)); }
+History::History(Document start) { steps_.push_back({std::move(start), {}}); }
 
 bool History::record(Document next, std::uint64_t gesture) {
   if (next == current()) return false;
+  ObjectPaths selected = selection();
   steps_.resize(at_ + 1);
   if (open_ && gesture != 0 && gesture == gesture_) {
-    if (at_ > 0 && next == steps_[at_ - 1]) {
+    if (at_ > 0 && next == steps_[at_ - 1].document) {
       steps_.pop_back();
       --at_;
       open_ = false;
     } else {
-      steps_[at_] = std::move(next);
+      steps_[at_].document = std::move(next);
+      select(std::move(selected));
     }
     return true;
   }
-  steps_.push_back(std::move(next));
+  steps_.push_back({std::move(next), {}});
   if (steps_.size() > most_steps) steps_.erase(steps_.begin());
   at_ = steps_.size() - 1;
+  select(std::move(selected));
   gesture_ = gesture;
   open_ = true;
   return true;
 }
 
+void History::select(ObjectPaths selection) {
+  std::erase_if(selection, [&](const ObjectPath& path) { return !find_object(current().scene, path); });
+  steps_[at_].selection = std::move(selection);
+}
+
 void History::set_origin(const std::shared_ptr<const Origin>& origin) {
   // Every step of the same file is now compared with what was saved.
   const auto before = current().origin;
-  for (Document& step : steps_)
-    if (step.origin == before) step.origin = origin;
+  for (auto& [document, selection] : steps_) {
+    if (document.origin != before) continue;
+    document.scene = move_textures(std::move(document.scene), before->folder, origin->folder);
+    document.origin = origin;
+  }
 }
 
 /// The number of the step that unsaved() returns; steps_.size(): none.
 std::size_t History::unsaved_step() const {
   for (std::size_t step = at_ + 1; step-- > 0;) {
-    const bool last_of_its_scene = step == at_ || steps_[step].origin->what != steps_[step + 1].origin->what;
-    if (last_of_its_scene && edited(steps_[step])) return step;
+    const Document& document = steps_[step].document;
+    const bool last_of_its_scene = step == at_ || document.origin->what != steps_[step + 1].document.origin->what;
+    if (last_of_its_scene && edited(document)) return step;
   }
   return steps_.size();
 }
 
 const Document* History::unsaved() const {
   const std::size_t step = unsaved_step();
-  return step < steps_.size() ? &steps_[step] : nullptr;
+  return step < steps_.size() ? &steps_[step].document : nullptr;
 }
 
-void History::go_to_unsaved() {
+bool History::go_to_unsaved() {
   const std::size_t step = unsaved_step();
-  if (step == steps_.size()) return;
+  if (step == steps_.size()) return false;
   at_ = step;
   open_ = false;
+  return true;
 }
 
 bool History::undo() {

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/document/document.h"
+#include "app/window/document/object_path.h"
 
 #include <cstdint>
 #include <vector>
@@ -12,17 +13,22 @@ class History {
  public:
   explicit History(Document start);
 
-  const Document& current() const { return steps_[at_]; }
+  const Document& current() const { return steps_[at_].document; }
+  /// What is selected; each step has its own, so that undo and redo select what was selected there.
+  const ObjectPaths& selection() const { return steps_[at_].selection; }
+  /// Paths that lead nowhere are left out.
+  void select(ObjectPaths selection);
   /// The newest step up to the current one that holds edits which no file has: the current one, or the last one before
   /// another scene was opened. Null: there is none.
   const Document* unsaved() const;
-  /// Goes back to the step that unsaved() returns.
-  void go_to_unsaved();
+  /// Goes back to the step that unsaved() returns; false: there is none.
+  bool go_to_unsaved();
   /// Makes `next` the current document and forgets what was undone; nothing happens if it equals the current one.
   /// Edits of the same gesture (a drag, a turn of the wheel; 0: none) that follow each other are one step; no step is
-  /// left of a gesture that ends as it began. Returns whether it differs.
+  /// left of a gesture that ends as it began. The selection stays. Returns whether it differs.
   bool record(Document next, std::uint64_t gesture);
-  /// The file was written: all steps that came from it are from now on compared with what it holds. No step.
+  /// The file was written, maybe to another folder: all steps that came from it are from now on compared with what it
+  /// holds, and their textures are respelt for its folder. No step.
   void set_origin(const std::shared_ptr<const Origin>& origin);
   /// False at the end of the list.
   bool undo();
@@ -36,7 +42,11 @@ class History {
  private:
   std::size_t unsaved_step() const;
 
-  std::vector<Document> steps_;
+  struct Step {
+    Document document;
+    ObjectPaths selection;
+  };
+  std::vector<Step> steps_;
   std::size_t at_ = 0;
   std::uint64_t gesture_ = 0;
   bool open_ = false;  ///< the newest step may still take edits of gesture_

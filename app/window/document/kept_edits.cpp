@@ -4,6 +4,8 @@
 #include "app/window/document/open_document.h"
 #include "core/base/stoppable.h"
 
+#include <fmt/core.h>
+
 #include <sys/file.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view first_line = "// Edits that were not saved, of ";
+constexpr std::string_view second_line = "// The FNV-1a hash of that file's text when they were made: ";
 constexpr auto least_interval = std::chrono::milliseconds(250);
 constexpr int most_windows = 1000;  // that keep edits at the same time
 
@@ -50,6 +53,15 @@ std::string unescaped(const std::string& text) {
     if (code) i += 2;
   }
   return out;
+}
+
+/// What follows `start` in the line of the file's first two that begins with it; empty: none does.
+std::string rest_of_line(const fs::path& file, std::string_view start) {
+  std::ifstream in(file);
+  std::string line;
+  for (int k = 0; k < 2 && std::getline(in, line); ++k)
+    if (line.starts_with(start)) return line.substr(start.size());
+  return "";
 }
 
 /// The document as it is without edits; one that holds nothing where its scene cannot be read any more.
@@ -81,22 +93,21 @@ fs::path state_folder() {
 
 std::string kept_text(const Scene& scene, const Origin& origin, const fs::path& folder) {
   const Scene moved = move_textures(scene, fs::absolute(origin.folder), fs::absolute(folder));
-  return std::string(first_line) + escaped(origin.what) + "\n" + write_scene(moved);
+  std::string text = std::string(first_line) + escaped(origin.what) + "\n";
+  if (origin.text_hash != 0) text += fmt::format("{}{:016x}\n", second_line, origin.text_hash);
+  return text + write_scene(moved);
 }
 
-Document read_kept(const fs::path& file, const std::function<LoadedScene(const std::string& what)>& read) {
+Kept read_kept(const fs::path& file, const std::function<LoadedScene(const std::string& what)>& read) {
   const LoadedScene kept = read(fs::absolute(file).string());
+  const std::string hash = rest_of_line(file, second_line);
   Document document = unedited(kept_what(file));
   document.scene = move_textures(kept.scene, kept.folder, fs::absolute(document.origin->folder));
-  return document;
+  const std::uint64_t now = document.origin->text_hash;
+  return {std::move(document), !hash.empty() && now != 0 && fmt::format("{:016x}", now) != hash};
 }
 
-std::string kept_what(const fs::path& file) {
-  std::string line;
-  std::ifstream in(file);
-  std::getline(in, line);
-  return line.starts_with(first_line) ? unescaped(line.substr(first_line.size())) : "";
-}
+std::string kept_what(const fs::path& file) { return unescaped(rest_of_line(file, first_line)); }
 
 /// A file of the folder, and its lock while this lives.
 struct Slot {

@@ -1,6 +1,10 @@
 #include "app/window/document/open_document.h"
 
 #include "app/files/outputs.h"
+#include "core/base/fnv1a.h"
+
+#include <fstream>
+#include <iterator>
 
 namespace tyndall {
 
@@ -37,6 +41,7 @@ Document document_of(const LoadedScene& loaded) {
   origin->what = what_opens(loaded);
   origin->file = loaded.source;
   origin->folder = loaded.folder;
+  if (!loaded.source.empty()) origin->text_hash = fnv1a(loaded.text);
   origin->comments = !loaded.source.empty() && has_comments(loaded.text);
   origin->saved = loaded.scene;
   return {loaded.scene, std::move(origin)};
@@ -45,15 +50,24 @@ Document document_of(const LoadedScene& loaded) {
 std::shared_ptr<const Origin> save_document(const Document& document, const fs::path& file) {
   const fs::path folder = fs::absolute(file).parent_path();
   const Scene scene = move_textures(document.scene, document.origin->folder, folder);
-  write_text_file(file, write_scene(scene));
+  const std::string text = write_scene(scene);
+  write_text_file(file, text);
   auto origin = std::make_shared<Origin>(*document.origin);
   origin->title = file.filename().string();
   origin->what = fs::absolute(file).lexically_normal().string();
   origin->file = file;
   origin->folder = folder;
+  origin->text_hash = fnv1a(text);
   origin->comments = false;
   origin->saved = scene;
   return origin;
+}
+
+bool file_differs(const Origin& origin) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(origin.file, ignored)) return false;  // a pipe would have to be waited for
+  std::ifstream file(origin.file, std::ios::binary);
+  return file && fnv1a(std::string(std::istreambuf_iterator<char>(file), {})) != origin.text_hash;
 }
 
 std::string stem_of(const std::string& title) {

@@ -18,6 +18,9 @@ bool has_comments(std::string_view text);
 /// place. Throws ImageFileError or IoError: one line.
 std::shared_ptr<const Origin> save_document(const Document& document, const std::filesystem::path& file);
 
+/// Whether the file holds something else than when it was read or written last, readable or not. Reads it.
+bool file_differs(const Origin& origin);
+
 /// "showroom" of "showroom.json" or "showroom-003.png": what snapshots and copies are named after.
 std::string stem_of(const std::string& title);
 

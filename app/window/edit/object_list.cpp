@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -55,51 +54,6 @@ void delete_unused_materials(Scene& scene, const std::vector<Material>& kept) {
     scene.materials.erase(scene.materials.begin() + k);
     each_material(scene.objects, [&](int& material) { material -= material > k ? 1 : 0; });
   }
-}
-
-using Objects = std::vector<Object>;
-
-/// How many objects two lists share at the beginning and at the end.
-struct Shared {
-  std::size_t start = 0, end = 0;
-};
-Shared shared(const Objects& before, const Objects& after) {
-  const auto [was, is] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
-  const auto [last_was, last_is] =
-      std::mismatch(before.rbegin(), std::make_reverse_iterator(was), after.rbegin(), std::make_reverse_iterator(is));
-  return {static_cast<std::size_t>(was - before.begin()), static_cast<std::size_t>(last_was - before.rbegin())};
-}
-
-/// Adds the objects that came between the beginning and the end that both lists share.
-void add_new(const Objects& before, const Objects& after, ObjectPath& path, ObjectPaths& out) {
-  const Shared same = shared(before, after);
-  const bool as_many = before.size() == after.size();
-  for (std::size_t k = same.start; k + same.end < after.size(); ++k) {
-    path.push_back(static_cast<int>(k));
-    const Group *was = as_many ? std::get_if<Group>(&before[k].kind) : nullptr,
-                *is = std::get_if<Group>(&after[k].kind);
-    if (!as_many)
-      out.push_back(path);
-    else if (was && is)
-      add_new(was->objects, is->objects, path, out);
-    path.pop_back();
-  }
-}
-
-/// Where the object at a path is afterwards; empty: nowhere.
-ObjectPath path_after(const Objects& before, const Objects& after, const ObjectPath& path, std::size_t level = 0) {
-  const Shared same = shared(before, after);
-  const auto from = static_cast<std::size_t>(path[level]);
-  std::size_t to = from;
-  if (from >= same.start && before.size() != after.size()) {
-    if (from + same.end < before.size()) return {};
-    to = from + after.size() - before.size();
-  }
-  if (level + 1 == path.size()) return {static_cast<int>(to)};
-  const Group *was = std::get_if<Group>(&before[from].kind), *is = std::get_if<Group>(&after[to].kind);
-  ObjectPath rest = was && is ? path_after(was->objects, is->objects, path, level + 1) : ObjectPath{};
-  if (!rest.empty()) rest.insert(rest.begin(), static_cast<int>(to));
-  return rest;
 }
 
 }  // namespace
@@ -158,17 +112,6 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
   }
   delete_unused_materials(scene, kept);
   return static_cast<int>(all.size());
-}
-
-ObjectPaths selection_after(const Scene& before, const Scene& after, const ObjectPaths& selected) {
-  ObjectPaths found;
-  for (const ObjectPath& path : selected)
-    if (find_object(before, path))
-      if (ObjectPath now = path_after(before.objects, after.objects, path); !now.empty())
-        found.push_back(std::move(now));
-  ObjectPath path;
-  if (found.empty()) add_new(before.objects, after.objects, path, found);
-  return found;
 }
 
 }  // namespace tyndall

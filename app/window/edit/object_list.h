@@ -7,8 +7,6 @@
 /// Duplicating, deleting and naming objects.
 namespace tyndall {
 
-using ObjectPaths = std::vector<ObjectPath>;
-
 /// The paths in file order, each once, without those inside of a group that is itself among them.
 ObjectPaths outermost(ObjectPaths paths);
 
@@ -22,9 +20,5 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
 
 /// "ball", else "ball 2" and so on: the first that no object has. A number at the end of the wish counts on.
 std::string free_name(const Scene& scene, const std::string& wish);
-
-/// After undo or redo: what is selected then. Objects that are still there stay selected, wherever they stand now; if
-/// none is, those that came are.
-ObjectPaths selection_after(const Scene& before, const Scene& after, const ObjectPaths& selected);
 
 }  // namespace tyndall

@@ -1,9 +1,12 @@
 #include "app/window/gallery/thumbnail.h"
 
+#include "core/base/fnv1a.h"
 #include "core/compile/compile.h"
 #include "core/image/image_io.h"
 #include "core/image/tonemap.h"
 #include "core/render/render.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +25,6 @@ namespace {
 constexpr std::uint32_t samples = 64;
 constexpr double longest = 2;  // seconds
 
-/// 64-bit FNV-1a: public domain, see Fowler, Noll, Vo, The FNV Non-Cryptographic Hash Algorithm.
-struct Hash {
-  std::uint64_t value = 0xcbf29ce484222325u;
-  void add(const std::string& bytes) {
-    for (const char c : bytes) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-};
-
 }  // namespace
 
 fs::path thumbnails_folder() {
@@ -43,16 +38,13 @@ fs::path thumbnails_folder() {
 }
 
 std::string thumbnail_key(const LoadedScene& loaded) {
-  Hash hash;
-  hash.add("1 ");  // counts the ways in which thumbnails were made
-  hash.add(loaded.text);
+  std::uint64_t hash = fnv1a("1 ");  // counts the ways in which thumbnails were made
+  hash = fnv1a(loaded.text, hash);
   for (std::size_t k = 1; k < loaded.files.size(); ++k) {  // the first one is the scene's own
     std::ifstream file(loaded.files[k], std::ios::binary);
-    hash.add({std::istreambuf_iterator<char>(file), {}});
+    hash = fnv1a(std::string(std::istreambuf_iterator<char>(file), {}), hash);
   }
-  std::string key;
-  for (int shift = 60; shift >= 0; shift -= 4) key += "0123456789abcdef"[(hash.value >> shift) & 15];
-  return key;
+  return fmt::format("{:016x}", hash);
 }
 
 ThumbnailSize thumbnail_size(const Scene& scene) {

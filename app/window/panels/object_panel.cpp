@@ -100,25 +100,19 @@ void full_section(Ui& ui, PanelState& state) {
 
 }  // namespace
 
-std::vector<ObjectPath> all_selected(const PanelState& state) {
-  std::vector<ObjectPath> all;
+ObjectPaths all_selected(const PanelState& state) {
+  ObjectPaths all;
   if (!state.selected.empty()) all.push_back(state.selected);
   all.insert(all.end(), state.also.begin(), state.also.end());
   return all;
 }
 
-void drop_lost_selection(PanelState& state) {
-  std::erase_if(state.also, [&](const ObjectPath& path) { return !find_object(state.scene, path); });
-  if (find_object(state.scene, state.selected)) return;
-  state.selected.clear();
-  if (state.also.empty()) return;
-  state.selected = state.also.front();
-  state.also.erase(state.also.begin());
+void set_selected(PanelState& state, const ObjectPaths& paths) {
+  state.selected = paths.empty() ? ObjectPath{} : paths.front();
+  state.also.assign(paths.begin() + (paths.empty() ? 0 : 1), paths.end());
 }
 
 void forget_scene(PanelState& state) {
-  state.selected.clear();
-  state.also.clear();
   state.objects = {};
   state.backgrounds = {};
   state.materials = {};

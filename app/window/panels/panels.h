@@ -99,10 +99,9 @@ struct PanelState {
 };
 
 /// All selected objects, the one whose values are shown first.
-std::vector<ObjectPath> all_selected(const PanelState& state);
-/// Forgets selected objects that the scene does not have.
-void drop_lost_selection(PanelState& state);
-/// Forgets what was selected, searched for and remembered of another scene.
+ObjectPaths all_selected(const PanelState& state);
+void set_selected(PanelState& state, const ObjectPaths& paths);
+/// Forgets what was searched for and remembered of another scene.
 void forget_scene(PanelState& state);
 
 /// Tabs, all sections in the column, and the chart at its foot. The column's edge can be dragged.

@@ -51,22 +51,6 @@ void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vecto
 
 }  // namespace
 
-const Object* find_object(const Scene& scene, const ObjectPath& path) {
-  const std::vector<Object>* objects = &scene.objects;
-  const Object* object = nullptr;
-  for (const int index : path) {
-    if (!objects || index < 0 || static_cast<std::size_t>(index) >= objects->size()) return nullptr;
-    object = &(*objects)[static_cast<std::size_t>(index)];
-    const Group* group = std::get_if<Group>(&object->kind);
-    objects = group ? &group->objects : nullptr;
-  }
-  return object;
-}
-
-Object* find_object(Scene& scene, const ObjectPath& path) {
-  return const_cast<Object*>(find_object(static_cast<const Scene&>(scene), path));
-}
-
 const char* kind_name(const Object& object) {
   if (std::holds_alternative<Volume>(object.kind)) return "medium";
   if (std::holds_alternative<Group>(object.kind)) return "group";

@@ -1,6 +1,6 @@
 #pragma once
+#include "app/window/document/object_path.h"
 #include "core/compile/flatten.h"
-#include "core/scene/scene.h"
 
 #include <optional>
 #include <string>
@@ -8,13 +8,6 @@
 
 /// What is selected in the window, and what is said of an object there.
 namespace tyndall {
-
-/// Indices into Scene::objects and, for each further one, into the group's objects. Empty: nothing.
-using ObjectPath = std::vector<int>;
-
-/// The object at a path; null for an empty path and for one that leads nowhere.
-const Object* find_object(const Scene& scene, const ObjectPath& path);
-Object* find_object(Scene& scene, const ObjectPath& path);
 
 /// "sphere", "quad", "box", "medium", "group".
 const char* kind_name(const Object& object);

@@ -31,6 +31,20 @@ class OpenedSession {
     std::filesystem::current_path(before_);
   }
 
+  /// Begins a session over what the file holds now.
+  void open() {
+    WindowOptions options;
+    options.scene = load_scene("scene.json");
+    options.threads = 1;
+    session = std::make_unique<Session>(
+        options, [this] { news.tell(); },
+        [this] {
+          ++frames;
+          news.tell();
+          const std::lock_guard wait(gate);
+        },
+        nullptr);
+  }
   /// Ends the session and begins another one, as the next start of the program does.
   void reopen() {
     session->keep_edits();
@@ -74,20 +88,6 @@ class OpenedSession {
   std::unique_ptr<Session> session;
 
  private:
-  void open() {
-    WindowOptions options;
-    options.scene = load_scene("scene.json");
-    options.threads = 1;
-    session = std::make_unique<Session>(
-        options, [this] { news.tell(); },
-        [this] {
-          ++frames;
-          news.tell();
-          const std::lock_guard wait(gate);
-        },
-        nullptr);
-  }
-
   std::filesystem::path folder_, before_;
 };
 

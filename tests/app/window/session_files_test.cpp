@@ -1,3 +1,4 @@
+#include "app/window/document/open_document.h"
 #include "tests/app/window/opened_session.h"
 
 #include <doctest/doctest.h>
@@ -63,6 +64,101 @@ TEST_CASE("edits that are not saved come back in the next session, and one undo 
   opened.session->discard_edits();
   opened.reopen();
   CHECK(opened.fuzz() == 0.25);
+}
+
+TEST_CASE("restored edits of a file that another program has changed since wait for the user's answer") {
+  OpenedSession opened("restore_changed");
+  opened.set_fuzz(0.5);
+  opened.session->keep_edits();
+  opened.session->flush_edits();
+  opened.session.reset();
+  OpenedSession::write(0.75);
+  opened.open();
+  Editor& editor = opened.session->editor();
+  CHECK(opened.fuzz() == 0.5);
+  REQUIRE(editor.asks_about_file());
+  editor.answer_about_file(true);
+  CHECK(opened.fuzz() == 0.75);
+  CHECK_FALSE(edited(editor.document()));
+  editor.undo();
+  CHECK(opened.fuzz() == 0.5);
+}
+
+TEST_CASE("a file that another program has left broken is told of until it is mended, and differs from what was read") {
+  OpenedSession opened("broken");
+  Editor& editor = opened.session->editor();
+  CHECK_FALSE(file_differs(*editor.document().origin));
+  std::ofstream("scene.json") << "{";
+  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  const std::string told = opened.session->messages().current().text;
+  opened.set_fuzz(0.5);
+  CHECK(opened.session->messages().current().text == told);
+  CHECK(file_differs(*editor.document().origin));
+  editor.save(editor.document().origin->file);  // as the user wished, after being asked
+  CHECK_FALSE(file_differs(*editor.document().origin));
+  opened.set_fuzz(0.625);
+  CHECK_FALSE(opened.session->messages().current().error);
+}
+
+TEST_CASE("a scene with textures can be saved to other folders again and again") {
+  OpenedSession opened("textures");
+  fs::create_directories("in/deep");
+  fs::copy_file(assets_folder() / "textures" / "planet.png", "in/map.png");
+  std::ofstream("in/scene.json") << R"({ "tyndall": 1, "image": { "width": 8, "height": 8 },
+    "textures": { "map": { "type": "image", "file": "./map.png" } },
+    "materials": { "land": { "type": "lambertian", "albedo": "map" } },
+    "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "land" }] })";
+  Editor& editor = opened.session->editor();
+  editor.open("in/scene.json");
+  REQUIRE(opened.comes_true(
+      [&] { return editor.document().origin->title == "scene.json" && editor.scene().textures.size() == 1; }));
+  const auto turn = [&](double vfov) {
+    Scene scene = editor.scene();
+    scene.camera.vfov = vfov;
+    editor.edit(scene, 0);
+  };
+  turn(50);
+  for (const char* file : {"copy.json", "copy.json", "in/deep/copy.json", "in/scene.json"}) {
+    turn(editor.scene().camera.vfov + 1);
+    editor.save(file);
+    CHECK_FALSE(edited(editor.document()));
+    CHECK(load_scene(file).scene == editor.scene());
+    turn(editor.scene().camera.vfov + 1);
+    opened.session->keep_edits();
+    opened.session->flush_edits();
+  }
+  editor.undo();
+  editor.undo();
+  editor.save("in/deep/older.json");
+  CHECK(load_scene("in/deep/older.json").scene.camera.vfov == editor.scene().camera.vfov);
+  opened.session->snapshot();
+  REQUIRE(opened.comes_true([&] { return fs::exists("older-001.png"); }));
+  CHECK(load_scene("older-001.png").scene.textures.size() == 1);
+}
+
+TEST_CASE("the selection stays on its objects through undo, redo and a file that is read again") {
+  OpenedSession opened("selection");
+  Editor& editor = opened.session->editor();
+  const auto with = [&](const std::vector<std::string>& names) {
+    Scene scene = editor.scene();
+    const Object ball = scene.objects[0];
+    scene.objects.clear();
+    for (const std::string& name : names) scene.objects.push_back({name, ball.kind, {}});
+    return scene;
+  };
+  editor.edit(with({"a", "b", "c"}), 0);
+  editor.select({{0}, {2}});
+  editor.edit(with({"a", "a 2", "b", "c", "c 2"}), 0);  // duplicated
+  editor.select({{1}, {4}});
+  editor.undo();
+  CHECK(editor.selection() == ObjectPaths{{0}, {2}});
+  editor.select({{2}});
+  editor.redo();
+  CHECK(editor.selection() == ObjectPaths{{3}});
+  editor.save("scene.json");
+  std::ofstream("scene.json") << write_scene(with({"new", "a", "c"}));
+  REQUIRE(opened.comes_true([&] { return editor.scene().objects.size() == 3; }));
+  CHECK(editor.selection() == ObjectPaths{{2}});
 }
 
 TEST_CASE("saving is no edit, and is not read again as one") {

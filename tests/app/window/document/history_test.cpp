@@ -138,3 +138,21 @@ TEST_CASE("a drag that ends where it began leaves no step") {
   CHECK(history.undo());
   CHECK(number(history) == 2);
 }
+
+TEST_CASE("each step has its own selection, which undo and redo bring back, and only of what the scene has") {
+  Document one = numbered(1), two = numbered(2);
+  one.scene.objects.resize(3);
+  two.scene.objects.resize(5);
+  History history(one);
+  history.select({{2}, {4}});
+  CHECK(history.selection() == ObjectPaths{{2}});
+  history.record(two, 0);
+  CHECK(history.selection() == ObjectPaths{{2}});
+  history.select({{4}, {3}});
+  history.undo();
+  CHECK(history.selection() == ObjectPaths{{2}});
+  history.redo();
+  CHECK(history.selection() == ObjectPaths{{4}, {3}});
+  history.record(one, 0);
+  CHECK(history.selection().empty());
+}

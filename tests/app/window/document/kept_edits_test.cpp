@@ -25,9 +25,10 @@ void keep(KeptEdits& kept, const Document& document) {
   kept.keep(std::make_shared<const Scene>(document.scene), document.origin);
 }
 
-Document read(const fs::path& file) {
+Kept read_all(const fs::path& file) {
   return read_kept(file, [](const std::string& what) { return load_scene(what); });
 }
+Document read(const fs::path& file) { return read_all(file).document; }
 
 }  // namespace
 
@@ -41,8 +42,12 @@ TEST_CASE("edits are kept in a file that is a scene and says what it is an edit 
   CHECK(again.scene == document->scene);
   CHECK(again.origin->file == document->origin->file);
   CHECK(edited(again));
+  CHECK_FALSE(read_all(folder / "kept.json").file_changed);
+  std::ofstream(document->origin->file, std::ios::app) << "\n";
+  CHECK(read_all(folder / "kept.json").file_changed);
   fs::remove(document->origin->file);
   CHECK(read(folder / "kept.json").scene == document->scene);
+  CHECK_FALSE(read_all(folder / "kept.json").file_changed);  // there is none to take
 }
 
 TEST_CASE("what one window has kept is taken over by the next, but not while the first is open") {

@@ -73,27 +73,3 @@ TEST_CASE("deleting takes companions along, and materials that only the window h
   CHECK(delete_objects(kept, {{1}}, kept.materials) == 2);
   CHECK(kept.materials.size() == 2);
 }
-
-TEST_CASE("after undo and redo objects that are still there stay selected, wherever they stand now") {
-  const Scene before = example();
-  Scene moved = before;
-  std::get<Sphere<>>(std::get<Solid3d>(moved.objects[0].kind).shape).radius = 3;
-  CHECK(selection_after(before, moved, {{0}, {4}}) == ObjectPaths{{0}, {4}});
-  Scene fewer = before;
-  delete_objects(fewer, {{1}}, {});
-  CHECK(selection_after(before, fewer, {{4}, {3, 1}, {0}}) == ObjectPaths{{2}, {1, 1}, {0}});
-  CHECK(selection_after(before, fewer, {{1}}).empty());
-  CHECK(selection_after(fewer, before, {{2}}) == ObjectPaths{{4}});
-}
-
-TEST_CASE("after undo and redo those objects are selected that came, if nothing else is") {
-  const Scene before = example();
-  Scene fewer = before;
-  delete_objects(fewer, {{1}}, {});
-  CHECK(selection_after(fewer, before, {}) == ObjectPaths{{1}, {2}});
-  Scene deep = before;
-  duplicate_objects(deep, {{3, 1}});
-  CHECK(selection_after(before, deep, {}) == ObjectPaths{{3, 2}});
-  CHECK(selection_after(before, deep, {{3, 0}}) == ObjectPaths{{3, 0}});
-  CHECK(selection_after(deep, before, {{3, 2}}).empty());
-}
