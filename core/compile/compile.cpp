@@ -162,11 +162,9 @@ KernelSet least_kernel(const RenderScene& s) {
   return fog_or_textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
 }
 
-/// Whether the scene holds nothing that second vertices cannot be shared around: a chain starts at an event of one path
-/// and adds its light apart, and a vertex on a moving sphere is there at one time only.
-bool can_share(const RenderScene& s) {
-  return s.integrator == Integrator::mis && s.chains.ball.empty() && !s.needs.moving_spheres;
-}
+/// Whether the scene holds nothing that second vertices cannot be shared around: a vertex on a moving sphere is there
+/// at one time only.
+bool can_share(const RenderScene& s) { return s.integrator == Integrator::mis && !s.needs.moving_spheres; }
 
 bool asks_for_light(Integrator integrator) {
   switch (integrator) {

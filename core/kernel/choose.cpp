@@ -39,7 +39,9 @@ void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_
   RenderUnit render = render_units[static_cast<int>(scene.kernel)];
   // The pixels of a coarse pass are too far apart to share.
   if (scene.shares && unit.step == 1)
-    render = scene.kernel == KernelSet::no_fog_nor_textures ? render_shared_plain : render_shared;
+    render = scene.kernel == KernelSet::no_fog_nor_textures ? render_shared_plain
+             : scene.has_chains()                           ? render_shared
+                                                            : render_shared_no_chains;
   render(scene, unit, film_unit, pixels, emission, counts);
 }
 

@@ -95,6 +95,7 @@ static Kernels kernels_of(const char* isa) {
           {render_unit_entry<F, KernelSet::everything>, render_unit_entry<F, KernelSet::chains_alone>,
            render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
            render_unit_entry<F, KernelSet::no_fog_nor_textures>},
+          render_unit_entry<F, KernelSet::everything, true>,
           render_unit_entry<F, KernelSet::no_chains, true>,
           render_unit_entry<F, KernelSet::no_fog_nor_textures, true>,
           trace_entry<F>,
@@ -105,9 +106,15 @@ static Kernels kernels_of(const char* isa) {
 template <class F>
 static Kernels full_kernel_of(const char* isa) {
   const RenderUnit render = render_unit_entry<F, KernelSet::everything>;
-  const RenderUnit share = render_unit_entry<F, KernelSet::no_chains, true>;
-  return {
-      isa, lanes_of<F>, {render, render, render, render, render}, share, share, trace_entry<F>, first_hits_entry<F>};
+  const RenderUnit share = render_unit_entry<F, KernelSet::everything, true>;
+  return {isa,
+          lanes_of<F>,
+          {render, render, render, render, render},
+          share,
+          share,
+          share,
+          trace_entry<F>,
+          first_hits_entry<F>};
 }
 
 }  // namespace tyndall

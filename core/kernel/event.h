@@ -245,4 +245,26 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
   return goes_on;
 }
 
+/// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
+/// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
+/// With the factor 8 only paths whose throughput is below 1/8 are at risk. The time to a given error was found to be
+/// the same for all factors from 4 to 8.
+template <class F>
+TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
+  const F survival = F(8.0f) * max_component(p.throughput);
+  const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
+  if (!any(at_risk)) return lanes;
+  const auto ended = mask_and_not(at_risk, less(p.dice.one(dimension::roulette), survival));
+  const F scale = F(1.0f) / select(at_risk, max(survival, F(1e-37f)), F(1.0f));
+  p.throughput = select(at_risk, scale * p.throughput, p.throughput);
+  return mask_and_not(lanes, ended);
+}
+
+/// Roulette that does not ask the lanes in `spared`: a path never ends before its second vertex can be shared, nor on
+/// the way to a glint.
+template <class F>
+TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> spared) {
+  return mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
+}
+
 }  // namespace tyndall

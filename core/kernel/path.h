@@ -48,28 +48,6 @@ TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, auto& sampl
   }
 }
 
-/// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
-/// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
-/// With the factor 8 only paths whose throughput is below 1/8 are at risk. The time to a given error was found to be
-/// the same for all factors from 4 to 8.
-template <class F>
-TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
-  const F survival = F(8.0f) * max_component(p.throughput);
-  const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
-  if (!any(at_risk)) return lanes;
-  const auto ended = mask_and_not(at_risk, less(p.dice.one(dimension::roulette), survival));
-  const F scale = F(1.0f) / select(at_risk, max(survival, F(1e-37f)), F(1.0f));
-  p.throughput = select(at_risk, scale * p.throughput, p.throughput);
-  return mask_and_not(lanes, ended);
-}
-
-/// Roulette that does not ask the lanes in `spared`: a path never ends before its second vertex can be shared, nor on
-/// the way to a glint.
-template <class F>
-TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> spared) {
-  return mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
-}
-
 /// Finds the lanes in which `part` of the path's state is not finite, and returns them. Their radiance is made not a
 /// number, so that the film rejects and counts the sample.
 template <class F>
@@ -81,8 +59,9 @@ TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
 }
 
 /// Events that ask for chains. Only few lanes of a group are at such an event at a time, so events wait here until
-/// there are enough to fill all lanes. The light that a chain brings is added to the film apart from that of its path.
-/// With one lane (float, double) nothing waits.
+/// there are enough to fill all lanes, first come, first served: so the chains of one path are found in the order of
+/// its events. The light that a chain brings is added to the film apart from that of its path. With one lane (float,
+/// double) nothing waits.
 template <class F>
 struct ChainQueue {
   static constexpr bool waits = lanes_of<F> > 1;
@@ -93,7 +72,8 @@ struct ChainQueue {
 };
 
 template <class F>
-TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes) {
+TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event<F>& e, IntOf<F> slot,
+                            MaskOf<F> lanes) {
   using I = IntOf<F>;
   using Queue = ChainQueue<F>;
   const Vec3<F> heading = select(e.medium, p.ray.direction, e.incident.facing),
@@ -102,7 +82,7 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
                                      carried.x, carried.y, carried.z, p.ray.time, e.g};
   const I words[Queue::words] = {e.from,
                                  p.depth,
-                                 p.slot,
+                                 slot,
                                  as_int(p.dice.low),
                                  as_int(p.dice.high),
                                  as_int(p.dice.event),
@@ -112,8 +92,11 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
   queue.count += __builtin_popcount(bits(lanes));
 }
 
+/// In kernels that share: what is added to the slot of a path whose events leave its second vertex.
+inline constexpr std::int32_t leaves_second = 1 << 30;
+
 /// Asks for chains, at random, from events that scatter evenly.
-template <class F>
+template <bool shares, class F>
 TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, ChainQueue<F>& chains,
                                    std::uint32_t& shadow_rays) {
   const auto evenly = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
@@ -121,8 +104,10 @@ TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, Mask
   if (any(spreads)) e.asks = chain_probability(s, e.point);
   const auto drawn = less(p.dice.one_alone(dimension::chain_asked), e.asks);
   const auto asking = mask_and(mask_and(scattering, drawn), spreads);
+  IntOf<F> slot = p.slot;
+  if constexpr (shares) slot = select(mask_from_bits<F>(p.second), slot + IntOf<F>(leaves_second), slot);
   if constexpr (ChainQueue<F>::waits)
-    enqueue(chains, p, e, asking);
+    enqueue(chains, p, e, slot, asking);
   else if (any(asking))
     p.radiance = p.radiance + chain_light(s, p, e, asking, shadow_rays);
 }
@@ -155,7 +140,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   if constexpr (shares) {
     const auto second = mask_and(mask_and(met, scatters_evenly(s, e)),
                                  mask_and(equal(p.depth, IntOf<F>(1)), mask_from_bits<F>(p.first)));
-    if (any(second)) note_second(p, e, second, shared), p.second |= bits(second);
+    if (any(second)) note_second(s, p, e, second, shared), p.second |= bits(second);
   }
   Vec3<F> carried = p.throughput * e.colour;
   const auto lost = lose(p, met, carried + e.point);
@@ -167,14 +152,14 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   auto first = less(F(1.0f), F(0.0f));
   if constexpr (shares) {
     first = mask_and(mask_and(scattering, scatters_evenly(s, e)), equal(p.depth, IntOf<F>(0)));
-    if (any(first)) note_first(p, e, first, shared), p.first |= bits(first);
+    if (any(first)) note_first(s, p, e, first, shared), p.first |= bits(first);
   }
   if (s.light_sampling && any(scattering)) {
     const LightAsked<F> asked{choose_light(s.lights, e.point, p.dice.one(dimension::light_choice)),
                               p.dice.pair(dimension::light_point), p.flight, false};
     p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
   }
-  if (s.has_chains()) ask_for_chains(s, p, e, scattering, chains, shadow_rays);
+  if (s.has_chains()) ask_for_chains<shares>(s, p, e, scattering, chains, shadow_rays);
   F weight;
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u, weight));
   if (s.has_chains()) carried = select(on, weight * carried, carried);
@@ -185,9 +170,8 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
-  const auto survivors = shares           ? roulette_but(p, lanes, first)
-                         : s.has_chains() ? roulette_but(p, lanes, seeks_glint(p))
-                                          : roulette(p, lanes);
+  const auto spared = s.has_chains() ? mask_or(first, seeks_glint(p)) : first;
+  const auto survivors = shares || s.has_chains() ? roulette_but(p, lanes, spared) : roulette(p, lanes);
   p.dice.next_event();
   return survivors;
 }
@@ -227,14 +211,15 @@ TYNDALL_INLINE void finish(const auto& s, const Paths<F>& p, std::uint32_t finis
   }
 }
 
-/// Looks for chains from the events at the end of the queue, as many as there are lanes, and removes these events.
+/// Looks for chains from the first events of the queue, as many as there are lanes, and removes these events. Calls
+/// add(slot, light) for each in turn that brings some.
 template <class F>
-TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, const UnitFilm& film) {
+TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, UnitCounts& counts, const auto& add) {
   using I = IntOf<F>;
   constexpr int lanes = lanes_of<F>;
-  const int count = queue.count < lanes ? queue.count : lanes, first = queue.count - count;
-  const auto number = [&](int k) { return load<F>(queue.number[k] + first); };
-  const auto word = [&](int k) { return load_int<F>(queue.word[k] + first); };
+  const int count = queue.count < lanes ? queue.count : lanes;
+  const auto number = [&](int k) { return load<F>(queue.number[k]); };
+  const auto word = [&](int k) { return load_int<F>(queue.word[k]); };
   const auto asking = mask_from_bits<F>(count >= 32 ? 0xffffffffu : (1u << (count % 32)) - 1u);
   Paths<F> p{};
   Event<F> e{};
@@ -248,15 +233,15 @@ TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, con
   e.colour = {F(1.0f), F(1.0f), F(1.0f)};
   std::uint32_t shadow_rays = 0;
   const Vec3<F> light = chain_light(s, p, e, asking, shadow_rays);
-  film.counts.rays += shadow_rays, film.counts.shadow_rays += shadow_rays;
+  counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
   alignas(64) float r[lanes], g[lanes], b[lanes];
   store(r, light.x), store(g, light.y), store(b, light.z);
-  for (int i = 0; i < count; ++i) {
-    const std::int32_t slot = queue.word[2][first + i];
-    if (r[i] == 0 && g[i] == 0 && b[i] == 0) continue;
-    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, {r[i], g[i], b[i]}, film.per_unit);
-  }
-  queue.count = first;
+  for (int i = 0; i < count; ++i)
+    if (r[i] != 0 || g[i] != 0 || b[i] != 0) add(queue.word[2][i], Vec3f{r[i], g[i], b[i]});
+  queue.count -= count;
+  if (queue.count == 0) return;
+  for (auto& column : queue.number) store(column, load<F>(column + lanes));
+  for (auto& column : queue.word) store(column, load_int<F>(column + lanes));
 }
 
 template <class F>
@@ -267,6 +252,9 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm&
   CameraQueue<F> queue;
   ChainQueue<F> chains{};
   NoSharing alone;
+  const auto add = [&](std::int32_t slot, Vec3f light) {
+    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_unit);
+  };
   Paths<F> p{};
   p.dice.sampler = s.sampler;
   // The loop goes on until no event waits for a chain. A second loop for the last of them would put their code into
@@ -287,7 +275,7 @@ TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm&
     }
     if constexpr (ChainQueue<F>::waits) {
       const bool full = chains.count >= lanes_of<F>, rest = !sampling && chains.count > 0;
-      if (s.has_chains() && (full || rest)) find_waiting_chains(s, chains, film);
+      if (s.has_chains() && (full || rest)) find_waiting_chains(s, chains, counts, add);
     }
   }
 }

@@ -100,17 +100,13 @@ SceneView without_chains(SceneView s) {
   return s;
 }
 
-void tell_chains(const SceneView& s, Paths<float> before, const Paths<float>& after, SharedPaths& shared,
-                 PathVertex& v) {
-  if (!s.has_chains()) return;
-  const Vec3f start = before.radiance;
-  bool cut = false;
-  take_step(without_chains(s), before, cut, shared);
-  const float with = max_component(after.radiance - start), alone = max_component(before.radiance - start);
-  if (with < alone)
-    v.chance = with / alone;
+/// What chains did to a step. start: the radiance before it; alone: after it, without chains.
+void tell_chains(Vec3f start, Vec3f alone, Vec3f after, PathVertex& v) {
+  const float with = max_component(after - start), without = max_component(alone - start);
+  if (with < without)
+    v.chance = with / without;
   else
-    v.by_chains = after.radiance - before.radiance;
+    v.by_chains = after - alone;
 }
 
 }  // namespace
@@ -128,12 +124,13 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
   while (p.alive) {
     Meeting meeting = meet(s, p);
     bool cut = false;
-    const Paths<float> before = p;
-    const Vec3f tint = OwnColours(p, shared).tint;
+    const Vec3f start = p.radiance, tint = OwnColours(p, shared).tint;
+    Paths<float> alone = p;
+    if (s.has_chains()) take_step(without_chains(s), alone, cut, shared);  // first: what both note is to be p's
     const bool survives = take_step(s, p, cut, shared);
     const OwnColours own(p, shared);
     PathVertex& v = meeting.vertex;
-    tell_chains(s, before, p, shared, v);
+    if (s.has_chains()) tell_chains(start, alone.radiance, p.radiance, v);
     v.throughput = tint * v.throughput;
     v.radiance = own.gathered + own.tint * (path.weight * p.radiance), v.by_chains = path.weight * v.by_chains;
     v.fate = fate_of(meeting, p, survives, cut);

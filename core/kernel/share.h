@@ -49,13 +49,15 @@ struct SharedPaths {
 
   alignas(64) float own[3][room];  ///< radiance of the path but for what leaves its second vertex
   SharedVertices first, second;
-  alignas(64) float albedo[3][room];   ///< of the first vertex
-  alignas(64) float leaving[3][room];  ///< radiance that leaves the second vertex
+  alignas(64) float albedo[3][room];     ///< of the first vertex
+  alignas(64) float leaving[3][room];    ///< radiance that leaves the second vertex
+  alignas(64) float by_chains[3][room];  ///< and what chains add to it while the path goes on; only in scenes with them
 
   TYNDALL_INLINE void clear() {
     for (int i = 0; i < room; ++i) {
       pixel[i] = outside;
       own[0][i] = own[1][i] = own[2][i] = 0;
+      by_chains[0][i] = by_chains[1][i] = by_chains[2][i] = 0;
       first.even[i] = second.even[i] = -__builtin_inff();
     }
   }
@@ -88,18 +90,25 @@ TYNDALL_INLINE void note_vertices(const Paths<F>& p, const Event<F>& e, MaskOf<F
   }
 }
 
+/// What a path has gathered or carries, times the weight of its sample (glints.h).
 template <class F>
-TYNDALL_INLINE void note_first(const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, SharedPaths& shared) {
-  note_vertices<F>(p, e, lanes, 0.25f, e.from, p.throughput * e.colour, shared.first, shared.albedo);
+TYNDALL_INLINE Vec3<F> weighed(const auto& s, const Paths<F>& p, Vec3<F> colour) {
+  return s.has_chains() ? p.weight * colour : colour;
+}
+
+template <class F>
+TYNDALL_INLINE void note_first(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                               SharedPaths& shared) {
+  note_vertices<F>(p, e, lanes, 0.25f, e.from, weighed(s, p, p.throughput * e.colour), shared.first, shared.albedo);
 }
 
 /// Notes the second vertices of the paths in `lanes`, and what the paths have gathered before them. From here on these
 /// paths gather what leaves the second vertex. They carry a grey throughput, as if it came to a white first vertex, so
 /// that no colour is lost that another path's first vertex may reflect.
 template <class F>
-TYNDALL_INLINE void note_second(Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, SharedPaths& shared) {
+TYNDALL_INLINE void note_second(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, SharedPaths& shared) {
   const IntOf<F> element = select(e.surface, e.at.element, IntOf<F>(-1));
-  note_vertices<F>(p, e, lanes, 1.0f, element, p.radiance, shared.second, shared.own);
+  note_vertices<F>(p, e, lanes, 1.0f, element, weighed(s, p, p.radiance), shared.second, shared.own);
   const F grey = max_component(p.throughput);
   p.throughput = select(lanes, Vec3<F>{grey, grey, grey}, p.throughput);
   p.radiance = select(lanes, zero3<F>(), p.radiance);

@@ -99,10 +99,10 @@ class SharedGroups {
 /// The samples of the groups, in the order in which lanes take them.
 struct SharedSamples {
   const SharedPaths& paths;
-  Glints glints{nullptr, nullptr};  ///< none: only scenes with chains have some
+  Glints glints;  ///< those in the rows of the groups
   int member = 0, group = 0;
 
-  TYNDALL_INLINE explicit SharedSamples(const SharedPaths& of) : paths(of) { skip(); }
+  TYNDALL_INLINE SharedSamples(const SharedPaths& of, Glints in_rows) : paths(of), glints(in_rows) { skip(); }
   TYNDALL_INLINE bool empty() const { return member == group_size; }
   TYNDALL_INLINE CameraSample take() {
     const CameraSample sample{paths.x[group] + member % group_columns * group_spacing,
@@ -122,25 +122,43 @@ struct SharedSamples {
   }
 };
 
+/// One over the throughput with which a path came to its second vertex.
+TYNDALL_INLINE float over_carried(const SharedPaths& shared, int slot) {
+  const float x = shared.albedo[0][slot], y = shared.albedo[1][slot], z = shared.albedo[2][slot];
+  const float most = x > y ? x : y;
+  return 1 / (most > z ? most : z);
+}
+
+/// Keeps the light of a chain from an event of a path that goes on.
+TYNDALL_INLINE void keep_chain(SharedPaths& shared, const UnitFilm& film, std::int32_t at, Vec3f light) {
+  const bool left_second = at >= leaves_second;
+  const std::int32_t slot = left_second ? at - leaves_second : at, pixel = shared.pixel[slot];
+  if (left_second) {
+    const float scale = over_carried(shared, slot);
+    shared.by_chains[0][slot] += scale * light.x;
+    shared.by_chains[1][slot] += scale * light.y;
+    shared.by_chains[2][slot] += scale * light.z;
+  } else if (pixel >= 0) {
+    const std::uint32_t half = shared.index[slot % SharedPaths::most_groups] & 1u;
+    add_sample(film.pixels[pixel], half, light, film.per_unit);
+  }
+}
+
 /// Keeps what the paths in the lanes `finished` have gathered.
 template <class F>
-TYNDALL_INLINE void keep_paths(const Paths<F>& p, std::uint32_t finished, std::uint32_t cut, const UnitFilm& film,
-                               SharedPaths& shared) {
+TYNDALL_INLINE void keep_paths(const auto& s, const Paths<F>& p, std::uint32_t finished, std::uint32_t cut,
+                               const UnitFilm& film, SharedPaths& shared) {
   if (!finished) return;
+  const Vec3<F> gathered = weighed(s, p, p.radiance), left = weighed(s, p, p.throughput);
   alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>], carried[lanes_of<F>];
   alignas(64) std::int32_t slots[lanes_of<F>];
-  store(r, p.radiance.x), store(g, p.radiance.y), store(b, p.radiance.z), store(slots, p.slot);
-  store(carried, max_component(p.throughput));
+  store(r, gathered.x), store(g, gathered.y), store(b, gathered.z), store(slots, p.slot);
+  store(carried, max_component(left));
   for (; finished; finished &= finished - 1) {
     const int lane = __builtin_ctz(finished), slot = slots[lane], pixel = shared.pixel[slot];
     const bool left_second = p.second >> lane & 1u;
     auto& to = left_second ? shared.leaving : shared.own;
-    float scale = 1;
-    if (left_second) {  // the throughput with which the path came there
-      const float x = shared.albedo[0][slot], y = shared.albedo[1][slot], z = shared.albedo[2][slot];
-      const float most = x > y ? x : y;
-      scale = 1 / (most > z ? most : z);
-    }
+    const float scale = left_second ? over_carried(shared, slot) : 1;
     to[0][slot] = scale * r[lane], to[1][slot] = scale * g[lane], to[2][slot] = scale * b[lane];
     if (pixel < 0) continue;
     if (film.emission && (p.straight >> lane & 1u)) {
@@ -214,32 +232,44 @@ TYNDALL_INLINE void share_second_vertices(const auto& s, SharedPaths& p, UnitCou
 
 /// Follows the paths of the groups.
 template <class F>
-TYNDALL_INLINE void trace_groups(const auto& s, SharedPaths& shared, const UnitFilm& film) {
-  SharedSamples samples(shared);
+TYNDALL_INLINE void trace_groups(const auto& s, Glints glints, SharedPaths& shared, const UnitFilm& film) {
+  SharedSamples samples(shared, glints);
   CameraQueue<F> queue;
-  ChainQueue<F> no_chains;
+  ChainQueue<F> chains{};
+  const auto add = [&](std::int32_t at, Vec3f light) { keep_chain(shared, film, at, light); };
   Paths<F> p{};
   p.dice.sampler = s.sampler;
-  for (;;) {
+  for (bool sampling = true; sampling || chains.count > 0;) {  // one loop, see render_unit()
     take_samples(p, queue, samples, s);
-    if (!p.alive) return;
-    film.counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++film.counts.steps;
-    MaskOf<F> cut;
-    std::uint32_t shadow_rays = 0;
-    const std::uint32_t survivors =
-        bits(step(s, p, mask_from_bits<F>(p.alive), cut, no_chains, shared, shadow_rays)) & p.alive;
-    film.counts.rays += shadow_rays, film.counts.shadow_rays += shadow_rays;
-    keep_paths(p, p.alive & ~survivors, bits(cut), film, shared);
-    p.alive = survivors;
+    sampling = p.alive != 0;
+    if (sampling) {
+      film.counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++film.counts.steps;
+      MaskOf<F> cut;
+      std::uint32_t shadow_rays = 0;
+      const std::uint32_t survivors =
+          bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shared, shadow_rays)) & p.alive;
+      film.counts.rays += shadow_rays, film.counts.shadow_rays += shadow_rays;
+      keep_paths(s, p, p.alive & ~survivors, bits(cut), film, shared);
+      p.alive = survivors;
+    }
+    if constexpr (ChainQueue<F>::waits) {
+      const bool full = chains.count >= lanes_of<F>, rest = !sampling && chains.count > 0;
+      if (s.has_chains() && (full || rest)) find_waiting_chains(s, chains, film.counts, add);
+    }
   }
+  if (!s.has_chains()) return;
+  for (int slot = 0; slot < SharedPaths::room; ++slot)
+    for (int c = 0; c < 3 && shared.second.even[slot] >= 0; ++c) shared.leaving[c][slot] += shared.by_chains[c][slot];
 }
 
 template <class F>
 TYNDALL_INLINE void render_shared_unit(const auto& s, const Unit& unit, const UnitFilm& film) {
   SharedPaths shared;
   SharedGroups groups(s, unit);
+  const Glints glints = glints_in_rows({s.glints, s.glints + s.glint_count}, block_start(unit.tile.y0, block_height),
+                                       unit.tile.y1 + block_height);
   while (groups.next(shared)) {
-    trace_groups<F>(s, shared, film);
+    trace_groups<F>(s, glints, shared, film);
     share_second_vertices<F>(s, shared, film.counts);
     for (int slot = 0; slot < SharedPaths::room; ++slot) {
       const int pixel = shared.pixel[slot];

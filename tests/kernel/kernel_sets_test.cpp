@@ -54,11 +54,14 @@ TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others
   CHECK(double_kernels().set_for(KernelSet::no_fog_nor_textures) == KernelSet::everything);
 }
 
-TEST_CASE("kernel sets: wide instruction sets have two kernels that share, the others one") {
+TEST_CASE("kernel sets: wide instruction sets have three kernels that share, the others one") {
   for (const Kernels& kernels : available_kernels()) {
     const std::string isa = kernels.isa;
     CAPTURE(isa);
-    CHECK((kernels.render_shared != kernels.render_shared_plain) == (isa == "avx2" || isa == "avx512"));
+    const bool wide = isa == "avx2" || isa == "avx512";
+    CHECK((kernels.render_shared != kernels.render_shared_no_chains) == wide);
+    CHECK((kernels.render_shared_no_chains != kernels.render_shared_plain) == wide);
+    CHECK((kernels.render_shared != kernels.render_shared_plain) == wide);
   }
 }
 

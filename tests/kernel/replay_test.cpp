@@ -37,10 +37,13 @@ TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
   std::map<Fate, int> fates;
   std::map<Met, int> met;
   for (const char* name :
-       {"showroom", "next-week", "close up", "cornell-smoke", "bouncing-spheres", "hollow-glass", "earth",
-        "stress-caustic-mirror", "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
-    const bool shares = std::string(name) == "close up";
-    Scene settings = shares ? close_up("cornell-smoke", 24, 18) : small_scene(name, 24, 18, 1);
+       {"showroom", "next-week", "close up", "caustic close up", "cornell-smoke", "bouncing-spheres", "hollow-glass",
+        "earth", "stress-caustic-mirror", "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
+    const std::string chosen = name;
+    const bool shares = chosen == "close up" || chosen == "caustic close up";
+    Scene settings = chosen == "close up" ? close_up("cornell-smoke", 24, 18)
+                     : shares             ? caustic_close_up(24, 18)
+                                          : small_scene(chosen, 24, 18, 1);
     settings.render.max_depth = 12;
     const RenderScene scene = compile(settings);
     const SceneViewOf view(scene);

@@ -90,7 +90,7 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   stop.real = available_kernels().back();
   Kernels stopping = stop.real;
   for (RenderUnit& unit : stopping.render_units) unit = stopping_unit;
-  stopping.render_shared = stopping.render_shared_plain = stopping_unit;
+  stopping.render_shared = stopping.render_shared_no_chains = stopping.render_shared_plain = stopping_unit;
   Crew crew(2);
   const std::vector<std::uint32_t> wanted = counts_at(film, 128);
   Pass pass(film, wanted);

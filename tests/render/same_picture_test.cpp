@@ -23,8 +23,9 @@ const std::vector<RenderScene>& scenes() {
                              "stress-caustic-shell", "stress-mirror-wall"})
       list.push_back(compile(small_scene(name, width, height, 1)));
     for (const char* name : {"cornell-box", "cornell-smoke"}) list.push_back(compile(close_up(name, width, height)));
+    list.push_back(compile(caustic_close_up(width, height)));
     const auto shares = [](const RenderScene& scene) { return SceneViewOf(scene).view().shares; };
-    CHECK(std::count_if(list.begin(), list.end(), shares) == 2);
+    CHECK(std::count_if(list.begin(), list.end(), shares) == 3);
     return list;
   }();
   return all;
@@ -120,7 +121,7 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
   const Kernels real = available_kernels().back();
   Kernels stopping = real;
   std::fill(std::begin(stopping.render_units), std::end(stopping.render_units), stopping_unit);
-  stopping.render_shared = stopping.render_shared_plain = stopping_unit;
+  stopping.render_shared = stopping.render_shared_no_chains = stopping.render_shared_plain = stopping_unit;
   int abandoned = 0;
   for (const RenderScene& scene : scenes()) {
     const SceneViewOf view(scene);

@@ -28,6 +28,14 @@ inline Scene close_up(const std::string& name, int width, int height) {
   return scene;
 }
 
+/// A corner of the room of a mirror ball under a small lamp: it shares second vertices and is lit by chains.
+inline Scene caustic_close_up(int width, int height) {
+  Scene scene = small_scene("stress-caustic-mirror", width, height, 1);
+  scene.camera.look_at = {2, 0, -4};
+  scene.camera.vfov = 5;
+  return scene;
+}
+
 /// The picture that every other way of rendering must reproduce: one thread, one go.
 inline std::vector<float> reference_picture(const Scene& scene, const std::string& isa = "") {
   RenderOptions options;
