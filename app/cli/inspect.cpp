@@ -155,7 +155,6 @@ std::string sharing_text(const Report& report) {
   const RenderScene& compiled = report.compiled;
   if (!report.loaded.scene.render.sharing) return "off";
   if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
-  if (!compiled.chains.ball.empty()) return "none: light by chains cannot be shared";
   if (compiled.needs.moving_spheres) return "none: spheres move";
   const SceneViewOf view(compiled, ViewFor::first_hits);
   const SharingGain gain = probe_sharing(view.view());

@@ -28,7 +28,7 @@ std::string shell_word(const std::string& word) {
 /// The render command that makes the picture which the window would show.
 std::string headless_command(const ViewCommand& command) {
   std::string text = "tyndall render";
-  if (command.words.empty() || command.words.front() != command.scene.what)
+  if (std::find(command.words.begin(), command.words.end(), command.scene.what) == command.words.end())
     text += " " + shell_word(command.scene.what);
   for (std::size_t i = 0; i < command.words.size(); ++i) {
     const std::string& word = command.words[i];

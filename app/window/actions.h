@@ -19,6 +19,8 @@ enum class Action {
   restart,
   undo,
   redo,
+  open,
+  scene,  ///< opens one that is listed: which one follows
   save,
   save_as,
   snapshot,

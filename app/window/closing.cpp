@@ -13,7 +13,7 @@ void Closing::begin(Dialog& dialog) {
   discards_ = false;
   if (!session_.editor().unsaved()) return finish();
   step_ = Step::asks;
-  dialog = {Dialog::Kind::close, {}, true};
+  dialog = {Dialog::Kind::close, {}, true, 0};
 }
 
 bool Closing::draw(Ui& ui, const Rect& area, Dialog& dialog) {
@@ -32,20 +32,16 @@ bool Closing::draw_question(Ui& ui, const Rect& area, Dialog& dialog) {
   begin_dialog(ui, area);
   ImGui::TextUnformatted(("Save the edits of " + (unsaved ? unsaved->origin->title : "the scene") + "?").c_str());
   note(ui, "They are in no file yet.", false);
-  ImGui::Dummy({0, 4 * ui.scale});
-  const bool saves = small_button(ui, "dialog.save", "Save");
-  ImGui::SameLine();
-  const bool discards = small_button(ui, "dialog.discard", "Discard");
-  ImGui::SameLine();
-  const bool cancels = small_button(ui, "dialog.cancel", "Cancel");
+  const Answer answers[] = {{"dialog.save", "Save"}, {"dialog.discard", "Discard"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
   dialog.fresh = false;
   end_dialog();
-  if (!saves && !discards && !cancels) return false;
+  if (answer < 0) return false;
   dialog.kind = Dialog::Kind::none;
-  step_ = saves ? Step::begins : Step::none;
-  discards_ = discards;
-  if (discards) finish();
-  return saves;
+  step_ = answer == 0 ? Step::begins : Step::none;
+  discards_ = answer == 1;
+  if (discards_) finish();
+  return answer == 0;
 }
 
 /// Nothing is left but to write files; rendering would take the processors from that.

@@ -64,6 +64,9 @@ void Commands::act(const KeyCommand& command) {
       shows_panels_ = true;
       pacing_.on_event();
       break;
+    case Action::scene:
+      session_.editor().open(listed_scenes().at(static_cast<std::size_t>(command.which)));
+      break;
     case Action::palette:
       open_palette();
       break;
@@ -101,6 +104,9 @@ void Commands::act_on_document(Action action) {
     case Action::redo:
       session_.editor().redo();
       return pacing_.on_event();
+    case Action::open:
+      dialog_ = {Dialog::Kind::open, {}, true, 0};
+      return pacing_.on_event();
     case Action::save:
       return save();
     case Action::save_as:
@@ -128,8 +134,19 @@ void Commands::open_palette() {
     items.push_back({std::string("go to: ") + tab.name, "", ""});
     palette_commands_.push_back({Action::section, k++});
   }
+  for (int k = 0; const std::string& what : listed_scenes()) {
+    items.push_back({"open: " + what, "", "scene"});
+    palette_commands_.push_back({Action::scene, k++});
+  }
   palette_.open(std::move(items));
   pacing_.on_event();
+}
+
+std::vector<std::string> Commands::listed_scenes() const {
+  std::vector<std::string> all;
+  for (const BuiltIn& scene : panels_.facts.scenes) all.push_back(scene.name);
+  for (const std::filesystem::path& file : panels_.facts.recent) all.push_back(file.string());
+  return all;
 }
 
 void Commands::reset_camera() {
@@ -156,9 +173,9 @@ void Commands::save() {
   if (origin.file.empty())
     save_as();
   else if (file_differs(origin))
-    dialog_ = {Dialog::Kind::overwrite, {}, true};
+    dialog_ = {Dialog::Kind::overwrite, {}, true, 1};
   else if (origin.comments)
-    dialog_ = {Dialog::Kind::comments, {}, true};
+    dialog_ = {Dialog::Kind::comments, {}, true, 1};
   else
     session_.editor().save(origin.file);
 }
@@ -177,7 +194,7 @@ void Commands::end_split() {
   if (session_.method(Half::kept) == session_.method(Half::current))
     session_.set_split(false);
   else
-    dialog_ = {Dialog::Kind::halves, {}, true};
+    dialog_ = {Dialog::Kind::halves, {}, true, 2};
 }
 
 void Commands::ask_to_close() {
@@ -219,8 +236,10 @@ void Commands::draw(Ui& ui, const Rect& area) {
   if (wish.render) session_.render_reference();
   if (wish.drop) session_.references().drop();
   const auto file = draw_dialog(ui, area, dialog_, session_.editor().document());
-  if (file) session_.editor().save(*file);
-  if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true};
+  if (file && !session_.editor().save(*file)) ask_name(dialog_, *file);  // what was typed is not lost
+  const auto opened = draw_open_dialog(ui, area, dialog_);
+  if (opened) session_.references().open_dropped(std::filesystem::absolute(*opened));
+  if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true, 0};
   const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
   if (take) later_ = [this, take = *take] { session_.editor().answer_about_file(take); };
   if (dialog_.kind == Dialog::Kind::halves && !session_.renderers().split()) dialog_.kind = Dialog::Kind::none;

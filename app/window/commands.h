@@ -55,8 +55,10 @@ class Commands {
   /// and changes the scene.
   void carry_out();
 
-  /// Whether a question waits for an answer.
-  bool asks() const { return dialog_.kind != Dialog::Kind::none || palette_.is_open(); }
+  /// Whether a dialog waits for an answer: until then nothing else takes clicks.
+  bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
+  /// Whether a dialog or the palette has the keyboard.
+  bool asks() const { return has_dialog() || palette_.is_open(); }
   bool shows_panels() const { return shows_panels_; }
 
  private:
@@ -67,6 +69,8 @@ class Commands {
   void open_palette();
   void save();
   void save_as();
+  /// What can be opened by a click: the built-in scenes, and the files that were opened before.
+  std::vector<std::string> listed_scenes() const;
   void escape();
 
   Session& session_;

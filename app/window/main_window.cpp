@@ -124,6 +124,7 @@ void MainWindow::draw(double now) {
   appearance_.update(panels_.look, gallery_.recent());
   platform_.begin_frame();
   ui_.wake_in = 1e300;
+  ui_.asks = commands_.has_dialog();
   ui_.problem.clear();
   ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
@@ -215,7 +216,9 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   if (log_) log_->mouse(mouse);
   const std::set<int>& held = platform_.held();
   PointerTool& pointer = tools_.pointer;
-  tools_.gestures.update(mouse.any_down() || holds_fly_key(held) || pointer.is_turning(now) || objects_.active());
+  const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
+  const bool turns = pointer.is_turning(mouse, layout, now);
+  tools_.gestures.update(holds ? Gesture::held : turns ? Gesture::wheel : Gesture::none);
   const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.asks();
   const bool looks = !objects_.active() && looks_.use_mouse(mouse, layout, free);
   const Rect visible = overlap(layout.image, layout.area);

@@ -4,6 +4,7 @@
 #include "app/window/system/imgui_compat.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 namespace tyndall {
@@ -83,8 +84,24 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
   draw->PopClipRect();
 }
 
+bool draw_name_field(Ui& ui, Dialog& dialog, const char* hint) {
+  ImGui::SetNextItemWidth(420 * ui.scale);
+  if (dialog.fresh) ImGui::SetKeyboardFocusHere();
+  const bool enter =
+      ImGui::InputTextWithHint("##name", hint, dialog.name, sizeof dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  log_item(ui, "dialog.name", dialog.name);
+  return enter;
+}
+
+std::filesystem::path typed_file(const Dialog& dialog) {
+  const std::string name = dialog.name;
+  const char* home = std::getenv("HOME");
+  if (!home || !name.starts_with("~/")) return name;
+  return std::filesystem::path(home) / name.substr(2);
+}
+
 void ask_name(Dialog& dialog, const std::filesystem::path& suggestion) {
-  dialog = {Dialog::Kind::save_as, {}, true};
+  dialog = {Dialog::Kind::save_as, {}, true, 0};
   std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
 }
 
@@ -101,44 +118,36 @@ Decision loss_question(Ui& ui, Dialog& dialog, const Document& document) {
                              .c_str());
   note(ui, comments ? "Scenes are written in normal form, which has none." : "Saving replaces what it holds now.",
        false);
-  ImGui::Dummy({0, 4 * ui.scale});
-  Decision decision;
-  if (small_button(ui, "dialog.save", "Save anyway")) decision = document.origin->file;
-  ImGui::SameLine();
-  const bool other = small_button(ui, "dialog.save_as", "Save as…");
-  ImGui::SameLine();
-  if (small_button(ui, "dialog.cancel", "Cancel") || decision) dialog.kind = Dialog::Kind::none;
-  if (other) ask_name(dialog, document.origin->file);
-  return decision;
+  const Answer answers[] = {
+      {"dialog.save", "Save anyway"}, {"dialog.save_as", "Save as…"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  if (answer == 0 || answer == 2) dialog.kind = Dialog::Kind::none;
+  if (answer == 1) ask_name(dialog, document.origin->file);
+  return answer == 0 ? Decision(document.origin->file) : Decision();
 }
 
 Decision name_question(Ui& ui, Dialog& dialog) {
   ImGui::TextUnformatted("Save the scene as");
-  ImGui::SetNextItemWidth(420 * ui.scale);
-  if (dialog.fresh) ImGui::SetKeyboardFocusHere();
-  const bool enter = ImGui::InputText("##name", dialog.name, sizeof dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
-  log_item(ui, "dialog.name", dialog.name);
-  ImGui::Dummy({0, 4 * ui.scale});
-  const bool save = small_button(ui, "dialog.save", "Save");
-  ImGui::SameLine();
-  if (small_button(ui, "dialog.cancel", "Cancel")) dialog.kind = Dialog::Kind::none;
-  if ((!enter && !save) || dialog.name[0] == '\0') return {};
-  std::filesystem::path file(dialog.name);
+  const bool enter = draw_name_field(ui, dialog, "scene.json");
+  const Answer answers[] = {{"dialog.save", "Save"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  if (answer == 1) dialog.kind = Dialog::Kind::none;
+  if ((!enter && answer != 0) || dialog.name[0] == '\0') return {};
+  std::filesystem::path file = typed_file(dialog);
   if (file.extension() != ".json") ask_name(dialog, file += ".json");  // a scene file, as its name is to say
   std::error_code ignored;
   const bool exists = std::filesystem::exists(file, ignored);
   dialog.kind = exists ? Dialog::Kind::replace : Dialog::Kind::none;
+  dialog.fresh = true, dialog.marked = 1;
   return exists ? Decision() : Decision(file);
 }
 
 Decision replace_question(Ui& ui, Dialog& dialog) {
   ImGui::TextUnformatted((std::string(dialog.name) + " exists.").c_str());
-  ImGui::Dummy({0, 4 * ui.scale});
-  const bool replace = small_button(ui, "dialog.replace", "Replace it");
-  ImGui::SameLine();
-  const bool cancel = small_button(ui, "dialog.cancel", "Cancel");
-  if (replace || cancel) dialog.kind = Dialog::Kind::none;
-  return replace ? Decision(dialog.name) : Decision();
+  const Answer answers[] = {{"dialog.replace", "Replace it"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  if (answer >= 0) dialog.kind = Dialog::Kind::none;
+  return answer == 0 ? Decision(typed_file(dialog)) : Decision();
 }
 
 }  // namespace
@@ -150,6 +159,32 @@ void begin_dialog(Ui& ui, const Rect& area) {
 
 void end_dialog() { end_box(); }
 
+int draw_answers(Ui& ui, Dialog& dialog, std::span<const Answer> answers) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const int count = static_cast<int>(answers.size());
+  int pressed = -1;
+  if (!dialog.fresh && !io.WantTextInput) {
+    const bool tab = compat::key_pressed(ImGuiKey_Tab);
+    if (compat::key_pressed(ImGuiKey_RightArrow) || (tab && !io.KeyShift)) ++dialog.marked;
+    if (compat::key_pressed(ImGuiKey_LeftArrow) || (tab && io.KeyShift)) dialog.marked += count - 1;
+    dialog.marked %= count;
+    for (const ImGuiKey key : {ImGuiKey_Enter, ImGuiKey_KeyPadEnter, ImGuiKey_Space})
+      if (compat::key_pressed(key, false)) pressed = dialog.marked;
+  }
+  ImGui::Dummy({0, 4 * ui.scale});
+  for (int k = 0; k < count; ++k) {
+    const Answer& answer = answers[static_cast<std::size_t>(k)];
+    if (k > 0) ImGui::SameLine();
+    if (small_button(ui, answer.name, answer.label)) pressed = k;
+    if (k != dialog.marked || io.WantTextInput) continue;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float s = ui.scale;
+    ImGui::GetWindowDrawList()->AddRect({low.x - 2 * s, low.y - 2 * s}, {high.x + 2 * s, high.y + 2 * s},
+                                        shade(palette::blue), ImGui::GetStyle().FrameRounding + 2 * s, 0, 1.5f * s);
+  }
+  return pressed;
+}
+
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
   using enum Dialog::Kind;
   const bool loss = dialog.kind == comments || dialog.kind == overwrite;
@@ -158,11 +193,27 @@ std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialo
   Decision decision;
   const Dialog::Kind shown = dialog.kind;
   if (loss) decision = loss_question(ui, dialog, document);
-  if (shown == Dialog::Kind::save_as) decision = name_question(ui, dialog);
-  if (shown == Dialog::Kind::replace) decision = replace_question(ui, dialog);
+  if (shown == save_as) decision = name_question(ui, dialog);
+  if (shown == replace) decision = replace_question(ui, dialog);
   if (dialog.kind == shown) dialog.fresh = false;
   end_dialog();
   return decision;
+}
+
+std::optional<std::filesystem::path> draw_open_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
+  if (dialog.kind != Dialog::Kind::open) return {};
+  begin_dialog(ui, area);
+  ImGui::TextUnformatted("Open");
+  note(ui, "a scene, an image that Tyndall has made of one, or a picture to measure the error against", false);
+  ImGui::Dummy({0, 2 * ui.scale});
+  const bool enter = draw_name_field(ui, dialog, "scene.json");
+  const Answer answers[] = {{"dialog.open", "Open"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  dialog.fresh = false;
+  end_dialog();
+  const bool opens = (enter || answer == 0) && dialog.name[0] != '\0';
+  if (opens || answer == 1) dialog.kind = Dialog::Kind::none;
+  return opens ? Decision(typed_file(dialog)) : Decision();
 }
 
 std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document) {
@@ -170,14 +221,13 @@ std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& d
   begin_dialog(ui, area);
   ImGui::TextUnformatted(("Another program has changed " + document.origin->title + ".").c_str());
   note(ui, "You have edits of it that are not saved. If you take the file, Ctrl + Z brings them back.", false);
-  ImGui::Dummy({0, 4 * ui.scale});
-  const bool keep = small_button(ui, "dialog.keep", "Keep my edits");
-  ImGui::SameLine();
-  const bool take = small_button(ui, "dialog.take", "Take the file");
+  const Answer answers[] = {{"dialog.keep", "Keep my edits"}, {"dialog.take", "Take the file"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  dialog.fresh = false;
   end_dialog();
-  if (!keep && !take) return {};
+  if (answer < 0) return {};
   dialog.kind = Dialog::Kind::none;
-  return take;
+  return answer == 1;
 }
 
 std::optional<Half> draw_halves_dialog(Ui& ui, const Rect& area, Dialog& dialog, const std::string& method_a,
@@ -185,15 +235,15 @@ std::optional<Half> draw_halves_dialog(Ui& ui, const Rect& area, Dialog& dialog,
   if (dialog.kind != Dialog::Kind::halves) return {};
   begin_dialog(ui, area);
   ImGui::TextUnformatted("Which half do you keep?");
-  ImGui::Dummy({0, 4 * ui.scale});
-  std::optional<Half> kept;
-  if (small_button(ui, "dialog.a", "A   " + method_a)) kept = Half::kept;
-  ImGui::SameLine();
-  if (small_button(ui, "dialog.b", "B   " + method_b)) kept = Half::current;
-  ImGui::SameLine();
-  if (small_button(ui, "dialog.cancel", "Cancel") || kept) dialog.kind = Dialog::Kind::none;
+  const Answer answers[] = {
+      {"dialog.a", "A   " + method_a}, {"dialog.b", "B   " + method_b}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  dialog.fresh = false;
   end_dialog();
-  return kept;
+  if (answer < 0) return {};
+  dialog.kind = Dialog::Kind::none;
+  if (answer == 2) return {};
+  return answer == 0 ? Half::kept : Half::current;
 }
 
 }  // namespace tyndall

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct Dialog {
     overwrite,
     save_as,
     replace,
+    open,
     reference,
     close,
     changed_file,
@@ -62,11 +64,19 @@ struct Dialog {
   } kind = Kind::none;
   char name[512] = {};  ///< of the file that is typed
   bool fresh = false;   ///< it was opened in this drawing
+  int marked = 0;       ///< number of the answer that Return gives; at first the one that loses nothing
 };
 
 void ask_name(Dialog& dialog, const std::filesystem::path& suggestion);
+/// A text field for the name of a file, which takes the keyboard at first. Returns whether Return was pressed in it.
+bool draw_name_field(Ui& ui, Dialog& dialog, const char* hint);
+/// The file whose name was typed: "~/" stands for the home folder, as in a shell.
+std::filesystem::path typed_file(const Dialog& dialog);
 /// Draws the question; returns the file to write once that is decided. empty path: the document's own.
 std::optional<std::filesystem::path> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
+
+/// Asks which file to open.
+std::optional<std::filesystem::path> draw_open_dialog(Ui& ui, const Rect& area, Dialog& dialog);
 
 /// Asks whether to take what another program has written into the open file, or to keep the edits. Returns true: take.
 std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& dialog, const Document& document);
@@ -87,6 +97,13 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
 
 /// A box with round corners in the middle of the area, for a question.
 void begin_dialog(Ui& ui, const Rect& area);
+struct Answer {
+  const char* name;  ///< in the log
+  std::string label;
+};
+/// A row of buttons, the last part of a dialog. Tab and the arrow keys mark another one, Return and the space bar press
+/// the marked one, unless a text field has the keyboard. Returns the number of the one that was pressed, -1: none.
+int draw_answers(Ui& ui, Dialog& dialog, std::span<const Answer> answers);
 void end_dialog();
 
 }  // namespace tyndall

@@ -4,7 +4,7 @@
 /// The dialog that asks which picture errors are measured against.
 namespace tyndall {
 
-void ask_reference(Dialog& dialog) { dialog = {Dialog::Kind::reference, {}, true}; }
+void ask_reference(Dialog& dialog) { dialog = {Dialog::Kind::reference, {}, true, 0}; }
 
 ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bool has_reference) {
   if (dialog.kind != Dialog::Kind::reference) return {};
@@ -14,25 +14,16 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
        "an image of this scene and size, best an EXR of another seed; or one that is rendered now with another seed",
        false);
   ImGui::Dummy({0, 2 * ui.scale});
-  ImGui::SetNextItemWidth(420 * ui.scale);
-  if (dialog.fresh) ImGui::SetKeyboardFocusHere();
-  const bool enter = ImGui::InputTextWithHint("##name", "reference.exr", dialog.name, sizeof dialog.name,
-                                              ImGuiInputTextFlags_EnterReturnsTrue);
-  log_item(ui, "dialog.name", dialog.name);
-  ImGui::Dummy({0, 4 * ui.scale});
+  const bool enter = draw_name_field(ui, dialog, "reference.exr");
+  std::vector<Answer> answers{{"dialog.load", "Load"}, {"dialog.render", "Render one"}};
+  if (has_reference) answers.push_back({"dialog.drop", "No reference"});
+  answers.push_back({"dialog.cancel", "Cancel"});
+  const int answer = draw_answers(ui, dialog, answers);
   ReferenceWish wish;
-  const bool load = small_button(ui, "dialog.load", "Load");
-  ImGui::SameLine();
-  wish.render = small_button(ui, "dialog.render", "Render one");
-  ImGui::SameLine();
-  if (has_reference) {
-    wish.drop = small_button(ui, "dialog.drop", "No reference");
-    ImGui::SameLine();
-  }
-  const bool cancel = small_button(ui, "dialog.cancel", "Cancel");
-  if ((enter || load) && dialog.name[0] != '\0') wish.file = dialog.name;
+  wish.render = answer == 1, wish.drop = has_reference && answer == 2;
+  if ((enter || answer == 0) && dialog.name[0] != '\0') wish.file = typed_file(dialog);
   dialog.fresh = false;
-  if (cancel || wish.render || wish.drop || wish.file) dialog.kind = Dialog::Kind::none;
+  if (answer > 0 || wish.file) dialog.kind = Dialog::Kind::none;
   end_dialog();
   return wish;
 }

@@ -219,7 +219,7 @@ void Director::publish() {
   frame->seconds = tally.seconds;
   frame->mrays_per_s = tally.last_mrays_per_s;
   frame->first_picture_ms = *first_picture_ms_;
-  frame->rejected = tally.rejected, frame->truncated = tally.truncated;
+  frame->samples = tally.samples, frame->rejected = tally.rejected, frame->truncated = tally.truncated;
   frame->shares = engine().scene.shares;
   frame->cut_throughput = picture_.cut_throughput();
   frame->film_bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());

@@ -93,8 +93,8 @@ struct Frame {
   double seconds = 0;              ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;          ///< of the last pass
   double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it
-  std::uint64_t rejected = 0, truncated = 0;
-  double cut_throughput = 0;   ///< see FilmTotals
+  std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< see PassTally
+  double cut_throughput = 0;                               ///< see FilmTotals
   std::uint32_t most_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
   double white = 1;     ///< what white stands for: a relative error in the view of noise, samples in that of samples,
                         ///< scene units in that of depth, rays a path in that of cost

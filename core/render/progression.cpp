@@ -85,7 +85,10 @@ std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uin
   if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
   if (most_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
   // The pixels of a coarse pass have their first sample, unless that was one without its group.
-  const int skip_step = taken_ == 0 && coarse_done_ && !tiling.shares ? options_.coarse_step : 0;
+  const bool after_coarse = taken_ == 0 && coarse_done_;
+  replaces_ = after_coarse && tiling.shares;
+  if (replaces_) film.cut_throughput = {};
+  const int skip_step = after_coarse && !replaces_ ? options_.coarse_step : 0;
   return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
                                 tiling);
 }
@@ -113,6 +116,7 @@ void PassSchedule::finish() {
   else
     taken_ = end_;
   level_to_ = 0;
+  replaces_ = false;
   pass_.reset();
 }
 
@@ -137,6 +141,8 @@ void Progression::start(const RenderScene& scene, const Region& region, std::uin
 void Progression::go_on(Film film, const ProgressionOptions& options) {
   film_ = std::move(film);
   begin(PassSchedule(options, film_), options);
+  const FilmTotals sum = totals(film_);
+  tally_.samples = sum.samples, tally_.rejected = sum.rejected, tally_.truncated = sum.truncated;
 }
 
 void Progression::begin(PassSchedule schedule, const ProgressionOptions& options) {
@@ -189,7 +195,8 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
 void Progression::finish_pass() {
   const Pass& pass = *schedule_.pass();
   tally_.rays += pass.rays(), tally_.shadow_rays += pass.shadow_rays();
-  tally_.rejected += pass.rejected(), tally_.truncated += pass.truncated();
+  if (schedule_.replaces()) tally_.samples = tally_.rejected = tally_.truncated = 0;
+  tally_.samples += pass.paths(), tally_.rejected += pass.rejected(), tally_.truncated += pass.truncated();
   tally_.last_mrays_per_s = static_cast<double>(pass.rays()) / pass_seconds_ * 1e-6;
   tally_.last_paths_per_second = static_cast<double>(pass.paths()) / pass_seconds_;
   pass_seconds_ = 0;
@@ -211,9 +218,9 @@ PassTally Progression::tally() const {
 }
 
 double Progression::cut_throughput() const {
-  double samples = static_cast<double>(taken()) * static_cast<double>(film_.pixels.size());
-  if (const Pass* pass = schedule_.pass()) samples += static_cast<double>(pass->paths());
-  return samples > 0 ? film_.cut_throughput.value() / samples : 0;
+  const Pass* pass = schedule_.pass();
+  const std::uint64_t samples = (schedule_.replaces() ? 0 : tally_.samples) + (pass ? pass->paths() : 0);
+  return samples > 0 ? film_.cut_throughput.value() / static_cast<double>(samples) : 0;
 }
 
 }  // namespace tyndall

@@ -77,6 +77,7 @@ class PassSchedule {
   void set_first(const Region& first) { options_.first = first; }
 
   const Pass* pass() const { return pass_.get(); }  ///< null between passes
+  bool replaces() const { return replaces_; }       ///< whether the pass replaces the samples of the coarse one
   std::uint32_t taken() const { return taken_; }    ///< samples of every pixel; after adaptive rounds their mean
   std::uint32_t most() const { return std::max(taken_, most_); }  ///< samples of those that were refined first
   bool coarse_done() const { return coarse_done_; }
@@ -90,7 +91,7 @@ class PassSchedule {
 
   ProgressionOptions options_;
   std::unique_ptr<Pass> pass_;
-  bool coarse_ = false, coarse_done_ = false, refining_ = false;
+  bool coarse_ = false, coarse_done_ = false, refining_ = false, replaces_ = false;
   std::uint32_t taken_ = 0, end_ = 0;
   std::uint32_t most_ = 0;      ///< above taken_: so many samples have pixels that were refined first
   std::uint32_t level_to_ = 0;  ///< an interrupted pass left some pixels with so many: all get these first; 0: none did
@@ -98,9 +99,9 @@ class PassSchedule {
 
 /// What was counted since the start, and how long it took.
 struct PassTally {
-  std::uint64_t rays = 0, shadow_rays = 0;    ///< up to now
-  std::uint64_t rejected = 0, truncated = 0;  ///< samples of whole passes
-  double seconds = 0;                         ///< up to the last film write, or up to now while a pass runs
+  std::uint64_t rays = 0, shadow_rays = 0;                 ///< up to now
+  std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< of whole passes, and of the film that was continued
+  double seconds = 0;  ///< up to the last film write, or up to now while a pass runs
   double last_mrays_per_s = 0, last_paths_per_second = 0;  ///< of the last whole pass; 0: there was none
 };
 

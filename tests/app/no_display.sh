@@ -9,6 +9,8 @@ expect 3 "$tyndall" view cornell-box --seed 3
 complains 'tyndall render cornell-box --seed 3 -o cornell-box.png'
 expect 3 "$tyndall" view cornell-box --reference a.exr --seed 3 --ui-log=log
 complains 'tyndall render cornell-box --seed 3 -o cornell-box.png'
+expect 3 "$tyndall" --seed 3 cornell-box --spp 9
+complains 'tyndall render --seed 3 cornell-box --spp 9 -o cornell-box.png'
 cp "$source_root/assets/scenes/quads.json" 'my quads.json'
 expect 3 "$tyndall" 'my quads.json'
 complains "tyndall render 'my quads.json' -o 'my quads.png'"

@@ -4,6 +4,7 @@
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/pictures.h"
 
 #include <doctest/doctest.h>
 
@@ -97,6 +98,45 @@ TEST_CASE("progression: a coarse pass, the rest of the first sample, then growin
     blocking.spp = 21;
     CHECK(picture.tally().rays == render(scene, blocking).rays);  // no path is followed twice
   }
+}
+
+TEST_CASE("progression: a coarse pass of a scene that shares is replaced, with all that was counted of it") {
+  Scene scene = test::close_up("cornell-box", 37, 23);
+  scene.render.max_depth = 2;
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  REQUIRE(view.view().shares);
+  Crew crew(2);
+  const Kernels kernels = *choose_kernels("");
+  const RenderEngine engine{crew, kernels, view.view()};
+  ProgressionOptions options;
+  options.coarse_step = 4;
+  Progression picture;
+  picture.start(compiled, {0, 0, 37, 23}, 0, options);
+  while (!picture.reached({.spp = 4})) {
+    REQUIRE(picture.run_pass(engine, {.spp = 4}, false));
+    const PassTally tally = picture.tally();
+    CHECK(tally.truncated > tally.samples / 4);
+    CHECK(tally.truncated <= tally.samples);
+    CHECK(picture.cut_throughput() > 0.01);
+    CHECK(picture.cut_throughput() < 1);
+  }
+  const Film& film = picture.film();
+  const FilmTotals sum = totals(film);
+  CHECK(film == film_of(compiled, 0, 4));
+  CHECK(picture.tally().samples == sum.samples);
+  CHECK(picture.tally().truncated == sum.truncated);
+  CHECK(picture.cut_throughput() == sum.cut_throughput);
+
+  Progression continued;
+  continued.go_on(film, options);
+  CHECK(continued.tally().truncated == sum.truncated);
+  CHECK(continued.cut_throughput() == sum.cut_throughput);
+  options.first = {8, 4, 16, 12};  // refined first: its pixels have more samples than the others
+  continued.go_on(film, options);
+  REQUIRE(continued.run_pass(engine, {.spp = 64}, false));
+  CHECK(continued.taken() == 4);
+  CHECK(continued.cut_throughput() == doctest::Approx(totals(continued.film()).cut_throughput));
 }
 
 TEST_CASE("progression: ends at the first of the limits, but not before a pass") {

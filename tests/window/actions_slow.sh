@@ -25,6 +25,7 @@ effect_of() {
     pause_or_go_on) echo '^state ' ;;
     start_over) echo '^frame ' ;;
     save_the_scene) echo '^widget dialog.save ' ;;
+    open_a_file) echo '^widget dialog.name ' ;;
     save_as) echo '^widget dialog.name ' ;;
     snapshot) echo '^message saved ' ;;
     clean_view_on_or_off | clean_beside_raw) echo '^widget image.clean.* on$' ;;

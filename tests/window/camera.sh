@@ -37,6 +37,14 @@ settle
 [ "$(value camera.look_from.z)" = "$z" ] || fail "undo: $(value camera.look_from.z) instead of $z"
 point picture 50 50
 roll
+roll
+roll
+settle
+changed camera.look_from.z "$z"
+chord ctrl z
+settle
+[ "$(value camera.look_from.z)" = "$z" ] || fail "a turn of the wheel is not undone as one: $(value camera.look_from.z)"
+roll
 settle
 changed camera.look_from.z "$z"
 fov=$(value camera.vfov)

@@ -2,6 +2,7 @@
 # Scenes have pictures, which are made once; recent files are listed; tabs bring parts of the column to its head.
 . "$(dirname "$0")/_lib.sh"
 export XDG_CACHE_HOME=$scratch/cache
+export HOME=$scratch/home
 cached=$XDG_CACHE_HOME/tyndall/thumbnails
 lit() { has_value "tab.$1" on; }
 top_of() { grep -E "^widget ${1// /_} " "$scratch/log" | tail -1 | cut -d' ' -f4; }
@@ -34,6 +35,46 @@ click scenes.recent.1
 wait_for '^message opened one.json' "$lines"
 settle
 wait_until has_value scenes.recent.0 on
+
+# A file is opened by its typed name, from the home folder too; any scene of the list by the palette.
+mkdir -p home
+cp two.json home/three.json
+lines=$(here)
+chord ctrl o
+wait_for '^widget dialog.name ' "$lines"
+type_text '~/three.json'
+cp "$screen/Xvfb_screen0" open.xwd
+lines=$(here)
+key Return
+wait_for '^message opened three.json' "$lines"
+lines=$(here)
+chord ctrl k
+type_text 'quads'
+cp "$screen/Xvfb_screen0" palette.xwd
+key Return
+wait_for '^message opened quads' "$lines"
+
+# What was typed stays where the scene cannot be saved there.
+lines=$(here)
+chord ctrl shift s
+wait_for '^widget dialog.name ' "$lines"
+wait_until has_keyboard control
+chord ctrl a
+type_text "$scratch/nowhere/quads.json"
+lines=$(here)
+key Return
+wait_for '^message .*nowhere' "$lines"
+wait_for '^keyboard control' "$lines"
+has_value dialog.name "$scratch/nowhere/quads.json" || fail "the typed name is lost: $(value dialog.name)"
+key Escape
+wait_for '^gone dialog.name' "$lines"
+key Escape
+chord ctrl k
+type_text 'two.json'
+lines=$(here)
+key Return
+wait_for '^message opened two.json' "$lines"
+settle
 
 # A low window: the column has to scroll.
 sends 1 '^size 1000 640$' xdotool windowsize "$window" 1000 640

@@ -32,7 +32,22 @@ fuzz_is 0.2
 lines=$(here)
 python3 "$root/tests/window/_close.py" "$window"
 wait_for '^widget dialog.discard ' "$lines"
+click gold.fuzz.value # the column takes no clicks meanwhile
+fuzz_is 0.2
+! has_keyboard control || fail "the column behind the question takes clicks"
 key Escape
+wait_for '^gone dialog.discard' "$lines"
+settle_without_message
+
+# The keyboard answers as well: Tab marks the next answer, Shift + Tab the one before, Return gives it.
+lines=$(here)
+chord ctrl q
+wait_for '^widget dialog.discard ' "$lines"
+key Tab
+chord shift Tab
+key Left
+cp "$screen/Xvfb_screen0" marked.xwd
+key Return # Cancel
 wait_for '^gone dialog.discard' "$lines"
 settle_without_message
 lines=$(here)
@@ -104,7 +119,8 @@ lines=$(here)
 chord ctrl s
 wait_for '^widget dialog.save ' "$lines"
 cp "$screen/Xvfb_screen0" overwrite.xwd
-click dialog.cancel
+key Right # from "Save as…" to "Cancel"
+key Return
 wait_for '^gone dialog.save' "$lines"
 [ "$(cat scene.json)" = '{ "tyndall": 1, ' ] || fail "the file was written over"
 lines=$(here)

@@ -120,10 +120,16 @@ void LiveAccuracy::start(Measurement what, double now) {
   measured(what).seconds = order.frame->seconds;
   const std::string& method = pictures_.half(half_of(what)).method;
   by.jobs.run([this, what, order, now, &by, method, generation = generation_] {
-    return [this, what, order, now, &by, method, generation, result = compare(order)]() mutable {
+    std::optional<ComparisonResult> found;
+    try {
+      found = compare(order);
+    } catch (const std::bad_alloc&) {
+      // No memory is left for it. The next picture is tried again.
+    }
+    return [this, what, order, now, &by, method, generation, result = std::move(found)]() mutable {
       by.busy = false;
-      measured(what).share.spent(now, result.cpu_seconds, threads_);
-      if (generation == generation_) take(what, order, method, std::move(result));
+      if (result) measured(what).share.spent(now, result->cpu_seconds, threads_);
+      if (result && generation == generation_) take(what, order, method, std::move(*result));
       consider();
     };
   });

@@ -173,7 +173,7 @@ void Editor::watch() {
   watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, events_.wake(); });
 }
 
-void Editor::save(const fs::path& file) {
+bool Editor::save(const fs::path& file) {
   try {
     const std::string saved = "saved " + file.string();  // first: the file may be that of the origin which is replaced
     history_.set_origin(save_document(document(), file));
@@ -183,8 +183,10 @@ void Editor::save(const fs::path& file) {
     changed_file_.reset();
     messages_.say(saved);
     if (log_) log_->line(saved);
+    return true;
   } catch (const std::exception& error) {
     messages_.say(error.what(), true);
+    return false;
   }
 }
 

@@ -69,8 +69,8 @@ class Editor {
   /// Reads the film of the first scene, if that was opened from an image, in the background.
   void open_film(const LoadedScene& scene);
   /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced: see
-  /// file_differs().
-  void save(const std::filesystem::path& file);
+  /// file_differs(). Returns whether it was written.
+  bool save(const std::filesystem::path& file);
 
   /// Runs `read` in the background. Then collect() calls the function that it returned, or shows what it threw as a
   /// message.

@@ -14,7 +14,7 @@ namespace tyndall {
 class JobQueue {
  public:
   using Result = std::function<void()>;
-  using Job = std::function<Result()>;
+  using Job = std::function<Result()>;  ///< must not throw
 
   /// on_result: called from the thread when a result waits; must be quick.
   explicit JobQueue(std::function<void()> on_result);

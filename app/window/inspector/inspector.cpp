@@ -33,24 +33,35 @@ void Inspector::point_at(std::optional<PictureClick> click, RendererPair& render
   renderers.watch_pixel(click ? std::optional(std::pair{click->x, click->y}) : std::nullopt);
 }
 
+std::shared_ptr<Inspector::Shown> Inspector::noisy_path(const std::shared_ptr<const Scene>& scene,
+                                                        const PictureClick& at, std::uint32_t samples) {
+  const double end = clock_seconds() + longest_search;
+  const RenderScene compiled = compile(*scene);
+  const SceneViewOf view(compiled);
+  if (at.x >= compiled.width || at.y >= compiled.height) return nullptr;
+  auto shown = std::make_shared<Shown>();
+  shown->scene = scene;
+  shown->found = find_noisy_path(view.view(), at.x, at.y, samples, [end] { return clock_seconds() > end; });
+  const Vec3f eye = shown->found.path.origin;
+  shown->eye = Vec3d{eye.x, eye.y, eye.z} + compiled.origin;
+  shown->stops = stops_of(*scene, compiled, shown->found.path);
+  return shown;
+}
+
 void Inspector::find_path(const RendererPair& renderers, const std::shared_ptr<const Scene>& scene) {
   const auto frame = renderers.latest(Half::current);
   if (!at_ || !scene || !frame) return;
   const bool known = report_ && report_->x == at_->x && report_->y == at_->y;
   const std::uint32_t samples = std::clamp(known ? report_->samples : frame->spp, 1u, most_followed);
   jobs_.run([this, at = *at_, scene, samples, wanted = ++wanted_]() -> JobQueue::Result {
-    const double end = clock_seconds() + longest_search;
-    const RenderScene compiled = compile(*scene);
-    const SceneViewOf view(compiled);
-    if (at.x >= compiled.width || at.y >= compiled.height) return {};
-    auto shown = std::make_shared<Shown>();
-    shown->scene = scene;
-    shown->found = find_noisy_path(view.view(), at.x, at.y, samples, [end] { return clock_seconds() > end; });
-    const Vec3f eye = shown->found.path.origin;
-    shown->eye = Vec3d{eye.x, eye.y, eye.z} + compiled.origin;
-    shown->stops = stops_of(*scene, compiled, shown->found.path);
+    std::shared_ptr<Shown> shown;
+    try {
+      shown = noisy_path(scene, at, samples);
+    } catch (const std::bad_alloc&) {
+      return {};  // no memory is left to find one
+    }
     return [this, shown, wanted] {
-      if (wanted == wanted_) path_ = shown;
+      if (shown && wanted == wanted_) path_ = shown;
     };
   });
 }

@@ -54,6 +54,9 @@ class Inspector {
     Vec3d eye;
     std::vector<PathStop> stops;
   };
+  /// The noisy path of a pixel; null where the scene has no such pixel.
+  static std::shared_ptr<Shown> noisy_path(const std::shared_ptr<const Scene>& scene, const PictureClick& at,
+                                           std::uint32_t samples);
   void look(const Scene& scene, const RendererPair& renderers);
 
   bool on_ = false;

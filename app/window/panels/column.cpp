@@ -24,10 +24,10 @@ constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindo
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-bool begin_part(const char* name, const Rect& where, ImGuiWindowFlags more) {
+bool begin_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more) {
   ImGui::SetNextWindowPos({where.x0, where.y0});
   ImGui::SetNextWindowSize({where.width(), where.height()});
-  return ImGui::Begin(name, nullptr, part_flags | more);
+  return ImGui::Begin(name, nullptr, part_flags | more | (ui.asks ? ImGuiWindowFlags_NoInputs : 0));
 }
 
 /// The row of tabs, and a button for all actions.
@@ -107,7 +107,7 @@ void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
   const float reach = 4 * ui.scale;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-  begin_part("##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
+  begin_part(ui, "##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
              ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::InvisibleButton("edge", {2 * reach, std::max(1.0f, column.height())});
   log_item(ui, "column.edge", "edge");
@@ -135,7 +135,8 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (fixed_chart) body.y1 -= foot;
   if (has_tabs) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * s, 8 * s});
-    if (begin_part("##tabs", {column.x0, column.y0, column.x1, body.y0}, stays_behind | ImGuiWindowFlags_NoScrollbar))
+    if (begin_part(ui, "##tabs", {column.x0, column.y0, column.x1, body.y0},
+                   stays_behind | ImGuiWindowFlags_NoScrollbar))
       draw_tabs(ui, state);
     ImGui::End();
     ImGui::PopStyleVar();
@@ -144,7 +145,7 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   state.shown = state.selected;
   if (other) state.tabs.jump = 0;  // selected in the picture: its values are shown
   begin_jump(ui, state);
-  if (begin_part("##column", body, stays_behind | ImGuiWindowFlags_NoScrollWithMouse)) {
+  if (begin_part(ui, "##column", body, stays_behind | ImGuiWindowFlags_NoScrollWithMouse)) {
     std::vector<Part> parts{{"Object", object_panel},
                             {"Camera", camera_panel},
                             {"Image", image_panel},
@@ -161,7 +162,8 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   ImGui::End();
   if (fixed_chart) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {16 * s, 2 * s});
-    if (begin_part("##chart", {column.x0, body.y1, column.x1, column.y1}, stays_behind | ImGuiWindowFlags_NoScrollbar))
+    if (begin_part(ui, "##chart", {column.x0, body.y1, column.x1, column.y1},
+                   stays_behind | ImGuiWindowFlags_NoScrollbar))
       chart_panel(ui, state, chart);
     ImGui::End();
     ImGui::PopStyleVar();

@@ -17,8 +17,7 @@ namespace {
 
 std::string share_cut_off(const Frame* frame) {
   if (!frame || frame->spp == 0) return "scattering events of the longest path";
-  const double paths = static_cast<double>(frame->spp) * frame->width * frame->height;
-  const double share = static_cast<double>(frame->truncated) / paths;
+  const double share = static_cast<double>(frame->truncated) / static_cast<double>(frame->samples);
   if (share == 0) return "no path was cut off";
   if (share < 1e-5) return "cuts off less than 0.001 % of the paths";
   return fmt::format("cuts off {:.2g} % of the paths", 100 * share);

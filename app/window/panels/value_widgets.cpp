@@ -80,7 +80,7 @@ bool edit_box(Ui& ui, const Row& row, double& value, float width) {
     return accept(row, row.original->x, value);
   }
   const bool active = ImGui::IsItemActive();
-  const bool tab = active && ui.edit.waited > 0 && compat::tab_pressed();  // not the Tab that has led here
+  const bool tab = active && ui.edit.waited > 0 && compat::key_pressed(ImGuiKey_Tab);  // not the Tab that has led here
   ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(palette::blue, 0.8f),
                                       4 * ui.scale);
   ui.edit.started = ui.edit.started || active;

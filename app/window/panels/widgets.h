@@ -65,6 +65,7 @@ struct Ui {
   HoveredItem hovered;
   WheelOwner wheel;
   double wake_in = 1e300;        ///< seconds until something appears by itself
+  bool asks = false;             ///< a dialog waits for an answer: the column takes no input
   bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
   std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed

@@ -16,11 +16,11 @@ inline void push_font(ImFont* font) {
 #endif
 }
 
-inline bool tab_pressed() {
+inline bool key_pressed(ImGuiKey key, bool repeats = true) {
 #if IMGUI_VERSION_NUM >= 18700
-  return ImGui::IsKeyPressed(ImGuiKey_Tab);
+  return ImGui::IsKeyPressed(key, repeats);
 #else
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab));
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeats);
 #endif
 }
 

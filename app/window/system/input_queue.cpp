@@ -21,7 +21,8 @@ bool moves_the_keyboard(const RawInput& input) {
 bool InputQueue::ready() const {
   if (waiting_.empty()) return false;
   const RawInput& next = waiting_.front();
-  if (next.kind == RawInput::Kind::key && next.action == GLFW_RELEASE) return true;
+  // A modifier that is released with the button is still held where the interface sees the click.
+  if (next.kind == RawInput::Kind::key && next.action == GLFW_RELEASE) return !button_now_;
   if (next.kind == RawInput::Kind::key || next.kind == RawInput::Kind::character) return frames_ >= settling_frames;
   if (next.kind == RawInput::Kind::button) return !button_now_ && !key_now_;
   return !button_now_;

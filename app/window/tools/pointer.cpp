@@ -11,7 +11,7 @@ namespace tyndall {
 
 PressedButton PointerTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, double now,
                                   Camera& camera) {
-  const bool over = !mouse.taken && layout.area.contains(mouse.x, mouse.y);
+  const bool over = is_over(mouse, layout);
   if (button_ < 0 && over && free)
     for (int button = 0; button < 3; ++button)
       if (mouse.clicked[button]) button_ = button, moved_ = false;

@@ -22,10 +22,15 @@ class PointerTool {
 
   /// Whether a button is down that was pressed in the picture's area.
   bool is_pressed() const { return button_ >= 0; }
-  /// Whether the wheel was turned less than half a second ago: what it does is then one edit.
-  bool is_turning(double now) const { return now < wheel_time_ + 0.5; }
+  /// Whether the wheel turns over the picture or did so less than half a second ago: what it does is then one edit.
+  bool is_turning(const Mouse& mouse, const Layout& layout, double now) const {
+    return (mouse.wheel != 0 && is_over(mouse, layout)) || now < wheel_time_ + 0.5;
+  }
 
  private:
+  static bool is_over(const Mouse& mouse, const Layout& layout) {
+    return !mouse.taken && layout.area.contains(mouse.x, mouse.y);
+  }
   void turn_wheel(const Mouse& mouse, double now, Camera& camera);
   void drag(const Layout& layout, double dx, double dy, Camera& camera) const;
 

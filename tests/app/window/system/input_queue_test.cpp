@@ -46,6 +46,14 @@ TEST_CASE("a click waits for the frame of what was typed before, and the pointer
   CHECK(frames_of(queue) == "c|b|mm|");
 }
 
+TEST_CASE("a modifier that is released with the button counts for the click") {
+  InputQueue queue;
+  queue.push({.kind = Kind::button, .action = GLFW_PRESS});
+  queue.push({.kind = Kind::button, .action = GLFW_RELEASE});
+  queue.push({.kind = Kind::key, .code = GLFW_KEY_LEFT_SHIFT, .action = GLFW_RELEASE});
+  CHECK(frames_of(queue) == "b|b|k|");
+}
+
 TEST_CASE("what is typed after Tab, Return, Esc or a shortcut waits, what is typed without them does not") {
   for (const int key : {GLFW_KEY_TAB, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER, GLFW_KEY_ESCAPE}) {
     InputQueue queue;

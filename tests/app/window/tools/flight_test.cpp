@@ -45,17 +45,33 @@ TEST_CASE("opposite keys and other keys do not move the camera, and a slow drawi
 
 TEST_CASE("edits while a key or button is held are undone as one, all others one by one") {
   Gestures gestures;
-  gestures.update(true);
+  gestures.update(Gesture::held);
   const std::uint64_t first = gestures.current();
-  gestures.update(true);
+  gestures.update(Gesture::held);
   CHECK(gestures.current() == first);
-  gestures.update(false);
+  gestures.update(Gesture::none);
   const std::uint64_t second = gestures.current();
   CHECK(second != first);
-  gestures.update(false);
+  gestures.update(Gesture::none);
   CHECK(gestures.current() != second);
   const std::uint64_t before = gestures.current();
   CHECK(gestures.begin() != before);
-  gestures.update(true);
+  gestures.update(Gesture::held);
   CHECK(gestures.current() != before);
+}
+
+TEST_CASE("a button that is pressed while the wheel still turns is a step of its own, and so is an edit by a key") {
+  Gestures gestures;
+  gestures.update(Gesture::wheel);
+  const std::uint64_t wheel = gestures.current();
+  gestures.update(Gesture::wheel);
+  CHECK(gestures.current() == wheel);
+  gestures.update(Gesture::held);
+  const std::uint64_t held = gestures.current();
+  CHECK(held != wheel);
+  gestures.update(Gesture::wheel);
+  CHECK(gestures.current() != held);
+  const std::uint64_t key = gestures.begin();
+  gestures.update(Gesture::wheel);
+  CHECK(gestures.current() != key);
 }

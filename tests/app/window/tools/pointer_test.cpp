@@ -105,11 +105,13 @@ TEST_CASE("the wheel dollies, with Ctrl it changes the field of view; quick step
   Hand hand;
   hand.mouse.x = hand.mouse.y = 100;
   const double distance = target_distance(hand.camera);
+  CHECK_FALSE(hand.tool.is_turning(hand.mouse, hand.layout, 9));
   hand.mouse.wheel = 1;
+  CHECK(hand.tool.is_turning(hand.mouse, hand.layout, 10));
   hand.update(true, 10);
   CHECK(target_distance(hand.camera) == doctest::Approx(0.9 * distance));
-  CHECK(hand.tool.is_turning(10.4));
-  CHECK_FALSE(hand.tool.is_turning(10.6));
+  CHECK(hand.tool.is_turning(hand.mouse, hand.layout, 10.4));
+  CHECK_FALSE(hand.tool.is_turning(hand.mouse, hand.layout, 10.6));
   const double vfov = hand.camera.vfov;
   hand.mouse.wheel = 1;
   hand.mouse.control = true;
