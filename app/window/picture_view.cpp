@@ -117,17 +117,15 @@ void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& f
   const Look look = look_of(*frame, stops);
   if (const auto filtered = clean ? clean_of(frame) : nullptr)
     upload(side, filtered,
-           {filtered->rgba, filtered->grid.columns, filtered->grid.rows, filtered->grid.spacing, frame->width,
-            frame->height},
-           look);
+           {filtered->rgba, filtered->grid, frame->width, frame->height}, look);
   else
-    upload(side, frame, {frame->rgba, frame->columns, frame->rows, frame->spacing, frame->width, frame->height}, look);
+    upload(side, frame, {frame->rgba, frame->grid, frame->width, frame->height}, look);
 }
 
 void PictureView::upload_all(bool stops) {
   if (!session_.renderers().split() && !shows_raw_beside()) left_ = {};
   if (const auto map = session_.accuracy().map())
-    upload(right_, map, {map->rgba, map->width, map->height, 1, map->width, map->height}, {});
+    upload(right_, map, {map->rgba, {map->width, map->height}, map->width, map->height}, {});
   else if (right_.frame)
     upload_frame(right_, right_.frame, true, stops);
   if (!shows_halves()) return;

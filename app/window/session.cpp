@@ -159,9 +159,9 @@ bool Session::collect() {
   came = editor_.collect() || came;
   came = references_.collect() || came;
   const auto problem = renderers_.problem();
-  if (!problem || problem->edit <= problem_edit_) return came;
-  problem_edit_ = problem->edit;
-  messages_.say(problem->what, true);
+  if (problem == told_problem_) return came;
+  told_problem_ = problem;
+  if (problem) messages_.say(problem->what, true);
   return true;
 }
 

@@ -132,7 +132,7 @@ class Session {
   LiveAccuracy accuracy_;
   RendererPair renderers_;
   SendTimer timer_;
-  std::uint64_t problem_edit_ = 0;  ///< newest edit whose problem was told
+  std::shared_ptr<const RenderProblem> told_problem_;  ///< the newest one
   std::atomic<bool> closing_ = false;
   bool beside_ = false;  ///< the clean view beside the raw one
   Editor editor_;

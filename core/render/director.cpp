@@ -68,6 +68,7 @@ void Director::tell_if_it_fails(std::uint64_t edit, const std::function<void()>&
   } catch (const std::exception& error) {
     stalled_ = true;
     tell(edit, error);
+    answer_films();
   }
 }
 
@@ -109,8 +110,10 @@ void Director::take_scene(const Orders& orders) {
     const bool camera_only = shown_.scene && !change_between(*shown_.scene, *next.scene).others;
     const double budget = picture_budget(camera_only, seconds_between(shown_.submitted, next.submitted));
     std::swap(shown_, next);
+    bool goes_on = false;
     try {
-      if (!go_on_from(orders.film.get())) start_over(budget);
+      goes_on = go_on_from(orders.film.get());
+      if (!goes_on) start_over(budget);
     } catch (...) {
       std::swap(shown_, next);
       throw;
@@ -120,6 +123,7 @@ void Director::take_scene(const Orders& orders) {
     rare_paths_.change_scene();
     clean_.change_scene();
     mail_.post(shown_.compiled);
+    if (goes_on) picture_.estimate_now(engine(), mail_.give_up());
   } catch (const std::exception& e) {
     tell(orders.edit, e);
   }
@@ -133,7 +137,6 @@ bool Director::go_on_from(Film* film) {
       film->first_sample != 0 || film->unit != scene.film_unit)
     return false;
   picture_.go_on(std::move(*film), progression_options(*shown_.scene, 1, first_));
-  picture_.estimate_now(engine(), mail_.give_up());
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();
@@ -191,7 +194,8 @@ void Director::make_clean() {
 void Director::publish() {
   const std::shared_ptr<Frame> frame = frame_memory_.take(picture_.film().pixels.size());
   const Clock::time_point start = Clock::now();
-  const PictureGrid grid = views_.draw(view_, picture_, engine(), mail_.give_up(), frame->rgba);
+  frame->clean = clean_.latest();
+  frame->grid = views_.draw(view_, picture_, frame->clean.get(), engine(), mail_.give_up(), frame->rgba);
   if (view_ != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *crew_, frame->beauty);
   const Clock::time_point drawn = Clock::now();
   first_pictures_.note_drawing(seconds_between(start, drawn));
@@ -201,16 +205,9 @@ void Director::publish() {
   frame->edit = shown_.edit;
   frame->pass = ++frames_;
   frame->width = film.width, frame->height = film.height;
-  frame->columns = grid.columns, frame->rows = grid.rows, frame->spacing = grid.spacing;
   frame->view = view_;
   frame->white = views_.white();
-  frame->clean = clean_.latest();
   frame->awaits_clean = clean_is_due();
-  if (view_ == View::noise && frame->clean && frame->clean->spp > 0) {
-    frame->rgba = noise_rgba(frame->clean->pixel_error);
-    frame->white = 1;
-    frame->columns = film.width, frame->rows = film.height, frame->spacing = 1;
-  }
   frame->step = picture_.step();
   frame->most_spp = picture_.most_taken();
   frame->spp = picture_.taken();
@@ -230,10 +227,10 @@ void Director::publish() {
 }
 
 /// Gives a copy of the film to callers who wait for one. Within a pass some pixels lack samples that others have, so a
-/// pass that was interrupted is finished first. If the renderer is paused or has reached its limit nothing would finish
-/// the pass: then the film is given as it is.
+/// pass that was interrupted is finished first. If the renderer is paused, has reached its limit or has failed,
+/// nothing would finish the pass: then the film is given as it is.
 void Director::answer_films() {
-  if (picture_.within_pass() && unfinished(limit_)) return;
+  if (picture_.within_pass() && unfinished(limit_) && !stalled_) return;
   for (auto& request : mail_.take_film_requests()) {
     try {
       request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});

@@ -71,11 +71,9 @@ struct Frame {
   std::uint64_t edit = 0;  ///< number of the edit (Renderer::submit) that it shows
   std::uint64_t pass = 0;  ///< counts up with every frame
   int width = 0, height = 0;
-  /// 4 floats a pixel, linear, columns x rows of them, top row first: every pixel or, of a coarse pass, fewer.
+  /// 4 floats a pixel, linear, top row first: of every pixel or, of a coarse pass, of fewer.
   std::vector<float> rgba;
-  /// The pixel (x, y) of `rgba` is what is seen in the middle of the picture's pixel (spacing x, spacing y).
-  int columns = 0, rows = 0;
-  float spacing = 1;
+  PictureGrid grid;  ///< of the pixels of `rgba`
   /// The picture itself, in the same form, while `view` is another one. Empty while `view` is beauty or only a coarse
   /// pass is there.
   std::vector<float> beauty;

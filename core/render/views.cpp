@@ -32,7 +32,7 @@ void Views::draw_counts(View view, const Progression& picture, std::vector<float
   rgba = known ? counts_ : grey_rgba(film.pixels.size(), 0.5f);
 }
 
-PictureGrid Views::draw(View view, const Progression& picture, const RenderEngine& engine,
+PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame* clean, const RenderEngine& engine,
                         const std::atomic<bool>& give_up, std::vector<float>& rgba) {
   const Film& film = picture.film();
   const std::size_t pixels = film.pixels.size();
@@ -42,6 +42,11 @@ PictureGrid Views::draw(View view, const Progression& picture, const RenderEngin
     case View::beauty:
       return coarse_rgba(film, picture.step(), engine.crew, rgba);
     case View::noise:
+      if (clean && clean->spp > 0) {
+        rgba = noise_rgba(clean->pixel_error);
+        return every_pixel;
+      }
+      [[fallthrough]];
     case View::samples:
       draw_counts(view, picture, rgba);
       return every_pixel;

@@ -17,15 +17,15 @@ class Views {
   /// follow each other closely interrupt the search, and the view would stay grey.
   void change_scene(std::shared_ptr<const RenderScene> scene);
   /// Draws the view of the picture into `rgba`. If it first has to find costs, it stops early when `give_up` is set.
-  /// Noise and samples show the old picture of them until there is a new one.
-  PictureGrid draw(View view, const Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up,
-                   std::vector<float>& rgba);
+  /// Noise and samples show the old picture of them until there is a new one. clean: the clean view of the picture, of
+  /// which the noise is then shown, or null.
+  PictureGrid draw(View view, const Progression& picture, const CleanFrame* clean, const RenderEngine& engine,
+                   const std::atomic<bool>& give_up, std::vector<float>& rgba);
   /// What white stands for in the view that was drawn last: see Frame.
   double white() const { return white_; }
 
  private:
   void find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up);
-
   void draw_counts(View view, const Progression& picture, std::vector<float>& rgba);
 
   std::shared_ptr<const RenderScene> scene_;

@@ -110,3 +110,36 @@ TEST_CASE("memory: whichever request is refused while a renderer follows an edit
   }
   CHECK(refused > 100);
 }
+
+TEST_CASE("memory: whichever request is refused while a renderer takes over a film, each frame is of its edit's size") {
+  const Scene small = read_scene(text, "a.json", ".");
+  Scene large = small;
+  large.width = 2 * small.width;
+  RenderOptions options;
+  options.isa = "scalar";
+  options.spp = 4;
+  const Film taken = render(compile(large), options).film;
+  int refused = 0;
+  for (int number = 1; number <= 150; ++number) {
+    WatchedRenderer renderer(1, "scalar");
+    const std::uint64_t before = renderer->submit(small);
+    renderer.wait_for([&](const Frame& f) { return f.edit == before; });
+    renderer->pause(true);
+    renderer.catch_up();
+    const auto scene = std::make_shared<const Scene>(large);
+    const auto film = std::make_shared<Film>(taken);
+    {
+      const AllocationRefusal refusal = AllocationRefusal::of_number(number);
+      try {
+        renderer->submit(scene, film);
+        renderer.catch_up();
+      } catch (const std::bad_alloc&) {
+      }
+      refused += refusal.refused();
+    }
+    renderer->pause(false);
+    for (const FramePointer& frame : renderer.frames())
+      if (frame->width != (frame->edit == before ? small.width : large.width)) FAIL("request " << number);
+  }
+  CHECK(refused > 50);
+}

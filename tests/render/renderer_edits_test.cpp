@@ -69,11 +69,11 @@ TEST_CASE("edits: a coarse first picture has samples of the final one, and what 
   CHECK(first->step == 8);  // nothing is known about the machine's speed yet
   CHECK(first->spp == 0);
   CHECK_FALSE(first->finished);
-  CHECK(first->spacing == 4);
-  CHECK(first->columns == 50);
-  CHECK(first->rows == 38);
-  CHECK(last->spacing == 1);
-  CHECK(last->columns == 200);
+  CHECK(first->grid.spacing == 4);
+  CHECK(first->grid.columns == 50);
+  CHECK(first->grid.rows == 38);
+  CHECK(last->grid.spacing == 1);
+  CHECK(last->grid.columns == 200);
   const std::vector<float> coarse = rgb_of(*first), fine = rgb_of(*last);
   const auto pixel = [](const std::vector<float>& rgb, int columns, int x, int y) {
     const std::size_t at = static_cast<std::size_t>(y * columns + x) * 3;

@@ -103,7 +103,7 @@ TEST_CASE("renderer: an edit and its undo lead back to the same picture") {
   const std::uint64_t edit = renderer->submit(scene);
   CHECK(rgb_of(*renderer.wait_finished(edit)) == expected);
   for (const FramePointer& frame : renderer.frames())
-    CHECK(frame->rgba.size() == 4u * static_cast<std::size_t>(frame->columns * frame->rows));
+    CHECK(frame->rgba.size() == 4u * static_cast<std::size_t>(frame->grid.columns * frame->grid.rows));
 }
 
 TEST_CASE("renderer: the finished flag stands until the limit is raised; then it goes on from there") {

@@ -27,7 +27,7 @@ std::string relative_error(const PixelReport& report) {
 
 /// What the view shows at the pixel, as a number; "": it shows colours.
 std::string value_of_view(const Frame& frame, std::size_t pixel) {
-  if (frame.spacing > 1 || frame.rgba.size() <= 4 * pixel) return "";
+  if (frame.grid.spacing > 1 || frame.rgba.size() <= 4 * pixel) return "";
   const double value = static_cast<double>(frame.rgba[4 * pixel]) * frame.white;
   switch (frame.view) {
     case View::noise:

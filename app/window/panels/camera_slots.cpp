@@ -41,8 +41,8 @@ bool slot_button(Ui& ui, const CameraSlot& slot, std::size_t number, bool on, bo
 std::vector<std::uint8_t> small_picture(const Frame& frame, const Display& display, int& width, int& height) {
   const bool beauty = frame.view == View::beauty, clean = beauty && frame.clean;
   const std::vector<float>& from = clean ? frame.clean->rgba : beauty ? frame.rgba : frame.beauty;
-  const PictureGrid own{frame.columns, frame.rows, frame.spacing}, every_pixel{frame.width, frame.height, 1};
-  const auto [columns, rows, spacing] = clean ? frame.clean->grid : beauty ? own : every_pixel;
+  const PictureGrid every_pixel{frame.width, frame.height};
+  const auto [columns, rows, spacing] = clean ? frame.clean->grid : beauty ? frame.grid : every_pixel;
   width = height = 0;
   if (from.empty() || columns <= 0 || rows <= 0) return {};
   const double fit =

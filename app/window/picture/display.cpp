@@ -60,31 +60,29 @@ FrameDisplay::~FrameDisplay() {
 }
 
 void FrameDisplay::upload(const ShownPicture& picture, const Look& look) {
-  if (picture.columns > greatest_ || picture.rows > greatest_)
-    throw IoError("the picture is larger than the display can show: " + std::to_string(picture.columns) + "x" +
-                  std::to_string(picture.rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
-  screen_bytes(picture.rgba, picture.columns, look, bytes_);
+  if (picture.grid.columns > greatest_ || picture.grid.rows > greatest_)
+    throw IoError("the picture is larger than the display can show: " + std::to_string(picture.grid.columns) + "x" +
+                  std::to_string(picture.grid.rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
+  screen_bytes(picture.rgba, picture.grid.columns, look, bytes_);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  if (picture.columns == columns_ && picture.rows == rows_)
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns_, rows_, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
+  if (picture.grid.columns == grid_.columns && picture.grid.rows == grid_.rows)
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, grid_.columns, grid_.rows, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
   else
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.columns, picture.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.grid.columns, picture.grid.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  bytes_.data());
-  columns_ = picture.columns;
-  rows_ = picture.rows;
-  spacing_ = picture.spacing;
+  grid_ = picture.grid;
   width_ = picture.width;
   height_ = picture.height;
 }
 
 void FrameDisplay::draw(const Rect& where, int framebuffer_width, int framebuffer_height, const Rect& clip,
                         bool squares) const {
-  if (columns_ == 0 || where.width() < 1 || where.height() < 1) return;
+  if (grid_.columns == 0 || where.width() < 1 || where.height() < 1) return;
   const int x0 = whole(where.x0), y0 = whole(where.y0), x1 = whole(where.x1), y1 = whole(where.y1);
   // Whole multiples show the pixels as they are.
   const bool multiple = (x1 - x0) % width_ == 0 && (y1 - y0) % height_ == 0;
-  const GLint filter = spacing_ <= 1 && (multiple || squares) ? GL_NEAREST : GL_LINEAR;
+  const GLint filter = grid_.spacing <= 1 && (multiple || squares) ? GL_NEAREST : GL_LINEAR;
   const Rect seen{std::max(clip.x0, where.x0), std::max(clip.y0, where.y0), std::min(clip.x1, where.x1),
                   std::min(clip.y1, where.y1)};
   glDisable(GL_BLEND);
@@ -96,8 +94,8 @@ void FrameDisplay::draw(const Rect& where, int framebuffer_width, int framebuffe
   glUniform4f(place_at_, static_cast<float>(x0) * across - 1, 1 - static_cast<float>(y0) * down,
               static_cast<float>(x1) * across - 1, 1 - static_cast<float>(y1) * down);
   // The first place of a coarse picture is in the middle of a pixel of the image, not of `spacing` pixels.
-  const float columns = spacing_ * static_cast<float>(columns_), rows = spacing_ * static_cast<float>(rows_);
-  const float first = 0.5f * (spacing_ - 1);
+  const float columns = grid_.spacing * static_cast<float>(grid_.columns), rows = grid_.spacing * static_cast<float>(grid_.rows);
+  const float first = 0.5f * (grid_.spacing - 1);
   glUniform4f(part_at_, first / columns, first / rows, (first + static_cast<float>(width_)) / columns,
               (first + static_cast<float>(height_)) / rows);
   glActiveTexture(GL_TEXTURE0);

@@ -1,17 +1,16 @@
 #pragma once
 #include "app/window/picture/look.h"
 #include "app/window/system/layout.h"
+#include "core/render/frame.h"
 
 #include <vector>
 
 namespace tyndall {
 
-/// A picture to be shown: linear RGBA, 4 floats for each of columns x rows places. Place (x, y) is the middle of the
-/// pixel (spacing x, spacing y) of an image of width x height pixels.
+/// A picture to be shown: linear RGBA, 4 floats for each place of the grid, of an image of width x height pixels.
 struct ShownPicture {
   const std::vector<float>& rgba;
-  int columns = 0, rows = 0;
-  float spacing = 1;
+  PictureGrid grid;
   int width = 0, height = 0;
 };
 
@@ -34,8 +33,8 @@ class FrameDisplay {
  private:
   unsigned program_ = 0, vertices_ = 0, texture_ = 0;
   int place_at_ = -1, part_at_ = -1, greatest_ = 0;
-  int columns_ = 0, rows_ = 0, width_ = 0, height_ = 0;
-  float spacing_ = 1;
+  PictureGrid grid_;
+  int width_ = 0, height_ = 0;
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -55,7 +55,7 @@ TEST_CASE("a long path is told with its first stops and its last one") {
 
 TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   Frame frame;
-  frame.width = 4, frame.height = 2, frame.columns = 4, frame.rows = 2;
+  frame.width = 4, frame.height = 2, frame.grid = {4, 2};
   frame.rgba.assign(4 * 8, 0.5f);
   PixelReport report{.x = 1, .y = 1, .edit = 1, .samples = 64};
   report.mean = {0.5f, 0.25f, 0};

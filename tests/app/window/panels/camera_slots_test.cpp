@@ -33,7 +33,7 @@ TEST_CASE("stored cameras: without a picture as many as there is room for, each 
 
 TEST_CASE("the small picture of a camera: means of what is shown, in the picture's proportions") {
   Frame frame;
-  frame.width = frame.columns = 400, frame.height = frame.rows = 200;
+  frame.width = 400, frame.height = 200, frame.grid = {400, 200};
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 400; ++x) {
       const float grey = x < 200 ? static_cast<float>((x + y) % 2) : 0.0f;  // its mean is 0.5
