@@ -3,12 +3,12 @@
 #include "core/kernel/chain_trail.h"
 #include "core/kernel/event.h"
 
-/// Light that a lamp sends to a point through or off one ball, off one flat mirror or through one pane, such as the
-/// bright spot under a glass ball: solved for, where scattering would have to find it by chance. First a ball, mirror
-/// or pane and a lamp are chosen, then points of the lamp, then which surfaces of the ball the light meets and how (of
-/// a pane before the points). All chains between the points that do so are found; one of them, drawn in proportion to
-/// what each would bring if nothing were in its way, is tested for things in its way, and counts for all.
-/// As scattering finds the same paths, both are weighed by the power heuristic.
+/// Light that a lamp sends to a point through or off one ball, one flat mirror or one pane, such as the bright spot
+/// under a glass ball: solved for, where scattering would have to find it by chance. First a ball, mirror or pane and a
+/// lamp are chosen, then points of the lamp and for each the surfaces that the light meets, and how (of a pane before
+/// the points). Of all chains that do so one, drawn in proportion to what each would bring if nothing were in its way,
+/// is tested for things in its way, and counts for all. As scattering finds the same paths, both are weighed by the
+/// power heuristic.
 namespace tyndall {
 
 /// What each lane asks for: light by one ball, mirror or pane from one point of one lamp, and how these lie to each
@@ -110,8 +110,7 @@ TYNDALL_INLINE ChainRays<F> rays_of(const ChainAsked<F>& a, const ChainWord<F>& 
   r.share = share_of(a.ball, a.ends, word, p);
   const F cosine = lamp_cosine(a.lamp, a.at.normal, r.arrive);
   const F spread = spread_of(c.chain, a.ends, a.plane.sine, at, c.root.slope, cosine);
-  const F probability = a.probability * word_probability(a.ball, a.ends, word);
-  r.density = spread * (points_tried(a.ball) * a.at.density) * probability;
+  r.density = spread * a.at.density * (a.probability * times_asked(a.ball, a.ends, word));
   return r;
 }
 
@@ -184,16 +183,15 @@ TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const Paths<F>& p, const Even
 
 /// Keeps the way of a chain within its crowded ball.
 template <class F>
-TYNDALL_INLINE void keep_inside(const ChainAsked<F>& a, const ChainFound<F>& c, MaskOf<F> lanes, ChainTaken<F>& taken) {
+TYNDALL_INLINE void keep_inside(const ChainAsked<F>& a, const ChainFound<F>& c, const ChainWord<F>& word,
+                                MaskOf<F> lanes, ChainTaken<F>& taken) {
   const F p = c.chain.turn.most * (F(1.0f) - c.root.s * c.root.s);
-  const InsideWay<F> way = inside_way(a.ball, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, p);
-  InsideWay<F>& to = taken.inside;
-  to.out = select(lanes, way.out, to.out), to.side = select(lanes, way.side, to.side);
-  to.p = select(lanes, way.p, to.p), to.angle = select(lanes, way.angle, to.angle);
-  const auto put = [lanes](const auto& from, auto& mask) __attribute__((always_inline)) {
+  put(lanes, inside_way(a.ball, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, p, word), taken.inside);
+  const auto copy = [lanes](const auto& from, auto& mask) __attribute__((always_inline)) {
     mask = mask_or(mask_and(lanes, from), mask_and_not(mask, lanes));
   };
-  put(a.ends.both_out, taken.ends.both_out), put(a.ends.deep, taken.ends.deep), put(a.ends.valid, taken.ends.valid);
+  ChainEnds<F>& ends = taken.ends;
+  copy(a.ends.both_out, ends.both_out), copy(a.ends.deep, ends.deep), copy(a.ends.valid, ends.valid);
 }
 
 /// Offers all chains of a word by a ball. For an end within the ball both signs are tried (see EndSigns).
@@ -211,7 +209,7 @@ TYNDALL_INLINE void offer_word(const auto& s, const Paths<F>& p, const Event<F>&
     for (F index = F(0.0f); any(less(index, roots.count)); index = index + F(1.0f)) {
       c.root = take_root(c.chain.turn, roots, a.plane.angle, index);
       const auto takes = offer_rays(s, p, e, a, rays_of(a, word, c), taken), crowded = mask_and(takes, a.ball.crowded);
-      if (s.chains.crowds && any(crowded)) keep_inside(a, c, crowded, taken);
+      if (s.chains.crowds && any(crowded)) keep_inside(a, c, word, crowded, taken);
     }
   }
 }
@@ -243,17 +241,19 @@ TYNDALL_INLINE ChainTaken<F> take_chain(const auto& s, const Paths<F>& p, const 
   const IntOf<F> events_left = IntOf<F>(s.max_depth) - p.depth;
   const auto by_ball = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_pane);
   const Pair<F> u = p.dice.pair(dimension::chain_point);
-  for (int i = 0; i < most_points; ++i) {
-    const auto here = mask_and(by_ball, less(F(static_cast<float>(i)), points_tried(a.ball)));
-    if (i > 0 && !any(here)) break;
-    const F shift = F(static_cast<float>(i) / most_points), x = u.x + shift, y = u.y + shift;
+  const auto another = mask_and_not(by_ball, a.ball.mirror), twice = mask_and_not(another, a.ball.hollow);
+  for (int i = 0; i < 3; ++i) {  // the main word, the main word again in solid glass, and another word
+    const auto here = i == 0 ? by_ball : i == 1 ? twice : another;
+    if (i > 0 && !any(here)) continue;
+    const F shift = F(i == 0 ? 0.0f : 0.5f), x = u.x + shift, y = u.y + shift;
     aim_at_lamp(s, e.point, p.ray.time, {x - floor(x), y - floor(y)}, a);
     if (i == 0) offer_flat(s, p, e, a, lanes, events_left, taken);
     if (!any(here)) break;
-    const auto valid = mask_and(a.ends.valid, less(F(1e-7f), a.plane.sine));
-    const DrawnWord<F> drawn = draw_word(a.ball, a.ends, decisions);
-    const auto fits = less(to_int(drawn.word.outer + drawn.word.inner), events_left);
-    offer_word(s, p, e, a, drawn.word, mask_and(mask_and(here, valid), mask_and(drawn.drawn, fits)), taken);
+    const auto valid = mask_and(mask_and(here, a.ends.valid), less(F(1e-7f), a.plane.sine));
+    const DrawnWord<F> w =
+        i < 2 ? DrawnWord<F>{main_word(a.ball, a.ends), valid} : draw_word(a.ball, a.ends, decisions);
+    const auto fits = less(to_int(w.word.outer + w.word.inner), events_left);
+    offer_word(s, p, e, a, w.word, mask_and(mask_and(valid, w.drawn), fits), taken);
   }
   return taken;
 }

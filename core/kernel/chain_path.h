@@ -106,14 +106,6 @@ TYNDALL_INLINE F lamp_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3<
   return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
 }
 
-/// From how many points of the lamp an event seeks light by a ball; sample_lamp() draws each. Solid glass focuses: a
-/// few points of the lamp may bring almost all of the light, so that a second one is worth its time.
-inline constexpr int most_points = 2;
-template <class F>
-TYNDALL_INLINE F points_tried(const ChainBall<F>& b) {
-  return select(mask_or(b.mirror, b.hollow), F(1.0f), F(static_cast<float>(most_points)));
-}
-
 /// The plane that holds a chain: that of its two ends and the ball's centre. The near end is the point that asks for
 /// light, the far end the lamp's point.
 template <class F>
@@ -202,7 +194,16 @@ struct InsideWay {
   Vec3<F> out, side;  ///< unit
   F p;                ///< Bouguer's invariant
   F angle;            ///< from `out` to where the ball is met first
+  MaskOf<F> main;     ///< it is that of the main word
 };
+
+/// Puts the ways of the lanes `here` among the others.
+template <class F>
+TYNDALL_INLINE void put(MaskOf<F> here, const InsideWay<F>& from, InsideWay<F>& to) {
+  to.out = select(here, from.out, to.out), to.side = select(here, from.side, to.side);
+  to.p = select(here, from.p, to.p), to.angle = select(here, from.angle, to.angle);
+  to.main = mask_or(mask_and(here, from.main), mask_and_not(to.main, here));
+}
 
 /// The angle about the centre by which light turns between its place next to the centre and the radius reach / n: see
 /// Turn. 0 where p > reach, as the light stays above that radius.
@@ -216,14 +217,15 @@ TYNDALL_INLINE F turn_above(F p, F reach) {
 /// see EndSigns. sense: see TurnRoot.
 template <class F>
 TYNDALL_INLINE InsideWay<F> inside_way(const ChainBall<F>& b, const ChainPlane<F>& plane, const ChainEnds<F>& e,
-                                       F near_sign, F far_sign, F sense, F p) {
+                                       F near_sign, F far_sign, F sense, F p, const ChainWord<F>& word) {
   const auto from_far = mask_and_not(less(plane.far, b.radius), e.both_out);
   const F reach = select(from_far, e.far_reach, e.near_reach), sign = select(from_far, far_sign, near_sign);
   const F within = select(e.deep, b.inner_index * b.inner_radius, b.index * b.radius);
   const F outside = turn_above(p, reach) - turn_above(p, b.radius);
   const F inside = mul_add(sign, turn_above(p, reach), turn_above(p, within));
   return {select(from_far, plane.far_out, plane.near_out),
-          select(from_far, -sense * plane.far_side, sense * plane.near_side), p, select(e.both_out, outside, inside)};
+          select(from_far, -sense * plane.far_side, sense * plane.near_side), p, select(e.both_out, outside, inside),
+          same_word(word, main_word(b, e))};
 }
 
 /// The point at `angle` on the sphere of `radius` about the ball's centre.
@@ -240,9 +242,8 @@ template <class F>
 TYNDALL_INLINE F pass_inside(const auto& s, const ChainBall<F>& b, const ChainEnds<F>& e, InsideWay<F> way,
                              const Decisions<F>& decisions, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
   using I = IntOf<F>;
-  WordWalk<F> walk = start_walk(b, e, decisions);
-  walk.decide.high = select(walk.main, UintOf<F>(0xffffffffu), walk.decide.high);  // no reflections
-  walk.open = mask_and(lanes, mask_and_not(mask_or(walk.open, walk.main), b.mirror));
+  WordWalk<F> walk = start_walk(b, e, decisions, way.main);
+  walk.open = mask_and(lanes, walk.open);
   auto clear = lanes;
   F share = F(1.0f);
   const F glass = turn_above(way.p, b.index * b.radius);

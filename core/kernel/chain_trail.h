@@ -99,7 +99,7 @@ template <class F>
 struct ChainByChance {
   MaskOf<F> could;  ///< there is one
   F density;        ///< of its direction where it starts, per steradian, once its pair and its word are chosen
-  F word;           ///< probability of its word
+  F word;           ///< see times_asked()
   F share;          ///< of light that the surfaces send this way
 };
 
@@ -122,8 +122,8 @@ TYNDALL_INLINE ChainByChance<F> ball_by_chance(const ChainView& c, const ChainTr
       chain.possible, mask_and(less_equal(F(least_parameter), parameter), less_equal(parameter, chain.turn.last)));
   const F cosine = lamp_cosine(lamp, at.normal, ray.direction);
   const F spread = spread_of(chain, ends, plane.sine, parameter, turn_at(chain.turn, parameter).slope, cosine);
-  return {mask_and(could, less(F(0.0f), cosine)), spread * (points_tried(b) * at.density),
-          word_probability(b, ends, word), share_of(b, ends, word, p)};
+  return {mask_and(could, less(F(0.0f), cosine)), spread * at.density, times_asked(b, ends, word),
+          share_of(b, ends, word, p)};
 }
 
 template <class F>

@@ -4,7 +4,7 @@
 #include "core/shapes/chain_turn.h"
 
 /// The word of a chain: which surfaces of a ball it meets and what happens there. Words are drawn at random; this file
-/// tells with which probability, and which share of the light takes the way that a word describes. A ball is a mirror,
+/// tells how often, and which share of the light takes the way that a word describes. A ball is a mirror,
 /// solid glass, or a shell: two spheres around one centre, with any refractive index between them and within.
 namespace tyndall {
 
@@ -160,13 +160,12 @@ TYNDALL_INLINE ChainWord<F> main_word(const ChainBall<F>& b, const ChainEnds<F>&
           select(b.hollow, select(e.both_out, two, select(e.deep, one, none)), none), none};
 }
 
-// A word is drawn by decisions, each of which takes one octal digit of 64 random bits. First: is it the main word?
-// If not: does the light reflect off the outside of the glass? Does it go past the inner sphere of a thick shell? Then,
-// at each event: is it reflected?
-inline constexpr int most_decisions = 16;       ///< about events at most; longer words are left to scattering
-inline constexpr std::int32_t main_digits = 6;  ///< how many of the eight digits mean the main word
-inline constexpr float take_main = 0.125f * main_digits;
-inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes" in each of the other decisions
+// Light by a ball is asked for by the main word, and by another one, which is drawn by decisions. Each of them
+// takes one octal digit of 64 random bits. First: does the light reflect off the outside of the glass? Does it go past
+// the inner sphere of a thick shell? Then, at each event: is it reflected? At the first one in solid glass it always
+// is, because the word would be the main one else.
+inline constexpr int most_decisions = 16;         ///< about events at most; longer words are left to scattering
+inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes"
 
 /// Whether light can pass through a shell's glass without meeting the inner sphere.
 template <class F>
@@ -203,22 +202,26 @@ struct Decisions {
 template <class F>
 struct WordWalk {
   Decisions<F> decide;
-  MaskOf<F> main, off;  ///< it is the main word; it only reflects off the outside of the glass
-  MaskOf<F> layered;    ///< the way meets the inner sphere
-  MaskOf<F> open;       ///< more events follow
-  IntOf<F> next;        ///< next event: 0 at the outer sphere, 1 at the inner one from the glass, 2 there from within
+  MaskOf<F> layered;  ///< the way meets the inner sphere
+  MaskOf<F> open;     ///< more events follow; not if it only reflects off the outside
+  IntOf<F> next;      ///< next event: 0 at the outer sphere, 1 at the inner one from the glass, 2 there from within
 };
 
+/// main: lanes that walk the main word, which takes no decisions.
 template <class F>
-TYNDALL_INLINE WordWalk<F> start_walk(const ChainBall<F>& b, const ChainEnds<F>& e, const Decisions<F>& decisions) {
+TYNDALL_INLINE WordWalk<F> start_walk(const ChainBall<F>& b, const ChainEnds<F>& e, const Decisions<F>& decisions,
+                                      MaskOf<F> main) {
   using I = IntOf<F>;
+  using U = UintOf<F>;
   WordWalk<F> walk;
   walk.decide = decisions;
-  walk.main = mask_or(b.mirror, walk.decide.below(main_digits));
-  walk.off = mask_and_not(mask_and(e.both_out, walk.decide.below(3)), walk.main);
-  const auto past = mask_and(mask_and(e.both_out, is_thick(b)), walk.decide.below(3));
-  walk.layered = mask_and(b.hollow, mask_or(walk.main, mask_not(past)));
-  walk.open = mask_and_not(e.valid, mask_or(walk.off, walk.main));
+  const auto drawn_out = mask_and_not(e.both_out, main);
+  const auto off = mask_and(drawn_out, walk.decide.below(3));
+  const auto past = mask_and(mask_and(drawn_out, is_thick(b)), walk.decide.below(3));
+  const U yes_first = walk.decide.high & U(0x1fffffffu);
+  walk.decide.high = select(main, U(0xffffffffu), select(b.hollow, walk.decide.high, yes_first));
+  walk.layered = mask_and_not(b.hollow, past);
+  walk.open = mask_and_not(e.valid, mask_or(off, b.mirror));
   walk.next = select(walk.layered, select(e.deep, I(2), I(1)), I(0));
   return walk;
 }
@@ -242,11 +245,11 @@ TYNDALL_INLINE WordEvent<F> step_walk(WordWalk<F>& walk) {
   return event;
 }
 
-/// Draws a word by random decisions.
+/// Draws another word than the main one by random decisions. In a shell it may be the main one all the same.
 template <class F>
 TYNDALL_INLINE DrawnWord<F> draw_word(const ChainBall<F>& b, const ChainEnds<F>& e, const Decisions<F>& decisions) {
   const F one = F(1.0f), none = F(0.0f);
-  WordWalk<F> walk = start_walk(b, e, decisions);
+  WordWalk<F> walk = start_walk(b, e, decisions, less(one, none));
   ChainWord<F> w{select(e.both_out, one, none), none, none};
   for (int i = 0; i < most_decisions && any(walk.open); ++i) {
     const WordEvent<F> event = step_walk(walk);
@@ -255,28 +258,34 @@ TYNDALL_INLINE DrawnWord<F> draw_word(const ChainBall<F>& b, const ChainEnds<F>&
     const auto inner_reflected = mask_and(event.at_inner, event.reflects);
     w.inner_reflected = select(inner_reflected, w.inner_reflected + one, w.inner_reflected);
   }
-  const ChainWord<F> first = main_word(b, e);
-  return {{select(walk.main, first.outer, w.outer), select(walk.main, first.inner, w.inner),
-           select(walk.main, first.inner_reflected, w.inner_reflected)},
-          mask_and_not(e.valid, walk.open)};
+  return {w, mask_and_not(mask_and_not(e.valid, b.mirror), walk.open)};
 }
 
-/// Probability with which draw_word() draws these events in one given order.
+/// How often light is asked for by the main word. Solid glass focuses: a few points of the lamp may bring almost all of
+/// the light, so that a second one is worth its time.
 template <class F>
-TYNDALL_INLINE F word_probability(const ChainBall<F>& b, const ChainEnds<F>& e, const ChainWord<F>& w) {
+TYNDALL_INLINE F main_asked(const ChainBall<F>& b) {
+  return select(mask_or(b.mirror, b.hollow), F(1.0f), F(2.0f));
+}
+
+/// How often, on average, light is asked for by these events in one given order: if they are the main word as often as
+/// main_asked() says, plus the probability that draw_word() draws them.
+template <class F>
+TYNDALL_INLINE F times_asked(const ChainBall<F>& b, const ChainEnds<F>& e, const ChainWord<F>& w) {
   const F yes = F(take_octal), no = F(1.0f) - yes;
   const F outside = select(e.both_out, F(2.0f), F(1.0f));
   const F reflections = (w.outer - outside) + w.inner_reflected, crossings = (w.inner - w.inner_reflected) + F(1.0f);
   const auto short_enough = less(reflections + crossings, F(most_decisions + 0.5f));
-  const F walk = whole_power(yes, max(reflections, F(0.0f))) * whole_power(no, crossings);
+  const F chosen = reflections - select(b.hollow, F(0.0f), F(1.0f));  // the first one in solid glass is not
+  const F walk = whole_power(yes, max(chosen, F(0.0f))) * whole_power(no, crossings);
   const auto past = mask_and_not(b.hollow, less(F(0.0f), w.inner));
   const F layers = select(is_thick(b), select(past, yes, no), select(past, F(0.0f), F(1.0f)));
   const F start = layers * no;
   const auto off = mask_and(e.both_out, equal(w.outer, F(1.0f)));
-  const F walked = select(short_enough, walk * select(e.both_out, start, F(1.0f)), F(0.0f));
-  const F other = F(1.0f - take_main) * select(off, yes, walked);
-  const F probability = other + select(same_word(w, main_word(b, e)), F(take_main), F(0.0f));
-  return select(e.valid, select(b.mirror, F(1.0f), probability), F(0.0f));
+  const auto walks = mask_and(short_enough, less(F(-0.5f), chosen));
+  const F walked = select(walks, walk * select(e.both_out, start, F(1.0f)), F(0.0f));
+  const F other = select(b.mirror, F(0.0f), select(off, yes, walked));
+  return select(e.valid, other + select(same_word(w, main_word(b, e)), main_asked(b), F(0.0f)), F(0.0f));
 }
 
 }  // namespace tyndall

@@ -25,7 +25,7 @@ const std::vector<RenderScene>& scenes() {
     for (const char* name : {"cornell-box", "cornell-smoke"}) list.push_back(compile(close_up(name, width, height)));
     list.push_back(compile(caustic_close_up(width, height)));
     const auto shares = [](const RenderScene& scene) { return SceneViewOf(scene).view().shares; };
-    CHECK(std::count_if(list.begin(), list.end(), shares) == 3);
+    CHECK(std::count_if(list.begin(), list.end(), shares) == 4);
     return list;
   }();
   return all;
