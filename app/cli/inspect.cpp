@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
-#include "core/kernel/sharing.h"
+#include "core/kernel/scene_view.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -198,23 +198,6 @@ template <Plain F>
 TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
   return count > 0 ? *from : 0;
 }
-/// Which lanes expand() fills. Made by expansion() from a number whose bit i stands for lane i.
-template <class F>
-struct Expansion;
-template <Plain F>
-struct Expansion<F> {
-  bool here;
-};
-template <Plain F>
-TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {
-  return {(lanes & 1u) != 0};
-}
-/// Fills the lanes of the expansion, in order, with the values at `from`; the others keep `old`. For example, lanes 1
-/// and 3 get from[0] and from[1]. As many values as a group has lanes must be readable.
-template <Plain F, class S, class T>
-TYNDALL_INLINE T expand(const Expansion<F>& e, const S* from, T old) {
-  return e.here ? static_cast<T>(*from) : old;
-}
 TYNDALL_INLINE void store(float* to, float v) { *to = v; }
 TYNDALL_INLINE void store(float* to, double v) { *to = static_cast<float>(v); }
 TYNDALL_INLINE void store(std::int32_t* to, std::int32_t v) { *to = v; }

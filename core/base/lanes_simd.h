@@ -129,40 +129,4 @@ TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
   return m;
 }
 
-template <>
-struct Expansion<HWY_NAMESPACE::Floats> {
-  HWY_NAMESPACE::Mask lanes;
-  HWY_NAMESPACE::Ints from;  ///< the value that each lane takes, for CPUs that cannot expand in one instruction
-};
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {
-#if HWY_TARGET == HWY_AVX3
-  return {mask_from_bits<F>(lanes), {}};
-#else
-  alignas(64) std::int32_t from[lanes_of<F>] = {};
-  std::int32_t next = 0;
-  for (std::uint32_t left = lanes; left; left &= left - 1) from[__builtin_ctz(left)] = next++;
-  return {mask_from_bits<F>(lanes), load_int<F>(from)};
-#endif
-}
-// The SIMD library has no expanding load yet.
-TYNDALL_INLINE HWY_NAMESPACE::Floats expand(const Expansion<HWY_NAMESPACE::Floats>& e, const float* from,
-                                            HWY_NAMESPACE::Floats old) {
-#if HWY_TARGET == HWY_AVX3
-  old.v.raw = _mm512_mask_expandloadu_ps(old.v.raw, e.lanes.v.raw, from);
-  return old;
-#else
-  return select(e.lanes, gather<HWY_NAMESPACE::Floats>(from, e.from), old);
-#endif
-}
-TYNDALL_INLINE HWY_NAMESPACE::Ints expand(const Expansion<HWY_NAMESPACE::Floats>& e, const std::int32_t* from,
-                                          HWY_NAMESPACE::Ints old) {
-#if HWY_TARGET == HWY_AVX3
-  old.v.raw = _mm512_mask_expandloadu_epi32(old.v.raw, e.lanes.v.raw, from);
-  return old;
-#else
-  return select(e.lanes, gather_int<HWY_NAMESPACE::Floats>(from, e.from), old);
-#endif
-}
-
 }  // namespace tyndall

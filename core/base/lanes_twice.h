@@ -216,20 +216,4 @@ TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
   return {mask_from_bits<HalfOf<F>>(b), mask_from_bits<HalfOf<F>>(b >> lanes_of<HalfOf<F>>)};
 }
 
-template <Doubled F>
-struct Expansion<F> {
-  Expansion<HalfOf<F>> a, b;
-  int taken;  ///< how many values the first group has taken
-};
-template <Doubled F>
-TYNDALL_INLINE Expansion<F> expansion(std::uint32_t lanes) {
-  constexpr int half = lanes_of<HalfOf<F>>;
-  const std::uint32_t first = lanes & ((1u << half) - 1u);
-  return {expansion<HalfOf<F>>(first), expansion<HalfOf<F>>(lanes >> half), __builtin_popcount(first)};
-}
-template <Doubled F, class S, class T>
-TYNDALL_INLINE Twice<T> expand(const Expansion<F>& e, const S* from, Twice<T> old) {
-  return {expand(e.a, from, old.a), expand(e.b, from + e.taken, old.b)};
-}
-
 }  // namespace tyndall

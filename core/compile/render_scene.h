@@ -218,7 +218,7 @@ struct RenderScene {
   double film_unit = 1;
   Needs needs;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs
-  bool may_share = false;  ///< second vertices may be shared between pixels; whether that pays: kernel/sharing.h
+  bool may_share = false;  ///< second vertices may be shared between pixels; whether that pays: kernel/scene_view.h
   int primitives() const;
 };
 

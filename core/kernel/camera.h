@@ -36,21 +36,22 @@ TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& di
 
 inline constexpr int most_unit_pixels = 4096;
 
-/// One sample that is to be taken.
-struct CameraSample {
-  std::int32_t x, y;  ///< pixel, in full-image coordinates
-  std::uint32_t index;
-  std::int32_t slot;  ///< see Paths::slot
+/// Samples that are to be taken next, one in each lane.
+template <int lanes>
+struct CameraSamples {
+  alignas(64) std::int32_t x[lanes] = {}, y[lanes] = {};  ///< pixel, in full-image coordinates
+  alignas(64) std::uint32_t index[lanes] = {};
+  alignas(64) std::int32_t slot[lanes] = {};  ///< see Paths::slot
+  int count = 0;
 };
 
 /// The samples of a unit, in the order in which lanes take them: first one sample of every pixel, then the next one of
 /// every pixel, and so on.
 struct UnitSamples {
   std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
-  std::uint32_t start[most_unit_pixels];                          ///< first sample, if each pixel has its own
+  std::uint32_t start[most_unit_pixels];                          ///< first sample of each pixel
   int x0, y0, width;                                              ///< of the tile
   const std::uint32_t *first_of, *last_of;                        ///< see Unit
-  std::uint32_t first;
   int pixels;
   int pixel;            ///< the next one, as an index into these lists
   std::uint32_t round;  ///< its next sample, counted from the pixel's first
@@ -60,15 +61,22 @@ struct UnitSamples {
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
-  TYNDALL_INLINE CameraSample take() {
-    const std::uint32_t index = (first_of ? start[pixel] : first) + round;
-    const CameraSample sample{x0 + column[pixel], y0 + row[pixel], index,
-                              2 * place(pixel) + static_cast<std::int32_t>(index & 1u)};
-    if (++pixel < pixels) return sample;
-    pixel = 0;
-    ++round;
-    if (round == next_finish) drop_finished();
-    return sample;
+  /// Fills lanes with the next samples, as long as there are any.
+  template <int lanes>
+  TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
+    while (to.count < lanes && !empty()) {
+      const int room = lanes - to.count, left = pixels - pixel, count = left < room ? left : room;
+      for (int i = 0; i < count; ++i) {
+        const int k = to.count + i;
+        to.x[k] = x0 + column[pixel + i], to.y[k] = y0 + row[pixel + i];
+        to.index[k] = start[pixel + i] + round;
+        to.slot[k] = 2 * place(pixel + i) + static_cast<std::int32_t>(to.index[k] & 1u);
+      }
+      to.count += count, pixel += count;
+      if (pixel < pixels) continue;
+      pixel = 0, ++round;
+      if (round == next_finish) drop_finished();
+    }
   }
   /// Removes the pixels that have all their samples from the list.
   TYNDALL_INLINE void drop_finished() {
@@ -96,11 +104,11 @@ TYNDALL_INLINE void list_samples(const SceneView& s, const Unit& unit, UnitSampl
       if (unit.skip_step > 0 && x % unit.skip_step == 0 && y % unit.skip_step == 0) continue;
       list.column[list.pixels] = static_cast<std::uint16_t>(x - unit.tile.x0);
       list.row[list.pixels] = static_cast<std::uint16_t>(y - unit.tile.y0);
+      list.start[list.pixels] = unit.first;
       ++list.pixels;
     }
   list.x0 = unit.tile.x0, list.y0 = unit.tile.y0, list.width = unit.tile.x1 - unit.tile.x0;
   list.first_of = unit.first_of, list.last_of = unit.last_of;
-  list.first = unit.first;
   list.pixel = 0;
   list.round = 0;
   list.rounds = list.pixels ? unit.last - unit.first : 0;
@@ -110,42 +118,33 @@ TYNDALL_INLINE void list_samples(const SceneView& s, const Unit& unit, UnitSampl
   list.drop_finished();
 }
 
-/// New camera rays, computed in all lanes at once, that wait until lanes of the path loop become free.
+/// The next samples of a unit, one in each lane, and the rays with which they start.
 template <class F>
-struct CameraQueue {
-  static constexpr int lanes = lanes_of<F>;
-  alignas(64) float ox[lanes + 1], oy[lanes + 1], oz[lanes + 1], dx[lanes + 1], dy[lanes + 1], dz[lanes + 1];
-  alignas(64) float time[lanes + 1], weight[lanes + 1];
-  alignas(64) std::int32_t low[lanes + 1], high[lanes + 1], way[lanes + 1];
-  std::int32_t slot[lanes + 1];  ///< 2 · pixel within the tile + half
-  int next = 0, end = 0;
+struct NewSamples {
+  Ray<F> ray;
+  UintOf<F> low, high;  ///< see Dice
+  AtGlints<F> glints;
+  IntOf<F> slot;  ///< see Paths::slot
+  int count;      ///< lanes from this one on have no sample
 };
 
-/// Fills the queue with the rays of the next samples.
+/// There has to be at least one sample.
 template <class F>
-[[gnu::noinline]] static void refill(CameraQueue<F>& queue, auto& samples, const SceneView& s) {
+[[gnu::noinline]] static NewSamples<F> take_samples(auto& samples, const SceneView& s) {
   constexpr int lanes = lanes_of<F>;
-  alignas(64) float x[lanes] = {}, y[lanes] = {};
-  alignas(64) std::uint32_t ix[lanes] = {}, iy[lanes] = {}, index[lanes] = {};
-  queue.next = queue.end = 0;
-  for (; queue.end < lanes && !samples.empty(); ++queue.end) {
-    const int k = queue.end;
-    const CameraSample sample = samples.take();
-    ix[k] = static_cast<std::uint32_t>(sample.x), iy[k] = static_cast<std::uint32_t>(sample.y);
-    x[k] = static_cast<float>(ix[k]), y[k] = static_cast<float>(iy[k]);
-    index[k] = sample.index;
-    queue.slot[k] = sample.slot;
-  }
-  const Dice<F> dice = Dice<F>::of(s.seed, load_uint<F>(ix), load_uint<F>(iy), load_uint<F>(index), s.sampler);
+  CameraSamples<lanes> next;
+  samples.take(next);
+  const IntOf<F> column = load_int<F>(next.x), row = load_int<F>(next.y);
+  const F x = from_int<F>(column), y = from_int<F>(row);
+  const Dice<F> dice = Dice<F>::of(s.seed, as_uint(column), as_uint(row), load_uint<F>(next.index), s.sampler);
+  NewSamples<F> taken;
   Pair<F> in_pixel = dice.pair(dimension::pixel);
-  AtGlints<F> glints{F(1.0f), IntOf<F>(0)};
-  if (samples.glints.first != samples.glints.last)
-    glints = aim_at_glints(samples.glints, load<F>(x), load<F>(y), in_pixel);
-  const Ray<F> ray = ray_through(s, load<F>(x) + in_pixel.x, load<F>(y) + in_pixel.y, dice);
-  store(queue.ox, ray.origin.x), store(queue.oy, ray.origin.y), store(queue.oz, ray.origin.z);
-  store(queue.dx, ray.direction.x), store(queue.dy, ray.direction.y), store(queue.dz, ray.direction.z);
-  store(queue.time, ray.time), store(queue.weight, glints.weight), store(queue.way, glints.way);
-  store(queue.low, as_int(dice.low)), store(queue.high, as_int(dice.high));
+  taken.glints = {F(1.0f), IntOf<F>(0)};
+  if (samples.glints.first != samples.glints.last) taken.glints = aim_at_glints(samples.glints, x, y, in_pixel);
+  taken.ray = ray_through(s, x + in_pixel.x, y + in_pixel.y, dice);
+  taken.low = dice.low, taken.high = dice.high;
+  taken.slot = load_int<F>(next.slot), taken.count = next.count;
+  return taken;
 }
 
 }  // namespace tyndall

@@ -59,7 +59,7 @@ struct Kernels {
   const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
   int lanes;        ///< how many paths run together
   RenderUnit render_units[kernel_sets];  ///< by KernelSet; the full kernel for each set that was not compiled
-  /// For scenes that share second vertices (sharing.h): with all models, without chains, and without fog and textures.
+  /// For scenes that share second vertices (share.h): with all models, without chains, and without fog and textures.
   RenderUnit render_shared, render_shared_no_chains, render_shared_plain;
   TraceRays trace;
   FirstHits first_hits;

@@ -1,52 +1,14 @@
 #pragma once
-#include "core/kernel/camera.h"
 #include "core/kernel/chain_light.h"
 #include "core/kernel/near_lights.h"
+#include "core/kernel/path_pool.h"
 #include "core/kernel/share.h"
 
 #include <type_traits>
 
-/// The path loop. Each lane of a group follows a path of its own; when that ends, the lane takes the next camera ray,
-/// so that no lane waits for the others.
+/// The path loop: all lanes of a group take a step, each with a path of its own, and no lane waits for the others
+/// (path_pool.h).
 namespace tyndall {
-
-/// Gives each free lane a camera ray, as long as there are samples.
-template <class F>
-TYNDALL_INLINE void take_samples(Paths<F>& p, CameraQueue<F>& queue, auto& samples, const auto& s) {
-  constexpr std::uint32_t full = lanes_of<F> == 32 ? 0xffffffffu : (1u << (lanes_of<F> % 32)) - 1u;
-  while (p.alive != full) {
-    if (queue.next == queue.end) {
-      if (samples.empty()) return;
-      refill(queue, samples, s);
-    }
-    std::uint32_t fresh = full & ~p.alive;
-    while (__builtin_popcount(fresh) > queue.end - queue.next) fresh &= fresh - 1;
-    const Expansion<F> fill = expansion<F>(fresh);
-    const auto m = mask_from_bits<F>(fresh);
-    const auto take = [&](const auto* column, auto old) __attribute__((always_inline)) {
-      return expand(fill, column + queue.next, old);
-    };
-    p.ray.origin = {take(queue.ox, p.ray.origin.x), take(queue.oy, p.ray.origin.y), take(queue.oz, p.ray.origin.z)};
-    p.ray.direction = {take(queue.dx, p.ray.direction.x), take(queue.dy, p.ray.direction.y),
-                       take(queue.dz, p.ray.direction.z)};
-    p.ray.time = take(queue.time, p.ray.time);
-    p.slot = take(queue.slot, p.slot);
-    if (s.has_chains()) p.weight = take(queue.weight, p.weight), p.way = take(queue.way, p.way);
-    p.dice.low = as_uint(take(queue.low, as_int(p.dice.low)));
-    p.dice.high = as_uint(take(queue.high, as_int(p.dice.high)));
-    queue.next += __builtin_popcount(fresh);
-    p.ray.from = select(m, IntOf<F>(from_nowhere), p.ray.from);
-    p.dice.event = select(m, UintOf<F>(dimension::camera_count * golden_ratio), p.dice.event);
-    p.throughput = select(m, Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.throughput);
-    p.radiance = select(m, zero3<F>(), p.radiance);
-    p.depth = select(m, IntOf<F>(0), p.depth);
-    p.density = select(m, F(one_direction), p.density);
-    if (s.has_chains()) p.trail.met = select(m, IntOf<F>(-1), p.trail.met);
-    if (s.has_lamps()) p.straight |= fresh;
-    p.first &= ~fresh, p.second &= ~fresh;
-    p.alive |= fresh;
-  }
-}
 
 /// Finds the lanes in which `part` of the path's state is not finite, and returns them. Their radiance is made not a
 /// number, so that the film rejects and counts the sample.
@@ -92,6 +54,10 @@ TYNDALL_INLINE void enqueue(ChainQueue<F>& queue, const Paths<F>& p, const Event
   queue.count += __builtin_popcount(bits(lanes));
 }
 
+/// Whether the kernel whose paths are noted in a `Shared` shares second vertices.
+template <class Shared>
+inline constexpr bool shares_vertices = std::is_same_v<std::remove_cvref_t<Shared>, SharedPaths>;
+
 /// In kernels that share: what is added to the slot of a path whose events leave its second vertex.
 inline constexpr std::int32_t leaves_second = 1 << 30;
 
@@ -118,7 +84,7 @@ TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, Mask
 template <class F>
 TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, MaskOf<F>& cut, ChainQueue<F>& chains,
                               auto& shared, std::uint32_t& shadow_rays) {
-  constexpr bool shares = std::is_same_v<std::remove_cvref_t<decltype(shared)>, SharedPaths>;
+  constexpr bool shares = shares_vertices<decltype(shared)>;
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found = no_event(p.ray);
   const F to_surface = hit.t;
@@ -244,40 +210,51 @@ TYNDALL_INLINE void find_waiting_chains(const auto& s, ChainQueue<F>& queue, Uni
   for (auto& column : queue.word) store(column, load_int<F>(column + lanes));
 }
 
+/// Follows paths until all samples are done. end(p, finished, cut): the paths in the lanes `finished` have ended, those
+/// in `cut` because of max_depth. add(slot, light): a chain brings light to the path of that slot.
 template <class F>
-TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm& film) {
-  UnitCounts& counts = film.counts;
-  UnitSamples samples;
-  list_samples(s, unit, samples);
-  CameraQueue<F> queue;
+TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, auto& shared, UnitCounts& counts, const auto& end,
+                                 const auto& add) {
+  constexpr bool shares = shares_vertices<decltype(shared)>;
+  PathPool<F> pool;
   ChainQueue<F> chains{};
-  NoSharing alone;
-  const auto add = [&](std::int32_t slot, Vec3f light) {
-    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_unit);
-  };
   Paths<F> p{};
   p.dice.sampler = s.sampler;
   // The loop goes on until no event waits for a chain. A second loop for the last of them would put their code into
   // each kernel twice.
   for (bool sampling = true; sampling || chains.count > 0;) {
-    take_samples(p, queue, samples, s);
+    take_paths<shares>(s, p, pool, samples);
     sampling = p.alive != 0;
     if (sampling) {
       counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++counts.steps;
       MaskOf<F> cut;
       std::uint32_t shadow_rays = 0;
       const std::uint32_t survivors =
-          bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, alone, shadow_rays)) & p.alive;
-      counts.rays += shadow_rays;
-      counts.shadow_rays += shadow_rays;
-      finish(s, p, p.alive & ~survivors, bits(cut), film);
+          bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shared, shadow_rays)) & p.alive;
+      counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
+      end(p, p.alive & ~survivors, bits(cut));
       p.alive = survivors;
+      if constexpr (PathPool<F>::waits) let_wait<shares>(s, p, pool);
     }
     if constexpr (ChainQueue<F>::waits) {
       const bool full = chains.count >= lanes_of<F>, rest = !sampling && chains.count > 0;
       if (s.has_chains() && (full || rest)) find_waiting_chains(s, chains, counts, add);
     }
   }
+}
+
+template <class F>
+TYNDALL_INLINE void render_unit(const auto& s, const Unit& unit, const UnitFilm& film) {
+  UnitSamples samples;
+  list_samples(s, unit, samples);
+  NoSharing alone;
+  const auto end = [&](const Paths<F>& p, std::uint32_t finished, std::uint32_t cut) __attribute__((always_inline)) {
+    finish(s, p, finished, cut, film);
+  };
+  const auto add = [&](std::int32_t slot, Vec3f light) {
+    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_unit);
+  };
+  follow_paths<F>(s, samples, alone, film.counts, end, add);
 }
 
 }  // namespace tyndall

@@ -1,6 +1,4 @@
 // Compiled like the scalar kernel, so that every instruction set gets the same answer.
-#include "core/kernel/sharing.h"
-
 #include "core/kernel/shared_unit.h"
 
 #include <algorithm>

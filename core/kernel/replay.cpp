@@ -115,10 +115,9 @@ PathReplay replay(const SceneView& s, int x, int y, std::uint32_t sample) {
   const Unit unit{{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1};
   UnitSamples samples;
   list_samples(s, unit, samples);
-  CameraQueue<float> queue;
   Paths<float> p{};
   p.dice.sampler = s.sampler;
-  take_samples(p, queue, samples, s);
+  begin_samples(s, p, samples);
   PathReplay path{p.ray.origin, p.ray.time, {}, {}, s.has_chains() ? p.weight : 1.0f};
   SharedPaths shared;
   while (p.alive) {

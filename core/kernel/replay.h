@@ -33,7 +33,7 @@ struct PathReplay {
   std::vector<PathVertex> vertices;
   Vec3f radiance;    ///< the sample, bit for bit what the scalar kernel gives to the film
   float weight = 1;  ///< of the sample, see glints.h; the radiances of all vertices include it
-  /// Its first vertex shares second vertices with seven other pixels (sharing.h): instead of what the path has gathered
+  /// Its first vertex shares second vertices with seven other pixels (share.h): instead of what the path has gathered
   /// from its own one, the sample holds a weighted mean of what leaves all eight.
   bool shared = false;
 };

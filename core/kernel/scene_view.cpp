@@ -1,7 +1,5 @@
 #include "core/kernel/scene_view.h"
 
-#include "core/kernel/sharing.h"
-
 #include <algorithm>
 
 namespace tyndall {

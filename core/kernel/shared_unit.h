@@ -104,13 +104,16 @@ struct SharedSamples {
 
   TYNDALL_INLINE SharedSamples(const SharedPaths& of, Glints in_rows) : paths(of), glints(in_rows) { skip(); }
   TYNDALL_INLINE bool empty() const { return member == group_size; }
-  TYNDALL_INLINE CameraSample take() {
-    const CameraSample sample{paths.x[group] + member % group_columns * group_spacing,
-                              paths.y[group] + member / group_columns * group_spacing, paths.index[group],
-                              member * SharedPaths::most_groups + group};
-    ++group;
-    skip();
-    return sample;
+  /// Fills lanes with the next samples, as long as there are any.
+  template <int lanes>
+  TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
+    for (int& k = to.count; k < lanes && !empty(); ++k) {
+      to.x[k] = paths.x[group] + member % group_columns * group_spacing;
+      to.y[k] = paths.y[group] + member / group_columns * group_spacing;
+      to.index[k] = paths.index[group], to.slot[k] = member * SharedPaths::most_groups + group;
+      ++group;
+      skip();
+    }
   }
 
  private:
@@ -234,29 +237,11 @@ TYNDALL_INLINE void share_second_vertices(const auto& s, SharedPaths& p, UnitCou
 template <class F>
 TYNDALL_INLINE void trace_groups(const auto& s, Glints glints, SharedPaths& shared, const UnitFilm& film) {
   SharedSamples samples(shared, glints);
-  CameraQueue<F> queue;
-  ChainQueue<F> chains{};
+  const auto end = [&](const Paths<F>& p, std::uint32_t finished, std::uint32_t cut) __attribute__((always_inline)) {
+    keep_paths(s, p, finished, cut, film, shared);
+  };
   const auto add = [&](std::int32_t at, Vec3f light) { keep_chain(shared, film, at, light); };
-  Paths<F> p{};
-  p.dice.sampler = s.sampler;
-  for (bool sampling = true; sampling || chains.count > 0;) {  // one loop, see render_unit()
-    take_samples(p, queue, samples, s);
-    sampling = p.alive != 0;
-    if (sampling) {
-      film.counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++film.counts.steps;
-      MaskOf<F> cut;
-      std::uint32_t shadow_rays = 0;
-      const std::uint32_t survivors =
-          bits(step(s, p, mask_from_bits<F>(p.alive), cut, chains, shared, shadow_rays)) & p.alive;
-      film.counts.rays += shadow_rays, film.counts.shadow_rays += shadow_rays;
-      keep_paths(s, p, p.alive & ~survivors, bits(cut), film, shared);
-      p.alive = survivors;
-    }
-    if constexpr (ChainQueue<F>::waits) {
-      const bool full = chains.count >= lanes_of<F>, rest = !sampling && chains.count > 0;
-      if (s.has_chains() && (full || rest)) find_waiting_chains(s, chains, film.counts, add);
-    }
-  }
+  follow_paths<F>(s, samples, shared, film.counts, end, add);
   if (!s.has_chains()) return;
   for (int slot = 0; slot < SharedPaths::room; ++slot)
     for (int c = 0; c < 3 && shared.second.even[slot] >= 0; ++c) shared.leaving[c][slot] += shared.by_chains[c][slot];

@@ -32,13 +32,11 @@ std::uint32_t least_taken(const Film& film, const Region& part) {
 }  // namespace
 
 std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second) {
-  std::uint32_t most = length.most;
-  if (std::isfinite(length.seconds)) {
-    const double in_time = paths_per_second * length.seconds / static_cast<double>(std::max<std::size_t>(pixels, 1));
-    most = static_cast<std::uint32_t>(std::clamp(in_time, 1.0, static_cast<double>(length.most)));
-  }
-  const auto wish = static_cast<std::uint32_t>(std::min(length.growth * taken, static_cast<double>(most)));
-  return std::max(wish, 1u);
+  const double per_second = std::max(paths_per_second, 0.0) / static_cast<double>(std::max<std::size_t>(pixels, 1));
+  double most = length.most;
+  if (std::isfinite(length.seconds)) most = std::clamp(per_second * length.seconds, 1.0, most);
+  const double wish = std::max(length.growth * taken, per_second * length.least_seconds);
+  return std::max(static_cast<std::uint32_t>(std::min(wish, most)), 1u);
 }
 
 PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) : options_(options) {

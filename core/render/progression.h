@@ -30,6 +30,9 @@ struct PassLength {
   std::uint32_t most = 32;  ///< samples of the longest pass
   double seconds =
       std::numeric_limits<double>::infinity();  ///< about how long a pass may take, by the last one's speed
+  /// A pass takes as many samples as fit into this time, if these are more than `growth` says: each pass goes through
+  /// the whole film once, which costs as much as half a sample of a simple scene.
+  double least_seconds = 0;
 };
 
 /// Samples of the next pass, at least 1. taken: samples a pixel so far; paths_per_second: <= 0 if unknown.

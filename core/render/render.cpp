@@ -20,9 +20,11 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   made.tile = options.tile;
   made.count_breaks = true;
   // If time or error decide when to stop, passes are short, because both are looked at between passes only. Otherwise
-  // each pass doubles the samples, until it is as long as PassLength::most allows.
+  // there are few passes: each doubles the samples, or takes a tenth of a second, until it is as long as
+  // PassLength::most allows.
   const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
   made.length.growth = looks ? 0.25 : 1;
+  made.length.least_seconds = looks ? 0 : 0.1;
   if (reports) made.estimates = {.seconds = 0.5, .growth = 0.5};
   return made;
 }

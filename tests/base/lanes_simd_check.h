@@ -150,19 +150,20 @@ void check_masks(Differences& d, const Inputs& in, F f) {
   return d.count;
 }
 
-TYNDALL_INLINE Wide load_any(const float* from) { return load<Wide>(from); }
-TYNDALL_INLINE IntOf<Wide> load_any(const std::int32_t* from) { return load_int<Wide>(from); }
-
-/// The lanes of in.m, filled from a table, the others as they were.
+/// The lanes of in.m, next to each other. What is before them stays as it was.
 template <class T>
-void check_expansion(Differences& d, const Inputs& in, const T* table) {
-  T got[width], expected[width];
-  for (int k = 0; k < width; ++k) expected[k] = static_cast<T>(k + 1000);
-  const T* from = table + 5;
-  store(got, expand(expansion<Wide>(bits_of(in.m)), from, load_any(expected)));
+void check_append(Differences& d, const Inputs& in, const T* table) {
+  constexpr int before = 3;
+  T got[before + 2 * width] = {}, expected[before + width] = {};
+  int count = before;
   for (int k = 0; k < width; ++k)
-    if (in.m[k]) expected[k] = *from++;
-  d.expect(got, expected);
+    if (in.m[k]) expected[count++] = table[k];
+  const auto lanes = mask_from_bits<Wide>(bits_of(in.m));
+  if constexpr (std::is_same_v<T, float>)
+    d.count += append(got + before, load<Wide>(table), lanes) != count - before;
+  else
+    d.count += append(got + before, load_int<Wide>(table), lanes) != count - before;
+  for (int k = 0; k < count; ++k) d.count += got[k] != expected[k];
 }
 
 /// Entries of tables of all lengths: what lies beyond is never read.
@@ -192,8 +193,8 @@ void check_lookup(Differences& d, const Inputs& in, const float* table, const st
     d.expect(got, expected);
     store(whole, gather_int<Wide>(whole_table, load_int<Wide>(at)));
     d.expect(whole, plain);
+    check_append(d, in, table), check_append(d, in, whole_table);
     for (const int count : {1, 7, 16, 31, 32, 33, 256}) check_lookup(d, in, table, whole_table, count);
-    check_expansion(d, in, table), check_expansion(d, in, whole_table);
     float least = expected[0];
     for (const float e : expected) least = e < least ? e : least;
     d.count += least_lane(load<Wide>(expected)) != least;

@@ -72,7 +72,7 @@ TEST_CASE("adaptive: by long and short passes, continued, and given up at any po
     int calls = 0, stops = 0;
     for (film = {}; !(film == whole) && stops < 1000;) {
       RenderResult part = render(
-          scene, options_of(80), [&](const RenderProgress&) { return ++calls % 3 > 0; }, std::move(film));
+          scene, options_of(80), [&](const RenderProgress&) { return ++calls % 2 > 0; }, std::move(film));
       film = std::move(part.film);
       stops += part.interrupted ? 1 : 0;
     }

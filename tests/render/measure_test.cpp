@@ -61,7 +61,7 @@ TEST_CASE("measuring: the samples that planned the measurement are not part of i
 TEST_CASE("measuring: stops when it is told to") {
   int calls = 0;
   const Measured measured =
-      measure_mean(compile(fog_ball()), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 3; });
+      measure_mean(compile(fog_ball()), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 2; });
   CHECK(measured.interrupted);
   CHECK(measured.totals.samples < 256 * 64);
 }

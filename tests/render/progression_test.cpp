@@ -219,6 +219,11 @@ TEST_CASE("pass length: doubles or adds a part, within the time and the most sam
   CHECK(pass_samples(doubling, 1000, full_hd, 1.0 * full_hd) == 1);
   CHECK(pass_samples(doubling, 1000, full_hd, 0) == 1);  // one, while the speed is not known
   CHECK(pass_samples(doubling, 3, 0, 1e6) == 3);
+  const PassLength few{.growth = 1, .most = 32, .least_seconds = 0.1};
+  CHECK(pass_samples(few, 0, full_hd, 0) == 1);
+  CHECK(pass_samples(few, 1, full_hd, 70.0 * full_hd) == 7);
+  CHECK(pass_samples(few, 12, full_hd, 70.0 * full_hd) == 12);
+  CHECK(pass_samples(few, 1, full_hd, 7e5 * full_hd) == 32);
   const PassLength quarter{.growth = 0.25, .most = 32};
   CHECK(pass_samples(quarter, 1, full_hd, 0) == 1);
   CHECK(pass_samples(quarter, 15, full_hd, 0) == 3);

@@ -1,5 +1,3 @@
-#include "core/kernel/sharing.h"
-
 #include "core/kernel/scene_view.h"
 #include "core/render/pass.h"
 #include "tests/support/pictures.h"

@@ -1,0 +1,125 @@
+#pragma once
+#include "core/kernel/camera.h"
+#include "core/kernel/event.h"
+
+/// Paths between two events. All lanes take a step together: either with new samples, whose rays lie side by side and
+/// meet much the same things, or with paths that had events before. Paths that go on after a step wait here until there
+/// are enough of them to fill all lanes.
+namespace tyndall {
+
+/// With one lane (float, double) nothing waits: a path goes on until it ends.
+template <class F>
+struct PathPool {
+  static constexpr bool waits = lanes_of<F> > 1;
+  // Room for one path less than there are lanes, for those that a step adds, and for what append() may overwrite.
+  static constexpr int room = waits ? 3 * lanes_of<F> : 1, most_numbers = 29, most_words = 9;
+  alignas(64) float number[most_numbers][room];
+  alignas(64) std::int32_t word[most_words][room];
+  int count = 0;
+};
+
+/// Calls number(row, x) or word(row, x) for each part of the paths that differs between those that wait. What a scene
+/// does not need is left out.
+template <class F>
+TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, const auto& word) {
+  IntOf<F> low = as_int(p.dice.low), high = as_int(p.dice.high);
+  word(0, low), word(1, high), word(2, p.slot), word(3, p.depth), word(4, p.ray.from);
+  p.dice.low = as_uint(low), p.dice.high = as_uint(high);
+  number(0, p.ray.origin.x), number(1, p.ray.origin.y), number(2, p.ray.origin.z);
+  number(3, p.ray.direction.x), number(4, p.ray.direction.y), number(5, p.ray.direction.z);
+  number(6, p.ray.time), number(7, p.density);
+  number(8, p.throughput.x), number(9, p.throughput.y), number(10, p.throughput.z);
+  number(11, p.radiance.x), number(12, p.radiance.y), number(13, p.radiance.z);
+  if (s.has_chains()) {
+    number(14, p.trail.start.x), number(15, p.trail.start.y), number(16, p.trail.start.z);
+    number(17, p.trail.density), number(18, p.weight);
+    word(5, p.trail.met), word(6, p.way);
+  }
+  if (s.has_lamps_in_fog()) {
+    FogFlight<F>& f = p.flight;
+    number(19, f.origin.x), number(20, f.origin.y), number(21, f.origin.z);
+    number(22, f.direction.x), number(23, f.direction.y), number(24, f.direction.z);
+    number(25, f.begin), number(26, f.end), number(27, f.distance), number(28, f.density);
+    word(7, f.medium);
+  }
+}
+
+/// The bits of Paths that tell lanes apart, as a number for each lane.
+template <bool shares, class F>
+TYNDALL_INLINE IntOf<F> marks_of(const Paths<F>& p) {
+  const auto mark = [](std::uint32_t lanes, std::int32_t value) __attribute__((always_inline)) {
+    return select(mask_from_bits<F>(lanes), IntOf<F>(value), IntOf<F>(0));
+  };
+  const IntOf<F> straight = mark(p.straight, 1);
+  if constexpr (!shares) return straight;
+  return straight + mark(p.first, 2) + mark(p.second, 4);
+}
+template <bool shares, class F>
+TYNDALL_INLINE void set_marks(IntOf<F> marks, Paths<F>& p) {
+  const auto marked = [&](std::int32_t value) __attribute__((always_inline)) {
+    return bits(equal(marks & IntOf<F>(value), IntOf<F>(value)));
+  };
+  p.straight = marked(1);
+  if constexpr (shares) p.first = marked(2), p.second = marked(4);
+}
+
+/// Adds the paths that are alive to those that wait.
+template <bool shares, class F>
+TYNDALL_INLINE void let_wait(const auto& s, Paths<F>& p, PathPool<F>& pool) {
+  const auto lanes = mask_from_bits<F>(p.alive);
+  each_part(
+      s, p, [&](int row, F x) __attribute__((always_inline)) { append(pool.number[row] + pool.count, x, lanes); },
+      [&](int row, IntOf<F> x) __attribute__((always_inline)) { append(pool.word[row] + pool.count, x, lanes); });
+  if (shares || s.has_lamps()) append(pool.word[8] + pool.count, marks_of<shares>(p), lanes);
+  pool.count += __builtin_popcount(p.alive);
+  p.alive = 0;
+}
+
+/// Bit i is set for each lane i < count.
+template <class F>
+constexpr std::uint32_t first_lanes(int count) {
+  return count == 32 ? 0xffffffffu : (1u << count) - 1u;
+}
+
+/// Takes the paths that came last, as many as there are lanes.
+template <bool shares, class F>
+TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, PathPool<F>& pool) {
+  using U = UintOf<F>;
+  const int count = pool.count < lanes_of<F> ? pool.count : lanes_of<F>;
+  pool.count -= count;
+  each_part(
+      s, p, [&](int row, F& x) __attribute__((always_inline)) { x = load<F>(pool.number[row] + pool.count); },
+      [&](int row, IntOf<F>& x) __attribute__((always_inline)) { x = load_int<F>(pool.word[row] + pool.count); });
+  if (shares || s.has_lamps()) set_marks<shares>(load_int<F>(pool.word[8] + pool.count), p);
+  const U events = as_uint(p.depth);
+  p.dice.event = (events * U(dimension::per_event) + U(dimension::camera_count)) * U(golden_ratio);
+  p.alive = first_lanes<F>(count);
+}
+
+/// Begins the next samples, one in each lane.
+template <class F>
+TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
+  const NewSamples<F> fresh = take_samples<F>(samples, s);
+  p.ray = fresh.ray, p.slot = fresh.slot;
+  p.dice.low = fresh.low, p.dice.high = fresh.high;
+  p.dice.event = UintOf<F>(dimension::camera_count * golden_ratio);
+  p.throughput = Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.radiance = zero3<F>();
+  p.depth = IntOf<F>(0), p.density = F(one_direction);
+  if (s.has_chains()) p.weight = fresh.glints.weight, p.way = fresh.glints.way, p.trail.met = IntOf<F>(-1);
+  p.straight = s.has_lamps() ? ~0u : 0u, p.first = p.second = 0;
+  p.alive = first_lanes<F>(fresh.count);
+}
+
+/// Fills the lanes for the next step. If no path is alive then, all samples are done.
+template <bool shares, class F>
+TYNDALL_INLINE void take_paths(const auto& s, Paths<F>& p, PathPool<F>& pool, auto& samples) {
+  if constexpr (!PathPool<F>::waits) {
+    if (!p.alive && !samples.empty()) begin_samples(s, p, samples);
+  } else if (pool.count < lanes_of<F> && !samples.empty()) {
+    begin_samples(s, p, samples);
+  } else {
+    take_waiting<shares>(s, p, pool);
+  }
+}
+
+}  // namespace tyndall
