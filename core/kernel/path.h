@@ -216,7 +216,7 @@ template <class F>
 TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, auto& shared, UnitCounts& counts, const auto& end,
                                  const auto& add) {
   constexpr bool shares = shares_vertices<decltype(shared)>;
-  PathPool<F> pool;
+  PathPool<F> pool{};
   ChainQueue<F> chains{};
   Paths<F> p{};
   p.dice.sampler = s.sampler;

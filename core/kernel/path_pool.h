@@ -7,7 +7,8 @@
 /// are enough of them to fill all lanes.
 namespace tyndall {
 
-/// With one lane (float, double) nothing waits: a path goes on until it ends.
+/// With one lane (float, double) nothing waits: a path goes on until it ends. A pool has to begin as zeros, because
+/// lanes without a path take what stands behind the last one, and look things up by it.
 template <class F>
 struct PathPool {
   static constexpr bool waits = lanes_of<F> > 1;
