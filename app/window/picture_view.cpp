@@ -116,8 +116,7 @@ void PictureView::upload(Side& side, const std::shared_ptr<const void>& what, co
 void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops) {
   const Look look = look_of(*frame, stops);
   if (const auto filtered = clean ? clean_of(frame) : nullptr)
-    upload(side, filtered,
-           {filtered->rgba, filtered->grid, frame->width, frame->height}, look);
+    upload(side, filtered, {filtered->rgba, filtered->grid, frame->width, frame->height}, look);
   else
     upload(side, frame, {frame->rgba, frame->grid, frame->width, frame->height}, look);
 }

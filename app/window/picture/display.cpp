@@ -94,7 +94,8 @@ void FrameDisplay::draw(const Rect& where, int framebuffer_width, int framebuffe
   glUniform4f(place_at_, static_cast<float>(x0) * across - 1, 1 - static_cast<float>(y0) * down,
               static_cast<float>(x1) * across - 1, 1 - static_cast<float>(y1) * down);
   // The first place of a coarse picture is in the middle of a pixel of the image, not of `spacing` pixels.
-  const float columns = grid_.spacing * static_cast<float>(grid_.columns), rows = grid_.spacing * static_cast<float>(grid_.rows);
+  const float columns = grid_.spacing * static_cast<float>(grid_.columns),
+              rows = grid_.spacing * static_cast<float>(grid_.rows);
   const float first = 0.5f * (grid_.spacing - 1);
   glUniform4f(part_at_, first / columns, first / rows, (first + static_cast<float>(width_)) / columns,
               (first + static_cast<float>(height_)) / rows);
