@@ -128,7 +128,7 @@ struct NewSamples {
   int count;      ///< lanes from this one on have no sample
 };
 
-/// There has to be at least one sample.
+/// Takes the next samples off the list, of which there has to be at least one, and makes their rays.
 template <class F>
 [[gnu::noinline]] static NewSamples<F> take_samples(auto& samples, const SceneView& s) {
   constexpr int lanes = lanes_of<F>;

@@ -12,8 +12,8 @@ namespace tyndall {
 template <class F>
 struct PathPool {
   static constexpr bool waits = lanes_of<F> > 1;
-  // Room for one path less than there are lanes, for those that a step adds, and for what append() may overwrite.
-  static constexpr int room = waits ? 3 * lanes_of<F> : 1, most_numbers = 29, most_words = 9;
+  // When a step begins, fewer paths wait than there are lanes; it adds at most as many as there are.
+  static constexpr int room = waits ? 2 * lanes_of<F> : 1, most_numbers = 29, most_words = 9;
   alignas(64) float number[most_numbers][room];
   alignas(64) std::int32_t word[most_words][room];
   int count = 0;
@@ -45,7 +45,7 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
   }
 }
 
-/// The bits of Paths that tell lanes apart, as a number for each lane.
+/// What Paths hold as one bit for each lane (straight, first, second), as a number in each lane.
 template <bool shares, class F>
 TYNDALL_INLINE IntOf<F> marks_of(const Paths<F>& p) {
   const auto mark = [](std::uint32_t lanes, std::int32_t value) __attribute__((always_inline)) {
@@ -76,11 +76,8 @@ TYNDALL_INLINE void let_wait(const auto& s, Paths<F>& p, PathPool<F>& pool) {
   p.alive = 0;
 }
 
-/// Bit i is set for each lane i < count.
-template <class F>
-constexpr std::uint32_t first_lanes(int count) {
-  return count == 32 ? 0xffffffffu : (1u << count) - 1u;
-}
+/// Bit i is set for each lane i < count. count: at most 32.
+TYNDALL_INLINE std::uint32_t first_lanes(int count) { return count == 32 ? 0xffffffffu : (1u << count) - 1u; }
 
 /// Takes the paths that came last, as many as there are lanes.
 template <bool shares, class F>
@@ -94,7 +91,7 @@ TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, PathPool<F>& pool) 
   if (shares || s.has_lamps()) set_marks<shares>(load_int<F>(pool.word[8] + pool.count), p);
   const U events = as_uint(p.depth);
   p.dice.event = (events * U(dimension::per_event) + U(dimension::camera_count)) * U(golden_ratio);
-  p.alive = first_lanes<F>(count);
+  p.alive = first_lanes(count);
 }
 
 /// Begins the next samples, one in each lane.
@@ -108,7 +105,7 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   p.depth = IntOf<F>(0), p.density = F(one_direction);
   if (s.has_chains()) p.weight = fresh.glints.weight, p.way = fresh.glints.way, p.trail.met = IntOf<F>(-1);
   p.straight = s.has_lamps() ? ~0u : 0u, p.first = p.second = 0;
-  p.alive = first_lanes<F>(fresh.count);
+  p.alive = first_lanes(fresh.count);
 }
 
 /// Fills the lanes for the next step. If no path is alive then, all samples are done.
