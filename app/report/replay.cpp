@@ -82,6 +82,8 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
     if (v.met != Met::nothing) row("point       ", exact(v.point) + compiled.origin);
     row("came by     ", exact(v.direction));
     row("throughput  ", exact(v.throughput));
+    if (v.kept != 1)
+      text += fmt::format("    by smoke    {:.3g} of what it carried before\n", static_cast<double>(v.kept));
     row("radiance    ", exact(v.radiance));
     if (!(v.by_chains == Vec3f{})) row("by chains   ", exact(v.by_chains));
     if (v.chance < 1)

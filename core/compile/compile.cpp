@@ -151,6 +151,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
     m.g = static_cast<float>(volume.medium.g);
     if (const auto* texture = std::get_if<TextureIndex>(&volume.albedo)) m.texture = texture->index;
     m.albedo = m.texture < 0 ? to_float(std::get<Vec3d>(volume.albedo)) : Vec3f{1, 1, 1};
+    m.weighs = scene.render.integrator == Integrator::mis && m.texture < 0 && m.albedo == Vec3f{0, 0, 0};
     if (m.density > 0) out.media.push_back(m);
   }
 }

@@ -112,6 +112,7 @@ struct MediumColumns {
   float g = 0;
   Vec3f albedo;
   std::int32_t texture = -1;
+  bool weighs = false;  ///< it only absorbs, and paths carry less behind it instead of ending there: flight.h
 };
 
 /// A binary tree of lights, by which one of many is chosen. Columns by node. Node 0 is the root, node 1 is not used,

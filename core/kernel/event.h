@@ -247,11 +247,10 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
 
 /// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
 /// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
-/// With the factor 8 only paths whose throughput is below 1/8 are at risk. The time to a given error was found to be
-/// the same for all factors from 4 to 8.
+/// Only paths whose throughput is below `least_carried` are at risk.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
-  const F survival = F(8.0f) * max_component(p.throughput);
+  const F survival = F(1 / least_carried) * max_component(p.throughput);
   const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
   if (!any(at_risk)) return lanes;
   const auto ended = mask_and_not(at_risk, less(p.dice.one(dimension::roulette), survival));

@@ -87,13 +87,15 @@ template <class F>
 }
 
 /// Adds to the radiance of `p` the light that lamps send to the places sampled by angle. Also sets p.flight to the
-/// free flight that ended at the event `found`. lengths: of the ray, to its event (x) and to the next surface (y).
+/// free flight that ended at the event `found`. throughput: at the start of the ray, because what media take away on
+/// the way to such a place is part of what is weighed. lengths: of the ray, to its event (x) and to the next surface
+/// (y).
 template <class F>
-TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, const MediumEvent<F>& found, MaskOf<F> active,
-                                     Pair<F> lengths, std::uint32_t& shadow_rays) {
+TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, Vec3<F> throughput, const MediumEvent<F>& found,
+                                     MaskOf<F> active, Pair<F> lengths, std::uint32_t& shadow_rays) {
   p.flight = free_flight_to(s, p.ray, found, lengths);
   const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
-  p.radiance = p.radiance + light_by_angle(s, p.ray, p.throughput, p.dice, lanes, lengths.y, shadow_rays);
+  p.radiance = p.radiance + light_by_angle(s, p.ray, throughput, p.dice, lanes, lengths.y, shadow_rays);
 }
 
 }  // namespace tyndall

@@ -26,7 +26,11 @@ Meeting meet(const SceneView& s, const Paths<float>& p) {
   v.first_dimension = dimension::camera_count + static_cast<std::uint32_t>(p.depth) * dimension::per_event;
   Hit<float> hit = closest(s, p.ray, true);
   MediumEvent<float> event{};
-  if (s.needs.media) event = fly_through_media(s, p.ray, p.dice, true, hit.t);
+  if (s.needs.media) {
+    event = fly_through_media(s, p.ray, p.dice, true, hit.t);
+    v.kept = kept_by_smoke(s, p.ray, p.dice, hit.t, true);
+    v.throughput = v.kept * v.throughput;
+  }
   if (event.happens) {
     v.met = Met::medium;
     v.element = event.from / 4;
@@ -51,6 +55,7 @@ Fate fate_of(const Meeting& m, const Paths<float>& after, bool survives, bool cu
   if (survives) return Fate::goes_on;
   if (cut) return Fate::cut;
   if (!finite(after.radiance)) return Fate::lost;
+  if (m.vertex.kept == 0) return Fate::absorbed;
   if (m.vertex.met == Met::nothing) return Fate::escapes;
   if (m.kind == kind_of<Light<double>>()) return Fate::ends_at_light;
   const bool black = !(max_component(m.vertex.throughput * m.colour) > 0);

@@ -21,6 +21,7 @@ struct PathVertex {
   Vec3f direction;            ///< in which it came, unit
   Vec3f point;                ///< in RenderScene coordinates
   Vec3f throughput;           ///< with which it came; 1 at the camera
+  float kept = 1;             ///< by what media that only absorb changed it since the vertex before: flight.h
   Vec3f radiance;             ///< gathered so far, this vertex included
   Vec3f by_chains;            ///< the part of it that exact chains from here have added
   float chance = 1;  ///< weight of a lamp's light that was found here; chains, which find it too, count for the rest

@@ -96,6 +96,25 @@ TEST_CASE("replay: names the surfaces in order, with the way between them and wh
   }
 }
 
+TEST_CASE("replay: says what smoke has left of a path's light") {
+  for (const double density : {0.5, 1e6}) {
+    Scene scene = white_room();
+    scene.render.integrator = Integrator::mis;
+    add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
+    add_medium(scene, sphere({0, 0, 0}, 1), {density, 0}, 0);
+    aim(scene, {0, 0, 5}, {0, 0, 0});
+    const RenderScene compiled = compile(scene);
+    const SceneViewOf view(compiled);
+    const PathReplay path = replay(view.view(), 3, 4, 5);
+    const double left = density < 1 ? std::exp(-1) : 0;
+    CHECK(static_cast<double>(path.vertices[0].kept) == doctest::Approx(left));
+    CHECK(static_cast<double>(path.vertices[0].throughput.x) == doctest::Approx(left));
+    CHECK(path.vertices[0].met == Met::surface);
+    CHECK(path.vertices[0].fate == (left > 0 ? Fate::goes_on : Fate::absorbed));
+    CHECK(static_cast<double>(path.radiance.x) == doctest::Approx(0.5 * left));
+  }
+}
+
 TEST_CASE("replay: shows where a number was lost") {
   Scene scene = white_room();
   add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
