@@ -165,15 +165,22 @@ struct Spread {
   double own = 0;
 };
 
-Spread spread_of(const Film& film, Crew* crew) {
+/// left_out: places of pixels, in ascending order.
+Spread spread_of(const Film& film, Crew* crew, const std::vector<std::size_t>& left_out) {
   std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
   const auto width = static_cast<std::size_t>(film.region.width());
   for_bands(film, crew, [&](int band) {
     Spread& to = bands[static_cast<std::size_t>(band)];
     for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
       const std::size_t first = static_cast<std::size_t>(y) * width;
-      for (std::size_t x = 0; x < width; ++x) to.freed.add({first + x, errors.freed[x]});
-      for (const double error : errors.own) to.own += error;
+      auto next = std::lower_bound(left_out.begin(), left_out.end(), first);
+      for (std::size_t x = 0; x < width; ++x) {
+        if (next != left_out.end() && *next == first + x) {
+          ++next;
+          continue;
+        }
+        to.freed.add({first + x, errors.freed[x]}), to.own += static_cast<double>(errors.own[x]);
+      }
     });
   });
   Spread all;
@@ -181,13 +188,22 @@ Spread spread_of(const Film& film, Crew* crew) {
   return all;
 }
 
-/// n / (g² + 0.01) of a pixel whose level g is known.
-double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
-  const Vec3f a = half_mean(film, film.pixels[pixel], 0), b = half_mean(film, film.pixels[pixel], 1);
-  const auto of_channel = [](double in_a, double in_b, double g) {
-    return std::min((in_a - in_b) * (in_a - in_b) / 4 / (g * g + floor_of_square), double{largest});
+/// The mean over the channels of d² / (g² + 0.01), where g is the level of a pixel.
+double relative_square(Vec3f d, Vec3f level) {
+  const auto of_channel = [](float x, float g) {
+    const auto value = static_cast<double>(x), at = static_cast<double>(g);
+    return std::min(value * value / (at * at + floor_of_square), double{largest});
   };
-  return (of_channel(a.x, b.x, level.x) + of_channel(a.y, b.y, level.y) + of_channel(a.z, b.z, level.z)) / 3;
+  return (of_channel(d.x, level.x) + of_channel(d.y, level.y) + of_channel(d.z, level.z)) / 3;
+}
+
+/// The squared relative error of a pixel whose level is known: as its two halves tell, and as it is.
+double noise_at_level(const Film& film, std::size_t pixel, Vec3f level) {
+  const FilmPixel& of = film.pixels[pixel];
+  return relative_square(0.5f * (half_mean(film, of, 0) - half_mean(film, of, 1)), level);
+}
+double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
+  return relative_square(mean(film, film.pixels[pixel]) - level, level);
 }
 
 /// See ErrorEstimate.
@@ -210,14 +226,35 @@ bool awaits_light(const Film& film) {
 
 }  // namespace
 
-ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& levels_of) {
+ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& levels_of,
+                             const std::vector<std::size_t>& rare) {
   if (film.pixels.empty()) return {};
-  Spread all = spread_of(film, crew);
-  if (all.freed.sum() == infinity) return {};
-  const auto error_at = [&](std::size_t pixel, Vec3f level) { return error_at_level(film, pixel, level); };
-  if (levels_of) ask_levels(levels_of, film.pixels.size(), error_at, all.freed);
+  const Spread plain = spread_of(film, crew, {});
+  if (plain.freed.sum() == infinity) return {};
   const auto pixels = static_cast<double>(film.pixels.size());
-  return {std::sqrt(all.freed.sum() / pixels), few_matter(all, pixels) || (all.freed.sum() == 0 && awaits_light(film))};
+  const auto ask = [&](const auto& error_at, Spread all) {
+    if (levels_of) ask_levels(levels_of, film.pixels.size(), error_at, all.freed);
+    return all;
+  };
+  const auto noise_at = [&](std::size_t pixel, Vec3f level) { return noise_at_level(film, pixel, level); };
+  const Spread by_noise = ask(noise_at, plain);
+  ErrorEstimate estimate{std::sqrt(by_noise.freed.sum() / pixels),
+                         few_matter(by_noise, pixels) || (by_noise.freed.sum() == 0 && awaits_light(film))};
+  const std::vector<Vec3f> levels = rare.empty() || !levels_of ? std::vector<Vec3f>() : levels_of(rare);
+  if (levels.empty()) return estimate;
+  Spread others = spread_of(film, crew, rare);
+  for (std::size_t i = 0; i < rare.size(); ++i) {
+    const double error = error_at_level(film, rare[i], levels[i]);
+    others.freed.add({rare[i], error}), others.own += error;
+  }
+  const auto error_at = [&](std::size_t pixel, Vec3f level) {
+    const bool is_rare = std::binary_search(rare.begin(), rare.end(), pixel);
+    return is_rare ? error_at_level(film, pixel, level) : noise_at(pixel, level);
+  };
+  const Spread known = ask(error_at, std::move(others));
+  estimate.relative_error = std::sqrt(known.freed.sum() / pixels);
+  estimate.rests_on_few_pixels = estimate.rests_on_few_pixels || few_matter(known, pixels);
+  return estimate;
 }
 
 double estimated_relative_error(const Film& film, Crew* crew) { return estimate_error(film, crew).relative_error; }

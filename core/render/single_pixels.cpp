@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 namespace tyndall {
 namespace {
@@ -53,9 +54,22 @@ LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& le
   return [&](const std::vector<std::size_t>& pixels) { return levels.of(pixels, film, engine, give_up); };
 }
 
+std::vector<std::size_t> pixels_with_glints(const SceneView& scene, const Film& film) {
+  constexpr std::size_t most = 32;
+  std::set<std::size_t> places;
+  for (int i = 0; i < scene.glint_count && places.size() <= most; ++i) {
+    const int x = static_cast<int>(scene.glints[i].x), y = static_cast<int>(scene.glints[i].y);
+    const Region& r = film.region;
+    if (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1) places.insert(film.index(x, y));
+  }
+  if (places.size() > most) return {};
+  return {places.begin(), places.end()};
+}
+
 ErrorEstimate estimate_error(const Film& film, const RenderEngine& engine, PixelLevels& levels,
                              const std::atomic<bool>& give_up) {
-  return estimate_error(film, &engine.crew, levels_of(film, engine, levels, give_up));
+  return estimate_error(film, &engine.crew, levels_of(film, engine, levels, give_up),
+                        pixels_with_glints(engine.scene, film));
 }
 
 std::vector<RejectedSample> find_rejected(const Kernels& kernels, const SceneView& scene, const Film& film,

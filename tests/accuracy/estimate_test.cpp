@@ -202,6 +202,36 @@ TEST_CASE("estimated error: the levels of the pixels that decide it are asked fo
   CHECK(estimate_error(film, nullptr, never).relative_error == estimated_relative_error(film));
 }
 
+TEST_CASE("estimated error: pixels known to be rare are as wrong as their means") {
+  Film film = noisy_film(16, 1);
+  const std::size_t agreed = film.index(7, 5), plain = film.index(9, 20);
+  film.pixels[agreed] = {};
+  for (std::uint32_t half = 0; half < 2; ++half)
+    for (int i = 0; i < 8; ++i) add_sample(film.pixels[agreed], half, {9, 9, 9}, 1 / film.unit);
+  film.pixels[agreed].taken = 16;
+  std::vector<std::vector<std::size_t>> asked;
+  const auto levels_of = [&](const std::vector<std::size_t>& pixels) {
+    asked.push_back(pixels);
+    return std::vector<Vec3f>(pixels.size(), Vec3f{1, 1, 1});
+  };
+  const std::vector<double> noise = squared_relative_errors(film);
+  const Vec3f m = mean(film, film.pixels[plain]);
+  const auto wrong = [](float value) {
+    return (static_cast<double>(value) - 1) * (static_cast<double>(value) - 1) / 1.01;
+  };
+  double sum = wrong(9) + (wrong(m.x) + wrong(m.y) + wrong(m.z)) / 3;
+  for (std::size_t i = 0; i < noise.size(); ++i) sum += i == agreed || i == plain ? 0 : noise[i];
+  const std::vector<std::size_t> rare{std::min(agreed, plain), std::max(agreed, plain)};
+  const double expected = std::sqrt(sum / static_cast<double>(noise.size()));
+  CHECK(estimate_error(film, nullptr, levels_of, rare).relative_error == doctest::Approx(expected).epsilon(1e-5));
+  CHECK(asked.front() == rare);
+  // Without levels they are like all others.
+  const auto never = [](const std::vector<std::size_t>&) { return std::vector<Vec3f>(); };
+  CHECK(estimate_error(film, nullptr, never, rare).relative_error == estimated_relative_error(film));
+  film.pixels[plain] = {};
+  CHECK(std::isinf(estimate_error(film, nullptr, levels_of, rare).relative_error));
+}
+
 TEST_CASE("estimated error: no levels are asked for where the noise is even") {
   const auto unwanted = [](const std::vector<std::size_t>& pixels) {
     FAIL("asked for " << pixels.size());

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 /// Levels of single pixels, from samples of their own.
@@ -85,6 +86,28 @@ TEST_CASE("levels: none when it is given up, and they are found when asked again
   const auto found = levels.of({5, 6}, film, ready.engine, false);
   CHECK(found.size() == 2);
   CHECK(levels.of({6, 5}, film, ready.engine, true).size() == 2);  // they are known
+}
+
+TEST_CASE("levels: those of pixels with glints are known, where they are few") {
+  Scene scene = small("stress-bulb");
+  scene.width = 111, scene.height = 83;
+  Ready ready(scene, 2);
+  const Film film = film_of(ready.scene, {0, 0, 111, 83}, 4), part = film_of(ready.scene, {53, 30, 90, 60}, 4);
+  const std::vector<std::size_t> pixels = pixels_with_glints(ready.view.view(), film);
+  REQUIRE(pixels.size() > 4);
+  CHECK(std::is_sorted(pixels.begin(), pixels.end()));
+  CHECK(std::count(pixels.begin(), pixels.end(), film.index(53, 35)) == 1);
+  const std::vector<std::size_t> in_part = pixels_with_glints(ready.view.view(), part);
+  CHECK(in_part.size() < pixels.size());
+  CHECK(std::count(in_part.begin(), in_part.end(), part.index(53, 35)) == 1);
+  // Both halves of one pixel met the lamp, which one sample in 17 does.
+  PixelLevels levels;
+  const std::atomic<bool> never = false;
+  const ErrorEstimate by_noise = estimate_error(film, nullptr, levels_of(film, ready.engine, levels, never));
+  const ErrorEstimate known = estimate_error(film, ready.engine, levels, never);
+  CHECK(known.relative_error > 1.1 * by_noise.relative_error);
+  const Ready plain(small("cornell-box"), 1);
+  CHECK(pixels_with_glints(plain.view.view(), film).empty());
 }
 
 TEST_CASE("levels: the error of a picture with a lamp that is smaller than a pixel") {
