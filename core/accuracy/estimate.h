@@ -42,10 +42,10 @@ struct ErrorEstimate {
 
 /// crew: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
 /// levels_of: see ask_levels(); called on the calling thread; empty: g is found from the film alone.
-/// rare: places of pixels that are known, without looking at the film, to hold light which few of their samples meet, in
-/// ascending order. Their halves often agree by chance, so their levels are asked for as well, and (m - level)² stands
-/// for n in relative_error; whether a few pixels matter is judged with both. Pixels must not be chosen by what the film
-/// holds: those with a large error would be chosen more often.
+/// rare: places of pixels that are known, without looking at the film, to hold light which few of their samples meet,
+/// in ascending order. Their halves often agree by chance, so their levels are asked for as well, and (m - level)²
+/// stands for n in relative_error; whether a few pixels matter is judged with both. Pixels must not be chosen by what
+/// the film holds: those with a large error would be chosen more often.
 ErrorEstimate estimate_error(const Film& film, Crew* crew = nullptr, const LevelsOf& levels_of = {},
                              const std::vector<std::size_t>& rare = {});
 

@@ -88,11 +88,8 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found = no_event(p.ray);
   const F to_surface = hit.t;
-  const Vec3<F> started_with = p.throughput;
-  if (s.has_media()) {
-    found = fly_through_media(s, p.ray, p.dice, active, hit.t);
-    p.throughput = kept_by_smoke(s, p.ray, p.dice, hit.t, active) * p.throughput;
-  }
+  const Vec3<F> before = p.throughput;
+  if (s.has_media()) found = cross_media(s, p, active, hit.t);
   Event<F> e = event_on(p.ray, p.dice);
   e.medium = found.happens;
   e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
@@ -105,8 +102,7 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
   const Vec3<F> unit = on_sphere(u);
   if (any(e.surface)) meet_surfaces(s, p, hit, unit, e);
   if (s.has_media() && any(e.medium)) meet_media(s, found, e);
-  if (s.has_lamps_in_fog())
-    light_near_lamps(s, p, started_with, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
+  if (s.has_lamps_in_fog()) light_near_lamps(s, p, before, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
   const auto met = mask_or(e.surface, e.medium);
   if constexpr (shares) {
     const auto second = mask_and(mask_and(met, scatters_evenly(s, e)),

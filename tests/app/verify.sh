@@ -10,8 +10,8 @@ for isa in scalar sse4 avx2 avx512 neon; do
   grep -q '0 rejected' out || fail "$isa: $(cat out)"
 done
 
-# The results as a table and as JSON.
-expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60
+# The results as a table and as JSON. Light paths alone are ended by smoke at random; mis weighs them, without noise.
+expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60 --integrator path
 grep -q '^  plate/reflected-n1.5-60deg  *0.1637675 ' out || fail "no row: $(cat out)"
 grep -q 'Born & Wolf' out || fail "no source: $(cat out)"
 grep -q 'z-scores of 9 cases: mean square' out || fail "no sum: $(cat out)"
