@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What ./run says while it builds without a terminal, on sources that cannot be written to, and without a network. CMake,
-# dpkg-query and apt-get are stand-ins here.
+# What ./run says while it builds without a terminal, when the window ends for want of a display, on sources that cannot
+# be written to, and without a network. CMake, dpkg-query, apt-get and the program that is built are stand-ins here.
 . "$(dirname "$0")/_common.sh"
 mkdir -p tree stand-ins
 cp -r "$source_root/run" "$source_root/third_party" tree
@@ -11,7 +11,7 @@ case $1 in
   --build)
     for step in 1 2 3; do echo "[$step/3] Building CXX object"; sleep 0.7; done
     [ -z "$BROKEN" ] || { echo "a message of the compiler"; exit 1; }
-    printf '#!/bin/sh\necho "ran $*"\n' >"$2/tyndall" && chmod +x "$2/tyndall" ;;
+    printf '#!/bin/sh\necho "ran $*"\n[ "$1" != view ] || exit "$VIEW_ENDS"\n' >"$2/tyndall" && chmod +x "$2/tyndall" ;;
 esac
 MSG
 printf '#!/bin/sh\nexit 1\n' >stand-ins/dpkg-query
@@ -25,6 +25,14 @@ grep -q '^building, about 2 minutes$' err || fail "the time of a build is not to
 grep -q '^building: [23] of 3 files after [12] s$' err || fail "progress is not told: $(cat err)"
 expect 1 env TYNDALL_SKIP_PACKAGES=1 BROKEN=1 tree/run version
 grep -q '^a message of the compiler$' err || fail "the compiler's message is lost: $(cat err)"
+
+# A window that cannot be opened, or whose display goes away, ends with 3: the image takes its place. Other ends are kept.
+expect 0 env TYNDALL_SKIP_PACKAGES=1 DISPLAY=:9 VIEW_ENDS=3 tree/run my.json --seed 7
+grep -q '^run: there is no window, so an image is rendered instead$' err || fail "the image is not told: $(cat err)"
+grep -q '^ran render my.json --spp 64 -o my.png --seed 7$' err || fail "no image is rendered: $(cat err)"
+same 'standard output' my.png "$(tail -n 1 out)"
+expect 130 env TYNDALL_SKIP_PACKAGES=1 DISPLAY=:9 VIEW_ENDS=130 tree/run my.json
+! grep -q 'image' err || fail "an image is rendered though the window was open: $(cat err)"
 
 # Another user: the sources cannot be written to.
 rm -rf tree/build && mkdir -m 777 cache
