@@ -11,16 +11,44 @@ TYNDALL_INLINE void store(float* to, Floats a) { hn::StoreU(a.v, TagF(), to); }
 TYNDALL_INLINE void store(std::int32_t* to, Ints a) { hn::StoreU(a.v, TagI(), to); }
 TYNDALL_INLINE void store(std::uint32_t* to, Uints a) { hn::StoreU(a.v, TagU(), to); }
 
+#if HWY_TARGET == HWY_AVX2
+/// For each set of lanes, as bits: the numbers of these lanes in order, four bits each, the first in the lowest bits.
+/// The SIMD library has such a table, too, but as a variable of a function, to which GCC copies it at each call.
+struct LaneLists {
+  std::uint32_t of[256];
+};
+constexpr LaneLists list_lanes() {
+  LaneLists lists{};
+  for (std::uint32_t lanes = 0; lanes < 256; ++lanes)
+    for (std::uint32_t lane = 0, place = 0; lane < 8; ++lane)
+      if (lanes >> lane & 1u) lists.of[lanes] |= lane << 4 * place++;
+  return lists;
+}
+inline constexpr LaneLists lane_lists = list_lanes();
+
+TYNDALL_INLINE __m256i compress(__m256i values, Mask lanes) {
+  const __m256i packed = _mm256_set1_epi32(static_cast<std::int32_t>(lane_lists.of[bits(lanes)]));
+  const __m256i list = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+  return _mm256_permutevar8x32_epi32(values, list);  // which reads three bits of each number
+}
+TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) {
+  return {_mm256_castsi256_ps(compress(_mm256_castps_si256(a.v.raw), lanes))};
+}
+TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return {compress(a.v.raw, lanes)}; }
+#else
+TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) { return hn::Compress(a.v, lanes.v); }
+TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return hn::Compress(a.v, hn::RebindMask(TagI(), lanes.v)); }
+#endif
+
 /// Stores the values of `lanes` next to each other and returns their number. The rest of a whole group may be
 /// overwritten with anything: a store of compressed lanes alone is slow on AMD's Zen 4, which has microcode for it.
 TYNDALL_INLINE int append(float* to, Floats a, Mask lanes) {
-  hn::StoreU(hn::Compress(a.v, lanes.v), TagF(), to);
+  hn::StoreU(compress(a, lanes), TagF(), to);
   return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
 }
 TYNDALL_INLINE int append(std::int32_t* to, Ints a, Mask lanes) {
-  const auto taken = hn::RebindMask(TagI(), lanes.v);
-  hn::StoreU(hn::Compress(a.v, taken), TagI(), to);
-  return static_cast<int>(hn::CountTrue(TagI(), taken));
+  hn::StoreU(compress(a, lanes), TagI(), to);
+  return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
 }
 
 }  // namespace HWY_NAMESPACE
