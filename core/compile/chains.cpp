@@ -5,6 +5,7 @@
 #include "core/compile/lights.h"
 #include "core/compile/mirrors.h"
 #include "core/compile/panes.h"
+#include "core/compile/sight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,8 @@ namespace {
 constexpr double smallness = 0.25;  // most that a lamp's reach may be over its distance, or over the ball around it
 constexpr double smallness_for_glass = 0.15;  // the same for light through solid glass from outside
 constexpr std::size_t most_pairs = 256;
-constexpr double like_outside = 1e-3;  // an index counts as that of the outside if it is this close to 1
+constexpr std::size_t most_sights = 1 << 20;  // pairs times shapes up to which it is found out what balls see of lamps
+constexpr double like_outside = 1e-3;         // an index counts as that of the outside if it is this close to 1
 
 /// A sphere of glass or of metal without fuzz.
 struct Candidate {
@@ -146,6 +148,20 @@ std::vector<BallAndLight> list_pairs(const Found& found, const RenderScene& comp
   return pairs;
 }
 
+/// Takes those pairs of a ball and a lamp for less whose ball does not see the whole lamp. The chance of a pair should
+/// go with the root of its light's mean square, and the light that is left falls on a share of the places only.
+void weigh_by_sight(const Flattened& flat, const Found& found, const RenderScene& compiled,
+                    std::vector<BallAndLight>& pairs) {
+  if (pairs.size() * flat.shapes.size() > most_sights) return;
+  const Obstacles obstacles = list_obstacles(flat);
+  for (BallAndLight& pair : pairs) {
+    const auto ball = static_cast<std::size_t>(pair.ball);
+    if (ball >= found.balls.size()) continue;
+    pair.worth *= std::sqrt(visible_share(obstacles, compiled.lights, static_cast<std::size_t>(pair.light),
+                                          compiled.origin, found.balls[ball].body));
+  }
+}
+
 class Filler {
  public:
   Filler(const Flattened& flat, const RenderScene& compiled) : flat_(flat), compiled_(compiled) {
@@ -233,8 +249,9 @@ class Filler {
 Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene& compiled) {
   if (!has_material<Lambertian<>>(compiled.needs) && !compiled.needs.media) return {};
   const Found found = look_for_all(flat, scene);
-  const std::vector<BallAndLight> pairs = list_pairs(found, compiled);
+  std::vector<BallAndLight> pairs = list_pairs(found, compiled);
   if (pairs.empty()) return {};
+  weigh_by_sight(flat, found, compiled, pairs);
   Filler filler(flat, compiled);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto ball = static_cast<std::size_t>(pairs[i].ball);

@@ -63,13 +63,13 @@ TYNDALL_INLINE IntOf<F> meet_ball(const SceneView& s, const ChainTrail<F>& trail
 }
 
 /// Probability with which an event asks for a chain: the light that it may get by chains over the light that it may get
-/// from lamps directly, both roughly estimated, and within [0.1, 1]. So little time is spent where chains bring
+/// from lamps directly, both roughly estimated, and within [0.03, 1]. So little time is spent where chains bring
 /// little. 1 where there are too many lamps, or pairs of a ball and a lamp, to estimate.
 template <class F>
 [[gnu::noinline]] static F chain_probability(const SceneView& s, Vec3<F> point) {
   const LightView &pairs = s.chains.choice, &lamps = s.lights;
   if (pairs.count > most_lights_by_contribution || lamps.count > most_lights_by_contribution) return F(1.0f);
-  return min(max(total_worth(s.chains, point) / total_worth(lamps, point), F(0.1f)), F(1.0f));
+  return min(max(total_worth(s.chains, point) / total_worth(lamps, point), F(0.03f)), F(1.0f));
 }
 
 /// Brings the trail up to date after event `e`: it starts anew where light scattered at a Lambertian surface or in fog,

@@ -1,0 +1,98 @@
+#include "core/compile/sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace tyndall {
+namespace {
+
+constexpr int ways = 64;
+constexpr double at_start = 1e-6;  // share of a way, from its start, in which flats do not block it: the lamp is there
+
+Vec3d middle_of(const RoundBody& body) { return body.center + 0.5 * body.way; }
+
+/// A point of a unit disc across a unit direction, for u and v in [0, 1).
+Vec3d on_disc(Vec3d direction, double u, double v) {
+  const Vec3d aside = std::abs(direction.x) > 0.5 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+  const Vec3d x = normalize(cross(direction, aside)), y = cross(direction, x);
+  const double r = std::sqrt(u), angle = 2 * std::numbers::pi * v;
+  return r * std::cos(angle) * x + r * std::sin(angle) * y;
+}
+
+Vec3d column(const std::vector<float> (&of)[3], std::size_t k) { return {of[0][k], of[1][k], of[2][k]}; }
+
+Vec3d lamp_point(const Lights& l, std::size_t k, Vec3d to_ball, double u, double v) {
+  const double width = l.length_u[k], height = l.length_v[k];
+  if (l.kind[k] == Lights::sphere) return column(l.center, k) + width * on_disc(to_ball, u, v);
+  return column(l.corner, k) + u * width * column(l.edge_u, k) + v * height * column(l.edge_v, k);
+}
+
+bool blocks(const RoundBody& body, Vec3d from, Vec3d way) {
+  const Vec3d to = middle_of(body) - from, beyond = to - way;
+  const double t = std::clamp(dot(to, way) / dot(way, way), 0.0, 1.0), square = body.radius * body.radius;
+  const Vec3d apart = to - t * way;
+  return dot(apart, apart) < square && dot(to, to) > square && dot(beyond, beyond) > square;
+}
+
+bool blocks(const Flat& flat, Vec3d from, Vec3d way) {
+  const Vec3d u = flat.block.edge[0], v = flat.block.edge[1], normal = cross(u, v), to = flat.block.middle - from;
+  const double t = dot(normal, to) / dot(normal, way), square = dot(normal, normal);
+  if (!(t > at_start && t < 1)) return false;
+  const Vec3d at = t * way - to;
+  return std::abs(dot(cross(at, v), normal)) < square && std::abs(dot(cross(u, at), normal)) < square;
+}
+
+/// What is close enough to the ways between two places to block one of them. reach: farthest that a way is from the
+/// line between the places.
+Obstacles list_near(const Obstacles& all, Vec3d from, Vec3d to, double reach) {
+  const Vec3d way = to - from;
+  const auto is_near = [&](Vec3d middle, double radius) {
+    const double t = std::clamp(dot(middle - from, way) / dot(way, way), 0.0, 1.0);
+    return length(middle - from - t * way) <= radius + reach;
+  };
+  Obstacles near;
+  std::copy_if(all.spheres.begin(), all.spheres.end(), std::back_inserter(near.spheres),
+               [&](const RoundBody& body) { return is_near(middle_of(body), body.radius); });
+  std::copy_if(all.flats.begin(), all.flats.end(), std::back_inserter(near.flats),
+               [&](const Flat& flat) { return is_near(flat.block.middle, flat.radius); });
+  return near;
+}
+
+bool is_blocked(const Obstacles& obstacles, Vec3d from, Vec3d way) {
+  const auto in_the_way = [&](const auto& obstacle) { return blocks(obstacle, from, way); };
+  return std::any_of(obstacles.spheres.begin(), obstacles.spheres.end(), in_the_way) ||
+         std::any_of(obstacles.flats.begin(), obstacles.flats.end(), in_the_way);
+}
+
+}  // namespace
+
+Obstacles list_obstacles(const Flattened& flat) {
+  Obstacles list{{}, list_flats(flat)};
+  for (const PlacedShape& shape : flat.shapes)
+    if (const auto* sphere = std::get_if<Sphere<>>(&shape.shape))
+      list.spheres.push_back(round_body(*sphere, shape.placement));
+  return list;
+}
+
+double visible_share(const Obstacles& obstacles, const Lights& lights, std::size_t light, Vec3d origin,
+                     const RoundBody& ball) {
+  const Vec3d target = middle_of(ball), lamp = column(lights.center, light) + origin;
+  if (length(target - lamp) < ball.radius) return 1;
+  const double lamp_radius = std::sqrt(static_cast<double>(lights.reach2[light]));
+  const Obstacles near = list_near(obstacles, lamp, target, std::max(ball.radius, lamp_radius));
+  const Vec3d to_ball = normalize(target - lamp);
+  int open = 0;
+  for (int i = 0; i < ways; ++i) {
+    // Steps by powers of the reciprocal root of x^5 = x + 1 fill four dimensions evenly.
+    // M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+    const auto part = [i](double step) { return std::fmod((i + 0.5) * step, 1.0); };
+    const Vec3d from = lamp_point(lights, light, to_ball, part(0.8566749), part(0.7338919)) + origin;
+    const Vec3d to = target + ball.radius * on_disc(to_ball, part(0.6287067), part(0.5385973));
+    if (!is_blocked(near, from, to - from)) ++open;
+  }
+  return std::max(open, 1) / static_cast<double>(ways);
+}
+
+}  // namespace tyndall
