@@ -16,7 +16,7 @@ namespace {
 constexpr double smallness = 0.25;  // most that a lamp's reach may be over its distance, or over the ball around it
 constexpr double smallness_for_glass = 0.15;  // the same for light through solid glass from outside
 constexpr std::size_t most_pairs = 256;
-constexpr std::size_t most_sights = 1 << 20;  // pairs times shapes up to which it is found out what balls see of lamps
+constexpr std::size_t most_sights = 1 << 18;  // pairs times shapes up to which it is found out what balls see of lamps
 constexpr double like_outside = 1e-3;         // an index counts as that of the outside if it is this close to 1
 
 /// A sphere of glass or of metal without fuzz.
