@@ -4,7 +4,6 @@
 #include "core/compile/columns.h"
 #include "core/compile/hull.h"
 #include "core/compile/lights.h"
-#include "core/compile/near_lamps.h"
 #include "core/compile/needs.h"
 #include "core/film/film.h"
 

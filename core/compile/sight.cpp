@@ -81,7 +81,9 @@ double visible_share(const Obstacles& obstacles, const Lights& lights, std::size
   const Vec3d target = middle_of(ball), lamp = column(lights.center, light) + origin;
   if (length(target - lamp) < ball.radius) return 1;
   const double lamp_radius = std::sqrt(static_cast<double>(lights.reach2[light]));
-  const Obstacles near = list_near(obstacles, lamp, target, std::max(ball.radius, lamp_radius));
+  Obstacles near = list_near(obstacles, lamp, target, std::max(ball.radius, lamp_radius));
+  std::erase_if(near.spheres,
+                [&](const RoundBody& body) { return length(middle_of(body) - target) + body.radius <= ball.radius; });
   const Vec3d to_ball = normalize(target - lamp);
   int open = 0;
   for (int i = 0; i < ways; ++i) {

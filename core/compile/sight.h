@@ -16,8 +16,8 @@ Obstacles list_obstacles(const Flattened& flat);
 
 /// Share of the straight ways from a lamp to a ball that nothing blocks, in (0, 1], judged by 64 of them. If all are
 /// blocked it is 1/64, because others may be open; 1 if the lamp is within the ball. What moves is taken halfway.
-/// Spheres that hold an end of a way do not block it: among them are the lamp and the ball. light: index into `lights`;
-/// origin: see RenderScene.
+/// Spheres that hold an end of a way do not block it: among them are the lamp and the ball; nor do those within the
+/// ball. light: index into `lights`; origin: see RenderScene.
 double visible_share(const Obstacles& obstacles, const Lights& lights, std::size_t light, Vec3d origin,
                      const RoundBody& ball);
 
