@@ -1,9 +1,10 @@
 #include "core/compile/sight.h"
 
+#include "core/base/sampling.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 namespace tyndall {
 namespace {
@@ -15,10 +16,9 @@ Vec3d middle_of(const RoundBody& body) { return body.center + 0.5 * body.way; }
 
 /// A point of a unit disc across a unit direction, for u and v in [0, 1).
 Vec3d on_disc(Vec3d direction, double u, double v) {
-  const Vec3d aside = std::abs(direction.x) > 0.5 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
-  const Vec3d x = normalize(cross(direction, aside)), y = cross(direction, x);
-  const double r = std::sqrt(u), angle = 2 * std::numbers::pi * v;
-  return r * std::cos(angle) * x + r * std::sin(angle) * y;
+  const Basis<double> across = basis_around(direction);
+  const Pair<double> place = in_disc(Pair<double>{u, v});
+  return place.x * across.s + place.y * across.t;
 }
 
 Vec3d column(const std::vector<float> (&of)[3], std::size_t k) { return {of[0][k], of[1][k], of[2][k]}; }
