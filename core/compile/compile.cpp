@@ -158,8 +158,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
 KernelSet least_kernel(const RenderScene& s) {
   const bool fog_or_textures = s.needs.media || s.needs.textures;
   if (!s.chains.ball.empty()) return fog_or_textures ? KernelSet::everything : KernelSet::chains_alone;
-  if (!s.near.medium.empty()) return KernelSet::no_chains;
-  return fog_or_textures ? KernelSet::no_lamps_in_fog : KernelSet::no_fog_nor_textures;
+  return fog_or_textures ? KernelSet::no_chains : KernelSet::no_fog_nor_textures;
 }
 
 /// Whether the scene holds nothing that second vertices cannot be shared around: a vertex on a moving sphere is there
@@ -236,8 +235,6 @@ const char* name_of(KernelSet set) {
       return "chains, no fog, no textures";
     case KernelSet::no_chains:
       return "no chains";
-    case KernelSet::no_lamps_in_fog:
-      return "no lamps in fog";
     case KernelSet::no_fog_nor_textures:
       return "no fog, no textures";
   }

@@ -190,8 +190,8 @@ struct Chains {
 
 /// The variants of the kernels, by the models that they hold or leave out. A scene that does not have the models which
 /// a variant leaves out gives the same picture with it, to the last bit.
-enum class KernelSet { everything, chains_alone, no_chains, no_lamps_in_fog, no_fog_nor_textures };
-inline constexpr int kernel_sets = 5;
+enum class KernelSet { everything, chains_alone, no_chains, no_fog_nor_textures };
+inline constexpr int kernel_sets = 4;
 const char* name_of(KernelSet set);
 
 struct RenderScene {

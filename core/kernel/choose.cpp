@@ -36,18 +36,14 @@ Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }
 
 void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
                           UnitCounts& counts, EmissionSums* emission) const {
-  RenderUnit render = render_units[static_cast<int>(scene.kernel)];
   // The pixels of a coarse pass are too far apart to share.
-  if (scene.shares && unit.step == 1)
-    render = scene.kernel == KernelSet::no_fog_nor_textures ? render_shared_plain
-             : scene.has_chains()                           ? render_shared
-                                                            : render_shared_no_chains;
-  render(scene, unit, film_unit, pixels, emission, counts);
+  const auto& render = scene.shares && unit.step == 1 ? render_shared : render_alone;
+  render[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, emission, counts);
 }
 
 KernelSet Kernels::set_for(KernelSet least) const {
-  const RenderUnit full = render_units[static_cast<int>(KernelSet::everything)];
-  return render_units[static_cast<int>(least)] == full ? KernelSet::everything : least;
+  const RenderUnit full = render_alone[static_cast<int>(KernelSet::everything)];
+  return render_alone[static_cast<int>(least)] == full ? KernelSet::everything : least;
 }
 
 std::vector<Kernels> available_kernels() {

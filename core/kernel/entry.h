@@ -87,17 +87,17 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// A table with a kernel of its own for each KernelSet, for the instruction sets that most processors have.
+/// A table with kernels of their own for the KernelSets, for the instruction sets that most processors have. Few scenes
+/// with chains share and have neither fog nor textures, and little of such a kernel could be left out.
 template <class F>
 static Kernels kernels_of(const char* isa) {
+  const RenderUnit share = render_unit_entry<F, KernelSet::everything, true>;
   return {isa,
           lanes_of<F>,
           {render_unit_entry<F, KernelSet::everything>, render_unit_entry<F, KernelSet::chains_alone>,
-           render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_lamps_in_fog>,
-           render_unit_entry<F, KernelSet::no_fog_nor_textures>},
-          render_unit_entry<F, KernelSet::everything, true>,
-          render_unit_entry<F, KernelSet::no_chains, true>,
-          render_unit_entry<F, KernelSet::no_fog_nor_textures, true>,
+           render_unit_entry<F, KernelSet::no_chains>, render_unit_entry<F, KernelSet::no_fog_nor_textures>},
+          {share, share, render_unit_entry<F, KernelSet::no_chains, true>,
+           render_unit_entry<F, KernelSet::no_fog_nor_textures, true>},
           trace_entry<F>,
           first_hits_entry<F>};
 }
@@ -109,10 +109,8 @@ static Kernels full_kernel_of(const char* isa) {
   const RenderUnit share = render_unit_entry<F, KernelSet::everything, true>;
   return {isa,
           lanes_of<F>,
-          {render, render, render, render, render},
-          share,
-          share,
-          share,
+          {render, render, render, render},
+          {share, share, share, share},
           trace_entry<F>,
           first_hits_entry<F>};
 }

@@ -58,9 +58,9 @@ using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHi
 struct Kernels {
   const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
   int lanes;        ///< how many paths run together
-  RenderUnit render_units[kernel_sets];  ///< by KernelSet; the full kernel for each set that was not compiled
-  /// For scenes that share second vertices (share.h): with all models, without chains, and without fog and textures.
-  RenderUnit render_shared, render_shared_no_chains, render_shared_plain;
+  /// By KernelSet, for scenes that do not share second vertices, and for those that do (share.h). For a set that was
+  /// not compiled the full kernel stands.
+  RenderUnit render_alone[kernel_sets], render_shared[kernel_sets];
   TraceRays trace;
   FirstHits first_hits;
 

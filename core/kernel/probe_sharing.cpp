@@ -56,12 +56,17 @@ double variance(const SharedPaths& p, const float (&own)[3][SharedPaths::room]) 
   return sum;
 }
 
+/// Follows the samples of the groups, as a real function call, because each inlined copy takes seconds to compile.
+[[gnu::noinline]] void trace(const SceneView& s, SharedPaths& paths, UnitCounts& counts) {
+  trace_groups<float>(s, {nullptr, nullptr}, paths, {1, nullptr, nullptr, counts});
+}
+
 /// Share of the paths whose first two vertices scatter evenly.
 double share_of_seconds(SceneView s, SharedPaths& paths) {
   s.max_depth = std::min(s.max_depth, 1);
   spread_groups(s, 1, paths);
   UnitCounts counts;
-  trace_groups<float>(s, {nullptr, nullptr}, paths, {1, nullptr, nullptr, counts});
+  trace(s, paths, counts);
   const auto seconds =
       std::count_if(paths.second.even, paths.second.even + SharedPaths::room, [](float even) { return even >= 0; });
   return static_cast<double>(seconds) / (across * across * group_size);
@@ -81,7 +86,7 @@ SharingGain probe_sharing(const SceneView& scene) {
   const auto alone = std::make_unique<Samples>();
   spread_groups(s, 2, *paths);
   UnitCounts counts;
-  trace_groups<float>(s, {nullptr, nullptr}, *paths, {1, nullptr, nullptr, counts});
+  trace(s, *paths, counts);
   const auto rays_alone = static_cast<double>(counts.rays);
   add_own_leaving(*paths, alone->own);
   share_second_vertices<float>(s, *paths, counts);

@@ -1,7 +1,8 @@
-// Compiled like the scalar kernel, so that its steps are the same to the last bit.
+// Its steps are those of the scalar kernel, to the last bit.
 #include "core/kernel/replay.h"
 
-#include "core/kernel/shared_unit.h"
+#include "core/kernel/kernels.h"
+#include "core/kernel/path.h"
 
 namespace tyndall {
 namespace {
@@ -92,7 +93,7 @@ struct OwnColours {
 Vec3f shared_sample(const SceneView& s, const Unit& unit) {
   FilmPixel pixel{};
   UnitCounts counts;
-  render_shared_unit<float>(s, unit, {1, &pixel, nullptr, counts});
+  scalar_kernels().render_unit(s, unit, 1, &pixel, counts);
   const ExactSum(&sum)[3] = pixel.sum[unit.first & 1u];
   const float lost = pixel.rejected[unit.first & 1u] ? __builtin_nanf("") : 0.0f;
   const auto value = [&](int c) { return lost + static_cast<float>(sum[c].value()); };

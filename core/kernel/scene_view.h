@@ -109,8 +109,7 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE bool has_textures() const { return fog_and_textures && needs.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return fog_and_textures && needs.image_textures; }
   static constexpr bool asks_chains = set == KernelSet::everything || set == KernelSet::chains_alone;
-  static constexpr bool lamps_in_fog = set == KernelSet::everything || set == KernelSet::no_chains;
-  TYNDALL_INLINE bool has_lamps_in_fog() const { return lamps_in_fog && near_count > 0; }
+  TYNDALL_INLINE bool has_lamps_in_fog() const { return fog_and_textures && near_count > 0; }
   TYNDALL_INLINE bool has_chains() const { return asks_chains && chains.pairs > 0; }
 };
 
