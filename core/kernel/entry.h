@@ -102,7 +102,7 @@ static Kernels kernels_of(const char* isa) {
           first_hits_entry<F>};
 }
 /// A table in which the kernels with every model stand for each KernelSet. They give the same pictures, a little
-/// slower, and take a fifth of the time to compile: for references and for old processors.
+/// slower, and compile much sooner: for references and for old processors.
 template <class F>
 static Kernels full_kernel_of(const char* isa) {
   const RenderUnit render = render_unit_entry<F, KernelSet::everything>;
