@@ -89,8 +89,8 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   plan_round(film);
   stop.real = available_kernels().back();
   Kernels stopping = stop.real;
-  for (RenderUnit& unit : stopping.render_units) unit = stopping_unit;
-  stopping.render_shared = stopping.render_shared_no_chains = stopping.render_shared_plain = stopping_unit;
+  for (RenderUnit& unit : stopping.render_alone) unit = stopping_unit;
+  for (RenderUnit& unit : stopping.render_shared) unit = stopping_unit;
   Crew crew(2);
   const std::vector<std::uint32_t> wanted = counts_at(film, 128);
   Pass pass(film, wanted);

@@ -120,8 +120,8 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
   Crew crew(2);
   const Kernels real = available_kernels().back();
   Kernels stopping = real;
-  std::fill(std::begin(stopping.render_units), std::end(stopping.render_units), stopping_unit);
-  stopping.render_shared = stopping.render_shared_no_chains = stopping.render_shared_plain = stopping_unit;
+  for (auto* kernels : {&stopping.render_alone, &stopping.render_shared})
+    std::fill(std::begin(*kernels), std::end(*kernels), stopping_unit);
   int abandoned = 0;
   for (const RenderScene& scene : scenes()) {
     const SceneViewOf view(scene);
