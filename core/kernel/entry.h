@@ -87,8 +87,8 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// A table with kernels of their own for the KernelSets, for the instruction sets that most processors have. Few scenes
-/// with chains share and have neither fog nor textures, and little of such a kernel could be left out.
+/// A table with kernels of their own for the KernelSets, for the instruction sets that most processors have. Scenes
+/// with chains that share all have one kernel, with fog and textures or without: another would make the build longer.
 template <class F>
 static Kernels kernels_of(const char* isa) {
   const RenderUnit share = render_unit_entry<F, KernelSet::everything, true>;

@@ -1,4 +1,4 @@
-// Compiled like the scalar kernel, so that every instruction set gets the same answer.
+// Takes the steps of the scalar kernel, so that every instruction set gets the same answer.
 #include "core/kernel/shared_unit.h"
 
 #include <algorithm>
