@@ -191,10 +191,10 @@ TYNDALL_INLINE MaskOf<F> seeks_glint(const Paths<F>& p) {
 
 /// Steers the lanes that look for a glint through its glass: into it at first and out of it at last, and each order of
 /// the events between is as likely. Returns the weight of each lane: the share of the light that goes its way over the
-/// probability of taking it.
+/// probability of taking it. Although it seldom runs it is no call, which would keep the paths and their events in
+/// memory.
 template <class F>
-[[gnu::noinline]] static F seek_glint(const SceneView& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
-                                      Scattered<F>& out) {
+TYNDALL_INLINE F seek_glint(const SceneView& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, Scattered<F>& out) {
   using I = IntOf<F>;
   const F zero = F(0.0f), one = F(1.0f);
   const Boundary<F> b = boundary_at(load_material<Dielectric<F>, F>(s, e.at.material), e.incident);
