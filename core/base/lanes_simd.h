@@ -80,22 +80,31 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
 }
 #if HWY_TARGET == HWY_AVX3
 namespace HWY_NAMESPACE {
-/// table[index] for a table of at most 32 entries, which two vectors hold. The SIMD library has no such lookup yet.
-TYNDALL_INLINE __m512i lookup_in_two(const void* table, int count, __m512i index) {
+/// Entries of a table that vectors hold. The SIMD library has no such lookup yet.
+inline constexpr int most_in_vectors = 64;
+
+/// table[index] for a table of `count` entries, at most 32, which two vectors hold. Of index only the low 5 bits count.
+TYNDALL_INLINE __m512i lookup_in_two(const std::int32_t* table, int count, __m512i index) {
   const __mmask32 readable = _bzhi_u32(0xffffffffu, static_cast<std::uint32_t>(count));
   const __m512i low = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable), table);
-  const __m512i high =
-      _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable >> 16), static_cast<const std::int32_t*>(table) + 16);
+  const __m512i high = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable >> 16), table + 16);
   return _mm512_permutex2var_epi32(low, index, high);
+}
+/// The same for at most most_in_vectors entries.
+TYNDALL_INLINE __m512i lookup_in_vectors(const void* entries, int count, __m512i index) {
+  const auto* table = static_cast<const std::int32_t*>(entries);
+  if (count <= 32) return lookup_in_two(table, count, index);
+  const __mmask16 upper = _mm512_test_epi32_mask(index, _mm512_set1_epi32(32));
+  return _mm512_mask_blend_epi32(upper, lookup_in_two(table, 32, index), lookup_in_two(table + 32, count - 32, index));
 }
 }  // namespace HWY_NAMESPACE
 #endif
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= 32) {
+  if (count <= HWY_NAMESPACE::most_in_vectors) {
     F r;
-    r.v.raw = _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_two(table, count, index.v.raw));
+    r.v.raw = _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw));
     return r;
   }
 #endif
@@ -104,9 +113,9 @@ TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F>
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= 32) {
+  if (count <= HWY_NAMESPACE::most_in_vectors) {
     IntOf<F> r;
-    r.v.raw = HWY_NAMESPACE::lookup_in_two(table, count, index.v.raw);
+    r.v.raw = HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw);
     return r;
   }
 #endif
