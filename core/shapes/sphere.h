@@ -37,7 +37,8 @@ constexpr auto fields(const Sphere<F>*) {
 template <class F>
 TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> direction) {
   const F middle = dot(to_center, direction);
-  const Vec3<F> across = along(to_center, -middle, direction);
+  const Vec3<F> across{neg_mul_add(middle, direction.x, to_center.x), neg_mul_add(middle, direction.y, to_center.y),
+                       neg_mul_add(middle, direction.z, to_center.z)};
   const F discriminant = neg_mul_add(across.x, across.x,
                                      neg_mul_add(across.y, across.y, neg_mul_add(across.z, across.z, radius * radius)));
   const F half = sqrt(max(discriminant, F(0.0f)));
