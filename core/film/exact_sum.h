@@ -28,4 +28,24 @@ struct ExactSum {
   bool operator==(const ExactSum&) const = default;
 };
 
+// Numbers side by side: the compiler computes with all of them at once where the CPU can.
+using FourDoubles [[gnu::vector_size(32)]] = double;
+using FourIntegers [[gnu::vector_size(32)]] = std::int64_t;
+using TwoIntegers [[gnu::vector_size(16)]] = std::int64_t;
+
+/// Adds a number to each of three sums, as ExactSum::add() does.
+TYNDALL_INLINE void add_each(ExactSum (&to)[3], double x, double y, double z) {
+  const FourDoubles scaled = FourDoubles{x, y, z, 0} * 0x1p29;
+  const auto whole = __builtin_convertvector(scaled, FourIntegers);
+  const FourDoubles rest = (scaled - __builtin_convertvector(whole, FourDoubles)) * 0x1p32;
+  const auto low = __builtin_convertvector(rest, FourIntegers);
+  void *const of_xy = &to[0], *const of_z = &to[2];
+  FourIntegers xy;
+  TwoIntegers z_alone;
+  __builtin_memcpy(&xy, of_xy, sizeof xy), __builtin_memcpy(&z_alone, of_z, sizeof z_alone);
+  xy += __builtin_shufflevector(whole, low, 0, 4, 1, 5);
+  z_alone += __builtin_shufflevector(whole, low, 2, 6);
+  __builtin_memcpy(of_xy, &xy, sizeof xy), __builtin_memcpy(of_z, &z_alone, sizeof z_alone);
+}
+
 }  // namespace tyndall

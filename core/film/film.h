@@ -96,8 +96,8 @@ inline constexpr double sample_limit = 0x1p30;
 struct ScaledSample {
   double x, y, z;
   TYNDALL_INLINE bool fits() const {
-    return x > -sample_limit && x < sample_limit && y > -sample_limit && y < sample_limit && z > -sample_limit &&
-           z < sample_limit;
+    const auto fits = [](double v) { return __builtin_fabs(v) < sample_limit; };
+    return fits(x) && fits(y) && fits(z);
   }
 };
 TYNDALL_INLINE ScaledSample scaled(Vec3f radiance, double per_unit) {
@@ -113,9 +113,7 @@ TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radia
     ++pixel.rejected[half];
     return;
   }
-  pixel.sum[half][0].add(sample.x);
-  pixel.sum[half][1].add(sample.y);
-  pixel.sum[half][2].add(sample.z);
+  add_each(pixel.sum[half], sample.x, sample.y, sample.z);
 }
 /// Adds a sample to the sums of emission, unless add_sample() rejects it.
 TYNDALL_INLINE void add_emission(EmissionSums& to, std::uint32_t half, Vec3f radiance, double per_unit) {

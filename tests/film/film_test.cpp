@@ -48,6 +48,16 @@ TEST_CASE("exact sum: any order and any split gives the same limbs") {
   }
 }
 
+TEST_CASE("exact sum: three at once get the same limbs as each alone") {
+  const std::vector<double> numbers = wild_numbers(3000);
+  ExactSum each[3], together[3];
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) each[k].add(numbers[i + k]);
+    add_each(together, numbers[i], numbers[i + 1], numbers[i + 2]);
+  }
+  for (int k = 0; k < 3; ++k) CHECK(together[k] == each[k]);
+}
+
 TEST_CASE("exact sum: is the sum, also of negative numbers") {
   ExactSum sum;
   for (const double x : {0.75, -200.5, 1e-9, -0x1p-61, 3.0}) sum.add(x);
