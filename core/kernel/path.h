@@ -235,7 +235,6 @@ TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, auto& shared, Uni
       counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
       end(p, p.alive & ~survivors, bits(cut));
       p.alive = survivors;
-      if constexpr (PathPool<F>::waits) let_wait<shares>(s, p, pool);
     }
     if constexpr (ChainQueue<F>::waits) {
       const bool full = chains.count >= lanes_of<F>, rest = !sampling && chains.count > 0;

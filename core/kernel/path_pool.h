@@ -3,8 +3,8 @@
 #include "core/kernel/event.h"
 
 /// Paths between two events. All lanes take a step together: either with new samples, whose rays lie side by side and
-/// meet much the same things, or with paths that had events before. Paths that go on after a step wait here until there
-/// are enough of them to fill all lanes.
+/// meet much the same things, or with paths that had events before. When fewer paths go on after a step than make
+/// another one worth while, they wait here until there are enough of them to fill all lanes.
 namespace tyndall {
 
 /// With one lane (float, double) nothing waits: a path goes on until it ends. A pool has to begin as zeros, because
@@ -108,15 +108,23 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   p.alive = first_lanes(fresh.count);
 }
 
-/// Fills the lanes for the next step. If no path is alive then, all samples are done.
+/// So many paths take the next step together, without waiting for more: idle lanes cost less than to store all paths
+/// and load them again. With 3/4 of the lanes in place of 7/8, fog takes 5 % more time, and next-week 2 %.
+template <class F>
+inline constexpr int enough_lanes = lanes_of<F> - lanes_of<F> / 8;
+
+/// Fills the lanes for the next step, if too few paths of the last one go on. If no path is alive then, all samples are
+/// done.
 template <bool shares, class F>
 TYNDALL_INLINE void take_paths(const auto& s, Paths<F>& p, PathPool<F>& pool, auto& samples) {
   if constexpr (!PathPool<F>::waits) {
     if (!p.alive && !samples.empty()) begin_samples(s, p, samples);
-  } else if (pool.count < lanes_of<F> && !samples.empty()) {
-    begin_samples(s, p, samples);
-  } else {
-    take_waiting<shares>(s, p, pool);
+  } else if (__builtin_popcount(p.alive) < enough_lanes<F>) {
+    let_wait<shares>(s, p, pool);
+    if (pool.count < lanes_of<F> && !samples.empty())
+      begin_samples(s, p, samples);
+    else
+      take_waiting<shares>(s, p, pool);
   }
 }
 
