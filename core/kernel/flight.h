@@ -23,7 +23,7 @@ struct MediumEvent {
   F g;
 };
 
-/// No event in any lane. It is not written as `MediumEvent<F>{}`, and Event is made likewise:
+/// No event in any lane. It is not written as `MediumEvent<F>{}`:
 /// compilers clear such a large struct by a call and then keep it in memory, which slows fog down by a fifth.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> no_event(const Ray<F>& ray) {
