@@ -39,6 +39,14 @@ const Material& material_of(const Scene& scene, const PlacedShape& shape) {
   return scene.materials[static_cast<std::size_t>(shape.material)];
 }
 
+bool is_lamp(const Material& material) { return std::holds_alternative<Light<>>(material.kind); }
+
+/// Whether it throws light elsewhere, rather than spread it.
+bool is_smooth(const Material& material) {
+  const auto* metal = std::get_if<Metal<>>(&material.kind);
+  return std::holds_alternative<Dielectric<>>(material.kind) || (metal && metal->fuzz < most_fuzz);
+}
+
 /// A lamp, or a smooth shape that throws a lamp's light elsewhere.
 struct Thing {
   std::size_t shape;  // index into Flattened::shapes
@@ -55,12 +63,11 @@ Things list_things(const Scene& scene, const Flattened& flat) {
   Things things;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const Material& material = material_of(scene, flat.shapes[i]);
+    if (!is_lamp(material) && !is_smooth(material)) continue;
     const auto* metal = std::get_if<Metal<>>(&material.kind);
     const bool glass = std::holds_alternative<Dielectric<>>(material.kind);
-    const bool lamp = std::holds_alternative<Light<>>(material.kind);
-    if (!lamp && !glass && !(metal && metal->fuzz < most_fuzz)) continue;
     const Thing thing{i, ball_around(extent_of(flat.shapes[i], scene.camera)), metal ? metal->fuzz : 0, glass};
-    (lamp ? things.lamps : things.smooth).push_back(thing);
+    (is_lamp(material) ? things.lamps : things.smooth).push_back(thing);
   }
   return things;
 }
@@ -107,6 +114,8 @@ bool is_bulb(const Thing& lamp, const Thing& thing, Vec3d camera) {
 }  // namespace
 
 double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
+  const auto has = [&](const auto& is) { return std::any_of(scene.materials.begin(), scene.materials.end(), is); };
+  if (!has(is_lamp) || !has(is_smooth)) return 1;  // at once, also in a scene of a million spheres
   const Flattened flat = flatten(scene);
   const std::vector<Receiver> receivers = list_receivers(scene, flat);
   if (receivers.empty()) return 1;
