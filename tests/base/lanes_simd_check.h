@@ -194,7 +194,7 @@ void check_lookup(Differences& d, const Inputs& in, const float* table, const st
     store(whole, gather_int<Wide>(whole_table, load_int<Wide>(at)));
     d.expect(whole, plain);
     check_append(d, in, table), check_append(d, in, whole_table);
-    for (const int count : {1, 7, 16, 31, 32, 33, 256}) check_lookup(d, in, table, whole_table, count);
+    for (const int count : {1, 7, 16, 31, 32, 33, 48, 64, 65, 256}) check_lookup(d, in, table, whole_table, count);
     float least = expected[0];
     for (const float e : expected) least = e < least ? e : least;
     d.count += least_lane(load<Wide>(expected)) != least;
