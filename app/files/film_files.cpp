@@ -114,7 +114,7 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
                            const std::filesystem::path& image) {
   scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, most_samples));
   const std::string caustics = name_of(scene.render.caustics), sharing = scene.render.sharing ? "true" : "false";
-  JsonValue json = parse_json(write_scene(move_textures(std::move(scene), textures, image.parent_path())));
+  JsonValue json = scene_json(move_textures(std::move(scene), textures, image.parent_path()));
   apply_override(json, {caustics_pointer, caustics});
   apply_override(json, {sharing_pointer, sharing});
   return print_json(json);

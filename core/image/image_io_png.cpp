@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cassert>
+#include <initializer_list>
 #include <limits>
 #include <new>
 #include <string_view>
@@ -39,20 +40,22 @@ void put_u32(Bytes& to, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-void put_chunk(Bytes& to, std::string_view type, std::string_view data) {
-  put_u32(to, static_cast<std::uint32_t>(data.size()));
+void put_chunk(Bytes& to, std::string_view type, std::initializer_list<std::string_view> data) {
+  std::size_t size = 0;
+  for (const std::string_view part : data) size += part.size();
+  to.reserve(to.size() + size + 12);
+  put_u32(to, static_cast<std::uint32_t>(size));
   const std::size_t start = to.size();
   to.insert(to.end(), type.begin(), type.end());
-  to.insert(to.end(), data.begin(), data.end());
+  for (const std::string_view part : data) to.insert(to.end(), part.begin(), part.end());
   put_u32(to, crc32(std::span(to).subspan(start)));
 }
 
 /// Text as an iTXt chunk, not compressed, without language.
 void put_text(Bytes& to, std::string_view keyword, const std::string& text) {
   if (text.empty()) return;
-  std::string data(keyword);
-  data.append(5, '\0');  // end of the keyword, compression flag and method, empty language and translated keyword
-  put_chunk(to, "iTXt", data + text);
+  // The zeros: end of the keyword, compression flag and method, empty language and translated keyword.
+  put_chunk(to, "iTXt", {keyword, std::string_view("\0\0\0\0\0", 5), text});
 }
 
 Bytes checked_png(const std::filesystem::path& file, const LinearImage& image, const Bytes& rgb) {
@@ -72,7 +75,7 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
                                 dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
                                        : tone_map(image.rgb, exposure, curve));
   Bytes extra;
-  put_chunk(extra, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
+  put_chunk(extra, "sRGB", {std::string_view("\0", 1)});  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);
   put_text(extra, "tyndall:stats", embedded.stats);
   WholeFile out(file);

@@ -34,6 +34,9 @@ JsonValue parse_json(std::string_view text);
 /// Replaces or adds one value. Throws Broken at "--set POINTER".
 void apply_override(JsonValue& root, const Override& override_);
 
+/// The document that write_scene() writes.
+JsonValue scene_json(const Scene& scene);
+
 /// The document as text: two spaces a level, what is short on one line.
 std::string print_json(const JsonValue& root);
 

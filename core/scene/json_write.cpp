@@ -157,7 +157,7 @@ JsonArray objects_json(const std::vector<Object>& objects, const Scene& scene) {
 
 }  // namespace
 
-std::string write_scene(const Scene& scene) {
+JsonValue scene_json(const Scene& scene) {
   JsonObject root, image, textures, materials;
   put(root, "tyndall", {1.0});
   if (!scene.name.empty()) put(root, "name", {scene.name});
@@ -172,7 +172,9 @@ std::string write_scene(const Scene& scene) {
   for (const Material& material : scene.materials) materials.push_back({material.name, material_json(material, scene)});
   put_part(root, "materials", std::move(materials));
   put(root, "objects", {objects_json(scene.objects, scene)});
-  return print_json({std::move(root)});
+  return {std::move(root)};
 }
+
+std::string write_scene(const Scene& scene) { return print_json(scene_json(scene)); }
 
 }  // namespace tyndall
