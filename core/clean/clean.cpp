@@ -165,6 +165,8 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   v.floor = 0.01f / input.scale / input.scale;
   v.shared = input.shared;
   v.trust_in_dark = input.spp >= 16 ? 1.0f : 0.0f;
+  const auto doubt = static_cast<float>(1 / std::sqrt(std::max(input.spp, 1.0)));
+  v.by_far = std::max(16 * doubt, 2.0f), v.quiet = std::min(0.8f * doubt, 0.4f);
   for (int k = 0; k < outputs; ++k) {
     v.half[k] = input.halves.plane(k), v.filtered[k] = work.plane(k);
     v.emission[k] = input.emission.count() > 0 ? input.emission.plane(k) : nullptr;

@@ -44,21 +44,52 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
   return mul_add(share, above, around.others);
 }
 
-/// Errors are relative to the lesser of the picture and the level that is known from raw. What is not finite, because
-/// numbers were too large for single precision, becomes raw. Light is never negative: where the filter's is, as a
-/// linear function may fall below 0 beside a bright speck, 0 is nearer to the truth. The error is that of the filter's.
+/// Whether the filter has spread light over a sharp edge into the dark, as beside a caustic: raw is by far darker than
+/// the picture, at a pixel and at two more of the 3 x 3 pixels around at least; two others are brighter than the
+/// picture; and the halves agree about all of them too well for pixels that are dark by chance.
+template <class F>
+TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
+  const auto sum = [](const float* const* planes, std::ptrdiff_t at) __attribute__((always_inline)) {
+    return load<F>(planes[0] + at) + load<F>(planes[1] + at) + load<F>(planes[2] + at);
+  };
+  const std::ptrdiff_t at = y * v.stride + x;
+  const F raw = sum(v.half, at) + sum(v.half + 3, at), picture = sum(v.filtered, at) + sum(v.filtered + 3, at);
+  const F darker = splat<F>(1 / v.by_far) * picture;
+  const auto glows = less(raw, darker);
+  if (!any(glows)) return glows;
+  F noise = F(0.0f), dark = F(0.0f), bright = F(0.0f);  // noise: relative variance of a pixel's mean, times the pixels
+  for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k)
+    for (int i = -1; i <= 1; ++i) {
+      const std::ptrdiff_t there = k * v.stride + x + i;
+      const F a = sum(v.half, there), b = sum(v.half + 3, there), both = a + b;
+      const F apart = (a - b) / max(both, F(1e-30f));
+      noise = noise + select(less(F(0.0f), both), apart * apart, F(1.0f));
+      dark = dark + select(less(both, darker), F(1.0f), F(0.0f));
+      bright = bright + select(less(picture, both), F(1.0f), F(0.0f));
+    }
+  noise = noise / pixels_around<F>(v, y, x, 1);
+  const F above = picture - raw;
+  const auto known = mask_and(less(noise, splat<F>(v.quiet)), less(F(9.0f) * noise * raw * raw, above * above));
+  return mask_and(mask_and(glows, known), mask_and(less(F(2.5f), dark), less(F(1.5f), bright)));
+}
+
+/// Errors are relative to the lesser of the picture and the level that is known from raw. What glows into the dark, and
+/// what is not finite because numbers were too large for single precision, becomes raw. Light is never negative: where
+/// the filter's is, as a linear function may fall below 0 beside a bright speck, 0 is nearer to the truth. The error is
+/// that of the filter's.
 template <class F>
 TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
   for (int x = 0; x < v.width; x += lanes_of<F>) {
     for (int output = 0; output < outputs; ++output)
       fetch(v, v.half[output], y + 2, x), fetch(v, v.filtered[output], y + 1, x);
     const std::ptrdiff_t at = y * v.stride + x;
+    const auto raw = glows_into_dark<F>(v, y, x);
     F bias = F(0.0f), noise = F(0.0f);
     for (int c = 0; c < 3; ++c) {
       const F a = load<F>(v.half[c] + at), b = load<F>(v.half[3 + c] + at);
       F pa = load<F>(v.filtered[c] + at), pb = load<F>(v.filtered[3 + c] + at);
-      const auto finite = equal(F(0.0f) * (pa + pb), F(0.0f));
-      pa = select(finite, pa, a), pb = select(finite, pb, b);
+      const auto kept = mask_and_not(equal(F(0.0f) * (pa + pb), F(0.0f)), raw);
+      pa = select(kept, pa, a), pb = select(kept, pb, b);
       const F picture = max(F(0.5f) * (pa + pb), F(0.0f));
       const F known = known_level(v, a, b, load<F>(v.sharp + at), look_around<F>(v, c, y, x));
       const F level = max(min(picture, known), F(0.0f));

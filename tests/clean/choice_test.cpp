@@ -135,7 +135,7 @@ TEST_CASE("choice: a tiny lamp behind glass hardly shines on the dark pixels bes
 }
 
 TEST_CASE("choice: a dark line in glass counts for its own darkness where there are samples enough") {
-  const auto truth = [](int x, int) { return x == 32 ? Vec3f{0.03f, 0.03f, 0.03f} : Vec3f{0.9f, 0.9f, 0.9f}; };
+  const auto truth = [](int x, int) { return x == 32 ? Vec3f{0.25f, 0.25f, 0.25f} : Vec3f{0.9f, 0.9f, 0.9f}; };
   Picture p = picture(truth, grey_glass, [](int, int) { return 0.2f; });
   p.input.spp = 4;
   const double few = clean(p).relative_error;
@@ -143,6 +143,19 @@ TEST_CASE("choice: a dark line in glass counts for its own darkness where there 
   const CleanPicture many = clean(p);
   CHECK(many.relative_error * many.relative_error == doctest::Approx(mean_error(many, p)).epsilon(0.5).scale(0));
   CHECK(few < 0.9 * many.relative_error);
+}
+
+TEST_CASE("choice: a bright spot does not glow into the dark beside it, which the halves agree about") {
+  const auto lit = [](int x, int y) { return std::abs(x - 32) <= 5 && std::abs(y - 24) <= 5; };
+  const auto truth = [&](int x, int y) { return lit(x, y) ? Vec3f{2, 2, 2} : Vec3f{0.03f, 0.03f, 0.03f}; };
+  Picture p = picture(truth, grey_floor, [&](int x, int y) { return lit(x, y) ? 0.3f : 0.2f; });
+  p.input.spp = 64;
+  const CleanPicture picture = clean(p);
+  double beside = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (!lit(x, y)) beside += error_at(picture, p, x, y);
+  CHECK(beside < 5);
 }
 
 TEST_CASE("choice: pixels of a floor that are dark by chance do not make the error seem larger") {

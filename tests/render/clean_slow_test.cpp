@@ -24,6 +24,7 @@ using namespace tyndall::test;
 namespace {
 
 constexpr double pixels = 320 * 180;
+constexpr double rounding = 1e-12;  ///< of floats: pictures of one colour have no other relMSE
 constexpr std::array<std::uint32_t, 6> counts{2, 4, 16, 64, 256, 1024};
 
 /// Errors of one picture, without the noise of the reference.
@@ -70,14 +71,14 @@ Row measured(const std::string& name, const Film& film, const CleanPicture& clea
   const int width = film.region.width(), height = film.region.height();
   Row row{name, spp, errors_of(resolve(film), reference, width, height),
           errors_of(clean.rgb, reference, width, height)};
-  row.estimated = clean.relative_error * clean.relative_error / std::max(row.clean.rel_mse, 1e-12);
+  row.estimated = (clean.relative_error * clean.relative_error + rounding) / (row.clean.rel_mse + rounding);
   double all = 0;
   for (std::size_t i = 0; i < row.raw.blocks.size(); ++i) {
     const double before = std::max(row.raw.blocks[i], 0.0), after = std::max(row.clean.blocks[i], 0.0);
     row.worse += after > 1.02 * before + 1e-3 ? 1.0 / static_cast<double>(row.raw.blocks.size()) : 0;
     row.excess += std::max(after - before, 0.0), all += before;
   }
-  row.excess /= std::max(all, 1e-12);
+  row.excess /= std::max(all, rounding * static_cast<double>(clean.rgb.size()));
   row.doubtful = is_doubtful(clean, spp) || has_rare_bright_paths(estimate_error(film), spp, chance);
   std::printf("%-32s %4u  %.2e %.2e %5.1f  %5.2f  %.3f %.3f  %+.4f  %4.1f %% %.2f %% %s\n", name.c_str(), spp,
               row.raw.rel_mse, row.clean.rel_mse, row.raw.rel_mse / row.clean.rel_mse, row.estimated, row.raw.flip,
