@@ -160,10 +160,9 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, Paths<F>& p, const Hit<F>& hit,
 
 /// Draws where the paths scatter in media (see fly_through_media()), and takes away what smoke absorbs until there.
 template <class F>
-TYNDALL_INLINE MediumEvent<F> cross_media(const auto& s, Paths<F>& p, MaskOf<F> active, F& nearest) {
-  const MediumEvent<F> event = fly_through_media(s, p.ray, p.dice, active, nearest);
+TYNDALL_INLINE void cross_media(const auto& s, Paths<F>& p, MaskOf<F> active, F& nearest, MediumEvent<F>& event) {
+  fly_through_media(s, p.ray, p.dice, active, nearest, event);
   p.throughput = kept_by_smoke(s, p.ray, p.dice, nearest, active) * p.throughput;
-  return event;
 }
 
 /// Describes the event in lanes that scatter in a medium.

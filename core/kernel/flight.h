@@ -9,27 +9,28 @@
 /// Flights through media: where along its ray a path scatters before it meets a surface.
 namespace tyndall {
 
-/// Where a path scatters within a medium, if it does.
+/// Where a path scatters within a medium, if it does. Only lanes in which it happens have the rest set, except for
+/// medium and texture, which are -1 in the others.
 template <class F>
 struct MediumEvent {
   MaskOf<F> happens;
-  Vec3<F> point;  ///< the ray's origin where nothing happens
-  IntOf<F> medium;
-  F density;      ///< of the medium: its mean number of events per unit length
-  F begin, far;   ///< distances between which the ray is within the medium's boundary
+  IntOf<F> medium, texture;
+  Vec3<F> point;
   IntOf<F> from;  ///< Ray::from of a start within the medium
   Vec3<F> albedo;
-  IntOf<F> texture;
-  F g;
+  F g;           ///< only in scenes with phase functions, else 0
+  F density;     ///< of the medium: its mean number of events per unit length; only in scenes with lamps in fog
+  F begin, far;  ///< distances between which the ray is within the medium's boundary; only in scenes with lamps in fog
 };
 
-/// No event in any lane. It is not written as `MediumEvent<F>{}`:
-/// compilers clear such a large struct by a call and then keep it in memory, which slows fog down by a fifth.
+/// No event in any lane. To clear all of it in every step would take up to an eighth of the time in fog.
 template <class F>
-TYNDALL_INLINE MediumEvent<F> no_event(const Ray<F>& ray) {
-  const F zero = F(0.0f);
-  const IntOf<F> none = IntOf<F>(-1);
-  return {less(F(1.0f), zero), ray.origin, none, zero, zero, zero, IntOf<F>(from_nowhere), zero3<F>(), none, zero};
+TYNDALL_INLINE MediumEvent<F> no_event() {
+  MediumEvent<F> event;
+  event.happens = less(F(1.0f), F(0.0f));
+  event.medium = event.texture = IntOf<F>(-1);
+  event.g = F(0.0f);
+  return event;
 }
 
 /// The distances between which a line is inside a medium's boundary. from: see Ray.
@@ -70,11 +71,11 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
 /// Draws where a path scatters in media before it meets a surface. Each medium has a free flight of its own, and the
 /// shortest counts; this is right where media overlap, too, because their densities add. Media that weigh paths are
 /// left to kept_by_smoke(). nearest: on entry the distance to the surface; shortened to the event where there is one.
+/// event: on entry none.
 template <class F>
-TYNDALL_INLINE MediumEvent<F> fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
-                                                F& nearest) {
+TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
+                                      F& nearest, MediumEvent<F>& event) {
   const F infinity = F(__builtin_inff());
-  MediumEvent<F> event = no_event(ray);
   for (int k = 0; k < s.medium_count; ++k) {
     const MediumColumns& m = s.media[k];
     if (m.weighs) continue;
@@ -90,14 +91,15 @@ TYNDALL_INLINE MediumEvent<F> fly_through_media(const auto& s, const Ray<F>& ray
     const Vec3<F> entry = enter_medium(m, ray, inside, here);
     event.point = select(here, along(entry, flight, ray.direction), event.point);
     event.medium = select(here, IntOf<F>(k), event.medium);
-    event.density = select(here, splat<F>(m.density), event.density);
-    event.begin = select(here, begin, event.begin), event.far = select(here, inside.far, event.far);
+    if (s.has_lamps_in_fog()) {
+      event.density = select(here, splat<F>(m.density), event.density);
+      event.begin = select(here, begin, event.begin), event.far = select(here, inside.far, event.far);
+    }
     event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
     event.albedo = select(here, splat<F>(m.albedo), event.albedo);
     if (s.has_textures()) event.texture = select(here, IntOf<F>(m.texture), event.texture);
     if (s.needs.phase_functions) event.g = select(here, splat<F>(m.g), event.g);
   }
-  return event;
 }
 
 /// Share of the light, in [0, 1], that passes all media on the way to `distance`.

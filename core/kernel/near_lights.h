@@ -7,7 +7,8 @@
 namespace tyndall {
 
 /// What fly_by_angle() samples for each lane: a pair of a medium and a lamp near it, and a flight that ends in the
-/// medium at a distance chosen for that lamp.
+/// medium at a distance chosen for that lamp. What describes the medium is only set in lanes in which it happens,
+/// except for the texture, which is -1 in the others.
 template <class F>
 struct NearEvent {
   MaskOf<F> happens;  ///< the ray crosses the medium
@@ -23,8 +24,9 @@ template <class F>
 TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
   const F count = splat<F>(static_cast<float>(s.near_count));
   const IntOf<F> pair = to_int(min(p.dice.one(dimension::near_pair) * count, count - F(1.0f)));
-  NearEvent<F> event{};
+  NearEvent<F> event;
   event.happens = less(F(1.0f), F(0.0f));
+  event.texture = IntOf<F>(-1);
   event.light = lookup_int<F>(s.near_light, s.near_count, pair);
   FogFlight<F>& flight = event.flight;
   flight = {lookup_int<F>(s.near_medium, s.near_count, pair),

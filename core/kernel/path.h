@@ -86,14 +86,13 @@ TYNDALL_INLINE MaskOf<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, Mask
                               auto& shared, std::uint32_t& shadow_rays) {
   constexpr bool shares = shares_vertices<decltype(shared)>;
   Hit<F> hit = closest(s, p.ray, active);
-  MediumEvent<F> found = no_event(p.ray);
+  MediumEvent<F> found = no_event<F>();
   const F to_surface = hit.t;
   const Vec3<F> before = p.throughput;
-  if (s.has_media()) found = cross_media(s, p, active, hit.t);
+  if (s.has_media()) cross_media(s, p, active, hit.t, found);
   Event<F> e = event_on(p.ray, p.dice);
   e.medium = found.happens;
   e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
-  e.point = p.ray.origin, e.colour = zero3<F>(), e.from = p.ray.from;
   const auto escaped = mask_and_not(mask_and_not(active, e.surface), e.medium);
   if (s.needs.background && any(escaped))
     p.radiance =

@@ -26,9 +26,9 @@ Meeting meet(const SceneView& s, const Paths<float>& p) {
   v.direction = p.ray.direction, v.throughput = p.throughput, v.point = p.ray.origin;
   v.first_dimension = dimension::camera_count + static_cast<std::uint32_t>(p.depth) * dimension::per_event;
   Hit<float> hit = closest(s, p.ray, true);
-  MediumEvent<float> event{};
+  MediumEvent<float> event = no_event<float>();
   if (s.needs.media) {
-    event = fly_through_media(s, p.ray, p.dice, true, hit.t);
+    fly_through_media(s, p.ray, p.dice, true, hit.t, event);
     v.kept = kept_by_smoke(s, p.ray, p.dice, hit.t, true);
     v.throughput = v.kept * v.throughput;
   }
