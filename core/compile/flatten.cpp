@@ -76,6 +76,7 @@ std::uint64_t hash_of(const PlacedShape& placed) {
 /// otherwise meet a copy, because its start is rounded.
 void drop_copies(std::vector<PlacedShape>& shapes) {
   std::vector<std::pair<std::uint64_t, std::size_t>> keys;
+  keys.reserve(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) keys.push_back({hash_of(shapes[i]), i});
   std::sort(keys.begin(), keys.end());
   std::vector<bool> copy(shapes.size());
@@ -131,6 +132,7 @@ Placement placement_of(const Transform& list) {
 
 Flattened flatten(const Scene& scene) {
   Flattened out;
+  out.shapes.reserve(scene.objects.size());  // enough where there are no groups
   std::vector<int> path;
   flatten_list(scene.objects, {}, path, out);
   drop_copies(out.shapes);
