@@ -42,8 +42,9 @@ struct FilterView {
   std::ptrdiff_t stride = 0;
   float floor = 0;          ///< what is added to squared levels, in squared units of the planes
   float trust_in_dark = 0;  ///< 1 with so many samples that a pixel is hardly dark by chance, else 0
-  // The more samples there are, the less a pixel is dark by chance: see glows_into_dark().
-  float by_far = 0, quiet = 0;                ///< ratio of levels; relative variance of a pixel's mean
+  // For glows_into_dark(). The more samples there are, the less a pixel is dark by chance, and the less it takes.
+  float by_far = 0;                           ///< how many times brighter than raw a picture that glows is, at least
+  float quiet = 0;                            ///< largest relative variance of raw pixels that count as known
   bool shared = false;                        ///< groups of pixels share their noise: see film/groups.h
   const float* half[outputs];                 ///< A and B: red, green, blue
   const float* emission[2 * emission_terms];  ///< likewise; null: not recorded

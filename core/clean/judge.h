@@ -46,7 +46,8 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
 
 /// Whether the filter has spread light over a sharp edge into the dark, as beside a caustic: raw is by far darker than
 /// the picture, at a pixel and at two more of the 3 x 3 pixels around at least; two others are brighter than the
-/// picture; and the halves agree about all of them too well for pixels that are dark by chance.
+/// picture; and the halves agree about all of them too well for pixels that are dark by chance. Never at the left and
+/// right borders, where what stands beside the picture counts as unknown.
 template <class F>
 TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
   const auto sum = [](const float* const* planes, std::ptrdiff_t at) __attribute__((always_inline)) {

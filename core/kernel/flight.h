@@ -71,7 +71,7 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
 /// Draws where a path scatters in media before it meets a surface. Each medium has a free flight of its own, and the
 /// shortest counts; this is right where media overlap, too, because their densities add. Media that weigh paths are
 /// left to kept_by_smoke(). nearest: on entry the distance to the surface; shortened to the event where there is one.
-/// event: on entry none.
+/// event: what no_event() gives, on entry.
 template <class F>
 TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
                                       F& nearest, MediumEvent<F>& event) {
