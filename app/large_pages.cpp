@@ -1,0 +1,44 @@
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+/// The program's own operator new: large blocks, such as films, pictures and the columns of large scenes, are put on
+/// large pages where the system has them. Each page costs a detour through the system when it is first touched, and in
+/// a virtual machine a slow one: with pages of 4 KiB, a picture of 1280 x 720 spent longer on these than on 4 samples.
+/// Smaller blocks, and what other libraries ask of malloc, are left alone.
+namespace {
+
+constexpr std::size_t large_page = std::size_t(2) << 20;  // on x86-64 and, usually, on ARM
+constexpr std::size_t usual_alignment = alignof(std::max_align_t);
+
+void* allocate(std::size_t bytes, std::size_t alignment) {
+#ifdef MADV_HUGEPAGE
+  if (bytes >= large_page && alignment <= large_page) {
+    // The end is on a large page, too, where that wastes little.
+    if (const std::size_t rest = -bytes % large_page; rest <= bytes / 8) bytes += rest;
+    void* memory = std::aligned_alloc(large_page, bytes);
+    if (memory) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is refused, the memory is as good
+    return memory;
+  }
+#endif
+  if (bytes == 0) bytes = 1;
+  return alignment <= usual_alignment ? std::malloc(bytes) : std::aligned_alloc(alignment, bytes);
+}
+
+void* allocate_or_throw(std::size_t bytes, std::size_t alignment) {
+  if (void* memory = allocate(bytes, alignment)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) { return allocate_or_throw(bytes, usual_alignment); }
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return allocate_or_throw(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
