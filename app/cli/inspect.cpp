@@ -115,8 +115,7 @@ std::string named(const Report& report, const std::vector<std::int32_t>& element
   constexpr std::size_t most = 3;
   std::string text;
   for (std::size_t i = 0; i < std::min(elements.size(), most); ++i) {
-    const auto element = static_cast<std::size_t>(elements[i]);
-    text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.compiled.elements.object[element]);
+    text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.compiled.object_of(elements[i]));
   }
   return text + (elements.size() > most ? ", ..." : "");
 }

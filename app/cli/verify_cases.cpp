@@ -79,9 +79,9 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
 }
 
 std::vector<VerifyCase> read_table(std::string_view text, const std::filesystem::path& folder) {
-  const JsonValue json = parse_json(text);
+  const JsonDocument json = parse_json(text);
   const Place top;
-  const JsonObject& object = object_at(json, top, "{ \"groups\": [ … ] }");
+  const JsonObject& object = object_at(json.root, top, "{ \"groups\": [ … ] }");
   allow_keys(object, top, {"groups"});
   const JsonArray& groups = list_of(object, top, "groups", "the groups of cases");
   std::vector<VerifyCase> cases;

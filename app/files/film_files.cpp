@@ -36,8 +36,8 @@ constexpr const char *caustics_pointer = "/render/caustics", *sharing_pointer = 
 /// Whether the text that a film carries has a render setting. Films from before there was a choice do not: they left
 /// caustics to chance, and shared nothing.
 bool says(const std::string& text, const char* setting) {
-  const JsonValue json = parse_json(text);
-  const auto* root = std::get_if<JsonObject>(&json.value);
+  const JsonDocument json = parse_json(text);
+  const auto* root = std::get_if<JsonObject>(&json.root.value);
   const JsonValue* render = root ? find(*root, "render") : nullptr;
   const auto* settings = render ? std::get_if<JsonObject>(&render->value) : nullptr;
   return settings && find(*settings, setting);
@@ -75,8 +75,8 @@ FilmLabel label_of(const std::filesystem::path& file) {
   const std::string stats = read_embedded_stats(file).value_or("");
   if (stats.empty()) return label;
   try {
-    const JsonValue json = parse_json(stats);
-    if (const auto* figures = std::get_if<JsonObject>(&json.value))
+    const JsonDocument json = parse_json(stats);
+    if (const auto* figures = std::get_if<JsonObject>(&json.root.value))
       label.version = text_in(*figures, "version"), label.isa = text_in(*figures, "isa");
   } catch (const Broken&) {
     return label;  // another program has changed the text

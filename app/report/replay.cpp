@@ -52,7 +52,7 @@ const char* fate_text(Fate fate) {
 
 std::string what_is_met(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
   return v.met == Met::medium ? "the medium " + medium_text(scene, v.medium)
-                              : object_text(scene, compiled.elements.object[static_cast<std::size_t>(v.element)]);
+                              : object_text(scene, compiled.object_of(v.element));
 }
 
 std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {

@@ -42,6 +42,13 @@ struct Around {
   Bounds bounds = nothing, centers = nothing;
 };
 
+/// The items along an axis: how many have their centroid in each bin, and the box around them. The box of an empty bin
+/// is not set.
+struct Bins {
+  std::array<Bounds, bins> boxes;
+  std::array<int, bins> counts{};
+};
+
 /// A plane between two bins.
 struct Plane {
   int axis = -1, bin = 0;
@@ -76,7 +83,8 @@ class Builder {
     constexpr int least_for_thread = 1 << 13, deepest_thread = 4;
     if (range.end - range.begin < least_for_thread || range.depth >= deepest_thread) return build_alone(range);
     const Split at = split(range);
-    std::vector<BinaryNode> nodes{at.node};
+    std::vector<BinaryNode> nodes = room_for(range);
+    nodes.push_back(at.node);
     if (at.middle < 0) return nodes;
     // No launch policy: if the system has no further thread, the job runs here when its result is asked for.
     auto right = std::async([this, range, at] { return build({at.middle, range.end, range.depth + 1}); });
@@ -84,6 +92,13 @@ class Builder {
     append(nodes, build({range.begin, at.middle, range.depth + 1}));
     nodes[0].right = static_cast<int>(nodes.size());
     append(nodes, right.get());
+    return nodes;
+  }
+
+  /// An empty list with room for as many nodes as a range usually needs.
+  static std::vector<BinaryNode> room_for(Range range) {
+    std::vector<BinaryNode> nodes;
+    nodes.reserve(static_cast<std::size_t>(range.end - range.begin));
     return nodes;
   }
 
@@ -102,7 +117,7 @@ class Builder {
       int parent;
       bool right;
     };
-    std::vector<BinaryNode> nodes;
+    std::vector<BinaryNode> nodes = room_for(whole);
     std::vector<Task> tasks{{whole, -1, false}};
     while (!tasks.empty()) {
       const auto [range, parent, is_right] = tasks.back();
@@ -193,12 +208,7 @@ class Builder {
   }
 
   static Plane best_plane(std::span<const Item> list, const Bounds& centers) {
-    struct Bins {
-      std::array<Bounds, bins> boxes;
-      std::array<int, bins> counts{};
-    };
     std::array<Bins, 3> all;
-    for (Bins& one : all) one.boxes.fill(nothing);
     std::array<bool, 3> wide;
     for (int axis = 0; axis < 3; ++axis)
       wide[static_cast<std::size_t>(axis)] = component(centers.high, axis) > component(centers.low, axis);
@@ -207,31 +217,37 @@ class Builder {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!wide[axis]) continue;
         const auto b = static_cast<std::size_t>(bin_of(c, centers, static_cast<int>(axis)));
-        all[axis].boxes[b] = join(all[axis].boxes[b], item.input.bounds);
-        ++all[axis].counts[b];
+        Bounds& box = all[axis].boxes[b];
+        box = all[axis].counts[b]++ ? join(box, item.input.bounds) : item.input.bounds;
       }
     }
     Plane best;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (wide[axis]) sweep(all[axis].boxes, all[axis].counts, static_cast<int>(axis), best);
+      if (wide[axis]) sweep(all[axis], static_cast<int>(axis), best);
     return best;
   }
 
-  static void sweep(const std::array<Bounds, bins>& boxes, const std::array<int, bins>& counts, int axis, Plane& best) {
-    std::array<float, bins> right_cost{};
+  /// Most ranges are short and leave most bins empty. Behind an empty bin a plane parts the items as before it.
+  static void sweep(const Bins& all, int axis, Plane& best) {
+    std::array<float, bins> right_cost;
+    float cost_so_far = infinity;
     Bounds right = nothing;
     int right_count = 0;
     for (std::size_t b = bins - 1; b > 0; --b) {
-      right = join(right, boxes[b]);
-      right_count += counts[b];
-      right_cost[b] = right_count ? static_cast<float>(right_count) * half_area(right) : infinity;
+      if (all.counts[b] > 0) {
+        right = join(right, all.boxes[b]);
+        right_count += all.counts[b];
+        cost_so_far = static_cast<float>(right_count) * half_area(right);
+      }
+      right_cost[b] = cost_so_far;
     }
     Bounds left = nothing;
     int left_count = 0;
     for (std::size_t b = 1; b < bins; ++b) {
-      left = join(left, boxes[b - 1]);
-      left_count += counts[b - 1];
-      const float cost = left_count ? static_cast<float>(left_count) * half_area(left) + right_cost[b] : infinity;
+      if (all.counts[b - 1] == 0) continue;
+      left = join(left, all.boxes[b - 1]);
+      left_count += all.counts[b - 1];
+      const float cost = static_cast<float>(left_count) * half_area(left) + right_cost[b];
       if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
     }
   }

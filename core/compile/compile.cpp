@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -195,7 +196,7 @@ double brightest(const Scene& scene) {
 }  // namespace
 
 RenderScene compile(const Scene& scene, const RenderScene* before) {
-  const Flattened flat = flatten(scene);
+  Flattened flat = flatten(scene);
   RenderScene out;
   out.width = scene.width;
   out.height = scene.height;
@@ -217,6 +218,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   if (out.integrator == Integrator::mis) out.near = find_near_lamps(out);
   if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains)
     out.chains = find_chains(flat, scene, out);
+  out.objects = std::move(flat.objects);
   out.kernel = least_kernel(out);
   out.may_share = scene.render.sharing && can_share(out);
   out.film_unit = film_unit(brightest(scene));
@@ -242,7 +244,7 @@ const char* name_of(KernelSet set) {
 }
 
 std::size_t bytes_of(const RenderScene& s) {
-  const std::size_t sphere = 5 * sizeof(float), element = 6 * sizeof(float) + sizeof(std::vector<int>) + sizeof(int);
+  const std::size_t sphere = 5 * sizeof(float), element = 9 * sizeof(float);
   std::size_t bytes = sizeof s + sphere * s.spheres.x.size() + (sphere + 12) * s.moving_spheres.x.size();
   bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + 2 * s.boxes.map.size());
   bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();

@@ -26,23 +26,22 @@ CosSin cos_sin(double degrees) {
   return {std::cos(turn * (pi / 180)), std::sin(turn * (pi / 180))};
 }
 
-void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::vector<int>& path, Flattened& out) {
+void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::int32_t group, Flattened& out) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Object& object = objects[i];
     const Placement here = compose(outer, placement_of(object.transform));
-    path.push_back(static_cast<int>(i));
+    const std::int32_t number = out.objects.add(group, i);
     std::visit(
         Overloaded{[&](const Solid3d& s) {
-                     out.shapes.push_back({s.shape, here, s.material, path});
+                     out.shapes.push_back({s.shape, here, s.material, number});
                    },
                    [&](const Volume& v) {
                      if (v.medium.density > 0)
                        out.volumes.push_back(
                            {v.boundary, compose(here, placement_of(v.boundary_transform)), v.medium, v.albedo, {}});
                    },
-                   [&](const Group& g) { flatten_list(g.objects, here, path, out); }},
+                   [&](const Group& g) { flatten_list(g.objects, here, number, out); }},
         object.kind);
-    path.pop_back();
   }
 }
 
@@ -133,8 +132,8 @@ Placement placement_of(const Transform& list) {
 Flattened flatten(const Scene& scene) {
   Flattened out;
   out.shapes.reserve(scene.objects.size());  // enough where there are no groups
-  std::vector<int> path;
-  flatten_list(scene.objects, {}, path, out);
+  out.objects.reserve(scene.objects.size());
+  flatten_list(scene.objects, {}, -1, out);
   drop_copies(out.shapes);
   for (PlacedVolume& volume : out.volumes)
     for (std::size_t i = 0; i < out.shapes.size() && !volume.surface; ++i)

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/compile/object_tree.h"
 #include "core/scene/scene.h"
 
 #include <optional>
@@ -25,7 +26,7 @@ struct PlacedShape {
   std::variant<Sphere<>, Quad<>, Box<>> shape;  ///< in its own frame
   Placement placement;
   int material = -1;
-  std::vector<int> object;  ///< path of indices into Scene::objects
+  std::int32_t object = -1;  ///< number in Flattened::objects
 };
 
 struct PlacedVolume {
@@ -39,6 +40,7 @@ struct PlacedVolume {
 struct Flattened {
   std::vector<PlacedShape> shapes;    ///< without exact copies of earlier ones
   std::vector<PlacedVolume> volumes;  ///< of density > 0
+  ObjectTree objects;                 ///< of the whole scene
 };
 
 Flattened flatten(const Scene& scene);

@@ -3,6 +3,7 @@
 #include "core/base/random.h"
 #include "core/base/vec.h"
 #include "core/compile/bvh.h"
+#include "core/compile/object_tree.h"
 #include "core/materials/materials.h"
 #include "core/scene/integrator.h"
 #include "core/shapes/quad.h"
@@ -78,7 +79,7 @@ struct Elements {
   /// up. It is the flat's own, but where that lies on the border between two layers of a checker's cells, within the
   /// layer that floor() says, so that rounding does not choose the cell. Spheres: 0. Filled only if there are textures.
   std::vector<float> plane;
-  std::vector<std::vector<int>> object;  ///< path of indices into Scene::objects: which object it belongs to
+  std::vector<std::int32_t> object;  ///< the number of the object that it belongs to, in RenderScene::objects
   int count() const { return static_cast<int>(material.size()); }
 };
 
@@ -203,6 +204,7 @@ struct RenderScene {
   Flats quads, boxes;
   std::shared_ptr<const Bvh> bvh;  ///< null: few primitives, all are tested
   Elements elements;
+  ObjectTree objects;
   Lights lights;
   Materials materials;
   std::vector<TextureColumns> textures;
@@ -221,6 +223,10 @@ struct RenderScene {
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs
   bool may_share = false;  ///< second vertices may be shared between pixels; whether that pays: kernel/scene_view.h
   int primitives() const;
+  /// The path of the object that an element belongs to.
+  std::vector<int> object_of(std::int32_t element) const {
+    return objects.path(elements.object[static_cast<std::size_t>(element)]);
+  }
 };
 
 }  // namespace tyndall

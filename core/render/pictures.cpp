@@ -194,7 +194,8 @@ Vec3f colour_of_object(const std::vector<int>& path) {
 
 std::vector<float> object_rgba(const std::vector<FirstHit>& hits, const RenderScene& scene) {
   std::vector<Vec3f> colours;
-  for (const std::vector<int>& path : scene.elements.object) colours.push_back(colour_of_object(path));
+  for (const std::int32_t object : scene.elements.object)
+    colours.push_back(colour_of_object(scene.objects.path(object)));
   std::vector<float> rgba(4 * hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i)
     put(rgba, i, hits[i].element >= 0 ? colours[static_cast<std::size_t>(hits[i].element)] : Vec3f{});

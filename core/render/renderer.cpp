@@ -82,8 +82,7 @@ Renderer::Pick Renderer::pick(int x, int y) const {
   const auto widen = [](Vec3f v) { return Vec3d{v.x, v.y, v.z}; };
   const Vec3d way = widen(c.corner) + column * widen(c.du) + row * widen(c.dv);
   const double scale = static_cast<double>(hit.depth) / dot(way, widen(c.axis));
-  return {scene->elements.object[static_cast<std::size_t>(hit.element)], static_cast<double>(hit.depth),
-          scene->origin + widen(c.center) + scale * way};
+  return {scene->object_of(hit.element), static_cast<double>(hit.depth), scene->origin + widen(c.center) + scale * way};
 }
 
 }  // namespace tyndall

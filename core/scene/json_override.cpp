@@ -67,14 +67,20 @@ std::size_t depth_of(const JsonValue& json) {
   return deepest + 1;
 }
 
+/// A copy of what a text holds, whose memory is its own.
+JsonValue root_of(const std::string& text) {
+  const JsonDocument document = parse_json(text);
+  return document.root;
+}
+
 /// The value as JSON. Text that is not JSON stands for a string of that text.
 JsonValue override_value(const std::string& text, const std::string& where) {
   try {
-    return parse_json(text);
+    return root_of(text);
   } catch (const Broken&) {
   }
   try {
-    return parse_json(in_quotes(text));
+    return root_of(in_quotes(text));
   } catch (const Broken&) {
     throw Broken{where, "a value that is not UTF-8", "JSON or text"};
   }

@@ -24,7 +24,7 @@ class TreeBuilder {
  public:
   using Json = nlohmann::json;
 
-  explicit TreeBuilder(std::string_view text) : text_(text) {}
+  TreeBuilder(std::string_view text, std::pmr::memory_resource* memory) : text_(text), memory_(memory) {}
 
   JsonValue root;
   std::optional<Broken> broken;
@@ -36,8 +36,8 @@ class TreeBuilder {
   bool number_float(double value, const std::string&) { return put(value); }
   bool string(std::string& value) { return put(std::move(value)); }
   bool binary(Json::binary_t&) { return false; }  // never called: JSON text has no binary values
-  bool start_object(std::size_t) { return open(JsonObject()); }
-  bool start_array(std::size_t) { return open(JsonArray()); }
+  bool start_object(std::size_t) { return open(JsonObject(memory_)); }
+  bool start_array(std::size_t) { return open(JsonArray(memory_)); }
   bool end_array() { return close(); }
 
   bool key(std::string& value) {
@@ -67,6 +67,7 @@ class TreeBuilder {
 
  private:
   std::string_view text_;
+  std::pmr::memory_resource* memory_;
   std::vector<JsonValue*> open_;  ///< arrays and objects around the next value, from the outermost to the innermost
   std::size_t values_ = 0;
 
@@ -132,16 +133,17 @@ bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") 
 
 }  // namespace
 
-JsonValue parse_json(std::string_view text) {
+JsonDocument parse_json(std::string_view text) {
   if (text.size() > max_scene_bytes) throw Broken{"/", "more than 256 MiB of text", "a scene of at most 256 MiB"};
   if (is_blank(text)) throw Broken{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
   // The parser would take it for the end of the text, and what follows would not be looked at.
   if (const std::size_t zero = text.find('\0'); zero != text.npos) throw syntax_error(text, zero + 1, "zero byte");
-  TreeBuilder builder(text);
+  auto memory = std::make_unique<JsonMemory>();
+  TreeBuilder builder(text, memory.get());
   if (!TreeBuilder::Json::sax_parse(text.begin(), text.end(), &builder, TreeBuilder::Json::input_format_t::json, true,
                                     true))
     throw builder.broken.value_or(Broken{"/", "text that is not JSON", "JSON"});
-  return std::move(builder.root);
+  return {std::move(memory), std::move(builder.root)};
 }
 
 }  // namespace tyndall

@@ -33,7 +33,7 @@ void read_shutter(const JsonObject& object, const Place& at, Camera& camera) {
 
 void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
   const JsonObject& object = object_at(json, at, "an object with the camera's values");
-  allow_keys(object, at, keys_of(fields_of<Camera>(), {"shutter"}));
+  allow_keys(object, at, fields_of<Camera>(), {"shutter"});
   read_fields(object, at, fields_of<Camera>(), camera);
   read_shutter(object, at, camera);
 }
@@ -46,13 +46,12 @@ using Sky = decltype(without_colour(static_cast<const Background*>(nullptr)));
 void read_background(const JsonValue& json, const Place& at, Background& background) {
   if (const auto* object = std::get_if<JsonObject>(&json.value)) {
     Sky sky;
-    const auto types = type_names<Sky>();
-    const std::string_view type = type_at(*object, at, types);
+    const std::string_view type = type_at(*object, at, type_names<Sky>);
     const bool known = read_kind(type, sky, [&]<class Kind>(Kind& kind) {
-      allow_keys(*object, at, keys_of(fields_of<Kind>(), {"type"}));
+      allow_keys(*object, at, fields_of<Kind>(), {"type"});
       read_fields(*object, at, fields_of<Kind>(), kind);
     });
-    if (!known) fail_type(at, type, types);
+    if (!known) fail_type(at, type, type_names<Sky>());
     std::visit([&](const auto& kind) { background = kind; }, sky);
   } else if (std::holds_alternative<JsonArray>(json.value)) {
     read_value(json, at, colour_meaning("radiance"), background.emplace<Vec3d>());
@@ -64,19 +63,19 @@ void read_background(const JsonValue& json, const Place& at, Background& backgro
 
 void read_render(const JsonValue& json, const Place& at, RenderSettings& render) {
   const JsonObject& object = object_at(json, at, "an object with the render settings");
-  allow_keys(object, at, keys_of(fields_of<RenderSettings>()));
+  allow_keys(object, at, fields_of<RenderSettings>(), {});
   read_fields(object, at, fields_of<RenderSettings>(), render);
 }
 
 void read_display(const JsonValue& json, const Place& at, Display& display) {
   const JsonObject& object = object_at(json, at, "an object with the display settings");
-  allow_keys(object, at, keys_of(fields_of<Display>()));
+  allow_keys(object, at, fields_of<Display>(), {});
   read_fields(object, at, fields_of<Display>(), display);
 }
 
 void read_size(const JsonValue& json, const Place& at, Scene& scene) {
   const JsonObject& object = object_at(json, at, "an object with \"width\" and \"height\"");
-  allow_keys(object, at, keys_of(image_fields()));
+  allow_keys(object, at, image_fields(), {});
   read_fields(object, at, image_fields(), scene);
 }
 
@@ -120,31 +119,31 @@ void read_image(const JsonObject& object, const Place& at, PictureShelf& shelf, 
 
 void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, Texture& texture) {
   const JsonObject& object = object_at(json, at, "an object that describes a texture");
-  const auto types = type_names<TextureKinds<double>>();
-  const std::string_view type = type_at(object, at, types);
+  const std::string_view type = type_at(object, at, type_names<TextureKinds<double>>);
   const bool known = read_kind(type, texture.kind, [&]<class T>(T& kind) {
     if constexpr (std::is_same_v<T, Image>) {
       read_image(object, at, shelf, kind);
     } else {
-      allow_keys(object, at, keys_of(fields_of<T>(), {"type"}));
+      allow_keys(object, at, fields_of<T>(), {"type"});
       read_fields(object, at, fields_of<T>(), kind);
     }
   });
-  if (!known) fail_type(at, type, types);
+  if (!known) fail_type(at, type, type_names<TextureKinds<double>>());
 }
 
 void read_material(const JsonValue& json, const Place& at, const NameTable& textures, Material& material) {
   const JsonObject& object = object_at(json, at, "an object that describes a material");
-  const auto types = type_names<MaterialKinds<double>>();
-  const std::string_view type = type_at(object, at, types);
+  const std::string_view type = type_at(object, at, type_names<MaterialKinds<double>>);
   const bool known = read_kind(type, material.kind, [&]<class T>(T& kind) {
-    auto keys = keys_of(fields_of<T>(), {"type"});
-    if constexpr (T::colour_name != nullptr) keys.emplace_back(T::colour_name);
-    allow_keys(object, at, keys);
-    if constexpr (T::colour_name != nullptr) material.colour = read_colour(object, at, T::colour_name, textures);
+    if constexpr (T::colour_name != nullptr) {
+      allow_keys(object, at, fields_of<T>(), {"type", T::colour_name});
+      material.colour = read_colour(object, at, T::colour_name, textures);
+    } else {
+      allow_keys(object, at, fields_of<T>(), {"type"});
+    }
     read_fields(object, at, fields_of<T>(), kind);
   });
-  if (!known) fail_type(at, type, types);
+  if (!known) fail_type(at, type, type_names<MaterialKinds<double>>());
 }
 
 /// Reads each member of an object of named things into `out` with `read(json, place, thing)`; returns their indices.
@@ -202,7 +201,8 @@ Scene scene_from(const JsonValue& json, const std::filesystem::path& folder) {
 Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                  const std::vector<Override>& overrides) {
   try {
-    JsonValue root = parse_json(text);
+    JsonDocument document = parse_json(text);
+    JsonValue& root = document.root;
     for (const Override& one : overrides) apply_override(root, one);
     Scene scene = scene_from(root, folder);
     if (const auto broken = check(scene)) throw *broken;

@@ -47,7 +47,7 @@ bool read_solid(const JsonObject& json, const Place& at, std::string_view type, 
                 Object& object) {
   Solid3d solid;
   const bool known = read_kind(type, solid.shape, [&]<class T>(T& shape) {
-    allow_keys(json, at, keys_of(fields_of<T>(), {"name", "type", "material", "transform"}));
+    allow_keys(json, at, fields_of<T>(), {"name", "type", "material", "transform"});
     read_fields(json, at, fields_of<T>(), shape);
   });
   if (!known) return false;
@@ -66,18 +66,18 @@ void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
   const JsonObject& object = object_at(*json, here, expected);
   if (find(object, "material"))
     fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
-  const auto types = type_names<decltype(volume.boundary)>();
-  const std::string_view type = type_at(object, here, types);
+  using Kinds = decltype(volume.boundary);
+  const std::string_view type = type_at(object, here, type_names<Kinds>);
   const bool known = read_kind(type, volume.boundary, [&]<class T>(T& shape) {
-    allow_keys(object, here, keys_of(fields_of<T>(), {"type", "transform"}));
+    allow_keys(object, here, fields_of<T>(), {"type", "transform"});
     read_fields(object, here, fields_of<T>(), shape);
   });
-  if (!known) fail_type(here, type, types);
+  if (!known) fail_type(here, type, type_names<Kinds>());
   volume.boundary_transform = read_transform(object, here);
 }
 
 Volume read_volume(const JsonObject& json, const Place& at, const References& references) {
-  allow_keys(json, at, keys_of(fields_of<Medium<>>(), {"name", "type", "boundary", "albedo", "transform"}));
+  allow_keys(json, at, fields_of<Medium<>>(), {"name", "type", "boundary", "albedo", "transform"});
   Volume volume;
   read_boundary(json, at, volume);
   read_fields(json, at, fields_of<Medium<>>(), volume.medium);
@@ -92,17 +92,21 @@ Group read_group(const JsonObject& json, const Place& at, const References& refe
   return {read_objects(*objects, {at, "objects"}, references)};
 }
 
-void read_object(const JsonValue& json, const Place& at, const References& references, Object& object) {
-  const JsonObject& members = object_at(json, at, "an object of the scene: { \"type\": …, … }");
+std::vector<std::string_view> object_types() {
   auto types = type_names<decltype(Solid3d::shape)>();
   types.insert(types.end(), {Medium<>::type, "group"});
-  const std::string_view type = type_at(members, at, types);
+  return types;
+}
+
+void read_object(const JsonValue& json, const Place& at, const References& references, Object& object) {
+  const JsonObject& members = object_at(json, at, "an object of the scene: { \"type\": …, … }");
+  const std::string_view type = type_at(members, at, object_types);
   if (type == Medium<>::type) {
     object.kind = read_volume(members, at, references);
   } else if (type == "group") {
     object.kind = read_group(members, at, references);
   } else if (!read_solid(members, at, type, references, object)) {
-    fail_type(at, type, types);
+    fail_type(at, type, object_types());
   }
   read_name_of(members, at, object.name);
   object.transform = read_transform(members, at);
@@ -111,17 +115,16 @@ void read_object(const JsonValue& json, const Place& at, const References& refer
 }  // namespace
 
 int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind) {
+  const auto* name = std::get_if<std::string>(&json.value);
+  const auto entry = name ? table.find(*name) : table.end();
+  if (entry != table.end()) return entry->second;
   const std::string expected = "the name of a " + kind;
-  const std::string& name = string_at(json, at, expected);
-  const auto entry = table.find(name);
-  if (entry == table.end()) {
-    const auto names = names_in(table);
-    std::string hint = did_you_mean(name, names);
-    if (names.empty()) hint = " (the scene has none)";
-    if (hint.empty() && names.size() <= 12) hint = ": " + one_of(names);
-    fail(at, in_quotes(shortened(name, 80)), expected + hint);
-  }
-  return entry->second;
+  if (!name) fail(at, describe(json), expected);
+  const auto names = names_in(table);
+  std::string hint = did_you_mean(*name, names);
+  if (names.empty()) hint = " (the scene has none)";
+  if (hint.empty() && names.size() <= 12) hint = ": " + one_of(names);
+  fail(at, in_quotes(shortened(*name, 80)), expected + hint);
 }
 
 ColourOrTexture read_colour(const JsonObject& object, const Place& at, const char* colour_name,

@@ -37,10 +37,8 @@ const std::string& string_at(const JsonValue& json, const Place& at, const std::
   fail(at, describe(json), expected);
 }
 
-void allow_keys(const JsonObject& object, const Place& at, const std::vector<std::string_view>& known) {
-  for (const JsonMember& member : object)
-    if (std::find(known.begin(), known.end(), member.key) == known.end())
-      fail({at, member.key}, "an unknown key", one_of(known) + did_you_mean(member.key, known));
+void fail_key(const Place& at, std::string_view key, const std::vector<std::string_view>& known) {
+  fail({at, key}, "an unknown key", one_of(known) + did_you_mean(key, known));
 }
 
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, double& out) {
@@ -70,10 +68,11 @@ void read_value(const JsonValue& json, const Place& at, const Meaning&, bool& ou
   out = *value;
 }
 
-std::string_view type_at(const JsonObject& object, const Place& at, const std::vector<std::string_view>& types) {
+std::string_view type_at(const JsonObject& object, const Place& at, std::vector<std::string_view> (*types)()) {
   const JsonValue* json = find(object, "type");
-  if (!json) fail(at, "no \"type\"", one_of(types));
-  return string_at(*json, {at, "type"}, one_of(types));
+  if (!json) fail(at, "no \"type\"", one_of(types()));
+  if (const auto* type = std::get_if<std::string>(&json->value)) return *type;
+  fail({at, "type"}, describe(*json), one_of(types()));
 }
 
 void fail_type(const Place& at, std::string_view found, const std::vector<std::string_view>& types) {

@@ -4,7 +4,9 @@
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -18,8 +20,25 @@ const JsonObject& object_at(const JsonValue& json, const Place& at, const char* 
 const JsonArray& array_at(const JsonValue& json, const Place& at, const char* expected);
 const std::string& string_at(const JsonValue& json, const Place& at, const std::string& expected);
 
-/// Refuses keys that are not in `known`.
-void allow_keys(const JsonObject& object, const Place& at, const std::vector<std::string_view>& known);
+/// Refuses a key, of which these are known.
+[[noreturn]] void fail_key(const Place& at, std::string_view key, const std::vector<std::string_view>& known);
+
+/// Refuses keys that are neither those of a list of fields nor in `more`.
+template <class Fields>
+void allow_keys(const JsonObject& object, const Place& at, const Fields& list,
+                std::initializer_list<std::string_view> more) {
+  for (const JsonMember& member : object) {
+    const bool known = std::find(more.begin(), more.end(), member.key) != more.end() ||
+                       std::apply([&](const auto&... field) { return ((member.key == field.name) || ...); }, list);
+    if (known) continue;
+    std::vector<std::string_view> keys(more);
+    std::apply([&](const auto&... field) { (keys.emplace_back(field.name), ...); }, list);
+    fail_key(at, member.key, keys);
+  }
+}
+inline void allow_keys(const JsonObject& object, const Place& at, std::initializer_list<std::string_view> known) {
+  allow_keys(object, at, std::tuple(), known);
+}
 
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, double& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out);
@@ -65,16 +84,8 @@ void read_fields(const JsonObject& object, const Place& at, const Fields& list, 
   std::apply([&](const auto&... field) { (read_field(object, at, field, out), ...); }, list);
 }
 
-/// The keys of a list of fields, and `more`.
-template <class Fields>
-std::vector<std::string_view> keys_of(const Fields& list, std::initializer_list<std::string_view> more = {}) {
-  std::vector<std::string_view> keys(more);
-  std::apply([&](const auto&... field) { (keys.emplace_back(field.name), ...); }, list);
-  return keys;
-}
-
-/// The "type" of an object; where it is missing, the message lists `types`.
-std::string_view type_at(const JsonObject& object, const Place& at, const std::vector<std::string_view>& types);
+/// The "type" of an object; where it is missing, the message lists those that `types` returns.
+std::string_view type_at(const JsonObject& object, const Place& at, std::vector<std::string_view> (*types)());
 [[noreturn]] void fail_type(const Place& at, std::string_view found, const std::vector<std::string_view>& types);
 
 template <class... Kinds>

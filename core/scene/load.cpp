@@ -104,8 +104,8 @@ fs::path built_in_file(const std::string& what) {
 /// The scene's name; "" if it has none. A broken file is reported when it is opened, not here.
 std::string name_of(const std::string& text) {
   try {
-    const JsonValue json = parse_json(text);
-    const auto* root = std::get_if<JsonObject>(&json.value);
+    const JsonDocument json = parse_json(text);
+    const auto* root = std::get_if<JsonObject>(&json.root.value);
     const JsonValue* name = root ? find(*root, "name") : nullptr;
     if (const auto* title = name ? std::get_if<std::string>(&name->value) : nullptr) return printable(*title);
   } catch (const Broken&) {

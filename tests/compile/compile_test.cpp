@@ -64,7 +64,7 @@ TEST_CASE("compile: a scene far from the origin compiles to the same numbers") {
   CHECK(there.origin == here.origin + Vec3d{0x1p17, -0x1p20, 0x1p25});
   CHECK(same(there.camera, here.camera));
   CHECK(same_tree(there, here));
-  for (auto& path : there.elements.object) path.erase(path.begin());  // the group
+  for (std::int32_t& object : there.elements.object) --object;  // the group is the first
   CHECK(same_geometry(there, here));
 }
 
@@ -214,9 +214,9 @@ TEST_CASE("compile: elements name the object and the material, spheres keep thei
   CHECK(e.inverse_radius[1] == 0.5f);
   CHECK(e.inverse_radius[2] == 0.0f);
   CHECK(compiled.spheres.radius == std::vector<float>{0.5f, 2.0f});
-  CHECK(e.object[0] == std::vector<int>{0});
-  CHECK(e.object[1] == std::vector<int>{1, 0});
-  CHECK(e.object[7] == std::vector<int>{1, 1});
+  CHECK(compiled.object_of(0) == std::vector<int>{0});
+  CHECK(compiled.object_of(1) == std::vector<int>{1, 0});
+  CHECK(compiled.object_of(7) == std::vector<int>{1, 1});
   CHECK(compiled.boxes.element == std::vector<std::int32_t>{2});
 }
 

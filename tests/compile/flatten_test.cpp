@@ -102,10 +102,10 @@ TEST_CASE("flatten: shapes keep the order of the file and know which object they
   const Flattened flat = flatten(scene);
   REQUIRE(flat.shapes.size() == 4);
   for (std::size_t i = 0; i < 4; ++i) CHECK(center_of(flat.shapes[i]).x == static_cast<double>(i + 1));
-  CHECK(flat.shapes[0].object == std::vector<int>{0});
-  CHECK(flat.shapes[1].object == std::vector<int>{1, 0});
-  CHECK(flat.shapes[2].object == std::vector<int>{1, 1, 0});
-  CHECK(flat.shapes[3].object == std::vector<int>{4});
+  CHECK(flat.objects.path(flat.shapes[0].object) == std::vector<int>{0});
+  CHECK(flat.objects.path(flat.shapes[1].object) == std::vector<int>{1, 0});
+  CHECK(flat.objects.path(flat.shapes[2].object) == std::vector<int>{1, 1, 0});
+  CHECK(flat.objects.path(flat.shapes[3].object) == std::vector<int>{4});
   CHECK(flat.volumes.size() == 1);
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("flatten: of shapes in exactly one place the first is kept, however it
   const Flattened flat = flatten(scene);
   REQUIRE(flat.shapes.size() == 6);
   CHECK(flat.shapes[1].material == 3);
-  CHECK(flat.shapes[3].object == std::vector<int>{4, 1});
+  CHECK(flat.objects.path(flat.shapes[3].object) == std::vector<int>{4, 1});
   CHECK(flat.shapes[4].material == 6);  // one that may move is another
   CHECK(flat.shapes[5].material == 7);
 }
