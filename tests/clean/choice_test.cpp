@@ -158,6 +158,26 @@ TEST_CASE("choice: a bright spot does not glow into the dark beside it, which th
   CHECK(beside < 5);
 }
 
+TEST_CASE("choice: a rare bright path does not glow along a dark row that many samples agree about") {
+  const auto truth = [](int, int y) {
+    const float value = y == 24 ? 0.003f : 0.06f;
+    return Vec3f{value, value, value};
+  };
+  const auto seen = [](int x, int y) {
+    FirstSeen pixel = grey_floor(x, y);
+    if (y == 24) pixel.albedo = {0.8f, 0.8f, 0.8f};
+    return pixel;
+  };
+  Picture p = picture(truth, seen, [](int, int) { return 0.03f; });
+  for (int c = 0; c < 3; ++c) p.half(0, c, 30, 24) = 3;
+  p.input.spp = 1024;
+  const CleanPicture picture = clean(p);
+  double beside = 0;
+  for (int x = 0; x < width; ++x)
+    if (x != 30) beside += error_at(picture, p, x, 24);
+  CHECK(beside < 0.1);
+}
+
 TEST_CASE("choice: pixels of a floor that are dark by chance do not make the error seem larger") {
   const auto truth = [](int, int) { return Vec3f{0.9f, 0.9f, 0.9f}; };
   Picture p = picture(truth, grey_floor, [](int, int) { return 0.4f; });
