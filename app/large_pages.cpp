@@ -1,6 +1,7 @@
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -15,7 +16,7 @@ constexpr std::size_t usual_alignment = alignof(std::max_align_t);
 
 void* allocate(std::size_t bytes, std::size_t alignment) {
 #ifdef MADV_HUGEPAGE
-  if (bytes >= large_page && alignment <= large_page) {
+  if (bytes >= large_page && bytes <= PTRDIFF_MAX && alignment <= large_page) {
     // The end is on a large page, too, where that wastes little.
     if (const std::size_t rest = -bytes % large_page; rest <= bytes / 8) bytes += rest;
     void* memory = std::aligned_alloc(large_page, bytes);
