@@ -14,18 +14,23 @@ namespace {
 constexpr std::size_t large_page = std::size_t(2) << 20;  // on x86-64 and, usually, on ARM
 constexpr std::size_t usual_alignment = alignof(std::max_align_t);
 
+void* allocate_aligned(std::size_t bytes, std::size_t alignment) {
+  void* memory = nullptr;
+  return posix_memalign(&memory, alignment, bytes) == 0 ? memory : nullptr;
+}
+
 void* allocate(std::size_t bytes, std::size_t alignment) {
 #ifdef MADV_HUGEPAGE
   if (bytes >= large_page && bytes <= PTRDIFF_MAX && alignment <= large_page) {
     // The end is on a large page, too, where that wastes little.
     if (const std::size_t rest = -bytes % large_page; rest <= bytes / 8) bytes += rest;
-    void* memory = std::aligned_alloc(large_page, bytes);
+    void* memory = allocate_aligned(bytes, large_page);
     if (memory) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is refused, the memory is as good
     return memory;
   }
 #endif
   if (bytes == 0) bytes = 1;
-  return alignment <= usual_alignment ? std::malloc(bytes) : std::aligned_alloc(alignment, bytes);
+  return alignment <= usual_alignment ? std::malloc(bytes) : allocate_aligned(bytes, alignment);
 }
 
 void* allocate_or_throw(std::size_t bytes, std::size_t alignment) {
@@ -39,6 +44,8 @@ void* operator new(std::size_t bytes) { return allocate_or_throw(bytes, usual_al
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return allocate_or_throw(bytes, static_cast<std::size_t>(alignment));
 }
+// Sanitizers bring one of their own, whose memory may not be given back by the operator delete below.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return allocate(bytes, usual_alignment); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
