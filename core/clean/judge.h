@@ -46,8 +46,9 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
 
 /// Whether the filter has spread light over a sharp edge into the dark, as beside a caustic: raw is by far darker than
 /// the picture, at a pixel and at two more of the 3 x 3 pixels around at least, and the halves agree about all nine too
-/// well for pixels that are dark by chance. Never at the left and right borders, where what stands beside the picture
-/// counts as unknown.
+/// well for pixels that are dark by chance. Two others must be brighter than the picture, or holes would be torn into
+/// dark floors, unless the halves agree so well that nothing is left to chance. Never at the left and right borders,
+/// where what stands beside the picture counts as unknown.
 template <class F>
 TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
   const auto sum = [](const float* const* planes, std::ptrdiff_t at) __attribute__((always_inline)) {
@@ -58,7 +59,8 @@ TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
   const F darker = splat<F>(1 / v.by_far) * picture;
   const auto glows = less(raw, darker);
   if (!any(glows)) return glows;
-  F noise = F(0.0f), dark = F(0.0f);  // noise: relative variance of a pixel's mean, times the pixels
+  constexpr float certain = 0.004f;                     // relative variance that only hundreds of samples reach
+  F noise = F(0.0f), dark = F(0.0f), bright = F(0.0f);  // noise: relative variance of a pixel's mean, times the pixels
   for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k)
     for (int i = -1; i <= 1; ++i) {
       const std::ptrdiff_t there = k * v.stride + x + i;
@@ -66,11 +68,13 @@ TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
       const F apart = (a - b) / max(both, F(1e-30f));
       noise = noise + select(less(F(0.0f), both), apart * apart, F(1.0f));
       dark = dark + select(less(both, darker), F(1.0f), F(0.0f));
+      bright = bright + select(less(picture, both), F(1.0f), F(0.0f));
     }
   noise = noise / pixels_around<F>(v, y, x, 1);
   const F above = picture - raw;
   const auto known = mask_and(less(noise, splat<F>(v.quiet)), less(F(9.0f) * noise * raw * raw, above * above));
-  return mask_and(mask_and(glows, known), less(F(2.5f), dark));
+  const auto edge = mask_or(less(F(1.5f), bright), less(noise, F(certain)));
+  return mask_and(mask_and(glows, known), mask_and(less(F(2.5f), dark), edge));
 }
 
 /// Errors are relative to the lesser of the picture and the level that is known from raw. What glows into the dark, and
