@@ -109,16 +109,21 @@ struct Pieces {
   MaskOf<F> folded;       ///< it was cut
 };
 
-/// The turn at the largest s. That way mostly goes through the centre, where every term is a right angle.
+/// The turn at the largest s. That way goes through the centre, where every term is a right angle, except in lanes
+/// whose largest s is below 1. Each lane chooses its formula by its own numbers: the two differ in their last bits, and
+/// what a lane gets must not depend on the lanes beside it.
 template <class F>
 TYNDALL_INLINE TurnAt<F> last_turn(const Turn<F>& turn) {
-  if (any(less(turn.last, F(1.0f)))) return turn_at(turn, turn.last);
   F times = F(0.0f), slope = F(0.0f);
   for (int i = 0; i < turn.terms; ++i) {
     times = times + turn.times[i];
     slope = mul_add(turn.times[i], turn.inverse[i], slope);
   }
-  return {F(static_cast<float>(0.5 * pi)) * times, F(2.0f) * turn.most * slope};
+  const TurnAt<F> center{F(static_cast<float>(0.5 * pi)) * times, F(2.0f) * turn.most * slope};
+  const auto beside = less(turn.last, F(1.0f));
+  if (!any(beside)) return center;
+  const TurnAt<F> at = turn_at(turn, turn.last);
+  return {select(beside, at.angle, center.angle), select(beside, at.slope, center.slope)};
 }
 
 /// Two places of s between which the slope of a turn changes its sign, and the slopes there.
