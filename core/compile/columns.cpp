@@ -65,13 +65,17 @@ void push(std::vector<float> (&columns)[3], Vec3d v) {
   columns[2].push_back(static_cast<float>(v.z));
 }
 
+double lens_radius(const Camera& camera) {
+  return focus_distance(camera) * std::tan(0.5 * camera.defocus_angle * radians);
+}
+
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin) {
   const Vec3d w = normalize(camera.look_from - camera.look_at);
   const Vec3d u = normalize(cross(camera.vup, w)), v = cross(w, u);
   const double focus = focus_distance(camera);
   const double view_height = 2 * std::tan(0.5 * camera.vfov * radians) * focus;
   const double view_width = view_height * width / height;
-  const double lens = focus * std::tan(0.5 * camera.defocus_angle * radians);
+  const double lens = lens_radius(camera);
   CameraColumns out;
   out.center = to_float(camera.look_from - origin);
   out.corner = to_float((-focus) * w - (0.5 * view_width) * u + (0.5 * view_height) * v);

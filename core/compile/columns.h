@@ -10,6 +10,9 @@ inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<fl
 /// Appends a vector to its three columns.
 void push(std::vector<float> (&columns)[3], Vec3d v);
 
+/// Of the whole lens, scene units; 0: a pinhole.
+double lens_radius(const Camera& camera);
+/// All but the surface on which the camera stands: see camera_surface.h.
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);

@@ -1,5 +1,6 @@
 #include "core/compile/compile.h"
 
+#include "core/compile/camera_surface.h"
 #include "core/compile/chains.h"
 #include "core/compile/columns.h"
 #include "core/compile/hull.h"
@@ -127,6 +128,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
     first_element.push_back(out.elements.count());
     append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
   }
+  out.camera.surface = camera_surface(flat, first_element, scene.camera, out.origin);
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {
     const PlacedShape& shape = flat.shapes[static_cast<std::size_t>(i)];

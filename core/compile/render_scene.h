@@ -36,6 +36,16 @@ constexpr bool has_material(const Needs& needs) {
 /// Names of the needs that are set, in the order above.
 std::vector<std::string> names_of(const Needs& needs);
 
+/// The surface on which the camera stands (camera_surface.h). Camera rays that start within rounding of it leave it like
+/// all other rays that leave a surface, so that they cannot meet the place where they start.
+struct CameraSurface {
+  std::int32_t element = -1;  ///< -1: the camera stands on none
+  Vec3f normal;               ///< unit, outward, where the centre of the lens is
+  float height = 0;           ///< of the centre of the lens above the surface, scene units; negative: below it
+  float curvature = 0;        ///< 1 / radius of a sphere; 0: flat
+  float rounding = 0;         ///< rays that start at most so far above or below the surface start on it, scene units
+};
+
 /// Camera in the form of Ray Tracing in One Weekend, section 13.2: rays start in the lens and pass the plane in focus.
 struct CameraColumns {
   Vec3f center;          ///< of the lens
@@ -43,6 +53,7 @@ struct CameraColumns {
   Vec3f lens_u, lens_v;  ///< half axes of the lens; zero without defocus
   Vec3f axis;            ///< unit, into the scene
   float shutter_open = 0, shutter_length = 0;
+  CameraSurface surface;
 };
 
 enum class BackgroundKind { constant, gradient, hemispheres };

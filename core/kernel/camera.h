@@ -7,6 +7,26 @@
 /// Camera rays: which samples a unit of work holds, and the ray with which each of them starts.
 namespace tyndall {
 
+/// Ray::from of rays that leave the lens at `offset` from its centre, for a camera that stands on a surface: they go
+/// out of the surface or into it where they start within rounding of it, and start nowhere elsewhere. Over a sphere a
+/// point of the lens is higher by the square of its distance from the normal over the sphere's diameter, up to third
+/// order.
+template <class F>
+TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> offset, Vec3<F> direction) {
+  using I = IntOf<F>;
+  const Vec3<F> normal = splat<F>(c.normal);
+  const F rise = dot(normal, offset), across2 = neg_mul_add(rise, rise, dot(offset, offset));
+  const F curvature = splat<F>(c.curvature);
+  const F height = splat<F>(c.height) + mul_add(F(0.5f) * curvature, across2, rise);
+  const auto outward = less_equal(F(0.0f), dot(direction, along(normal, curvature, offset)));
+  const auto on = less_equal(abs(height), splat<F>(c.rounding));
+  const std::int32_t first = 4 * c.element;
+  return select(on,
+                select(outward, I(first + static_cast<std::int32_t>(Side::outward)),
+                       I(first + static_cast<std::int32_t>(Side::inward))),
+                I(from_nowhere));
+}
+
 /// The ray through a point (x, y) of the picture, in pixels from its upper left corner. lens: where it leaves the lens,
 /// a point in the unit disc.
 /// Ray Tracing in One Weekend, section 13.2 "Generating Sample Rays".
@@ -14,7 +34,9 @@ template <class F>
 TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens, F time) {
   const Vec3<F> target = along(along(splat<F>(c.corner), x, splat<F>(c.du)), y, splat<F>(c.dv));
   const Vec3<F> offset = along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v));
-  return {splat<F>(c.center) + offset, normalize(target - offset), time, IntOf<F>(from_nowhere)};
+  Ray<F> ray{splat<F>(c.center) + offset, normalize(target - offset), time, IntOf<F>(from_nowhere)};
+  if (c.surface.element >= 0) ray.from = leave_camera_surface(c.surface, offset, ray.direction);
+  return ray;
 }
 
 /// The ray of one sample through the point (x, y) of the picture.

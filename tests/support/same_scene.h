@@ -25,7 +25,7 @@ inline bool same(const Elements& a, const Elements& b) {
 inline bool same(const CameraColumns& a, const CameraColumns& b) {
   return a.center == b.center && a.corner == b.corner && a.du == b.du && a.dv == b.dv && a.lens_u == b.lens_u &&
          a.lens_v == b.lens_v && a.axis == b.axis && a.shutter_open == b.shutter_open &&
-         a.shutter_length == b.shutter_length;
+         a.shutter_length == b.shutter_length && a.surface.element == b.surface.element;
 }
 inline bool same(const Materials& a, const Materials& b) {
   return a.kind == b.kind && a.red == b.red && a.green == b.green && a.blue == b.blue && a.texture == b.texture &&

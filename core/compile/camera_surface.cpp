@@ -1,0 +1,83 @@
+#include "core/compile/camera_surface.h"
+
+#include "core/base/kinds.h"
+#include "core/compile/columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double rounding_share = 0x1p-21;  // single precision rounds to 2^-24; tests of spheres square and subtract
+
+double largest_component(Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// Compares the camera with one surface after the other, and keeps the nearest.
+class NearestSurface {
+ public:
+  NearestSurface(const Camera& camera, Vec3d origin)
+      : camera_(camera), eye_(camera.look_from), origin_(origin), lens_(lens_radius(camera)) {}
+
+  CameraSurface found;
+
+  void look_at(const Sphere<>& sphere, const Placement& placement, std::int32_t element) {
+    Vec3d center = sphere.center;
+    if (sphere.center_end && *sphere.center_end != sphere.center) {
+      if (camera_.shutter_open != camera_.shutter_close) return;
+      center = center + camera_.shutter_open * (*sphere.center_end - sphere.center);
+    }
+    center = place(placement, center);
+    const Vec3d arm = eye_ - center;
+    const double distance = length(arm), radius = std::abs(sphere.radius);
+    if (distance == 0) return;
+    const double size = std::max(largest_component(center - origin_), radius);
+    keep((1 / distance) * arm, distance - radius, 1 / radius, size, element);
+  }
+  void look_at(const Quad<>& quad, const Placement& placement, std::int32_t element) {
+    look_at_flat(place(placement, quad.corner), turn(placement, quad.u), turn(placement, quad.v), element);
+  }
+  void look_at(const Box<>& box, const Placement& placement, std::int32_t element) {
+    for (std::int32_t i = 0; i < 6; ++i) {
+      const BoxFace face = box_face_edges(box, i);
+      look_at_flat(place(placement, face.corner), turn(placement, face.u), turn(placement, face.v), element + i);
+    }
+  }
+
+ private:
+  const Camera& camera_;
+  Vec3d eye_, origin_;
+  double lens_;
+
+  void look_at_flat(Vec3d corner, Vec3d u, Vec3d v, std::int32_t element) {
+    const Vec3d arm = eye_ - corner;
+    const Reciprocal r = reciprocal_edges(u, v);
+    const double room_a = lens_ * length(r.a), room_b = lens_ * length(r.b), a = dot(r.a, arm), b = dot(r.b, arm);
+    if (a < room_a || a > 1 - room_a || b < room_b || b > 1 - room_b) return;
+    const Vec3d normal = normalize(cross(u, v)), from = corner - origin_;
+    const double size = std::max(largest_component(from), largest_component(from + u + v));
+    keep(normal, dot(normal, arm), 0, size, element);
+  }
+
+  /// size: of the largest number that is rounded where rays are tested against the surface.
+  void keep(Vec3d normal, double height, double curvature, double size, std::int32_t element) {
+    const double rounding = rounding_share * std::max(size, largest_component(eye_ - origin_));
+    if (std::abs(height) > rounding) return;
+    if (found.element >= 0 && std::abs(static_cast<double>(found.height)) <= std::abs(height)) return;
+    found = {element, to_float(normal), static_cast<float>(height), static_cast<float>(curvature),
+             static_cast<float>(rounding)};
+  }
+};
+
+}  // namespace
+
+CameraSurface camera_surface(const Flattened& flat, const std::vector<std::int32_t>& first_element,
+                             const Camera& camera, Vec3d origin) {
+  NearestSurface nearest(camera, origin);
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
+    std::visit([&](const auto& shape) { nearest.look_at(shape, flat.shapes[i].placement, first_element[i]); },
+               flat.shapes[i].shape);
+  return nearest.found;
+}
+
+}  // namespace tyndall
