@@ -3,7 +3,6 @@
 #include "app/files/open_scene.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
-#include "core/compile/compile.h"
 #include "core/image/tonemap.h"
 #include "core/render/render.h"
 
@@ -22,7 +21,7 @@ Film film_of(const Scene& scene, bool reference = false) {
   RenderOptions options;
   options.spp = picture_spp;
   if (reference) options.isa = "double";
-  return render(compile(scene), options).film;
+  return render(*prepare(scene), options).film;
 }
 
 /// From one squared relative difference a pixel: the root of their mean, and the standard error of that root.
@@ -81,7 +80,7 @@ CleanPicture clean_of(Scene scene, std::uint32_t seeds_on) {
   RenderOptions options;
   options.spp = clean_spp;
   options.clean = true;
-  return *render(compile(scene), options).clean;
+  return *render(*prepare(scene), options).clean;
 }
 
 /// What is wrong in the mean of clean views: of two, and of the halves of the exact film, all noise is independent.

@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
-#include "core/kernel/scene_view.h"
+#include "core/render/prepare.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ namespace {
 struct Report {
   LoadedScene loaded;
   Contents contents;
-  RenderScene compiled;
+  std::shared_ptr<const PreparedScene> prepared;
   KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
@@ -35,15 +35,15 @@ Report examine(const InspectCommand& command) {
   Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
-  report.compiled = compile(scene);
+  report.prepared = prepare(scene);
   const Kernels kernels = find_kernels(command.isa);
-  report.kernel = kernels.set_for(report.compiled.kernel);
+  report.kernel = kernels.set_for(report.prepared->columns().kernel);
   if (command.measure) {
-    report.gain = measure_kernel_gain(report.compiled, kernels);
+    report.gain = measure_kernel_gain(*report.prepared, kernels);
     report.chain_gain = measure_chain_gain(scene, kernels.isa);
     report.sharing_gain = measure_sharing_gain(scene, kernels.isa);
   }
-  report.film_bytes = bytes_per_pixel(has_material<Light<double>>(report.compiled.needs)) *
+  report.film_bytes = bytes_per_pixel(has_material<Light<double>>(report.prepared->columns().needs)) *
                       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
 }
@@ -73,7 +73,7 @@ std::string json_text(const Report& report) {
   json["media"] = c.media;
   json["phase_functions"] = c.phase_functions;
   json["lights"] = c.lights;
-  json["chains"] = report.compiled.chains.ball.size();
+  json["chains"] = report.prepared->columns().chains.ball.size();
   if (report.chain_gain.measured)
     json["chain_gain"] = {{"time", report.chain_gain.time}, {"squared_error", report.chain_gain.error}};
   if (report.sharing_gain.measured)
@@ -81,12 +81,12 @@ std::string json_text(const Report& report) {
   json["background"] = c.background;
   json["motion"] = c.motion;
   json["defocus"] = c.defocus;
-  json["primitives"] = report.compiled.primitives();
-  json["tree"] = report.compiled.bvh != nullptr;
-  json["kernel_features"] = names_of(report.compiled.needs);
+  json["primitives"] = report.prepared->columns().primitives();
+  json["tree"] = report.prepared->columns().bvh != nullptr;
+  json["kernel_features"] = names_of(report.prepared->columns().needs);
   json["kernel"] = name_of(report.kernel);
   if (report.gain) json["kernel_gain"] = json_of(*report.gain);
-  json["scene_bytes"] = bytes_of(report.compiled);
+  json["scene_bytes"] = bytes_of(report.prepared->columns());
   json["film_bytes"] = report.film_bytes;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -115,14 +115,14 @@ std::string named(const Report& report, const std::vector<std::int32_t>& element
   constexpr std::size_t most = 3;
   std::string text;
   for (std::size_t i = 0; i < std::min(elements.size(), most); ++i) {
-    text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.compiled.object_of(elements[i]));
+    text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.prepared->columns().object_of(elements[i]));
   }
   return text + (elements.size() > most ? ", ..." : "");
 }
 
 /// What exact chains are looked for.
 std::string chains_text(const Report& report) {
-  const Chains& chains = report.compiled.chains;
+  const Chains& chains = report.prepared->columns().chains;
   const RenderSettings& render = report.loaded.scene.render;
   if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
   if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
@@ -144,19 +144,18 @@ std::string chains_text(const Report& report) {
   add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell"), add(flat, "flat mirror");
   add(panes, "pane");
   const std::string count = counted(static_cast<int>(lamps.size()), "lamp");
-  for (std::int32_t& lamp : lamps) lamp = report.compiled.lights.element[static_cast<std::size_t>(lamp)];
+  for (std::int32_t& lamp : lamps) lamp = report.prepared->columns().lights.element[static_cast<std::size_t>(lamp)];
   return text + " (" + named(report, chains.outer) + "), each alone, to " + count + " (" + named(report, lamps) + ")" +
          "; by chance: ways over two of them, quads of glass, other boxes of glass, and fuzzy metal";
 }
 
 /// Whether second vertices are shared between pixels.
 std::string sharing_text(const Report& report) {
-  const RenderScene& compiled = report.compiled;
+  const RenderScene& compiled = report.prepared->columns();
   if (!report.loaded.scene.render.sharing) return "off";
   if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
   if (compiled.needs.moving_spheres) return "none: spheres move";
-  const SceneViewOf view(compiled, ViewFor::first_hits);
-  const SharingGain gain = probe_sharing(view.view());
+  const SharingGain& gain = report.prepared->sharing_gain();
   if (!gain.probed) return "none: too few paths scatter evenly at their first two vertices";
   const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
                                         gain.variance, gain.time);
@@ -206,12 +205,13 @@ std::string table(const Report& report) {
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");
-  row("primitives", std::to_string(report.compiled.primitives()) +
-                        (report.compiled.bvh ? ", in a tree" : ", each tested for every ray"));
-  row("models", listed(names_of(report.compiled.needs)));
+  row("primitives", std::to_string(report.prepared->columns().primitives()) +
+                        (report.prepared->columns().bvh ? ", in a tree" : ", each tested for every ray"));
+  row("models", listed(names_of(report.prepared->columns().needs)));
   row("kernel", name_of(report.kernel));
   if (report.gain) row("", gain_text(*report.gain));
-  row("memory", "scene " + bytes_text(bytes_of(report.compiled)) + ", film " + bytes_text(report.film_bytes));
+  row("memory",
+      "scene " + bytes_text(bytes_of(report.prepared->columns())) + ", film " + bytes_text(report.film_bytes));
   return text;
 }
 

@@ -10,12 +10,9 @@
 #include "app/files/stats.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
-#include "core/accuracy/rare.h"
 #include "core/base/limits.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
-#include "core/compile/compile.h"
-#include "core/render/caustics.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
 
@@ -37,7 +34,7 @@ struct Job {
   RenderOptions options{};
   Kernels kernels{};
   RenderStart begin{};
-  RenderScene compiled{};
+  std::shared_ptr<const PreparedScene> prepared{};
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
 };
@@ -47,16 +44,10 @@ struct Outcome {
   const RenderResult& result;
   FinishedPicture picture;
   bool unfinished = false;  ///< more samples are to come
-  bool rare_bright_paths = false;
 };
 
 Outcome outcome_of(const Job& job, const RenderResult& result, bool unfinished) {
-  Outcome outcome{result, finished_picture(result), unfinished};
-  outcome.rare_bright_paths =
-      has_rare_bright_paths(outcome.picture.estimate, outcome.picture.totals.least_taken,
-                            chance_of_caustics(job.loaded.scene, job.compiled)) ||
-      (outcome.result.clean && is_doubtful(*outcome.result.clean, outcome.picture.totals.least_taken));
-  return outcome;
+  return {result, finished_picture(*job.prepared, result), unfinished};
 }
 
 /// Tells the user if an option asks for what the integrator does not do.
@@ -128,9 +119,8 @@ std::string summary(const Outcome& outcome, const std::vector<std::filesystem::p
 }
 
 RunFigures figures(const Job& job, const Outcome& outcome) {
-  return {job.loaded.name,   job.loaded.scene,         job.compiled,
-          outcome.result,    outcome.picture,          job.samples_before,
-          job.seconds_build, seconds_since(job.start), outcome.rare_bright_paths};
+  return {job.loaded.name,    *job.prepared,     outcome.result,          outcome.picture,
+          job.samples_before, job.seconds_build, seconds_since(job.start)};
 }
 
 /// What an image or film at that place carries beside the picture.
@@ -147,7 +137,7 @@ bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
   const auto embedded = [&](const std::filesystem::path& file) {
     return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), outcome.unfinished);
   };
-  const auto layers = [&] { return layers_of(job.compiled, film, outcome.result.kernels); };
+  const auto layers = [&] { return layers_of(*job.prepared, film, outcome.result.kernels); };
   const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
   std::vector<std::filesystem::path> files = job.command.outputs;
   if (!at_end) std::erase_if(files, is_stream);
@@ -206,7 +196,7 @@ ProgressGoal goal_of(const Job& job) {
 
 RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report) {
   const Clock::time_point start = Clock::now();
-  job.compiled = compile(job.loaded.scene);
+  job.prepared = prepare(job.loaded.scene);
   job.seconds_build = seconds_since(start);
   const auto progress = [&](const RenderProgress& now) {
     report.show(now);
@@ -217,13 +207,13 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
                           [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
   job.options.breaks = breaks_of(job, signals, report, checkpoints);
   try {
-    RenderResult result = render(job.compiled, job.options, progress, std::move(job.begin.film));
+    RenderResult result = render(*job.prepared, job.options, progress, std::move(job.begin.film));
     checkpoints.finish();
     if (const auto problem = checkpoints.problem()) report.say(*problem);  // of one that failed just before the end
     return result;
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
-    const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.compiled.needs)));
+    const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.prepared->columns().needs)));
     throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
                               1e-9 * bytes * r.width() * r.height(), memory_limit_text()));
   }
@@ -232,7 +222,8 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
 /// Prints warnings, also with -q, which only turns progress off.
 void warn(const Job& job, const Outcome& outcome) {
   const RenderResult& result = outcome.result;
-  if (outcome.rare_bright_paths) complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
+  if (outcome.picture.rare_bright_paths)
+    complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   if (job.options.clean && !result.clean)
     complain("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
   const FilmTotals& sum = outcome.picture.totals;
@@ -253,9 +244,8 @@ int print_replay(const RenderCommand& command) {
     throw UsageError("--replay: found pixel " + std::to_string(key.x) + "," + std::to_string(key.y) +
                      ", expected one of an image of " + std::to_string(scene.width) + "x" +
                      std::to_string(scene.height));
-  const RenderScene compiled = compile(scene);
-  const SceneViewOf view(compiled);
-  write_standard_output(replay_text(scene, compiled, replay(view.view(), key.x, key.y, key.sample)));
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
+  write_standard_output(replay_text(scene, prepared->columns(), replay(prepared->view(), key.x, key.y, key.sample)));
   return 0;
 }
 

@@ -75,7 +75,7 @@ class Verification {
     const MeasureOptions options{command_.threads, command_.isa, run_.precision * std::abs(what.expected),
                                  what.expected};
     const auto done = static_cast<double>(run_.rows.size()), all = static_cast<double>(cases_.size());
-    return measure_mean(compile(scene), options, [&](const RenderProgress&) {
+    return measure_mean(scene, options, [&](const RenderProgress&) {
       report_.show(seconds_since(start_), done / all,
                    std::to_string(run_.rows.size()) + "/" + std::to_string(cases_.size()) + " " + what.name + ", " +
                        duration(seconds_since(start_)));

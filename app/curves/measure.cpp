@@ -1,7 +1,6 @@
 #include "app/curves/measure.h"
 
 #include "core/accuracy/error.h"
-#include "core/compile/compile.h"
 #include "core/render/render.h"
 
 #include <optional>
@@ -16,7 +15,7 @@ double squared(double x) { return x * x; }
 class GrowingPicture {
  public:
   GrowingPicture(const Scene& scene, const std::string& isa, bool clean, const ChartRun& run)
-      : scene_(compile(scene)), run_(run) {
+      : scene_(prepare(scene)), run_(run) {
     options_.isa = isa;
     options_.clean = clean;
     options_.threads = run.threads;
@@ -26,12 +25,12 @@ class GrowingPicture {
   bool grow(std::uint32_t spp) {
     options_.spp = spp;
     const auto progress = [this](const RenderProgress& now) { return run_.go_on(seconds_ + now.seconds); };
-    result_ = render(scene_, options_, progress, std::move(result_.film));
+    result_ = render(*scene_, options_, progress, std::move(result_.film));
     seconds_ += result_.seconds;
     return !result_.interrupted;
   }
   double seconds() const { return seconds_; }
-  FinishedPicture finished() const { return finished_picture(result_); }
+  FinishedPicture finished() const { return finished_picture(*scene_, result_); }
   /// The error of the picture as it is or, if that was asked for, of its clean view; nothing where there is none.
   std::optional<ErrorPoint> point(std::uint32_t spp, const ChartReference& reference) const {
     if (options_.clean && !result_.clean) return {};
@@ -47,7 +46,7 @@ class GrowingPicture {
   }
 
  private:
-  RenderScene scene_;
+  std::shared_ptr<const PreparedScene> scene_;
   const ChartRun& run_;
   RenderOptions options_{};
   RenderResult result_{};  ///< of the last step

@@ -1,7 +1,6 @@
 #include "app/curves/measure.h"
-#include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
-#include "core/kernel/scene_view.h"
+#include "core/render/prepare.h"
 
 #include <string_view>
 
@@ -13,8 +12,8 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   exact.render.fresnel = FresnelKind::exact;
   exact.render.caustics = Caustics::chains;
   exact.render.sharing = true;
-  const RenderScene compiled = compile(exact);
-  const Needs needs = compiled.needs;
+  const std::shared_ptr<const PreparedScene> prepared = prepare(exact);
+  const Needs needs = prepared->columns().needs;
   std::vector<ChartMethod> methods;
   RenderSettings settings = scene.render;
   settings.spp.reset();
@@ -36,8 +35,9 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
     switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
   }
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
-  if (!compiled.chains.ball.empty()) switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
-  if (SceneViewOf(compiled).view().shares) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
+  if (!prepared->columns().chains.ball.empty())
+    switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
+  if (prepared->shares()) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});

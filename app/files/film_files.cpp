@@ -5,7 +5,6 @@
 #include "app/text/values.h"
 #include "core/base/seconds.h"
 #include "core/compile/compile.h"
-#include "core/kernel/scene_view.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
@@ -50,7 +49,7 @@ bool could_have_chains(Scene scene) {
 
 bool could_share(Scene scene) {
   scene.render.sharing = true;
-  return SceneViewOf(compile(scene)).view().shares;
+  return prepare(scene)->shares();
 }
 
 }  // namespace
@@ -155,9 +154,9 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
   if (totals(film).least_taken < least_clean_spp)
     throw UsageError(file + ": found pixels with fewer than " + std::to_string(least_clean_spp) +
                      " samples, expected at least that many in each: the filter compares two halves of them");
-  const RenderScene compiled = compile(scene);
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   const auto start = std::chrono::steady_clock::now();
-  CleanOfFilm clean{clean_film(film, compiled, threads, isa)};
+  CleanOfFilm clean{clean_film(film, *prepared, threads, isa)};
   clean.seconds = seconds_since(start);
   return clean;
 }

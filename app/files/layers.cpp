@@ -21,18 +21,17 @@ Layer variance_layer(const Film& film) {
 
 }  // namespace
 
-std::vector<Layer> layers_of(const RenderScene& scene, const Film& film, const Kernels& kernels) {
+std::vector<Layer> layers_of(const PreparedScene& scene, const Film& film, const Kernels& kernels) {
   const Region& region = film.region;
   constexpr int rows = 64;  // at a time, to spare memory
   std::vector<Layer> layers = {
       {"Albedo", {"R", "G", "B"}, {}, true}, {"Ns", {"X", "Y", "Z"}, {}}, {"Depth", {"Z"}, {}}};
   for (Layer& layer : layers) layer.values.reserve(layer.channels.size() * film.pixels.size());
   std::vector<float>&albedo = layers[0].values, &normal = layers[1].values, &depth = layers[2].values;
-  const SceneViewOf view(scene, ViewFor::first_hits);
   for (int y = region.y0; y < region.y1; y += rows) {
     const Region strip{region.x0, y, region.x1, std::min(y + rows, region.y1)};
     std::vector<FirstHit> hits(static_cast<std::size_t>(strip.width()) * static_cast<std::size_t>(strip.height()));
-    kernels.first_hits(view.view(), strip, hits.data());
+    kernels.first_hits(scene.view(), strip, hits.data());
     for (const FirstHit& hit : hits) {
       albedo.insert(albedo.end(), {hit.albedo.x, hit.albedo.y, hit.albedo.z});
       normal.insert(normal.end(), {hit.normal.x, hit.normal.y, hit.normal.z});

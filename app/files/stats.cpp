@@ -1,7 +1,6 @@
 #include "app/files/stats.h"
 
 #include "app/text/json_text.h"
-#include "core/kernel/scene_view.h"
 #include "core/render/plan.h"
 
 #include <fmt/core.h>
@@ -21,10 +20,10 @@ double per_second(std::uint64_t count, double seconds) {
 }
 
 void add_method(JsonText& json, const RunFigures& run, const FilmTotals& sum) {
-  const RenderSettings& settings = run.settings.render;
+  const RenderSettings& settings = run.prepared.scene().render;
   json.add("isa", run.result.kernels.isa);
   json.add("lanes", run.result.kernels.lanes);
-  json.add("kernel_features", names_of(run.compiled.needs));
+  json.add("kernel_features", names_of(run.prepared.columns().needs));
   json.add("integrator", name_of(settings.integrator));
   json.add("sampler", name_of(settings.sampler));
   json.add("fresnel", name_of(settings.fresnel));
@@ -46,8 +45,8 @@ void add_choices(JsonText& json, const RenderSettings& settings) {
 
 /// The settings that no figure before tells. They stand last, because figures are only ever appended.
 void add_rest(JsonText& json, const RunFigures& run) {
-  json.add("sharing", SceneViewOf(run.compiled).view().shares);  // whether it was done, not only allowed
-  add_choices(json, run.settings.render);
+  json.add("sharing", run.prepared.shares());  // whether it was done, not only allowed
+  add_choices(json, run.prepared.scene().render);
 }
 
 /// Of the clean view.
@@ -67,11 +66,11 @@ void add_losses(JsonText& json, const RunFigures& run, const FilmTotals& sum) {
   for (const RejectedSample& r : run.result.first_rejected)
     rejected += fmt::format("{}[{}, {}, {}]", rejected.empty() ? "" : ", ", r.x, r.y, r.sample);
   json.add_json("first_rejected", "[" + rejected + "]");
-  json.add("adaptive", run.settings.render.adaptive);
+  json.add("adaptive", run.prepared.scene().render.adaptive);
   json.add("least_spp", sum.least_taken);
   json.add("most_spp", sum.most_taken);
-  json.add("rare_bright_paths", run.rare_bright_paths);
-  json.add("caustics", name_of(run.settings.render.caustics));
+  json.add("rare_bright_paths", run.picture.rare_bright_paths);
+  json.add("caustics", name_of(run.prepared.scene().render.caustics));
 }
 
 }  // namespace

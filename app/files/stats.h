@@ -1,7 +1,5 @@
 #pragma once
-#include "core/compile/render_scene.h"
 #include "core/render/render.h"
-#include "core/scene/scene.h"
 
 #include <string>
 
@@ -11,14 +9,12 @@ namespace tyndall {
 /// What --stats says about a run, and what made it.
 struct RunFigures {
   std::string scene;  ///< file or built-in name
-  const Scene& settings;
-  const RenderScene& compiled;
+  const PreparedScene& prepared;
   const RenderResult& result;
   const FinishedPicture& picture;    ///< of that result
   std::uint64_t samples_before = 0;  ///< in the film when the run began
-  double seconds_build = 0;          ///< compiling the scene
+  double seconds_build = 0;          ///< preparing the scene
   double seconds_total = 0;          ///< from the command's start to now
-  bool rare_bright_paths = false;    ///< the estimated error says too little: see has_rare_bright_paths
 };
 
 /// All figures, as a JSON object. What is not known is null.

@@ -3,6 +3,7 @@
 #include "core/render/render.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace tyndall {
@@ -11,7 +12,7 @@ namespace {
 constexpr int pairs = 9;
 constexpr double seconds_each = 0.1;
 
-RenderResult timed(const RenderScene& scene, const std::string& isa, std::uint32_t spp) {
+RenderResult timed(const PreparedScene& scene, const std::string& isa, std::uint32_t spp) {
   RenderOptions options;
   options.threads = 1;
   options.isa = isa;
@@ -20,7 +21,7 @@ RenderResult timed(const RenderScene& scene, const std::string& isa, std::uint32
 }
 
 /// How many samples a pixel take about `seconds_each` to render.
-std::uint32_t enough_samples(const RenderScene& scene, const std::string& isa) {
+std::uint32_t enough_samples(const PreparedScene& scene, const std::string& isa) {
   std::uint32_t spp = 1;
   while (spp < 4096 && timed(scene, isa, spp).seconds < seconds_each / 2) spp *= 2;
   return spp;
@@ -28,13 +29,14 @@ std::uint32_t enough_samples(const RenderScene& scene, const std::string& isa) {
 
 }  // namespace
 
-KernelGain measure_kernel_gain(const RenderScene& scene, const Kernels& kernels) {
+KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernels) {
   const std::string isa = kernels.isa;
   KernelGain result;
   result.isa = isa;
-  if (kernels.set_for(scene.kernel) == KernelSet::everything) return result;
-  RenderScene full = scene;
-  full.kernel = KernelSet::everything;
+  if (kernels.set_for(scene.columns().kernel) == KernelSet::everything) return result;
+  RenderScene columns = scene.columns();
+  columns.kernel = KernelSet::everything;
+  const PreparedScene full(std::make_shared<const Scene>(scene.scene()), std::move(columns));
   const std::uint32_t spp = enough_samples(scene, isa);
   std::vector<double> gains;
   for (result.pairs = 0; result.pairs < pairs; ++result.pairs) {

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/compile/render_scene.h"
 #include "core/kernel/kernels.h"
+#include "core/render/prepare.h"
 
 #include <string>
 
@@ -18,6 +18,6 @@ struct KernelGain {
 
 /// Renders the scene by both in turns, on one thread, for about two seconds. Where `kernels` render the scene with the
 /// full kernel, nothing is rendered and the gain is 1.
-KernelGain measure_kernel_gain(const RenderScene& scene, const Kernels& kernels);
+KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernels);
 
 }  // namespace tyndall

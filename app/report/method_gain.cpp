@@ -1,8 +1,6 @@
 #include "app/report/method_gain.h"
 
 #include "core/accuracy/estimate.h"
-#include "core/compile/compile.h"
-#include "core/kernel/scene_view.h"
 #include "core/render/render.h"
 
 #include <algorithm>
@@ -14,7 +12,7 @@ constexpr int widest = 160;  // most pixels in a row of the small picture
 constexpr int rounds = 5;
 constexpr double seconds_a_render = 0.2;
 
-RenderResult render_once(const RenderScene& scene, const std::string& isa, std::uint32_t spp) {
+RenderResult render_once(const PreparedScene& scene, const std::string& isa, std::uint32_t spp) {
   RenderOptions options;
   options.threads = 1;
   options.isa = isa;
@@ -33,7 +31,7 @@ void make_small(Scene& scene) {
   scene.width = widest;
 }
 
-MethodGain measure(const RenderScene& with, const RenderScene& without, const std::string& isa) {
+MethodGain measure(const PreparedScene& with, const PreparedScene& without, const std::string& isa) {
   std::uint32_t spp = 4;
   while (spp < 4096 && render_once(with, isa, spp).seconds < seconds_a_render / 2) spp *= 2;
   double times[rounds], with_error = 0, without_error = 0;
@@ -51,18 +49,18 @@ MethodGain measure(const RenderScene& with, const RenderScene& without, const st
 
 MethodGain measure_chain_gain(Scene scene, const std::string& isa) {
   make_small(scene);
-  const RenderScene with = compile(scene);
-  if (with.chains.ball.empty()) return {};
+  const auto with = prepare(scene);
+  if (with->columns().chains.ball.empty()) return {};
   scene.render.caustics = Caustics::scatter;
-  return measure(with, compile(scene), isa);
+  return measure(*with, *prepare(scene), isa);
 }
 
 MethodGain measure_sharing_gain(Scene scene, const std::string& isa) {
   make_small(scene);
-  const RenderScene with = compile(scene);
-  if (!SceneViewOf(with).view().shares) return {};
+  const auto with = prepare(scene);
+  if (!with->shares()) return {};
   scene.render.sharing = false;
-  return measure(with, compile(scene), isa);
+  return measure(*with, *prepare(scene), isa);
 }
 
 }  // namespace tyndall

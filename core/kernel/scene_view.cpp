@@ -77,9 +77,14 @@ ChainView view_of(const Chains& c) {
 
 }  // namespace
 
-SceneViewOf::SceneViewOf(const RenderScene& s, ViewFor purpose) : view_{} {
-  for (const TextureColumns& t : s.textures) textures_.push_back(view_of(t));
-  SceneView& v = view_;
+std::vector<TextureView> texture_views(const RenderScene& scene) {
+  std::vector<TextureView> views;
+  for (const TextureColumns& t : scene.textures) views.push_back(view_of(t));
+  return views;
+}
+
+SceneView view_of(const RenderScene& s, const std::vector<TextureView>& textures) {
+  SceneView v{};
   v.width = s.width, v.height = s.height;
   v.camera = s.camera;
   v.background = s.background;
@@ -99,8 +104,8 @@ SceneViewOf::SceneViewOf(const RenderScene& s, ViewFor purpose) : view_{} {
   v.kind = m.kind.data(), v.texture_of = m.texture.data();
   v.red = m.red.data(), v.green = m.green.data(), v.blue = m.blue.data();
   for (std::size_t i = 0; i < max_material_fields; ++i) v.parameter[i] = m.parameter[i].data();
-  v.texture_count = static_cast<int>(textures_.size());
-  v.textures = textures_.data();
+  v.texture_count = static_cast<int>(textures.size());
+  v.textures = textures.data();
   v.medium_count = static_cast<int>(s.media.size());
   v.media = s.media.data();
   v.near_count = static_cast<int>(s.near.medium.size());
@@ -114,11 +119,7 @@ SceneViewOf::SceneViewOf(const RenderScene& s, ViewFor purpose) : view_{} {
   v.light_sampling = s.light_sampling, v.integrator = s.integrator;
   v.needs = s.needs;
   v.kernel = s.kernel;
-  if (purpose == ViewFor::first_hits) return;
-  glints_ = find_glints(v);
-  v.glint_count = static_cast<int>(glints_.size());
-  v.glints = glints_.data();
-  v.shares = s.may_share && is_worthwhile(probe_sharing(v));
+  return v;
 }
 
 }  // namespace tyndall

@@ -113,21 +113,12 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE bool has_chains() const { return asks_chains && chains.pairs > 0; }
 };
 
-/// What a view is for. One that takes no samples, but only asks what rays meet, is made without looking for glints and
-/// without probing whether sharing pays, which takes milliseconds.
-enum class ViewFor { samples, first_hits };
+/// The textures of a scene as kernels see them. They point into `scene`.
+std::vector<TextureView> texture_views(const RenderScene& scene);
 
-/// Points into `scene`, which must stay as it is while the view is used.
-class SceneViewOf {
- public:
-  explicit SceneViewOf(const RenderScene& scene, ViewFor purpose = ViewFor::samples);
-  const SceneView& view() const { return view_; }
-
- private:
-  std::vector<TextureView> textures_;
-  std::vector<Glint> glints_;
-  SceneView view_;
-};
+/// A scene as kernels see it, without glints and without sharing. It points into both arguments, which must stay as
+/// they are while it is used. core/render/prepare.h adds what has to be found out.
+SceneView view_of(const RenderScene& scene, const std::vector<TextureView>& textures);
 
 /// What sharing second vertices between pixels (share.h) changes in a scene, found from a thousand paths. A pure
 /// function of the scene without its seed.

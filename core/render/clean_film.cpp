@@ -55,15 +55,14 @@ bool CoarseCleaner::run(int step, const RenderEngine& engine, double unit, const
          cleaner_.run(film_, coarse, nullptr, give_up, out);
 }
 
-CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa) {
+CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa) {
   const auto kernels = choose_kernels(isa);
   if (!kernels) throw std::invalid_argument("no filter for instruction set \"" + isa + "\"");
   Crew crew(threads);
-  const SceneViewOf view(scene);
   CleanPicture picture;
   PixelLevels levels;
   const std::atomic<bool> never = false;
-  FilmCleaner(*kernels).run(film, {crew, *kernels, view.view()}, &levels, never, picture);
+  FilmCleaner(*kernels).run(film, {crew, *kernels, scene.view()}, &levels, never, picture);
   return picture;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/clean/clean.h"
 #include "core/render/pictures.h"
+#include "core/render/prepare.h"
 #include "core/render/progression.h"
 
 #include <cstdint>
@@ -70,7 +71,7 @@ class CoarseCleaner {
 };
 
 /// The clean view of a finished film of the scene. threads: 0: all cores; isa: "": the best.
-CleanPicture clean_film(const Film& film, const RenderScene& scene, int threads, const std::string& isa);
+CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa);
 
 /// The clean view of a picture that is being rendered: when it is made, and the newest one.
 class LiveClean {

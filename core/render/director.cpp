@@ -3,8 +3,6 @@
 #include "core/accuracy/rare.h"
 #include "core/base/limits.h"
 #include "core/base/seconds.h"
-#include "core/compile/compile.h"
-#include "core/render/caustics.h"
 
 #include <exception>
 #include <new>
@@ -29,8 +27,7 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step, cons
 
 void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
   if (picture.taken() < least_rare_spp || !picture.estimate_is_new()) return;
-  if (!chance_) chance_ = chance_of_caustics(*shown.scene, *shown.compiled);
-  found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), *chance_);
+  found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), shown.prepared->chance_of_caustics());
 }
 
 Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
@@ -90,13 +87,13 @@ void Director::follow(const Orders& orders) {
     tell_if_it_fails(orders.edit, [&] { crew_ = std::make_unique<Crew>(orders.threads); });
   if (orders.scene) {
     take_scene(orders);
-  } else if (orders.restart && shown_.compiled) {
+  } else if (orders.restart && shown_.prepared) {
     shown_.submitted = Clock::now();
     start_over(budget_);
   }
   answer_films();
   const bool taken_over = orders.scene && orders.film && !first_picture_ms_;
-  if ((orders.redraw || taken_over) && shown_.compiled && picture_.has_picture()) publish();
+  if ((orders.redraw || taken_over) && shown_.prepared && picture_.has_picture()) publish();
   if (other_pixel) report_pixel();
 }
 
@@ -104,10 +101,9 @@ void Director::follow(const Orders& orders) {
 /// mailbox gets a RenderProblem.
 void Director::take_scene(const Orders& orders) {
   try {
-    ShownScene next{orders.scene, nullptr, nullptr, orders.edit, orders.submitted};
-    next.compiled = std::make_shared<const RenderScene>(compile(*next.scene, shown_.compiled.get()));
-    next.view = std::make_unique<SceneViewOf>(*next.compiled);
-    const bool camera_only = shown_.scene && !change_between(*shown_.scene, *next.scene).others;
+    ShownScene next{prepare(orders.scene, shown_.prepared.get()), orders.edit, orders.submitted};
+    const bool camera_only =
+        shown_.prepared && !change_between(shown_.prepared->scene(), next.prepared->scene()).others;
     const double budget = picture_budget(camera_only, seconds_between(shown_.submitted, next.submitted));
     std::swap(shown_, next);
     bool goes_on = false;
@@ -119,10 +115,9 @@ void Director::take_scene(const Orders& orders) {
       throw;
     }
     budget_ = budget;
-    views_.change_scene(shown_.compiled);
-    rare_paths_.change_scene();
+    views_.change_scene(shown_.prepared);
     clean_.change_scene();
-    mail_.post(shown_.compiled);
+    mail_.post(shown_.prepared);
     if (goes_on) picture_.estimate_now(engine(), mail_.give_up());
   } catch (const std::exception& e) {
     tell(orders.edit, e);
@@ -131,12 +126,12 @@ void Director::take_scene(const Orders& orders) {
 
 /// Takes over the samples of a film of the scene. False if there are none, or they are of another size.
 bool Director::go_on_from(Film* film) {
-  const RenderScene& scene = *shown_.compiled;
+  const RenderScene& scene = shown_.prepared->columns();
   const Region whole{0, 0, scene.width, scene.height};
   if (!film || film->width != scene.width || film->height != scene.height || !(film->region == whole) ||
       film->first_sample != 0 || film->unit != scene.film_unit)
     return false;
-  picture_.go_on(std::move(*film), progression_options(*shown_.scene, 1, first_));
+  picture_.go_on(std::move(*film), progression_options(shown_.prepared->scene(), 1, first_));
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();
@@ -144,10 +139,11 @@ bool Director::go_on_from(Film* film) {
 }
 
 void Director::start_over(double budget) {
-  const RenderScene& scene = *shown_.compiled;
+  const RenderScene& scene = shown_.prepared->columns();
   const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
   const int step = first_pictures_.step_for(pixels, budget, shown_pixels_);
-  picture_.start(scene, {0, 0, scene.width, scene.height}, 0, progression_options(*shown_.scene, step, first_));
+  picture_.start(scene, {0, 0, scene.width, scene.height}, 0,
+                 progression_options(shown_.prepared->scene(), step, first_));
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();
@@ -166,7 +162,7 @@ void Director::finish_pass() {
 
 /// Tells what is known of the pixel that is watched.
 void Director::report_pixel() {
-  if (!pixel_ || !shown_.compiled) return;
+  if (!pixel_ || !shown_.prepared) return;
   PixelReport report{.x = pixel_->first, .y = pixel_->second, .edit = shown_.edit};
   if (picture_.taken() > 0) look_at_pixel(picture_.film(), report);
   mail_.post(report);
@@ -217,7 +213,7 @@ void Director::publish() {
   frame->mrays_per_s = tally.last_mrays_per_s;
   frame->first_picture_ms = *first_picture_ms_;
   frame->samples = tally.samples, frame->rejected = tally.rejected, frame->truncated = tally.truncated;
-  frame->shares = engine().scene.shares;
+  frame->shares = shown_.prepared->shares();
   frame->cut_throughput = picture_.cut_throughput();
   frame->film_bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
   frame->isa = kernels_.isa;

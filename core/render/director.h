@@ -13,11 +13,9 @@
 /// frames.
 namespace tyndall {
 
-/// The scene that is rendered: as the user wrote it, compiled, and as kernels see it.
+/// The scene that is rendered.
 struct ShownScene {
-  std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const RenderScene> compiled;
-  std::unique_ptr<SceneViewOf> view;
+  std::shared_ptr<const PreparedScene> prepared;  ///< null: none came yet
   std::uint64_t edit = 0;
   Clock::time_point submitted;  ///< when the edit or the newest restart was asked for
 };
@@ -25,14 +23,12 @@ struct ShownScene {
 /// Finds out, now and then, whether the estimated error is too small because of light that only rare paths carry.
 class RarePathWatch {
  public:
-  void change_scene() { *this = {}; }
   /// To be called when a pass has ended. Does nothing unless the error was estimated after it.
   void look(const ShownScene& shown, const Progression& picture);
   bool found() const { return found_; }
   void start_over() { found_ = false; }
 
  private:
-  std::optional<double> chance_;  ///< of meeting such light (see caustics.h); absent: not computed yet
   bool found_ = false;
 };
 
@@ -59,9 +55,9 @@ class Director {
   void publish();
   void make_clean();
   void make_coarse_clean();
-  bool clean_is_due() const { return shown_.compiled && clean_.is_due(picture_, !unfinished(limit_)); }
-  bool unfinished(std::uint32_t limit) const { return shown_.compiled && picture_.taken() < limit; }
-  RenderEngine engine() const { return {*crew_, kernels_, shown_.view->view()}; }
+  bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(limit_)); }
+  bool unfinished(std::uint32_t limit) const { return shown_.prepared && picture_.taken() < limit; }
+  RenderEngine engine() const { return {*crew_, kernels_, shown_.prepared->view()}; }
 
   Mailbox& mail_;
   Kernels kernels_;

@@ -153,9 +153,9 @@ std::shared_ptr<const RenderProblem> Mailbox::problem() const {
   return problem_;
 }
 
-std::shared_ptr<const RenderScene> Mailbox::compiled() const {
+std::shared_ptr<const PreparedScene> Mailbox::prepared() const {
   const std::lock_guard lock(mutex_);
-  return compiled_;
+  return prepared_;
 }
 
 bool Mailbox::wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
@@ -202,9 +202,9 @@ void Mailbox::post(PixelReport report) {
   pixel_ = std::make_shared<const PixelReport>(report);
 }
 
-void Mailbox::post(std::shared_ptr<const RenderScene> compiled) {
+void Mailbox::post(std::shared_ptr<const PreparedScene> scene) {
   const std::lock_guard lock(mutex_);
-  compiled_ = std::move(compiled);
+  prepared_ = std::move(scene);
   problem_ = nullptr;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/base/stoppable.h"
-#include "core/compile/render_scene.h"
 #include "core/film/film.h"
 #include "core/render/frame.h"
+#include "core/render/prepare.h"
 #include "core/scene/scene.h"
 
 #include <atomic>
@@ -71,7 +71,7 @@ class Mailbox {
   std::future<Film> ask_for_film();
   std::shared_ptr<const Frame> latest() const;
   std::shared_ptr<const RenderProblem> problem() const;
-  std::shared_ptr<const RenderScene> compiled() const;
+  std::shared_ptr<const PreparedScene> prepared() const;
 
   // For the thread that renders.
 
@@ -97,7 +97,7 @@ class Mailbox {
   void post(RenderProblem problem);
   void post(PixelReport report);
   /// Hands out the scene that is rendered from now on, and withdraws the problem of an earlier one.
-  void post(std::shared_ptr<const RenderScene> compiled);
+  void post(std::shared_ptr<const PreparedScene> scene);
 
  private:
   std::uint32_t limit() const { return paused_ ? std::min(limit_, 1u) : limit_; }
@@ -119,7 +119,7 @@ class Mailbox {
   std::shared_ptr<const Frame> latest_;
   std::shared_ptr<const RenderProblem> problem_;
   std::shared_ptr<const PixelReport> pixel_;
-  std::shared_ptr<const RenderScene> compiled_;
+  std::shared_ptr<const PreparedScene> prepared_;
 };
 
 }  // namespace tyndall

@@ -25,17 +25,17 @@ double planned(double spp, double error, double wanted) {
 
 }  // namespace
 
-Measured measure_mean(RenderScene scene, const MeasureOptions& options, const ProgressCallback& progress) {
+Measured measure_mean(Scene scene, const MeasureOptions& options, const ProgressCallback& progress) {
   const double pixels = static_cast<double>(scene.width) * scene.height;
   const double most = std::max(first_samples, most_samples_measured / pixels);
   Measured measured;
   double spp = first_samples, seconds = 0;
-  for (std::uint32_t round = 0; round < most_rounds; ++round, ++scene.seed) {
+  for (std::uint32_t round = 0; round < most_rounds; ++round, ++scene.render.seed) {
     RenderOptions render_options;
     render_options.threads = options.threads;
     render_options.isa = options.isa;
     render_options.spp = static_cast<std::uint32_t>(spp / 2) * 2;  // even, so that both halves have as many
-    const RenderResult result = render(scene, render_options, progress);
+    const RenderResult result = render(*prepare(scene), render_options, progress);
     seconds += result.seconds;
     measured = {film_mean(result.film), totals(result.film), seconds, result.interrupted};
     const bool reached = measured.value.error <= options.error;

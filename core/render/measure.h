@@ -31,7 +31,7 @@ inline constexpr double most_samples_measured = 4e9;
 /// standard error takes. Then as many samples with another seed are the measurement, because a mean of samples that
 /// also decide when to stop is biased. Uses the scene's seed and the seeds after it. Stops at most_samples_measured
 /// even if the error is larger than asked for, so look at value.error.
-Measured measure_mean(RenderScene scene, const MeasureOptions& options, const ProgressCallback& progress = {});
+Measured measure_mean(Scene scene, const MeasureOptions& options, const ProgressCallback& progress = {});
 
 /// Standard errors below this share of a value mean nothing, because the rounding of single precision is larger.
 inline constexpr double rounding_share = 1e-6;

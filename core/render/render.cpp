@@ -1,5 +1,6 @@
 #include "core/render/render.h"
 
+#include "core/accuracy/rare.h"
 #include "core/base/seconds.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
@@ -84,20 +85,21 @@ class CleanView {
 /// A render from its first pass to its result.
 class Rendering {
  public:
-  Rendering(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film)
+  Rendering(const PreparedScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film)
       : options_(options),
         progress_(progress),
         kernels_(kernels_of(options)),
         limits_{options.spp, options.time_limit, options.clean ? 0 : options.target_error},
-        view_(scene) {
+        view_(scene.view()) {
     const ProgressionOptions how = progression_options(options, progress != nullptr);
-    const Region whole{0, 0, scene.width, scene.height};
+    const RenderScene& columns = scene.columns();
+    const Region whole{0, 0, columns.width, columns.height};
     if (film.pixels.empty())
-      picture_.start(scene, options.region.value_or(whole), options.first_sample, how);
+      picture_.start(columns, options.region.value_or(whole), options.first_sample, how);
     else
       picture_.go_on(std::move(film), how);
     crew_.emplace(options.threads);
-    engine_.emplace(RenderEngine{*crew_, kernels_, view_.view()});
+    engine_.emplace(RenderEngine{*crew_, kernels_, view_});
     clean_.emplace(options, *engine_, picture_.levels());
   }
 
@@ -155,7 +157,7 @@ class Rendering {
     if (picture_.taken() >= 2 && (progress_ || picture_.estimate_is_new())) result.estimate = picture_.estimate();
     result.film = picture_.take_film();
     clean_->finish(result.film, picture_.taken(), whole, result);
-    result.first_rejected = find_rejected(kernels_, view_.view(), result.film);
+    result.first_rejected = find_rejected(kernels_, view_, result.film);
     return result;
   }
 
@@ -163,7 +165,7 @@ class Rendering {
   const ProgressCallback& progress_;
   Kernels kernels_;
   Limits limits_;
-  SceneViewOf view_;
+  const SceneView& view_;
   Progression picture_;
   std::optional<Crew> crew_;
   std::optional<RenderEngine> engine_;
@@ -174,20 +176,19 @@ class Rendering {
 
 }  // namespace
 
-RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress,
+RenderResult render(const PreparedScene& scene, const RenderOptions& options, const ProgressCallback& progress,
                     Film film) {
   return Rendering(scene, options, progress, std::move(film)).run();
 }
 
-ErrorEstimate estimate_error(const RenderScene& scene, const Kernels& kernels, const Film& film, int threads) {
-  const SceneViewOf view(scene);
+ErrorEstimate estimate_error(const PreparedScene& scene, const Kernels& kernels, const Film& film, int threads) {
   Crew crew(threads);
   PixelLevels levels;
   const std::atomic<bool> never = false;
-  return estimate_error(film, {crew, kernels, view.view()}, levels, never);
+  return estimate_error(film, {crew, kernels, scene.view()}, levels, never);
 }
 
-FinishedPicture finished_picture(const RenderResult& result) {
+FinishedPicture finished_picture(const PreparedScene& scene, const RenderResult& result) {
   const Film& film = result.film;
   FinishedPicture picture;
   picture.totals = totals(film);
@@ -196,6 +197,9 @@ FinishedPicture finished_picture(const RenderResult& result) {
   picture.image = {film.region.width(), film.region.height(), resolve(film)};
   picture.hash = image_hash(picture.image.width, picture.image.height, picture.image.rgb);
   if (result.clean) picture.clean_hash = image_hash(result.clean->width, result.clean->height, result.clean->rgb);
+  const std::uint32_t least = picture.totals.least_taken;
+  picture.rare_bright_paths = has_rare_bright_paths(picture.estimate, least, scene.chance_of_caustics()) ||
+                              (result.clean && is_doubtful(*result.clean, least));
   return picture;
 }
 

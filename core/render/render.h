@@ -2,10 +2,10 @@
 #include "core/accuracy/estimate.h"
 #include "core/base/crew.h"
 #include "core/clean/clean.h"
-#include "core/compile/compile.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
 #include "core/kernel/kernels.h"
+#include "core/render/prepare.h"
 #include "core/render/single_pixels.h"
 #include "core/scene/scene.h"
 
@@ -71,12 +71,12 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 /// Renders until the first of the limits is reached. Goes on with `film` if it is not empty: it must be of this scene
 /// and region, and made with the same `adaptive`. Throws std::invalid_argument for an unknown options.isa,
 /// std::bad_alloc where the film does not fit into memory.
-RenderResult render(const RenderScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
+RenderResult render(const PreparedScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
 
 /// The error of a film of the scene, with levels of the pixels that decide it (see ask_levels()). threads: 0: all
 /// cores.
-ErrorEstimate estimate_error(const RenderScene& scene, const Kernels& kernels, const Film& film, int threads = 0);
+ErrorEstimate estimate_error(const PreparedScene& scene, const Kernels& kernels, const Film& film, int threads = 0);
 
 /// Everything that is reported about a finished film. For each part the whole film has to be read, so the parts are
 /// found once, here, and given to all that print or write them.
@@ -87,7 +87,10 @@ struct FinishedPicture {
   LinearImage image;             ///< the pixels' means
   std::uint64_t hash = 0;        ///< see image_hash
   std::uint64_t clean_hash = 0;  ///< the same of the clean view; 0: there is none
+  /// The estimated error cannot be trusted: see has_rare_bright_paths() and is_doubtful().
+  bool rare_bright_paths = false;
 };
-FinishedPicture finished_picture(const RenderResult& result);
+/// scene: of which `result` is the picture.
+FinishedPicture finished_picture(const PreparedScene& scene, const RenderResult& result);
 
 }  // namespace tyndall

@@ -71,11 +71,12 @@ std::shared_ptr<const PixelReport> Renderer::pixel() const { return state_->mail
 Film Renderer::film() const { return state_->mail.ask_for_film().get(); }
 
 Renderer::Pick Renderer::pick(int x, int y) const {
-  const std::shared_ptr<const RenderScene> scene = state_->mail.compiled();
-  if (!scene || x < 0 || y < 0 || x >= scene->width || y >= scene->height) return {};
-  const SceneViewOf view(*scene, ViewFor::first_hits);
+  const std::shared_ptr<const PreparedScene> prepared = state_->mail.prepared();
+  if (!prepared) return {};
+  const RenderScene* scene = &prepared->columns();
+  if (x < 0 || y < 0 || x >= scene->width || y >= scene->height) return {};
   FirstHit hit;
-  scalar_kernels().first_hits(view.view(), {x, y, x + 1, y + 1}, &hit);
+  scalar_kernels().first_hits(prepared->view(), {x, y, x + 1, y + 1}, &hit);
   if (hit.element < 0) return {};
   const auto column = static_cast<double>(x) + 0.5, row = static_cast<double>(y) + 0.5;
   const CameraColumns& c = scene->camera;

@@ -4,7 +4,7 @@
 
 namespace tyndall {
 
-void Views::change_scene(std::shared_ptr<const RenderScene> scene) {
+void Views::change_scene(std::shared_ptr<const PreparedScene> scene) {
   scene_ = std::move(scene);
   first_hits_.clear();
   costs_due_ = true;
@@ -62,7 +62,7 @@ PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame*
       break;
   }
   if (first_hits_.empty()) first_hits_ = find_first_hits(engine.kernels, engine.scene, engine.crew);
-  rgba = view == View::object ? object_rgba(first_hits_, *scene_) : first_hit_rgba(first_hits_, view);
+  rgba = view == View::object ? object_rgba(first_hits_, scene_->columns()) : first_hit_rgba(first_hits_, view);
   if (view == View::depth) white_ = static_cast<double>(farthest(first_hits_));
   return every_pixel;
 }

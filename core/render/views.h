@@ -1,5 +1,6 @@
 #pragma once
 #include "core/render/pictures.h"
+#include "core/render/prepare.h"
 #include "core/render/progression.h"
 
 #include <atomic>
@@ -15,7 +16,7 @@ class Views {
  public:
   /// The scene has changed: what was found has to be found anew. Until then the old costs are shown, because edits that
   /// follow each other closely interrupt the search, and the view would stay grey.
-  void change_scene(std::shared_ptr<const RenderScene> scene);
+  void change_scene(std::shared_ptr<const PreparedScene> scene);
   /// Draws the view of the picture into `rgba`. If it first has to find costs, it stops early when `give_up` is set.
   /// Noise and samples show the old picture of them until there is a new one. clean: the clean view of the picture, of
   /// which the noise is then shown, or null.
@@ -28,7 +29,7 @@ class Views {
   void find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up);
   void draw_counts(View view, const Progression& picture, std::vector<float>& rgba);
 
-  std::shared_ptr<const RenderScene> scene_;
+  std::shared_ptr<const PreparedScene> scene_;
   double white_ = 1, white_of_counts_ = 1;
   std::vector<float> counts_;         ///< the newest picture of noise or samples
   View counts_of_ = View::beauty;     ///< which of the two

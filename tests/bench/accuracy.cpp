@@ -5,10 +5,13 @@
 #include "tests/bench/machine.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/references.h"
+#include "tests/support/prepared.h"
 
 #include <numeric>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 /// How much is done; --quick does less.

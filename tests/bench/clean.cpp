@@ -3,10 +3,13 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/scenes.h"
+#include "tests/support/prepared.h"
 
 #include <atomic>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 const std::atomic<bool> never = false;

@@ -4,11 +4,14 @@
 #include "tests/bench/measure.h"
 #include "tests/bench/rays.h"
 #include "tests/bench/scenes.h"
+#include "tests/support/prepared.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 constexpr Embree::Width widths[] = {Embree::Width::one, Embree::Width::sixteen, Embree::Width::sixteen_coherent};

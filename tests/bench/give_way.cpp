@@ -3,10 +3,13 @@
 #include "core/compile/compile.h"
 #include "core/render/pass.h"
 #include "tests/bench/measure.h"
+#include "tests/support/prepared.h"
 
 #include <thread>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 /// Starts a pass of that many samples, asks it to give up after some time, and measures how long it goes on. The result

@@ -1,11 +1,14 @@
 #include "tests/bench/rays.h"
 
 #include "core/base/sampling.h"
+#include "tests/support/prepared.h"
 
 #include <random>
 #include <utility>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 constexpr int tile = 32, samples_of_pixel = 2, most_bounces = 50;

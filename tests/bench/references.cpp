@@ -6,11 +6,14 @@
 #include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/fingerprint.h"
+#include "tests/support/prepared.h"
 
 #include <cmath>
 #include <fstream>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 constexpr std::uint32_t reference_seed = 2718281828;

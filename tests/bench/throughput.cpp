@@ -3,10 +3,13 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/scenes.h"
+#include "tests/support/prepared.h"
 
 #include <algorithm>
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 struct Method {

@@ -4,8 +4,11 @@
 #include "tests/bench/measure.h"
 #include "tests/bench/rays.h"
 #include "tests/bench/scenes.h"
+#include "tests/support/prepared.h"
 
 namespace tyndall::bench {
+
+using namespace test;
 namespace {
 
 /// Million rays a second of rendering, one thread, path and random.

@@ -3,6 +3,7 @@
 #include "core/compile/flatten.h"
 #include "core/image/tonemap.h"
 #include "core/kernel/kernels.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +14,7 @@
 #include <vector>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

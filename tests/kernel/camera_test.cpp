@@ -2,6 +2,7 @@
 
 #include "core/compile/compile.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,7 @@
 #include "core/kernel/chain_flat.h"
 
 #include "core/kernel/scene_view.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

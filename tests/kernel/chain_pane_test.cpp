@@ -1,4 +1,5 @@
 #include "core/kernel/chain_trail.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

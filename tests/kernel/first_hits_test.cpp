@@ -1,5 +1,6 @@
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +9,7 @@
 #include <vector>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

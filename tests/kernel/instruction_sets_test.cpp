@@ -1,6 +1,7 @@
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <vector>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

@@ -1,6 +1,7 @@
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +12,7 @@
 
 /// A kernel that leaves models out gives, bit for bit, the picture of the full one.
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

@@ -1,6 +1,7 @@
 #include "core/kernel/lights.h"
 #include "tests/support/directions.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

@@ -2,6 +2,7 @@
 
 #include "core/kernel/scene_view.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

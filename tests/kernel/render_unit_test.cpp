@@ -1,5 +1,6 @@
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

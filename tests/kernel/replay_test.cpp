@@ -2,6 +2,7 @@
 
 #include "core/kernel/kernels.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

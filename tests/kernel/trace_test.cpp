@@ -1,6 +1,7 @@
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

@@ -3,6 +3,7 @@
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
 
 #include <doctest/doctest.h>

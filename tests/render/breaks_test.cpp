@@ -1,9 +1,11 @@
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

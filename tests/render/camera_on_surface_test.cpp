@@ -2,6 +2,7 @@
 #include "core/compile/flatten.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -130,7 +131,7 @@ TEST_CASE("camera on a surface: whoever stands on the wall of a room in a ball o
       const Scene scene = scene_at(at, 0, -scale * at.normal, lamp);
       CHECK(wrong_values(scene, 2) == 0);
       const RenderScene compiled = compile(scene);
-      const SceneViewOf view(compiled, ViewFor::first_hits);
+      const SceneViewOf view(compiled);
       FirstHit middle;
       scalar_kernels().first_hits(view.view(), {12, 12, 13, 13}, &middle);
       CHECK(middle.element >= 0);
@@ -146,7 +147,7 @@ TEST_CASE("camera on a surface: a little farther away than rounding, whoever loo
       const Place at = on_ball(engine, scale, 1);
       const double height = 1e-5 * scale;
       const RenderScene compiled = compile(scene_at(at, height, -scale * at.normal, black));
-      const SceneViewOf view(compiled, ViewFor::first_hits);
+      const SceneViewOf view(compiled);
       FirstHit middle;
       scalar_kernels().first_hits(view.view(), {12, 12, 13, 13}, &middle);
       CHECK(static_cast<double>(middle.depth) == doctest::Approx(height).epsilon(0.1));

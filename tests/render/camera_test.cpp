@@ -1,4 +1,5 @@
 #include "core/kernel/camera.h"
+#include "tests/support/prepared.h"
 
 #include "tests/support/probe.h"
 

@@ -1,5 +1,6 @@
 #include "core/scene/load.h"
 #include "tests/support/lit_floor.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

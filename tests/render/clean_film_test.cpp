@@ -7,6 +7,7 @@
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>

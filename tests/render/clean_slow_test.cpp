@@ -6,6 +6,7 @@
 #include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
+#include "tests/support/prepared.h"
 #include "tests/support/references.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,7 @@
 #include "core/kernel/path.h"
 #include "tests/support/capture.h"
 #include "tests/support/event.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 #include "core/render/caustics.h"
 #include "core/render/render.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/random_room.h"
 #include "tests/support/references.h"
 

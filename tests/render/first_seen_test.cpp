@@ -2,12 +2,14 @@
 
 #include "core/compile/compile.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
 #include <atomic>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

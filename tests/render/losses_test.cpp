@@ -2,6 +2,7 @@
 #include "core/render/progression.h"
 #include "tests/support/merged.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/watched_renderer.h"
 

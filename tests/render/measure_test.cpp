@@ -20,7 +20,7 @@ Scene fog_ball() {
   return scene;
 }
 
-Measured measure(const Scene& scene, double error) { return measure_mean(compile(scene), {1, "", error}); }
+Measured measure(const Scene& scene, double error) { return measure_mean(scene, {1, "", error}); }
 
 }  // namespace
 
@@ -60,14 +60,13 @@ TEST_CASE("measuring: the samples that planned the measurement are not part of i
 
 TEST_CASE("measuring: stops when it is told to") {
   int calls = 0;
-  const Measured measured =
-      measure_mean(compile(fog_ball()), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 2; });
+  const Measured measured = measure_mean(fog_ball(), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 2; });
   CHECK(measured.interrupted);
   CHECK(measured.totals.samples < 256 * 64);
 }
 
 TEST_CASE("measuring: ends early if the mean is clearly not the expected one") {
-  const Measured measured = measure_mean(compile(fog_ball()), {1, "", 1e-7, 0.5});
+  const Measured measured = measure_mean(fog_ball(), {1, "", 1e-7, 0.5});
   CHECK(measured.totals.samples == 256 * 64);
   CHECK(std::abs(z_score(measured.value, 0.5)) > 8);
 }

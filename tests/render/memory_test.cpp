@@ -3,6 +3,7 @@
 #include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/allocations.h"
+#include "tests/support/prepared.h"
 #include "tests/support/scratch.h"
 #include "tests/support/watched_renderer.h"
 

@@ -1,4 +1,5 @@
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

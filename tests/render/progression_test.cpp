@@ -5,11 +5,13 @@
 #include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
 /// The passes of a picture: in which order its samples come, when it is finished, and what is reported meanwhile.
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

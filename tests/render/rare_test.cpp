@@ -5,10 +5,12 @@
 #include "core/render/render.h"
 #include "core/scene/json.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include "core/render/progression.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>

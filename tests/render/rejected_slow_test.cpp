@@ -1,4 +1,5 @@
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,5 @@
 #include "core/render/renderer.h"
+#include "tests/support/prepared.h"
 
 #include "tests/support/watched_renderer.h"
 

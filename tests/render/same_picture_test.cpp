@@ -1,6 +1,7 @@
 #include "core/render/pass.h"
 #include "tests/support/merged.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/stopping.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,7 @@
 #include "core/kernel/scene_view.h"
 #include "core/render/pass.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

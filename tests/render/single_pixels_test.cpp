@@ -3,6 +3,7 @@
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +12,7 @@
 
 /// Levels of single pixels, from samples of their own.
 using namespace tyndall;
+using namespace tyndall::test;
 
 namespace {
 

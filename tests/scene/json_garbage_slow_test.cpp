@@ -25,7 +25,7 @@ TEST_CASE("garbage: 200,000 scene files with random damage; what is read renders
       Scene scene = read_scene(test::damaged(originals[random() % originals.size()], random), "damaged.json", scenes);
       if (++read % 8 != 0) continue;
       scene.render.max_depth = std::min(scene.render.max_depth, 20);
-      rendered += render(compile(scene), options).film.pixels[0].taken == 1;
+      rendered += render(*prepare(scene), options).film.pixels[0].taken == 1;
     } catch (const SceneError& error) {
       unclear += !test::is_clear(error.what());
     }

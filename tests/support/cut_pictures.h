@@ -1,6 +1,7 @@
 #pragma once
 #include "tests/support/merged.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
 
 #include <random>

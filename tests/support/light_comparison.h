@@ -2,6 +2,7 @@
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "tests/support/light_tracer.h"
+#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
 #include <vector>

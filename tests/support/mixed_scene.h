@@ -1,6 +1,7 @@
 #pragma once
 #include "core/compile/compile.h"
 #include "core/kernel/kernels.h"
+#include "tests/support/prepared.h"
 
 #include <algorithm>
 #include <cmath>

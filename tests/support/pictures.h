@@ -3,6 +3,7 @@
 #include "core/film/film.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 #include "core/compile/compile.h"
 #include "core/film/groups.h"
 #include "core/render/render.h"
+#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
 /// Small scenes written as values, and radiance measured through the whole pipeline: compile, kernels, film.

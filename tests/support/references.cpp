@@ -6,6 +6,7 @@
 #include "core/scene/json.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/paths.h"
+#include "tests/support/prepared.h"
 
 namespace tyndall::test {
 namespace {

@@ -78,10 +78,10 @@ std::optional<Reference> rendered_reference(const ReferenceOrder& order,
   options.isa = order.isa;
   options.spp = order.spp;
   options.adaptive = scene.render.adaptive;
-  const RenderResult result =
-      render(compile(scene), options, [&](const RenderProgress& now) { return progress(now.spp); });
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
+  const RenderResult result = render(*prepared, options, [&](const RenderProgress& now) { return progress(now.spp); });
   if (result.interrupted) return {};
-  FinishedPicture picture = finished_picture(result);
+  FinishedPicture picture = finished_picture(*prepared, result);
   const double error = picture.estimate.relative_error;
   return Reference{std::move(picture.image), std::isfinite(error) ? error * error : 0,
                    "this scene at " + format_count(order.spp) + " spp, seed " + std::to_string(scene.render.seed),

@@ -5,7 +5,6 @@
 #include "app/files/outputs.h"
 #include "app/files/stats.h"
 #include "app/window/system/clock.h"
-#include "core/compile/compile.h"
 
 #include <thread>
 #include <utility>
@@ -16,22 +15,22 @@ namespace fs = std::filesystem;
 
 std::string write_snapshot(const Snapshot& snapshot, Film film) {
   const Scene& scene = snapshot.document.scene;
-  const RenderScene compiled = compile(scene);
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   RenderResult result;
   result.film = std::move(film);
   result.threads = snapshot.threads;
   result.kernels = choose_kernels(snapshot.isa).value();
-  result.estimate = estimate_error(compiled, result.kernels, result.film, 1);
-  const FinishedPicture finished = finished_picture(result);
+  result.estimate = estimate_error(*prepared, result.kernels, result.film, 1);
+  const FinishedPicture finished = finished_picture(*prepared, result);
   const std::string stats =
-      embedded_stats_text({snapshot.document.origin->title, scene, compiled, result, finished, 0, 0, 0});
+      embedded_stats_text({snapshot.document.origin->title, *prepared, result, finished, 0, 0, 0});
   const Picture picture{result.film, finished.image, scene.display,
                         [&](const fs::path& file) {
                           return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file),
                                           stats,
                                           {TYNDALL_VERSION, result.kernels.isa, false}};
                         },
-                        [&] { return layers_of(compiled, result.film, result.kernels); }};
+                        [&] { return layers_of(*prepared, result.film, result.kernels); }};
   std::vector<fs::path> files{snapshot.base.string() + ".png"};
   if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
   const std::vector<std::string> problems = write_images(picture, files);

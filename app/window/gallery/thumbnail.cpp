@@ -63,9 +63,10 @@ std::optional<Rgb8Image> render_thumbnail(const Scene& scene, const std::functio
   options.spp = samples;
   options.time_limit = longest;
   options.clean = true;
-  const RenderResult result = render(compile(small), options, [&](const RenderProgress&) { return go_on(); });
+  const std::shared_ptr<const PreparedScene> prepared = prepare(small);
+  const RenderResult result = render(*prepared, options, [&](const RenderProgress&) { return go_on(); });
   if (result.interrupted) return {};
-  const std::vector<float> rgb = result.clean ? result.clean->rgb : finished_picture(result).image.rgb;
+  const std::vector<float> rgb = result.clean ? result.clean->rgb : finished_picture(*prepared, result).image.rgb;
   return Rgb8Image{size.width, size.height, tone_map(rgb, scene.display.exposure, scene.display.tone_map)};
 }
 

@@ -36,12 +36,12 @@ void Inspector::point_at(std::optional<PictureClick> click, RendererPair& render
 std::shared_ptr<Inspector::Shown> Inspector::noisy_path(const std::shared_ptr<const Scene>& scene,
                                                         const PictureClick& at, std::uint32_t samples) {
   const double end = clock_seconds() + longest_search;
-  const RenderScene compiled = compile(*scene);
-  const SceneViewOf view(compiled);
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
+  const RenderScene& compiled = prepared->columns();
   if (at.x >= compiled.width || at.y >= compiled.height) return nullptr;
   auto shown = std::make_shared<Shown>();
   shown->scene = scene;
-  shown->found = find_noisy_path(view.view(), at.x, at.y, samples, [end] { return clock_seconds() > end; });
+  shown->found = find_noisy_path(prepared->view(), at.x, at.y, samples, [end] { return clock_seconds() > end; });
   const Vec3f eye = shown->found.path.origin;
   shown->eye = Vec3d{eye.x, eye.y, eye.z} + compiled.origin;
   shown->stops = stops_of(*scene, compiled, shown->found.path);

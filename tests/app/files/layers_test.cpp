@@ -8,13 +8,14 @@
 #include <cmath>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 TEST_CASE("layers: the variance of pixels is what the picture's estimated error is made of") {
-  const RenderScene scene = compile(test::small_scene("cornell-box", 16, 16, 1));
+  const auto scene = prepare(test::small_scene("cornell-box", 16, 16, 1));
   RenderOptions options;
   options.spp = 8;
-  const RenderResult result = render(scene, options);
-  const std::vector<Layer> layers = layers_of(scene, result.film, available_kernels().front());
+  const RenderResult result = render(*scene, options);
+  const std::vector<Layer> layers = layers_of(*scene, result.film, available_kernels().front());
   REQUIRE(layers.size() == 4);
   CHECK(layers[3].name == "Variance");
   REQUIRE(layers[3].values.size() == 3 * result.film.pixels.size());
@@ -26,9 +27,9 @@ TEST_CASE("layers: the variance of pixels is what the picture's estimated error 
 }
 
 TEST_CASE("layers: without a sample in each half the variance is not known") {
-  const RenderScene scene = compile(test::small_scene("cornell-box", 4, 4, 1));
+  const auto scene = prepare(test::small_scene("cornell-box", 4, 4, 1));
   RenderOptions options;
   options.spp = 1;
-  const Layer variance = layers_of(scene, render(scene, options).film, available_kernels().front()).back();
+  const Layer variance = layers_of(*scene, render(*scene, options).film, available_kernels().front()).back();
   for (const float v : variance.values) CHECK(std::isinf(v));
 }

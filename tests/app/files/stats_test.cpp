@@ -1,6 +1,5 @@
 #include "app/files/stats.h"
 
-#include "core/compile/compile.h"
 #include "core/scene/load.h"
 
 #include <doctest/doctest.h>
@@ -14,7 +13,7 @@ namespace {
 
 struct Run {
   Scene scene = load_scene("cornell-smoke").scene;
-  RenderScene compiled = compile(scene);
+  std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   RenderResult result;
   FinishedPicture picture;
   Run() {
@@ -27,9 +26,9 @@ struct Run {
     result.seconds = 0.5;
     result.threads = 2;
     result.kernels = scalar_kernels();
-    picture = finished_picture(result);
+    picture = finished_picture(*prepared, result);
   }
-  RunFigures figures() const { return {"cornell-smoke", scene, compiled, result, picture, 2, 0.25, 1}; }
+  RunFigures figures() const { return {"cornell-smoke", *prepared, result, picture, 2, 0.25, 1}; }
 };
 
 }  // namespace

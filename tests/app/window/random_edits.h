@@ -8,6 +8,7 @@
 #include "core/scene/json.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

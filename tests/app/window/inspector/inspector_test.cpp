@@ -6,6 +6,7 @@
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +14,7 @@
 #include <cmath>
 
 using namespace tyndall;
+using namespace tyndall::test;
 
 TEST_CASE("the noisy path of a pixel is its brightest sample, and its stops lead from the camera to the light") {
   Scene scene = load_scene("cornell-box").scene;

@@ -1,0 +1,52 @@
+#pragma once
+#include "core/compile/render_scene.h"
+#include "core/kernel/glints.h"
+#include "core/kernel/scene_view.h"
+#include "core/scene/scene.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+/// The stage between compiling a scene and rendering it.
+namespace tyndall {
+
+/// Everything that is found out about a scene before its first sample: its compiled columns, the small lamps that the
+/// camera sees, whether second vertices are shared between pixels, and how likely paths are to meet caustics. It is
+/// found once, never changes, and can be used by any number of threads at once.
+class PreparedScene {
+ public:
+  /// columns: compiled from `scene`. For other uses than measuring changed columns, call prepare().
+  PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns);
+  PreparedScene(const PreparedScene&) = delete;
+  PreparedScene& operator=(const PreparedScene&) = delete;
+
+  const Scene& scene() const { return *scene_; }
+  const RenderScene& columns() const { return columns_; }
+  /// What kernels read; valid as long as this object.
+  const SceneView& view() const { return view_; }
+  /// Whether second vertices are shared between pixels, because that is allowed, possible and pays.
+  bool shares() const { return view_.shares; }
+  /// What sharing would gain; not probed where it is not allowed or not possible.
+  const SharingGain& sharing_gain() const { return sharing_gain_; }
+  /// See chance_of_caustics(). Found when it is first asked for, as only pictures of many samples need it.
+  double chance_of_caustics() const;
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  RenderScene columns_;
+  std::vector<TextureView> textures_;
+  std::vector<Glint> glints_;
+  SharingGain sharing_gain_;
+  SceneView view_;
+  mutable std::once_flag chance_found_;
+  mutable double chance_ = 1;
+};
+
+/// Compiles a scene and finds out all that is needed to render it: a pure function of the scene. before: another scene
+/// that was prepared; parts that both have in common, such as the tree, are kept. Null: none.
+std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before = nullptr);
+/// The same for a scene that is copied.
+std::shared_ptr<const PreparedScene> prepare(const Scene& scene);
+
+}  // namespace tyndall

@@ -1,0 +1,38 @@
+#pragma once
+#include "core/compile/compile.h"
+#include "core/render/clean_film.h"
+#include "core/render/prepare.h"
+#include "core/render/render.h"
+
+#include <memory>
+#include <utility>
+
+/// Compiled scenes, often with columns that a test has changed, where the program takes prepared ones.
+namespace tyndall::test {
+
+/// What kernels read of a compiled scene, with all that is found out about it.
+class SceneViewOf {
+ public:
+  explicit SceneViewOf(const RenderScene& columns) : prepared_(std::make_shared<const Scene>(), columns) {}
+  const SceneView& view() const { return prepared_.view(); }
+  const PreparedScene& prepared() const { return prepared_; }
+
+ private:
+  PreparedScene prepared_;
+};
+
+inline RenderResult render(const RenderScene& columns, const RenderOptions& options,
+                           const ProgressCallback& progress = {}, Film film = {}) {
+  return tyndall::render(SceneViewOf(columns).prepared(), options, progress, std::move(film));
+}
+
+inline ErrorEstimate estimate_error(const RenderScene& columns, const Kernels& kernels, const Film& film,
+                                    int threads = 0) {
+  return tyndall::estimate_error(SceneViewOf(columns).prepared(), kernels, film, threads);
+}
+
+inline CleanPicture clean_film(const Film& film, const RenderScene& columns, int threads, const std::string& isa) {
+  return tyndall::clean_film(film, SceneViewOf(columns).prepared(), threads, isa);
+}
+
+}  // namespace tyndall::test
