@@ -46,4 +46,36 @@ settle
 # shellcheck disable=SC2046
 at_once $(click_at $(at picture 50 45)) key f
 wait_until has_value camera.look_at.y 0.8
+settle
+
+# Each press has the modifiers that it had, though they are let go before the window has drawn: Ctrl + A selects all,
+# Shift + Home to the start, Ctrl + X cuts, Ctrl + V twice, and the last of three a's goes.
+hold Control_L
+xdotool keyup Control_L
+key F2
+type_text abc
+hold Control_L
+at_once keydown a keyup a keyup Control_L
+at_once type --delay 0 x
+at_once key Return
+wait_for '^widget picture .* X$'
+at_once key F2 type --delay 0 aaab
+at_once key Left key shift+Home key ctrl+x key End key ctrl+v key ctrl+v key Left key BackSpace key Return
+wait_for '^widget picture .* Baaaaa$'
+
+# So it is with the mouse: the field of view by Ctrl + wheel, the focus by Shift + click; and a key of flight that is
+# tapped within one drawing flies.
+settle
+vfov=$(value camera.vfov)
+point picture 20 80
+at_once keydown Control_L click 4 keyup Control_L
+wait_until has_other_value camera.vfov "$vfov"
+at=$(value camera.look_from.z)
+at_once key w
+wait_until has_other_value camera.look_from.z "$at"
+settle
+focus=$(value camera.focus_distance)
+point picture 50 45
+at_once keydown Shift_L click 1 keyup Shift_L
+wait_until has_other_value camera.focus_distance "$focus"
 finish

@@ -24,6 +24,18 @@ inline bool key_pressed(ImGuiKey key, bool repeats = true) {
 #endif
 }
 
+/// The modifiers that the next frame sees, whatever the keys say.
+inline void modifiers(ImGuiIO& io, bool control, bool shift, bool alt, bool super) {
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddKeyEvent(ImGuiMod_Ctrl, control);
+  io.AddKeyEvent(ImGuiMod_Shift, shift);
+  io.AddKeyEvent(ImGuiMod_Alt, alt);
+  io.AddKeyEvent(ImGuiMod_Super, super);
+#else
+  io.KeyCtrl = control, io.KeyShift = shift, io.KeyAlt = alt, io.KeySuper = super;
+#endif
+}
+
 /// Begins a frame. A field that nobody types into any more forgets what it could undo: typed into again it may hold
 /// another text, and undoing in that would end the program.
 inline void new_frame() {

@@ -78,6 +78,9 @@ Platform::Platform(int image_width, int image_height) : state_(std::make_unique<
   glfwSetWindowSizeLimits(state_->window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().ConfigInputTrickleEventQueue = false;  // InputQueue says what belongs to a frame
+#endif
   ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   install_callbacks(state_->window);
@@ -102,7 +105,7 @@ void Platform::wait(double seconds) {
 void Platform::wake() { glfwPostEmptyEvent(); }
 
 InputEvents Platform::take_events() {
-  deliver_input(state_->window);
+  deliver_input(*state_);
   return std::exchange(state_->events, {});
 }
 
@@ -164,7 +167,7 @@ void Platform::toggle_full_screen() {
 void Platform::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  set_delivered_mouse(*state_);
+  set_delivered_input(*state_);
   compat::new_frame();
 }
 
@@ -181,15 +184,15 @@ void Platform::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(state_->window);
-  end_input_frame(state_->window);
+  end_input_frame(*state_);
 }
 
 void Platform::drop_frame() {
   ImGui::EndFrame();
-  end_input_frame(state_->window);
+  end_input_frame(*state_);
 }
 
-void Platform::skip_frame() { end_input_frame(state_->window); }
+void Platform::skip_frame() { end_input_frame(*state_); }
 
 void Platform::renew_fonts() {
 #if IMGUI_VERSION_NUM < 19200

@@ -1,6 +1,7 @@
 #include "app/window/system/platform_events.h"
 
 #include "app/window/system/clock.h"
+#include "app/window/system/imgui_compat.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
@@ -24,23 +25,28 @@ int named_key(int key, int scancode) {
   return letter ? name[0] - 'a' + 'A' : key;
 }
 
-void deliver_key(GLFWwindow* window, const RawInput& input) {
-  WindowState& state = state_of(window);
-  const int name = named_key(input.code, input.scancode);
-  if (input.action == GLFW_RELEASE && state.pressed.contains(input.code)) {
-    // Before 1.87 Dear ImGui sees keys only once a frame and would miss this press.
-    state.late.emplace_back(input.code, input.scancode);
-  } else {
-    ImGui_ImplGlfw_KeyCallback(window, input.code, input.scancode, input.action, input.modifiers);
+/// The flags of the modifier keys that are held.
+int flags_of(const std::set<int>& keys) {
+  int flags = 0;
+  for (const int key : keys) {
+    const int side = (key - GLFW_KEY_LEFT_SHIFT) % 4;  // Shift, Ctrl, Alt, Super, and again on the right
+    flags |= GLFW_MOD_SHIFT << side;
   }
+  return flags;
+}
+
+void deliver_key(WindowState& state, const RawInput& input) {
+  ImGui_ImplGlfw_KeyCallback(state.window, input.code, input.scancode, input.action, input.modifiers);
   const bool typing = ImGui::GetIO().WantTextInput;
+  const int name = named_key(input.code, input.scancode), mods = input.modifiers;
   if (input.action == GLFW_RELEASE) {
     state.held.erase(name);
-    return;
+    state.modifier_keys.erase(input.code);
   }
+  if (input.action == GLFW_PRESS && is_modifier(input.code)) state.modifier_keys.insert(input.code);
+  if (is_modifier(input.code)) state.modifiers = flags_of(state.modifier_keys);
   if (input.action != GLFW_PRESS) return;
-  state.pressed.insert(input.code);
-  const int mods = input.modifiers;
+  if (!is_modifier(input.code)) state.modifiers = mods;
   const bool chord = (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
   if (!typing && !chord) state.held.insert(name);
   const bool shift = (mods & GLFW_MOD_SHIFT) != 0 && name != '+';
@@ -60,27 +66,36 @@ void deliver_pointer(WindowState& state, const RawInput& input) {
 void deliver_button(WindowState& state, const RawInput& input) {
   deliver_pointer(state, input);
   ImGui_ImplGlfw_MouseButtonCallback(state.window, input.code, input.action, input.modifiers);
+  state.modifiers = input.modifiers;
   if (input.code < 0 || input.code > 2) return;
   state.down[input.code] = input.action == GLFW_PRESS;
   state.clicked[input.code] = state.clicked[input.code] || input.action == GLFW_PRESS;
 }
 
-void deliver(GLFWwindow* window, const RawInput& input) {
+/// Dear ImGui takes all keys as released where the focus is lost.
+void deliver_focus(WindowState& state, bool focused) {
+  if (!focused) state.held.clear(), state.modifier_keys.clear(), state.modifiers = 0;
+  ImGui_ImplGlfw_WindowFocusCallback(state.window, focused);
+}
+
+void deliver(WindowState& state, const RawInput& input) {
   switch (input.kind) {
     case RawInput::Kind::key:
-      return deliver_key(window, input);
+      return deliver_key(state, input);
     case RawInput::Kind::character:
       if (input.character < 128) {
         const bool typing = ImGui::GetIO().WantTextInput;
-        state_of(window).events.keys.push_back({0, {}, typing, static_cast<char>(input.character)});
+        state.events.keys.push_back({0, {}, typing, static_cast<char>(input.character)});
       }
-      return ImGui_ImplGlfw_CharCallback(window, input.character);
+      return ImGui_ImplGlfw_CharCallback(state.window, input.character);
     case RawInput::Kind::button:
-      return deliver_button(state_of(window), input);
+      return deliver_button(state, input);
     case RawInput::Kind::motion:
-      return deliver_pointer(state_of(window), input);
+      return deliver_pointer(state, input);
     case RawInput::Kind::scroll:
-      return ImGui_ImplGlfw_ScrollCallback(window, input.x, input.y);
+      return ImGui_ImplGlfw_ScrollCallback(state.window, input.x, input.y);
+    case RawInput::Kind::focus:
+      return deliver_focus(state, input.action != 0);
   }
 }
 
@@ -122,11 +137,8 @@ void install_callbacks(GLFWwindow* window) {
     if (entered) push_motion(w, x, y);
     ImGui_ImplGlfw_CursorEnterCallback(w, entered);
   });
-  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
-    state_of(w).events.any = true;
-    if (!focused) state_of(w).held.clear();
-    ImGui_ImplGlfw_WindowFocusCallback(w, focused);
-  });
+  glfwSetWindowFocusCallback(window,
+                             [](GLFWwindow* w, int focused) { push(w, {.kind = Kind::focus, .action = focused}); });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { state_of(w).events.any = true; });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).events.any = true; });
   glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { state_of(w).events.any = true; });
@@ -137,35 +149,31 @@ void install_callbacks(GLFWwindow* window) {
   });
 }
 
-void deliver_input(GLFWwindow* window) {
-  WindowState& state = state_of(window);
-  while (state.queue.ready()) {
-    const RawInput input = state.queue.take();
-    if (state.events.first <= 0) state.events.first = input.time;
+void deliver_input(WindowState& state) {
+  while (const auto input = state.queue.take()) {
+    if (state.events.first <= 0) state.events.first = input->time;
     state.events.any = true;
-    deliver(window, input);
+    deliver(state, *input);
   }
   if (!state.queue.empty()) state.events.any = true;  // draws the frame that the rest waits for
 }
 
-void set_delivered_mouse([[maybe_unused]] const WindowState& state) {
-#if IMGUI_VERSION_NUM < 18700
+void set_delivered_input(const WindowState& state) {
   ImGuiIO& io = ImGui::GetIO();
+  const auto held = [&](int flag) { return (state.modifiers & flag) != 0; };
+  compat::modifiers(io, held(GLFW_MOD_CONTROL), held(GLFW_MOD_SHIFT), held(GLFW_MOD_ALT), held(GLFW_MOD_SUPER));
+#if IMGUI_VERSION_NUM < 18700
   const bool outside = io.MousePos.x < -1e6f;
   if (state.somewhere && !outside) io.MousePos = {state.x, state.y};
   for (int button = 0; button < 3; ++button) io.MouseDown[button] = state.down[button] || state.clicked[button];
 #endif
 }
 
-void end_input_frame(GLFWwindow* window) {
-  WindowState& state = state_of(window);
+void end_input_frame(WindowState& state) {
   state.queue.on_frame();
+  if (!state.queue.empty()) state.events.any = true;
   for (bool& clicked : state.clicked) clicked = false;
-  state.pressed.clear();
-  for (const auto& [key, scancode] : std::exchange(state.late, {})) {
-    ImGui_ImplGlfw_KeyCallback(window, key, scancode, GLFW_RELEASE, 0);
-    state.events.any = true;
-  }
+  state.modifiers = flags_of(state.modifier_keys);
 }
 
 }  // namespace tyndall

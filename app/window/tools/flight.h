@@ -17,12 +17,17 @@ std::optional<FlyKey> fly_key(int key);
 /// Flies the camera while keys are held.
 class Flight {
  public:
-  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; fast: four times as fast. Returns
-  /// whether it flies: then the window is to be drawn again soon.
+  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; fast: four times as fast. Keys
+  /// that are let go in the very next drawing have flown for `tap` seconds. Returns whether it flies: then the window
+  /// is to be drawn again soon.
   bool update(const std::set<int>& held, bool fast, double now, Camera& camera);
 
  private:
-  double last_ = -1;  ///< second of the last drawing in flight; < 0: it does not fly
+  static constexpr double tap = 1 / 60.0;
+
+  double last_ = -1;    ///< second of the last drawing in flight; < 0: it does not fly
+  Vec3d way_;           ///< where it flew to then: right, up, forward
+  bool moved_ = false;  ///< the camera has moved in this flight
 };
 
 /// Whether a key of flight is among these.

@@ -43,6 +43,18 @@ TEST_CASE("opposite keys and other keys do not move the camera, and a slow drawi
   CHECK(camera.look_from.x == doctest::Approx(0.1 * 0.75 * target_distance(camera)));
 }
 
+TEST_CASE("a key of flight that is tapped within one drawing moves the camera a little, once") {
+  Flight flight;
+  Camera camera;
+  const double distance = target_distance(camera);
+  CHECK(flight.update({'W'}, false, 1, camera));
+  CHECK_FALSE(flight.update({}, false, 1.4, camera));
+  CHECK(camera.look_from.z == doctest::Approx(-0.75 * distance / 60));
+  const Camera after = camera;
+  CHECK_FALSE(flight.update({}, false, 1.5, camera));
+  CHECK(camera == after);
+}
+
 TEST_CASE("edits while a key or button is held are undone as one, all others one by one") {
   Gestures gestures;
   gestures.update(Gesture::held);
