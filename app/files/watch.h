@@ -2,16 +2,20 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <vector>
 
 /// Notices that another program has written a file.
 namespace tyndall {
 
-/// Tells when a file was written or replaced. Watches its folder, since editors write a new file and rename it.
+/// Tells when any of some files may hold something else than before: it was written in place, replaced by renaming,
+/// removed, or came back. Also where the file is reached through symbolic links, whether the file was written that they
+/// lead to or one of them leads elsewhere now, and where one of its folders was removed or replaced.
 class FileWatch {
  public:
-  /// on_change: called from a thread of the watch; must be quick. Where files cannot be watched (no inotify, no such
-  /// folder) nothing is ever told.
-  FileWatch(const std::filesystem::path& file, std::function<void()> on_change);
+  /// files: need not exist. on_change: called from a thread of the watch; must be quick. A file that is gone is told of
+  /// a tenth of a second later, as many programs remove a file and write it anew. What cannot be watched (no inotify, a
+  /// folder that cannot be read) is not told of.
+  FileWatch(std::vector<std::filesystem::path> files, std::function<void()> on_change);
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;

@@ -170,6 +170,26 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
   return loaded;
 }
 
+std::vector<fs::path> files_of_scene(const fs::path& file) {
+  std::vector<fs::path> files{file};
+  try {
+    const JsonDocument json = parse_json(read_file(file.string()));
+    const auto* root = std::get_if<JsonObject>(&json.root.value);
+    const JsonValue* named = root ? find(*root, "textures") : nullptr;
+    const auto* textures = named ? std::get_if<JsonObject>(&named->value) : nullptr;
+    if (!textures) return files;
+    for (const JsonMember& texture : *textures) {
+      const auto* kind = std::get_if<JsonObject>(&texture.value.value);
+      const JsonValue* image = kind ? find(*kind, "file") : nullptr;
+      if (const auto* name = image ? std::get_if<std::string>(&image->value) : nullptr)
+        files.push_back(file.parent_path() / *name);
+    }
+  } catch (const SceneError&) {  // it cannot be read
+  } catch (const Broken&) {      // it is not JSON
+  }
+  return files;
+}
+
 Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
   std::error_code error;
   const fs::path target = fs::weakly_canonical(fs::absolute(to, error), error);

@@ -22,6 +22,10 @@ struct LoadedScene {
 /// for standard input. A name goes before a file of the same name: "./cover" is the file. Throws SceneError.
 LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides = {});
 
+/// What reading a scene file depends on: the file itself and the textures that it names, whether or not they are there
+/// and can be read. For those who wait until a broken one is mended.
+std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& file);
+
 struct BuiltIn {
   std::string name;   ///< what load_scene takes
   std::string title;  ///< the scene's own name, else its first comment

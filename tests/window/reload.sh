@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The open file is watched: written or renamed over, it is read again. A broken file leaves the last good scene and
-# says what is wrong. Saving asks before it loses comments.
+# says what is wrong. Saving asks before it loses comments. A file behind a symbolic link and textures are watched, too.
 . "$(dirname "$0")/_lib.sh"
 
 write_scene scene.json 0.1
@@ -65,4 +65,46 @@ wait_for '^saved copy.json' "$lines"
 [ -s copy.json ] || fail "no copy"
 settle
 [ "$(submits)" = "$edits" ] || fail "saving started over"
+finish
+
+# Opened by a link: its target is saved, then the link leads elsewhere. A texture is painted anew, broken, mended.
+paint() { # FILE BYTE: a grey image of 2 x 2 pixels
+  python3 - "$1" "$2" <<'PY'
+import struct, sys, zlib
+chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+rows = (b"\0" + bytes([int(sys.argv[2])]) * 6) * 2
+open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0)) +
+                              chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+PY
+}
+mkdir -p in
+paint map.png 40
+sed -e 's/^  "materials"/  "textures": { "map": { "type": "image", "file": "map.png" } },&/' \
+  -e 's/"albedo": \[0.4, 0.4, 0.4\]/"albedo": "map"/' other.json >in/a.json
+sed 's/"fuzz": 0.6/"fuzz": 0.7/' in/a.json >in/b.json
+ln -s in/a.json link.json
+start link.json
+settle
+lines=$(here)
+sed 's/"fuzz": 0.6/"fuzz": 0.3/' in/a.json >new.json
+cat new.json >in/a.json
+wait_for '^widget gold.fuzz .* 0.3$' "$lines"
+ln -s in/b.json next.json
+mv next.json link.json
+wait_for '^widget gold.fuzz .* 0.7$' "$lines"
+settle
+dark=$(brightness picture)
+paint map.png 250
+is_brighter() { compares "$(brightness picture) > $dark + 3"; }
+wait_until is_brighter
+light=$(brightness picture)
+lines=$(here)
+echo broken >map.png
+wait_for '^message .*/textures/map' "$lines"
+compares "abs($(brightness picture) - $light) < 3" || fail 'the last good picture is gone'
+paint new.png 40
+mv new.png map.png
+wait_for '^message read again' "$lines"
+is_darker() { compares "$(brightness picture) < $light - 3"; }
+wait_until is_darker
 finish

@@ -13,7 +13,7 @@ namespace tyndall {
 struct Origin {
   std::string title;             ///< shown: "cornell.json", "showroom"
   std::string what;              ///< what load_scene takes to open it again; "": standard input, which is gone
-  std::filesystem::path file;    ///< what Ctrl+S writes and what is watched; empty: Ctrl+S asks for a name
+  std::filesystem::path file;    ///< what Ctrl+S writes; empty: Ctrl+S asks for a name
   std::filesystem::path folder;  ///< relative texture files are relative to it
   std::uint64_t text_hash = 0;   ///< fnv1a() of what the file held when it was read or written last; 0: not known
   bool comments = false;         ///< the file has comments, which saving would lose

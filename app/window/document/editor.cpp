@@ -20,12 +20,12 @@ bool same_picture(const Scene& a, const Scene& b) {
 Editor::Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, EditorEvents events, JobQueue& jobs,
                MessageLine& messages, UiLog* log)
     : reload_(std::move(reload)),
-      reloads_(scene.source),
       events_(std::move(events)),
       jobs_(jobs),
       messages_(messages),
       log_(log),
       history_(document_of(scene)) {
+  reloads_ = document().origin->what;
   watch();
 }
 
@@ -133,28 +133,50 @@ void Editor::open_film(const LoadedScene& scene) {
 }
 
 void Editor::reload() {
+  const std::string what = document().origin->what;
   const fs::path file = document().origin->file;
-  const bool first = reload_ && file == reloads_;
-  read_in_background([this, file, first]() -> JobQueue::Result {
+  const bool first = reload_ && what == reloads_;
+  read_in_background([this, what, file, first]() -> JobQueue::Result {
     std::optional<Document> next;
     std::string wrong;
+    std::vector<fs::path> needed;
     try {
-      next = document_of(first ? reload_() : load_scene(fs::absolute(file).string()));
+      next = document_of(first ? reload_() : load_scene(file.empty() ? what : fs::absolute(file).string()));
     } catch (const std::exception& error) {
       wrong = error.what();
+      if (!file.empty()) needed = files_of_scene(file);
     }
-    return [this, file, next = std::move(next), wrong] {
-      if (document().origin->file != file) return;
-      unreadable_ = wrong;
-      if (!next) return messages_.say(wrong, true);
-      if (log_) log_->line("read " + file.string());
-      take_file(*next);
+    return [this, what, next = std::move(next), wrong, needed = std::move(needed)] {
+      if (document().origin->what == what) take_reading(next ? &*next : nullptr, wrong, needed);
     };
   });
 }
 
-/// Takes what the open file holds now. Asks first if that would replace edits.
+/// The files were read again. read: null: in vain; wrong: why; needed: the files that reading depends on then.
+void Editor::take_reading(const Document* read, const std::string& wrong, const std::vector<fs::path>& needed) {
+  const std::vector<fs::path> watched = watched_;
+  const std::string before = std::exchange(unreadable_, wrong);
+  broken_files_ = needed;
+  if (read) {
+    if (log_) log_->line("read " + (read->origin->file.empty() ? read->origin->what : read->origin->file.string()));
+    take_file(*read);
+    if (!before.empty() && messages_.current().text == before) messages_.say("read again: " + document().origin->title);
+  } else {
+    messages_.say(wrong, true);
+  }
+  watch();
+  if (watched_ != watched) file_changed_ = true;  // what is watched only now may have changed since it was read
+}
+
+/// Takes what the open files hold now. Asks first if that would replace edits; textures, which nobody edits here, are
+/// taken in any case.
 void Editor::take_file(const Document& file) {
+  const Scene before = scene();
+  if (history_.take_pictures(file.scene)) {
+    ++changes_;
+    if (!same_picture(before, scene())) events_.picture_changed();
+    messages_.say("read again: textures of " + document().origin->title);
+  }
   if (file.scene == document().origin->saved)
     history_.set_origin(file.origin);  // it was only written again
   else if (edited(document()) && !(file.scene == scene()))
@@ -164,13 +186,18 @@ void Editor::take_file(const Document& file) {
 }
 
 void Editor::watch() {
-  const fs::path& file = document().origin->file;
-  if (file == watched_) return;
+  const std::string& what = document().origin->what;
+  if (std::exchange(watched_scene_, what) != what) {
+    unreadable_.clear();
+    broken_files_.clear();
+  }
+  std::vector<fs::path> files = watched_files(document());
+  files.insert(files.end(), broken_files_.begin(), broken_files_.end());
+  if (files == watched_) return;
   watch_.reset();
-  unreadable_.clear();
-  watched_ = file;
-  if (file.empty()) return;
-  watch_ = std::make_unique<FileWatch>(file, [this] { file_changed_ = true, events_.wake(); });
+  watched_ = files;
+  if (!files.empty())
+    watch_ = std::make_unique<FileWatch>(std::move(files), [this] { file_changed_ = true, events_.wake(); });
 }
 
 bool Editor::save(const fs::path& file) {

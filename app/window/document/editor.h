@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 /// This room holds the document, that is the scene that is edited with its history and its file, and the work that is
 /// done for it in the background. It knows nothing of rendering.
@@ -75,13 +76,14 @@ class Editor {
   /// Runs `read` in the background. Then collect() calls the function that it returned, or shows what it threw as a
   /// message.
   void read_in_background(const std::function<JobQueue::Result()>& read);
-  /// Reads the file again, in the background, if another program has changed it. Returns whether one has.
+  /// Reads the scene again, in the background, if another program has changed its file or one of its textures. Returns
+  /// whether one has.
   bool collect();
   /// Another program has changed the file while there are edits of it: what the file holds now waits for an answer.
   bool asks_about_file() const { return changed_file_.has_value(); }
   /// The answer: takes what the file holds, which can be undone, or keeps the edits.
   void answer_about_file(bool take);
-  /// Whether the file was changed and collect() has not been called since.
+  /// Whether one of these files was changed and collect() has not been called since.
   bool file_changed() const { return file_changed_; }
 
  private:
@@ -90,21 +92,24 @@ class Editor {
   void drop_message();
   void watch();
   void reload();
+  void take_reading(const Document* read, const std::string& wrong, const std::vector<std::filesystem::path>& needed);
   void take_file(const Document& file);
 
   std::function<LoadedScene()> reload_;
-  std::filesystem::path reloads_;  ///< the file that reload_ reads
+  std::string reloads_;  ///< what reload_ reads: Origin::what
   EditorEvents events_;
   JobQueue& jobs_;
   MessageLine& messages_;
   UiLog* log_;
   History history_;
   std::uint64_t changes_ = 0;
-  std::string unreadable_;                ///< what is wrong with the file as it is now; empty: nothing
+  std::string unreadable_;                ///< what is wrong with the files as they are now; empty: nothing
   std::optional<Document> changed_file_;  ///< what the file holds, while the user is asked about it
   std::atomic<bool> file_changed_ = false;
-  std::filesystem::path watched_;
-  std::unique_ptr<FileWatch> watch_;  // declared last, because it uses the others
+  std::string watched_scene_;  ///< Origin::what
+  std::vector<std::filesystem::path> watched_;
+  std::vector<std::filesystem::path> broken_files_;  ///< what a reading depends on that has failed; watched, too
+  std::unique_ptr<FileWatch> watch_;                 // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -30,6 +30,9 @@ class History {
   /// The file was written, maybe to another folder: all steps that came from it are from now on compared with what it
   /// holds, and their textures are respelt for its folder. No step.
   void set_origin(const std::shared_ptr<const Origin>& origin);
+  /// The scene's file was read again: where the files of its textures hold other pictures now, all steps that came from
+  /// it, and what they are compared with, show these from now on. No step. Returns whether there was such a picture.
+  bool take_pictures(const Scene& read);
   /// False at the end of the list.
   bool undo();
   bool redo();

@@ -70,6 +70,16 @@ bool file_differs(const Origin& origin) {
   return file && fnv1a(std::string(std::istreambuf_iterator<char>(file), {})) != origin.text_hash;
 }
 
+std::vector<fs::path> watched_files(const Document& document) {
+  std::vector<fs::path> files;
+  const Origin& origin = *document.origin;
+  if (origin.what.empty()) return files;
+  if (!origin.file.empty()) files.push_back(origin.file);
+  for (const Texture& texture : document.scene.textures)
+    if (const auto* image = std::get_if<Image>(&texture.kind)) files.push_back(origin.folder / image->file);
+  return files;
+}
+
 std::string stem_of(const std::string& title) {
   std::string stem = fs::path(title).stem().string();
   const std::size_t dash = stem.rfind('-');

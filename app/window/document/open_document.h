@@ -2,8 +2,10 @@
 #include "app/window/document/document.h"
 #include "core/scene/load.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// From scene files to documents, and back.
 namespace tyndall {
@@ -20,6 +22,10 @@ std::shared_ptr<const Origin> save_document(const Document& document, const std:
 
 /// Whether the file holds something else than when it was read or written last, readable or not. Reads it.
 bool file_differs(const Origin& origin);
+
+/// The files that the document shows, to be watched: its scene file, if that is where it came from, and its textures.
+/// None of standard input, which cannot be read again.
+std::vector<std::filesystem::path> watched_files(const Document& document);
 
 /// "showroom" of "showroom.json" or "showroom-003.png": what snapshots and copies are named after.
 std::string stem_of(const std::string& title);

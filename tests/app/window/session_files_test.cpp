@@ -1,5 +1,7 @@
 #include "app/window/document/open_document.h"
+#include "core/image/image_io.h"
 #include "tests/app/window/opened_session.h"
+#include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
@@ -98,6 +100,116 @@ TEST_CASE("a file that another program has left broken is told of until it is me
   CHECK_FALSE(file_differs(*editor.document().origin));
   opened.set_fuzz(0.625);
   CHECK_FALSE(opened.session->messages().current().error);
+}
+
+namespace {
+
+/// A session over a scene with a texture of one pixel.
+struct TexturedSession : OpenedSession {
+  explicit TexturedSession(const std::string& name) : OpenedSession(name) {
+    paint("map.png", 0.25f);
+    write_textured("map.png");
+    editor().open(fs::absolute("textured.json").string());
+    REQUIRE(comes_true([&] { return editor().document().origin->title == "textured.json"; }));
+  }
+  Editor& editor() const { return session->editor(); }
+  static void paint(const std::string& file, float red) { write_png(file, {1, 1, {red, 0, 0}}, 0, ToneMap::srgb, {}); }
+  static void write_textured(const std::string& map) {
+    write_text("textured.json", R"({ "tyndall": 1, "image": { "width": 8, "height": 8 }, "background": [1, 1, 1],
+      "render": { "spp": 1 }, "textures": { "map": { "type": "image", "file": ")" +
+                                    map + R"(" } },
+      "materials": { "land": { "type": "lambertian", "albedo": "map" } },
+      "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "land" }] })");
+  }
+  /// Of the texture that is shown.
+  int red() const { return std::get<Image>(editor().scene().textures[0].kind).pixels->rgb[0]; }
+  bool complains() {
+    return comes_true([&] { return session->messages().current().error; });
+  }
+  bool shows(int red_byte) {
+    return comes_true([&] { return red() == red_byte && !session->messages().current().error; }) && finishes();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("textures are read again when they are written, renamed over, or come back") {
+  TexturedSession opened("watched_textures");
+  REQUIRE(opened.shows(137));
+  const std::uint64_t edit = opened.session->renderers().edit(Half::current);
+  opened.paint("other.png", 0.5f);
+  write_text("map.png", read_text("other.png"));  // in place
+  REQUIRE(opened.shows(188));
+  CHECK(opened.session->renderers().edit(Half::current) > edit);
+  opened.paint("other.png", 1);
+  fs::rename("other.png", "map.png");
+  REQUIRE(opened.shows(255));
+  fs::rename("map.png", "away.png");
+  REQUIRE(opened.complains());
+  CHECK(opened.session->messages().current().text.find("map.png") != std::string::npos);
+  CHECK(opened.red() == 255);
+  fs::rename("away.png", "map.png");
+  REQUIRE(opened.shows(255));
+  write_text("map.png", "no picture");
+  REQUIRE(opened.complains());
+  CHECK(opened.red() == 255);
+  opened.paint("map.png", 0.25f);
+  REQUIRE(opened.shows(137));
+}
+
+TEST_CASE("a texture that is painted anew is no edit: edits of the scene stay, and undo shows the new picture, too") {
+  TexturedSession opened("texture_and_edits");
+  REQUIRE(opened.shows(137));
+  Scene scene = opened.editor().scene();
+  scene.camera.vfov = 30;
+  opened.editor().edit(scene, 0);
+  opened.paint("map.png", 0.5f);
+  REQUIRE(opened.shows(188));
+  CHECK_FALSE(opened.editor().asks_about_file());
+  CHECK(opened.editor().scene().camera.vfov == 30);
+  opened.editor().undo();
+  CHECK(opened.red() == 188);
+  CHECK_FALSE(edited(opened.editor().document()));
+  opened.editor().redo();
+  CHECK(opened.editor().scene().camera.vfov == 30);
+}
+
+TEST_CASE("a scene that names a texture before it is there is read when it comes") {
+  TexturedSession opened("texture_to_come");
+  REQUIRE(opened.shows(137));
+  opened.write_textured("maps/new.png");
+  REQUIRE(opened.complains());
+  REQUIRE(opened.comes_true([&] { return !opened.editor().file_changed(); }));
+  fs::create_directory("maps");
+  opened.paint("maps/new.png", 1);
+  REQUIRE(opened.shows(255));
+  write_text("textured.json", "{");
+  REQUIRE(opened.complains());
+  opened.write_textured("maps/new.png");  // as it was: the message goes, too
+  REQUIRE(opened.shows(255));
+}
+
+TEST_CASE(
+    "a scene that was opened by a symbolic link is read again when its target is saved or the link leads elsewhere") {
+  OpenedSession opened("link");
+  fs::create_directory("in");
+  OpenedSession::write(0.125, "in/a.json");
+  OpenedSession::write(0.875, "in/b.json");
+  fs::create_symlink("in/a.json", "link.json");
+  opened.session->editor().open(fs::absolute("link.json").string());
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
+  OpenedSession::write(0.375, "in/a.json");
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.375; }));
+  OpenedSession::write(0.625, "in/new.json");
+  fs::rename("in/new.json", "in/a.json");
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.625; }));
+  fs::create_symlink("in/b.json", "next.json");
+  fs::rename("next.json", "link.json");
+  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.875; }));
+  opened.set_fuzz(0.5);
+  CHECK(opened.session->editor().save(opened.session->editor().document().origin->file));
+  CHECK(fs::is_symlink("link.json"));
+  CHECK(std::get<Metal<>>(load_scene("in/b.json").scene.materials[0].kind).fuzz == 0.5);
 }
 
 TEST_CASE("a scene with textures can be saved to other folders again and again") {
