@@ -7,13 +7,15 @@
 # "--partition=render --time=2:00:00". Runs in the current folder, which all machines must share; the parts go into
 # OUTPUT.parts. A job that is preempted, or reaches its time, gets USR1 a minute before: it writes its film, is queued again
 # and goes on from there. The merge runs when all parts are done, and is, bit for bit, one render of all samples.
+# Names of files may hold anything.
 set -euo pipefail
 tyndall=${TYNDALL:-tyndall}
-if [ "${SLURM_ARRAY_TASK_ID:-}" != "" ]; then
+if [ "${TYNDALL_FARM_STEP:-}" = shard ]; then
   # One shard. The film that is there, unfinished, is gone on with; a finished one is "already complete".
   first=$((SLURM_ARRAY_TASK_ID * SAMPLES / SHARDS)) last=$(((SLURM_ARRAY_TASK_ID + 1) * SAMPLES / SHARDS))
   scene=$1 output=$2
   shift 2
+  exec >>"$output.parts/$SLURM_ARRAY_TASK_ID.log" 2>&1
   "$tyndall" render "$scene" --samples "$first:$last" -o "$output.parts/$SLURM_ARRAY_TASK_ID.exr" --progress plain \
     --threads "${SLURM_CPUS_PER_TASK:-1}" "$@" &
   renderer=$!
@@ -31,23 +33,38 @@ fi
 if [ "${TYNDALL_FARM_STEP:-}" = merge ]; then
   scene=$1 output=$2
   shift 2
+  exec >>"$output.parts/merge.log" 2>&1
   parts=()
   for ((shard = 0; shard < SHARDS; ++shard)); do parts+=("$output.parts/$shard.exr"); done
   "$tyndall" merge "${parts[@]}" -o "$output"
   # What was written is read again: it must be a whole film of this scene, with these settings and all samples.
   "$tyndall" render "$scene" --samples "0:$SAMPLES" --resume -q -o "$output" "$@"
-  echo "$output: all $SAMPLES samples"
+  printf '%q: all %s samples\n' "${output#./}" "$SAMPLES"
   exit
 fi
-[ $# -ge 2 ] || { sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,13s/^# \{0,1\}//p' "$0"; exit 2; }
 export SHARDS=${SHARDS:-16} SAMPLES=${SAMPLES:-1024} TYNDALL=$tyndall
 [ "$SHARDS" -le "$SAMPLES" ] || { echo "found SHARDS=$SHARDS, expected at most SAMPLES=$SAMPLES" >&2; exit 2; }
-script=$(realpath "$0") output=$2
+script=$(realpath -- "$0") scene=$1 output=$2
+shift 2
+[ "$scene" != - ] || { echo 'found the scene -, standard input, expected one that every shard can read' >&2; exit 2; }
+[[ $scene != -* ]] || scene=./$scene # a dash in front would begin an option
+[[ $output == /* ]] || output=./$output
 mkdir -p "$output.parts"
 read -ra more <<<"${SBATCH_OPTIONS:-}"
-job=$(sbatch --parsable --job-name=tyndall --array="0-$((SHARDS - 1))" --requeue --open-mode=append --signal=B:USR1@60 \
-  --output="$output.parts/%a.log" "${more[@]}" "$script" "$@")
+words=("$script" "$scene" "$output" "$@")
+# Jobs write their logs themselves, and Slurm adds what it has to say. In the name of a log it takes % for the beginning of a
+# symbol, %% for a %, and a \ for the end of all symbols: then its own words are lost.
+logs=$output.parts
+[[ $logs == /* ]] || logs=$PWD/$logs
+logs=${logs//%/%%}
+# submit STEP LOG [sbatch's options]: queues this script, and prints the job's number.
+submit() {
+  local log=$logs/$2
+  [[ $log != *\\* ]] || log=/dev/null
+  TYNDALL_FARM_STEP=$1 sbatch --parsable --open-mode=append --output="$log" "${@:3}" "${more[@]}" "${words[@]}"
+}
+job=$(submit shard %a.log --job-name=tyndall --array="0-$((SHARDS - 1))" --requeue --signal=B:USR1@60)
 echo "shards: job $job"
-merge=$(TYNDALL_FARM_STEP=merge sbatch --parsable --job-name=tyndall-merge --dependency="afterok:$job" \
-  --output="$output.parts/merge.log" "${more[@]}" "$script" "$@")
+merge=$(submit merge merge.log --job-name=tyndall-merge --dependency="afterok:$job")
 echo "merge: job $merge"

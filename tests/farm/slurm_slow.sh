@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # assets/farm/slurm.sh on a farm of one machine: slurmctld, two slurmd and munged are started here, with all that they write in
 # the scratch folder. 16 shards, one of which is killed and queued again, one machine is drained: the same bits as one render.
+# The folder and the picture have names that shells and Slurm stumble over.
 . "$(dirname "$0")/../app/_common.sh"
 skip() { echo "skipped: $*"; exit 77; }
 [ "$(id -u)" = 0 ] || skip 'only root can start slurmd'
@@ -72,8 +73,9 @@ until_true() {
 idle() { [ "$(sinfo -h -o %T -N | sort -u)" = idle ]; }
 until_true 120 idle || { tail -5 slurmctld.log slurmd-*.log; fail "the farm does not start: $(cat probe)"; finish; }
 
-scene=cornell-smoke size=64x64 samples=256 shards=16
-TYNDALL=$tyndall SHARDS=$shards SAMPLES=$samples "$source_root/assets/farm/slurm.sh" $scene farm.exr --size $size --checkpoint 0.2 >jobs ||
+scene=cornell-smoke size=64x64 samples=256 shards=16 film=$'-it\'s 100 %a "film"\n$HOME\\n.exr'
+mkdir $'work %a \\ it\'s\n"$HOME"' && cd ./work* || exit 1
+TYNDALL=$tyndall SHARDS=$shards SAMPLES=$samples "$source_root/assets/farm/slurm.sh" $scene "$film" --size $size --checkpoint 0.2 >jobs ||
   fail 'sbatch'
 job=$(sed -n 's/^shards: job //p' jobs) merge=$(sed -n 's/^merge: job //p' jobs)
 state_of() { squeue -h -r -j "$1" -o %T 2>/dev/null; }
@@ -86,12 +88,12 @@ scontrol update NodeName=two State=DRAIN Reason=test || fail 'drain'
 restarts=$(scontrol show job "${job}_$victim" | sed -n 's/.*Restarts=\([0-9]*\).*/\1/p')
 echo "killed and queued again: shard $victim; drained: two"
 merged() { [ -z "$(state_of "$merge")" ]; }
-until_true 900 merged || fail "the merge does not end: $(squeue) $(tail -2 farm.exr.parts/*.log)"
-grep -q "all $samples samples" farm.exr.parts/merge.log || fail "the merge: $(cat farm.exr.parts/merge.log)"
-same 'shards' $shards "$(ls farm.exr.parts/*.exr | wc -l)"
+until_true 900 merged || fail "the merge does not end: $(squeue) $(tail -n 2 "./$film.parts"/*.log)"
+grep -q "all $samples samples" "./$film.parts"/merge.log || fail "the merge: $(cat "./$film.parts"/merge.log)"
+same 'shards' $shards "$(find "./$film.parts" -name '*.exr' -printf . | wc -c)"
 [ "$restarts" = 1 ] || fail "shard $victim was started again $restarts times"
 same 'machine two' drained "$(sinfo -h -n two -o %T)"
-"$tyndall" render $scene --size $size --samples 0:$samples --resume -q -o farm.exr --stats farm.json 2>>log
+"$tyndall" render $scene --size $size --samples 0:$samples --resume -q -o "./$film" --stats farm.json 2>>log
 same 'hash' "$(image_hash $scene --size $size --samples 0:$samples)" "$(json farm.json image_hash)"
 echo "$shards shards, $samples samples: $(json farm.json image_hash)"
 finish
