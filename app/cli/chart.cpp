@@ -8,11 +8,11 @@
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
+#include "core/base/processors.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 namespace tyndall {
 namespace {
@@ -66,7 +66,7 @@ class ChartJob {
       chart.curves.push_back(measure_curve(scene, methods[i], reference, left / static_cast<double>(methods.size()),
                                            run(methods[i].name)));
     chart.title = scene.name.empty() ? loaded.name : scene.name;
-    const int threads = command_.threads > 0 ? command_.threads : static_cast<int>(std::thread::hardware_concurrency());
+    const int threads = thread_count(command_.threads).count;
     chart.subtitle = std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + std::to_string(threads) +
                      (threads == 1 ? " thread" : " threads") + "; reference: " + reference.about;
     return chart;

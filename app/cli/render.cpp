@@ -11,6 +11,7 @@
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
 #include "core/base/limits.h"
+#include "core/base/processors.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
@@ -31,6 +32,7 @@ struct Job {
   const RenderCommand& command;
   Clock::time_point start = Clock::now();
   LoadedScene loaded{};
+  ThreadCount threads = thread_count(command.threads);
   RenderOptions options{};
   Kernels kernels{};
   RenderStart begin{};
@@ -84,6 +86,7 @@ void prepare(Job& job) {
   job.kernels = find_kernels(command.isa);
   job.loaded = open_scene(command.scene);
   job.options = render_options(command, job.loaded);
+  job.options.threads = job.threads.count;
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
   outputs.push_back({"--stats", command.stats});
   check_outputs(outputs, job.loaded.files);
@@ -119,8 +122,8 @@ std::string summary(const Outcome& outcome, const std::vector<std::filesystem::p
 }
 
 RunFigures figures(const Job& job, const Outcome& outcome) {
-  return {job.loaded.name,    *job.prepared,     outcome.result,          outcome.picture,
-          job.samples_before, job.seconds_build, seconds_since(job.start)};
+  return {job.loaded.name,    *job.prepared,     outcome.result,           outcome.picture,
+          job.samples_before, job.seconds_build, seconds_since(job.start), job.threads.from};
 }
 
 /// What an image or film at that place carries beside the picture.

@@ -49,7 +49,6 @@ RenderOptions render_options(const RenderCommand& command, const LoadedScene& lo
   if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
   if (command.region) check_region(*command.region, loaded.scene);
   RenderOptions options;
-  options.threads = command.threads;
   options.isa = command.isa;
   options.region = command.region.value_or(Region{0, 0, loaded.scene.width, loaded.scene.height});
   options.first_sample = command.samples ? command.samples->first : 0;

@@ -13,7 +13,7 @@ namespace tyndall {
 /// The kernels of an instruction set ("": the best). Throws UsageError if this build or CPU has none of that name.
 Kernels find_kernels(const std::string& isa);
 
-/// Limits, region and threads of a render. spp is always set; where only time or error end the render, to most_samples.
+/// Limits and region of a render. spp is always set; where only time or error end the render, to most_samples.
 /// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded);
 

@@ -21,7 +21,7 @@ struct ViewCommand {
   std::vector<std::string> words;  ///< as the user typed them; repeated in the message that there is no display
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which the picture pauses
   double target_error = 0;                                      ///< the same for its estimated error; 0: none
-  int threads = 0;                                              ///< 0: all cores
+  int threads = 0;                                              ///< 0: see thread_count()
   std::string isa;                                              ///< "": the best
   std::filesystem::path reference;                              ///< image that errors are measured against; empty: none
   std::filesystem::path ui_log;                                 ///< diagnostic of the window, for tests; empty: none
@@ -37,7 +37,7 @@ struct RenderCommand {
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
   std::optional<SampleKey> replay;   ///< print this sample's path instead of rendering
-  int threads = 0;                   ///< 0: all cores
+  int threads = 0;                   ///< 0: see thread_count()
   std::string isa;                   ///< "": the best
   std::filesystem::path stats;       ///< empty: none
   std::optional<double> checkpoint;  ///< seconds, 0: never; absent: see checkpoint.h
@@ -61,7 +61,7 @@ struct VerifyCommand {
   SceneRequest method;             ///< settings for all cases; each case adds its own scene and overrides
   bool thorough = false;           ///< standard errors of 1e-4 instead of 1e-3
   bool json = false;
-  int threads = 0;  ///< 0: all cores
+  int threads = 0;  ///< 0: see thread_count()
   std::string isa;  ///< "": the best
   ProgressStyle progress = ProgressStyle::automatic;
 };
@@ -79,7 +79,7 @@ struct ChartCommand {
   std::filesystem::path reference;     ///< empty: rendered
   std::vector<MethodRequest> methods;  ///< none: the default ones
   double budget = 50;                  ///< seconds, the reference included; for "all" of each chart
-  int threads = 0;                     ///< 0: all cores
+  int threads = 0;                     ///< 0: see thread_count()
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
@@ -94,7 +94,7 @@ struct DenoiseCommand {
   std::vector<std::filesystem::path> outputs;
   ImageForm form;
   std::filesystem::path stats;  ///< empty: none
-  int threads = 0;              ///< 0: all cores
+  int threads = 0;              ///< 0: see thread_count()
   std::string isa;              ///< "": the best
 };
 

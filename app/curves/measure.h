@@ -31,7 +31,7 @@ struct ChartReference {
 };
 
 struct ChartRun {
-  int threads = 0;                              ///< 0: all cores
+  int threads = 0;                              ///< 0: see thread_count()
   std::function<bool(double seconds)> go_on{};  ///< asked often, with the seconds of rendering so far; false: stop
 };
 

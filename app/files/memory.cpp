@@ -1,6 +1,7 @@
 #include "app/files/memory.h"
 
 #include "app/text/values.h"
+#include "core/base/cgroup.h"
 #include "core/film/film.h"
 #include "core/image/image_io_file.h"
 
@@ -19,7 +20,7 @@ constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
 /// The number in the first line of a file of the system that begins with `key`, in bytes if it is in kB; no_limit:
 /// there is none.
-std::uint64_t system_number(const char* file, const std::string& key, std::uint64_t unit = 1) {
+std::uint64_t system_number(const std::filesystem::path& file, const std::string& key, std::uint64_t unit = 1) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     if (!line.starts_with(key)) continue;
@@ -88,16 +89,20 @@ bool has_lamps(const Scene& scene) {
                      [](const auto& material) { return std::holds_alternative<Light<double>>(material.kind); });
 }
 
-FreeMemory free_memory() {
+FreeMemory free_memory(const std::filesystem::path& root) {
   FreeMemory free{system_number("/proc/meminfo", "MemAvailable:", 1024), "free on this machine"};
   const std::uint64_t swap = system_number("/proc/meminfo", "SwapFree:", 1024);
   if (free.bytes != no_limit && swap != no_limit) free.bytes += swap;
   const auto at_most = [&free](std::uint64_t bytes, const char* limit) {
     if (bytes < free.bytes) free = {bytes, limit};
   };
-  const char* group = "/sys/fs/cgroup/memory.max";
-  at_most(less(system_number(group, ""), system_number("/sys/fs/cgroup/memory.current", "")),
-          "left to this group of processes (cgroup)");
+  for (const std::filesystem::path& group : cgroup_folders("memory", root)) {
+    constexpr const char* files[][2] = {{"memory.max", "memory.current"},
+                                        {"memory.limit_in_bytes", "memory.usage_in_bytes"}};
+    for (const auto& [limit, used] : files)
+      at_most(less(system_number(group / limit, ""), system_number(group / used, "")),
+              "left to this group of processes (cgroup)");
+  }
   at_most(less(soft_limit(RLIMIT_AS), system_number("/proc/self/status", "VmSize:", 1024)), "left by ulimit -v");
   at_most(less(soft_limit(RLIMIT_DATA), system_number("/proc/self/status", "VmData:", 1024)), "left by ulimit -d");
   return free;

@@ -39,7 +39,8 @@ struct FreeMemory {
   std::uint64_t bytes = 0;
   std::string limit;
 };
-FreeMemory free_memory();
+/// root: see cgroup_folders().
+FreeMemory free_memory(const std::filesystem::path& root = "/");
 
 /// Throws UsageError, which says how many bytes the picture takes, if it does not fit into the memory that is free; and
 /// if it has more pixels than image files can hold.

@@ -43,12 +43,6 @@ void add_choices(JsonText& json, const RenderSettings& settings) {
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
 }
 
-/// The settings that no figure before tells. They stand last, because figures are only ever appended.
-void add_rest(JsonText& json, const RunFigures& run) {
-  json.add("sharing", run.prepared.shares());  // whether it was done, not only allowed
-  add_choices(json, run.prepared.scene().render);
-}
-
 /// Of the clean view.
 void add_clean(JsonText& json, const RunFigures& run) {
   const std::optional<CleanPicture>& clean = run.result.clean;
@@ -100,7 +94,9 @@ std::string stats_text(const RunFigures& run) {
   add_clean(json, run);
   json.add("seconds_denoise", run.result.seconds_clean);
   json.add("denoised_hash", clean_hash(run));
-  add_rest(json, run);
+  json.add("sharing", run.prepared.shares());  // whether it was done, not only allowed
+  json.add("threads_from", run.threads_from);
+  add_choices(json, run.prepared.scene().render);
   return json.text();
 }
 
@@ -118,7 +114,8 @@ std::string embedded_stats_text(const RunFigures& run) {
   add_losses(json, run, sum);
   add_clean(json, run);
   json.add("denoised_hash", clean_hash(run));
-  add_rest(json, run);
+  json.add("sharing", run.prepared.shares());  // whether it was done, not only allowed
+  add_choices(json, run.prepared.scene().render);
   return json.text();
 }
 

@@ -15,6 +15,7 @@ struct RunFigures {
   std::uint64_t samples_before = 0;  ///< in the film when the run began
   double seconds_build = 0;          ///< preparing the scene
   double seconds_total = 0;          ///< from the command's start to now
+  std::string threads_from{};        ///< what decided the number of threads: see ThreadCount
 };
 
 /// All figures, as a JSON object. What is not known is null.

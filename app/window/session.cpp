@@ -4,21 +4,13 @@
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
 #include "core/base/error.h"
+#include "core/base/processors.h"
 #include "core/render/mailbox.h"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 namespace tyndall {
-namespace {
-
-int thread_count(int wanted) {
-  return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
-}  // namespace
-
 Session::Session(const WindowOptions& options, const std::function<void()>& wake, std::function<void()> on_frame,
                  UiLog* log)
     : log_(log),
@@ -26,7 +18,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       messages_(log),
       limits_(options.limits),
       accuracy_(wake),
-      renderers_(thread_count(options.threads), options.isa, std::move(on_frame)),
+      renderers_(thread_count(options.threads).count, options.isa, std::move(on_frame)),
       editor_(options.scene, options.reload,
               {[this] { timer_.on_change(input_time_ > 0 ? input_time_ : clock_seconds()); },
                [this] { accuracy_.clear(), set_split(false); },

@@ -20,7 +20,7 @@ struct WindowOptions {
   std::function<LoadedScene()> reload;  ///< reads the scene again, as the command line asked for it; may be empty
   /// Reads kept edits: a scene file, with the settings that the command line gives.
   std::function<LoadedScene(const std::string&)> read_edits = [](const std::string& what) { return load_scene(what); };
-  int threads = 0;                  ///< 0: all cores
+  int threads = 0;                  ///< 0: see thread_count()
   std::string isa;                  ///< "": the best
   std::filesystem::path reference;  ///< image that errors are measured against; empty: none
   std::filesystem::path ui_log;     ///< diagnostic, see ui_log.h; empty: none, "-": standard output

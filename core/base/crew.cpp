@@ -3,8 +3,8 @@
 #include "core/base/crew_memory.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
+#include "core/base/processors.h"
 
-#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <string>
@@ -14,8 +14,7 @@
 namespace tyndall {
 
 Crew::Crew(int size) {
-  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int wanted = size > 0 ? size : machine;
+  const int wanted = thread_count(size).count;
   try {
     for (int i = 0; i < wanted; ++i) threads_.emplace_back([this](const StopToken& stop) { work(stop); });
   } catch (const std::system_error& error) {

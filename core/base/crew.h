@@ -16,7 +16,7 @@ inline constexpr int most_threads = 4096;  ///< the largest number that options 
 /// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
 class Crew {
  public:
-  /// size >= 1 threads; 0: as many as the machine runs at once. Throws IoError, which names the limit, if the system
+  /// size >= 1 threads; 0: see thread_count(). Throws IoError, which names the limit, if the system
   /// does not let so many start.
   explicit Crew(int size);
   ~Crew();

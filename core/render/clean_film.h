@@ -70,7 +70,7 @@ class CoarseCleaner {
   Film film_;
 };
 
-/// The clean view of a finished film of the scene. threads: 0: all cores; isa: "": the best.
+/// The clean view of a finished film of the scene. threads: 0: see thread_count(); isa: "": the best.
 CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa);
 
 /// The clean view of a picture that is being rendered: when it is made, and the newest one.

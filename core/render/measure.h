@@ -9,7 +9,7 @@
 namespace tyndall {
 
 struct MeasureOptions {
-  int threads = 0;   ///< 0: all cores
+  int threads = 0;   ///< 0: see thread_count()
   std::string isa;   ///< "": the best
   double error = 0;  ///< standard error to reach, >= 0
   double expected =

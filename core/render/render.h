@@ -30,7 +30,7 @@ struct RenderBreaks {
 };
 
 struct RenderOptions {
-  int threads = 0;                 ///< 0: all cores
+  int threads = 0;                 ///< 0: see thread_count()
   std::string isa;                 ///< "": the best
   std::optional<Region> region;    ///< absent: the whole image
   std::uint32_t first_sample = 0;  ///< index of the first sample
@@ -74,8 +74,8 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 RenderResult render(const PreparedScene& scene, const RenderOptions& options, const ProgressCallback& progress = {},
                     Film film = {});
 
-/// The error of a film of the scene, with levels of the pixels that decide it (see ask_levels()). threads: 0: all
-/// cores.
+/// The error of a film of the scene, with levels of the pixels that decide it (see ask_levels()). threads: 0: see
+/// thread_count().
 ErrorEstimate estimate_error(const PreparedScene& scene, const Kernels& kernels, const Film& film, int threads = 0);
 
 /// Everything that is reported about a finished film. For each part the whole film has to be read, so the parts are

@@ -19,7 +19,7 @@ namespace tyndall {
 class Renderer {
  public:
   struct Options {
-    int threads = 0;  ///< 0: all cores
+    int threads = 0;  ///< 0: see thread_count()
     std::string isa;  ///< "": the best
   };
   /// on_frame: called from a thread of the renderer after each frame; must be quick (e.g. wake an event loop).

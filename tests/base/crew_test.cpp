@@ -1,4 +1,5 @@
 #include "core/base/crew.h"
+#include "core/base/processors.h"
 
 #include <doctest/doctest.h>
 
@@ -36,9 +37,7 @@ TEST_CASE("crew: threads that all reach for the next index at once get different
   }
 }
 
-TEST_CASE("crew: size 0 means as many as the machine runs at once") {
-  CHECK(Crew(0).size() == static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
-}
+TEST_CASE("crew: size 0 means as many as the process may use") { CHECK(Crew(0).size() == thread_count().count); }
 
 TEST_CASE("crew: what the jobs wrote is there when for_each returns, round after round") {
   Crew crew(3);

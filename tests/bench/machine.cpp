@@ -1,10 +1,10 @@
 #include "tests/bench/machine.h"
 
+#include "core/base/processors.h"
 #include "core/kernel/kernels.h"
 
 #include <algorithm>
 #include <fstream>
-#include <thread>
 
 namespace tyndall::bench {
 namespace {
@@ -34,14 +34,12 @@ Json machine() {
   json["version"] = TYNDALL_VERSION;
   json["compiler"] = compiler();
   json["processor"] = processor();
-  json["cores"] = std::thread::hardware_concurrency();
+  json["cores"] = thread_count().count;
   json["instruction_sets"] = Json::array();
   for (const Kernels& kernels : available_kernels()) json["instruction_sets"].push_back(kernels.isa);
   return json;
 }
 
-int threads_up_to(int most) {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, std::max(most, 1));
-}
+int threads_up_to(int most) { return std::min(thread_count().count, std::max(most, 1)); }
 
 }  // namespace tyndall::bench

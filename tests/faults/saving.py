@@ -60,7 +60,7 @@ def main():
     parser.add_argument("tyndall", type=lambda text: str(pathlib.Path(text).resolve()))
     parser.add_argument("scratch", type=pathlib.Path)
     parser.add_argument("--runs", type=int, default=100)
-    parser.add_argument("--threads", default=str(os.cpu_count()))
+    parser.add_argument("--threads", default=str(len(os.sched_getaffinity(0))))
     arguments = parser.parse_args()
     arguments.scratch.mkdir(parents=True, exist_ok=True)
     threads = arguments.threads

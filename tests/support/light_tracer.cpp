@@ -2,6 +2,7 @@
 
 #include "core/base/kinds.h"
 #include "core/base/math.h"
+#include "core/base/processors.h"
 #include "tests/support/light_room.h"
 
 #include <algorithm>
@@ -224,7 +225,7 @@ LightTraced trace_light(const Scene& scene, const LightTracing& how) {
     }
   };
   std::vector<std::thread> threads;
-  const int cores = how.threads > 0 ? how.threads : std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+  const int cores = thread_count(how.threads).count;
   for (int i = 1; i < cores; ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();

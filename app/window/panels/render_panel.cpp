@@ -5,12 +5,12 @@
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/panels.h"
 #include "core/base/crew.h"
+#include "core/base/processors.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 namespace tyndall {
 namespace {
@@ -48,7 +48,7 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 
 void threads_row(Ui& ui, PanelState& state) {
   int threads = state.facts.threads;
-  const double cores = std::max(2u, std::thread::hardware_concurrency());
+  static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
   const Row row{"threads", "Threads", between(1, most_threads), {1, cores}, "", "never changes the picture", ""};
   if (value_row(ui, row, threads)) state.wishes.threads = threads;
 }

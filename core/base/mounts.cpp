@@ -1,0 +1,63 @@
+#include "core/base/mounts.h"
+
+#include <sys/stat.h>
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Spaces and the like are written there as a backslash and three octal digits.
+std::string unescaped(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool code = text[i] == '\\' && i + 3 < text.size();
+    out += code ? static_cast<char>(std::strtol(text.substr(i + 1, 3).c_str(), nullptr, 8)) : text[i];
+    if (code) i += 3;
+  }
+  return out;
+}
+
+std::optional<Mount> mount_of(const std::string& line) {
+  Mount mount;
+  std::istringstream words(line);
+  std::string word;
+  words >> word >> word >> word >> mount.root >> mount.point;
+  while (words >> word && word != "-") continue;  // optional fields
+  words >> mount.type >> word >> mount.options;
+  mount.root = unescaped(mount.root), mount.point = unescaped(mount.point);
+  return mount.options.empty() || !mount.point.starts_with('/') ? std::nullopt : std::optional(mount);
+}
+
+}  // namespace
+
+std::vector<Mount> mounts(const fs::path& root) {
+  std::vector<Mount> found;
+  std::ifstream in(root / "proc/self/mountinfo");
+  for (std::string line; std::getline(in, line);)
+    if (const auto mount = mount_of(line)) found.push_back(*mount);
+  return found;
+}
+
+bool is_mount_point(const fs::path& file) {
+#ifdef STATX_ATTR_MOUNT_ROOT
+  struct statx status {};
+  const bool asked = statx(AT_FDCWD, file.c_str(), 0, 0, &status) == 0;
+  if (asked && (status.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0)
+    return (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+#endif
+  std::error_code error;  // an older system, which does not say it of a file
+  const fs::path place = fs::canonical(file, error);
+  const std::vector<Mount> all = error ? std::vector<Mount>() : mounts();
+  return std::any_of(all.begin(), all.end(), [&](const Mount& mount) { return mount.point == place; });
+}
+
+}  // namespace tyndall
