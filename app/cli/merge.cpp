@@ -17,6 +17,8 @@ namespace {
 int write(const Film& film, const Scene& scene, const FilmLabel& label, const std::vector<std::filesystem::path>& files,
           const ImageForm& form, const std::optional<CleanOfFilm>& clean) {
   const std::vector<std::string> problems = write_film(film, scene, label, files, form, clean);
+  const std::string uneven = uneven_text(scene, totals(film));
+  if (!uneven.empty()) complain(uneven);
   for (const std::string& problem : problems) complain(problem);
   return problems.empty() ? 0 : output_failed;
 }

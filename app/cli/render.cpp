@@ -134,6 +134,12 @@ Embedded embedded_in(const Job& job, const Film& film, const std::filesystem::pa
           {TYNDALL_VERSION, job.kernels.isa, unfinished}};
 }
 
+/// Tells if the pixels have different numbers of samples, which the figures and the files say as least_spp and most_spp.
+void warn_if_uneven(const Job& job, const Outcome& outcome) {
+  const std::string text = uneven_text(job.loaded.scene, outcome.picture.totals);
+  if (!text.empty()) complain(text);
+}
+
 /// Writes all that can be written; false if something could not. at_end: also what goes to standard output or pipes.
 bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
   const Film& film = outcome.result.film;
@@ -162,7 +168,10 @@ bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
 /// Writes the picture so far in the middle of a render. What cannot be written is told, and the render goes on.
 void write_so_far(const Job& job, const RenderResult& result) {
   try {
-    if (totals(result.film).most_taken > 0) write(job, outcome_of(job, result, true), false);
+    if (totals(result.film).most_taken == 0) return;
+    const Outcome outcome = outcome_of(job, result, true);
+    warn_if_uneven(job, outcome);
+    write(job, outcome, false);
   } catch (const std::exception& error) {
     complain(std::string("SIGUSR1: the picture so far was not written: ") + error.what());
   }
@@ -229,6 +238,7 @@ void warn(const Job& job, const Outcome& outcome) {
     complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   if (job.options.clean && !result.clean)
     complain("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
+  warn_if_uneven(job, outcome);
   const FilmTotals& sum = outcome.picture.totals;
   if (sum.rejected == 0) return;
   std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +

@@ -119,6 +119,13 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
   return print_json(json);
 }
 
+std::string uneven_text(const Scene& scene, const FilmTotals& totals) {
+  if (scene.render.adaptive || totals.least_taken == totals.most_taken) return "";
+  return fmt::format("the pixels have {} to {} samples, as the render was interrupted within a pass{}",
+                     totals.least_taken, totals.most_taken,
+                     totals.least_taken > 0 ? "" : "; those with none are black");
+}
+
 namespace {
 
 constexpr std::string_view several = "several: ";

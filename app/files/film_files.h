@@ -36,6 +36,11 @@ bool same_samples(Scene a, Scene b);
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image);
 
+/// What users are told of a picture whose pixels have different numbers of samples though the scene asks for the same
+/// everywhere: a signal ended its render within a pass, whose samples are not thrown away. "": all have the same
+/// number, or sampling is adaptive.
+std::string uneven_text(const Scene& scene, const FilmTotals& totals);
+
 /// The label of a film that is added from two others. Where their instruction sets differ it names all of them, such as
 /// "several: avx2, scalar"; the same for versions.
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b);

@@ -36,6 +36,52 @@ if [ -s long.exr ]; then
   same 'hash of a resumed render' "$(json long.json image_hash)" "$(image_hash cornell-box --size 64x64 --spp "$spp")"
 fi
 
+# A render that is interrupted within a pass keeps that pass's samples, which some pixels have and others have not. That
+# is said in a line, in the figures and in the files; where all pixels have the same number nothing is said. One pass of
+# this picture takes about a second, so that a signal hardly ever comes between two.
+uneven=0
+for _ in 1 2 3; do
+  rm -f uneven.*
+  "$tyndall" render cornell-box --size 600x600 --spp 10000000 -t 1 -q -o uneven.png --stats uneven.json 2>err &
+  render=$!
+  wait_worked "$render" 2
+  kill -INT "$render"
+  code=0
+  wait "$render" || code=$?
+  same 'exit code within a pass' "$code" 130
+  least=$(json uneven.json least_spp) most=$(json uneven.json most_spp)
+  same 'spp within a pass' "$(json uneven.json spp)" "$least"
+  if [ "$least" = "$most" ]; then
+    [ ! -s err ] || fail "all pixels have $least samples, and it says: $(cat err)"
+    continue
+  fi
+  uneven=$((uneven + 1))
+  complains "$least to $most samples"
+  grep -aq "\"least_spp\": $least" uneven.png || fail 'the picture does not say the least number of samples'
+  grep -aq "\"most_spp\": $most" uneven.png || fail 'the picture does not say the greatest number of samples'
+  [ "$(json uneven.json samples)" -gt $((360000 * least)) ] || fail 'the samples are not those of an uneven picture'
+  [ "$(json uneven.json samples)" -lt $((360000 * most)) ] || fail 'the samples are not those of an uneven picture'
+done
+[ "$uneven" -gt 0 ] || fail 'no signal came within a pass: this test has found nothing out'
+
+# So is it for the picture that SIGUSR1 asks for; with adaptive sampling the numbers differ by design, and nothing is said.
+"$tyndall" render cornell-box --size 600x600 --spp 10000000 -t 1 -q -o told.png --stats told.json 2>err &
+render=$!
+wait_worked "$render" 2
+kill -USR1 "$render"
+for _ in $(seq 400); do [ -s told.json ] && break || sleep 0.05; done
+least=$(json told.json least_spp) most=$(json told.json most_spp)
+[ "$least" = "$most" ] || complains "$least to $most samples"
+kill -KILL "$render"
+wait "$render" 2>/dev/null
+"$tyndall" render showroom --size 300x300 --adaptive --spp 100000 -q -o adaptive.png --stats adaptive.json 2>err &
+render=$!
+wait_worked "$render" 4
+kill -INT "$render"
+wait "$render"
+[ "$(json adaptive.json least_spp)" != "$(json adaptive.json most_spp)" ] || fail 'an adaptive render is even'
+! grep -q samples err || fail "an adaptive render says: $(cat err)"
+
 # SIGUSR1 writes the picture so far, and the render goes on: the end is that of a render which was not asked.
 long=(cornell-box --size 64x64 --spp 12000)
 "$tyndall" render "${long[@]}" -o asked.pfm -o asked.png --stats asked.json -q &

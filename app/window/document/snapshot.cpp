@@ -35,8 +35,10 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
   const std::vector<std::string> problems = write_images(picture, files);
   if (!problems.empty()) throw ImageFileError(problems.front());
+  const FilmTotals& sum = finished.totals;
+  const bool uneven = !scene.render.adaptive && sum.least_taken != sum.most_taken;  // within a pass, or refined first
   return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +
-         std::to_string(finished.spp) + " spp";
+         std::to_string(finished.spp) + (uneven ? " to " + std::to_string(sum.most_taken) : "") + " spp";
 }
 
 Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,
