@@ -51,6 +51,7 @@ class ChartJob {
     std::vector<std::filesystem::path> inputs = loaded.files;
     if (!command_.reference.empty()) inputs.push_back(command_.reference);
     check_outputs({{"--output", svg}, {"--output", csv_beside(svg)}}, inputs);
+    tell_alpha(loaded);
     Scene& scene = loaded.scene;
     if (!request.size) make_small(scene);
     std::vector<ChartMethod> methods;

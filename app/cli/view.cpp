@@ -76,6 +76,7 @@ int run(const ViewCommand& command) {
   const std::string instead = "; the same picture without a window: " + headless_command(command);
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
 #ifdef TYNDALL_WINDOW
+  tell_alpha(loaded);
   try {
     const auto& words = command.words;
     const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();

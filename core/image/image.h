@@ -47,6 +47,7 @@ struct Embedded {
 struct Rgb8Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+  bool has_alpha = false;  ///< the file also says how opaque its pixels are, which is not looked at
 };
 
 }  // namespace tyndall

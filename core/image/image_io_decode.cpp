@@ -59,6 +59,7 @@ Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::ui
       stbi_load_from_memory(bytes.data(), size, &image.width, &image.height, &channels, 3));
   if (!pixels) cannot_read(file, "damaged: " + why_it_failed());
   const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  image.has_alpha = channels == 2 || channels == 4;
   image.rgb.assign(pixels.get(), pixels.get() + 3 * count);
   return image;
 }

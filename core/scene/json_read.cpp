@@ -95,7 +95,8 @@ class PictureShelf {
       fail(at, in_quotes(path.string()) + ", which is no file", "an image");
     try {
       Rgb8Image image = read_rgb8(path);
-      pixels = std::make_shared<const Image::Pixels>(Image::Pixels{image.width, image.height, std::move(image.rgb)});
+      pixels = std::make_shared<const Image::Pixels>(
+          Image::Pixels{image.width, image.height, std::move(image.rgb), image.has_alpha});
     } catch (const ImageFileError& why) {
       fail(at, "a file that cannot be read (" + std::string(why.what()) + ")", "an 8-bit image, such as PNG or JPEG");
     }

@@ -39,7 +39,8 @@ BUGS = [
     ("media", "a wrong number in the cosine of fog that is nearly even", "core/media/medium.h", "F(3.0f) + s2)", "F(2.0f) + s2)", "media/medium"),
     # textures
     ("textures", "a checker that is flat along z", "core/textures/checker.h", "floor(cell.x) + floor(cell.y) + floor(cell.z)", "floor(cell.x) + floor(cell.y)", "textures/checker"),
-    ("textures", "pictures upside down", "core/textures/image.h", "mul_add(one - v, last_row + one", "mul_add(v, last_row + one", "textures/image"),
+    ("textures", "pictures upside down", "core/textures/image.h", "mul_add(one - uv.v, last_row + one", "mul_add(uv.v, last_row + one", "textures/image"),
+    ("textures", "pictures go round on quads", "core/textures/image.h", "select(uv.wraps, across, min(max(across, zero), last_column))", "across", "textures/image"),
     ("textures", "a wrong weight of octaves", "core/textures/noise.h", "weight *= 0.5f, frequency", "weight *= 0.6f, frequency", "textures/noise"),
     # film
     ("film", "a wrong limb: the low one is not added", "core/film/exact_sum.h", "    low += other.low;\n", "", "film/film", "core/film/film.cpp core/film/merge.cpp"),
