@@ -1,5 +1,8 @@
 #pragma once
+#include "core/film/film.h"
+
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,10 +15,24 @@ struct ImageFileError : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
+/// A picture's name that asks for a layer which the file has not. One line with the layers that there are.
+struct NoSuchLayer : ImageFileError {
+  using ImageFileError::ImageFileError;
+};
+
+/// What an EXR says of where its pixels lie and what they mean. Pictures of other formats say nothing of the kind.
+struct ImageFrame {
+  Region display;                          ///< the picture that is meant; coordinates may be negative
+  Region data;                             ///< the pixels that the file has: a part of it, or more (overscan)
+  float pixel_aspect = 1;                  ///< width of a pixel over its height
+  std::optional<float> white_luminance{};  ///< cd/m² of RGB (1, 1, 1), where the file says so
+};
+
 /// Linear Rec.709 RGB, 3 floats a pixel, top row first.
 struct LinearImage {
   int width = 0, height = 0;
   std::vector<float> rgb;
+  std::optional<ImageFrame> frame{};  ///< of an EXR; width and height are those of its data
 };
 
 /// A further picture of the same size for EXR, for example "Albedo" (R, G, B), "Ns" (X, Y, Z) or "Depth" (Z).

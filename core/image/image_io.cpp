@@ -21,7 +21,20 @@ LinearImage to_linear(const Rgb8Image& image) {
 
 }  // namespace
 
-LinearImage read_image(const std::filesystem::path& file) {
+PictureName picture_name(const std::filesystem::path& name) {
+  std::error_code error;
+  const std::string& text = name.native();
+  if (std::filesystem::exists(name, error)) return {name};
+  for (std::size_t colon = text.rfind(':'); colon != text.npos && colon > 0; colon = text.rfind(':', colon - 1)) {
+    const std::filesystem::path file = text.substr(0, colon);
+    if (std::filesystem::exists(file, error) && !std::filesystem::is_directory(file, error))
+      return {file, text.substr(colon + 1)};
+  }
+  return {name};
+}
+
+LinearImage read_image(const std::filesystem::path& name) {
+  const auto [file, layer] = picture_name(name);
   // A pipe can be read only once, so that it is not asked for its first bytes alone.
   std::error_code error;
   const bool whole = std::filesystem::is_fifo(file, error);
@@ -29,7 +42,9 @@ LinearImage read_image(const std::filesystem::path& file) {
   const ImageKind kind = image_kind(bytes);
   if (kind == ImageKind::exr && whole)
     cannot_read(file, "found an EXR in a pipe, expected a file: it is not read in order");
-  if (kind == ImageKind::exr) return read_exr(file);
+  if (kind == ImageKind::exr) return read_exr(file, layer);
+  if (layer)
+    throw NoSuchLayer(name.string() + ": found a layer's name after a file that is no EXR, expected " + file.string());
   if (kind == ImageKind::unknown) cannot_read(file, "found no image, expected PNG, JPEG, PFM, HDR or EXR");
   if (!whole) bytes = read_bytes(file);
   if (kind == ImageKind::pfm) return read_pfm(file, bytes);

@@ -27,8 +27,18 @@ void write_exr(const std::filesystem::path& file, const Film& film, const std::v
 void write_checkpoint(const std::filesystem::path& file, const Film& film, const Embedded& embedded);
 bool has_openexr();
 
+/// What a user calls a picture: FILE, or FILE.exr:LAYER for a layer of an EXR.
+struct PictureName {
+  std::filesystem::path file;
+  std::optional<std::string> layer{};
+};
+/// Takes such a name apart. A file that has the whole name is meant itself, even if there is a ':' in it; else the
+/// longest beginning up to a ':' that is the name of a file. Where no file is found, the whole name is the file's.
+PictureName picture_name(const std::filesystem::path& name);
+
 /// Reads a PNG or JPEG (8 bits, decoded from sRGB to linear), PFM, HDR or EXR; the content tells which, not the name.
-LinearImage read_image(const std::filesystem::path& file);
+/// name: see PictureName. Throws NoSuchLayer for a layer that is not there.
+LinearImage read_image(const std::filesystem::path& name);
 /// The film in an EXR that Tyndall wrote; nothing if it holds none.
 std::optional<Film> read_film(const std::filesystem::path& file);
 /// The same without pixels and emission: its size, region, first sample and unit.

@@ -38,7 +38,8 @@ ImageKind image_kind(std::span<const std::uint8_t> start);
 // Readers by kind, from a file's bytes.
 LinearImage read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 LinearImage read_hdr(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
-LinearImage read_exr(const std::filesystem::path& file);
+/// layer: what the user asks for; none: the picture of the first part that has colour.
+LinearImage read_exr(const std::filesystem::path& file, const std::optional<std::string>& layer);
 Rgb8Image decode_rgb8(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 /// JPEG: RGB or grey, also progressive. What is damaged is refused, not guessed.
 Rgb8Image read_jpeg(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);

@@ -89,8 +89,11 @@ class PictureShelf {
     auto& pixels = shelf_[path];
     if (pixels) return pixels;
     std::error_code error;
-    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(path, error);
+    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(picture_name(path).file, error);
     if (!exists) fail(at, "no file " + in_quotes(path.string()), "an image, relative to the scene file");
+    if (const auto& layer = picture_name(path).layer)
+      fail(at, "layer " + in_quotes(*layer) + " of " + in_quotes(picture_name(path).file.string()),
+           "an 8-bit image, such as PNG or JPEG, which has no layers");
     if (!std::filesystem::is_regular_file(path, error))
       fail(at, in_quotes(path.string()) + ", which is no file", "an image");
     try {

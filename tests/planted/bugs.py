@@ -52,6 +52,8 @@ BUGS = [
     ("film", "-0 changes the hash of a picture", "core/film/film.cpp", "value == 0 ? 0u : std::bit_cast<std::uint32_t>(value)", "std::bit_cast<std::uint32_t>(value)", "film/film", "core/film/film.cpp core/film/merge.cpp"),
     # image
     ("image", "a wrong end of the dark part of sRGB", "core/image/tonemap.cpp", "if (linear <= 0.0031308f)", "if (linear <= 0.031308f)", "image/tonemap"),
+    ("image", "another order of luminance and chroma", "core/image/image_io_exr_layers.cpp", "{has(\"Y\"), has(\"RY\"), has(\"BY\")}", "{has(\"Y\"), has(\"BY\"), has(\"RY\")}", "image/image_io_exr_header"),
+    ("image", "the white of an EXR is not adapted", "core/image/image_io_exr_colour.cpp", "matrix = matrix * adaptation(neutral, rec709.white);", "matrix = matrix;", "image/image_io_exr_header"),
     ("image", "PFM with the top row first", "core/image/image_io_pfm.cpp", "subspan(left - row, row)", "subspan(image.rgb.size() - left, row)", "image/image_io"),
     ("image", "PFM files of the other byte order are read as they are", "core/image/image_io_pfm.cpp", "header.scale > 0));", "false));", "image/image_io image/image_io_hostile"),
     # accuracy
