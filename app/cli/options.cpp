@@ -52,23 +52,27 @@ void finish_compare(const CLI::App& app, const std::vector<std::string>& images,
 
 Command read_compare(Words words) {
   CompareCommand command;
-  const auto app =
-      new_command("compare IMAGE REFERENCE | IMAGE... --baseline DIR [options]",
-                  "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
-                  "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
-                  "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
-                  "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
-                  "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
-                  "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
-                  "whether the difference is more than noise.",
-                  "Exit code 1: an error is above its --max-..., or not a number.\n\n"
-                  "Examples:\n"
-                  "  tyndall compare out.png snapshot.png\n"
-                  "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
-                  "  tyndall compare a.exr --baseline kept --report report.html");
+  const auto app = new_command(
+      "compare IMAGE REFERENCE | IMAGE... --baseline DIR [options]",
+      "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
+      "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+      "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
+      "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
+      "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
+      "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
+      "whether the difference is more than noise.\n\n"
+      "EXR files of one display window and different data windows (a region, overscan) are compared by\n"
+      "position, over the pixels that both have. Beside an EXR, a picture of another format is its display\n"
+      "window if it has the size of that, else its data window.",
+      "Exit code 1: an error is above its --max-..., or not a number.\n\n"
+      "Examples:\n"
+      "  tyndall compare out.png snapshot.png\n"
+      "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
+      "  tyndall compare a.exr --baseline kept --report report.html");
   std::vector<std::string> images;
   add_arguments(*app, "IMAGE REFERENCE",
-                "PNG, JPEG, PFM, HDR or EXR; the second one is what the first should\n"
+                "PNG, JPEG, PFM, HDR or EXR, or FILE.exr:LAYER for a layer, a part, a\n"
+                "view or a channel of an EXR; the second one is what the first should\n"
                 "look like, of the same size. With --baseline: any number of images,\n"
                 "and folders of them",
                 images);

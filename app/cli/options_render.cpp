@@ -169,8 +169,10 @@ Command read_view(const std::vector<std::string>& words) {
   add_image_options(*app, command.scene);
   add_method_options(*app, command.scene);
   add_machine_options(*app, command.threads, command.isa);
-  add_value(*app, "--reference", "FILE", "an image of the same scene and size, to show the true error against",
-            [&](Text t) { command.reference = t; });
+  add_value(
+      *app, "--reference", "FILE",
+      "an image of the same scene and size, to show the true error against;\nFILE.exr:LAYER takes a layer of an EXR",
+      [&](Text t) { command.reference = t; });
   add_value(*app, "--ui-log", "FILE",
             "for tests: write what is on the screen and how long things took;\n- for standard output",
             [&](Text t) { command.ui_log = t; });

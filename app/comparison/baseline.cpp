@@ -68,11 +68,17 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return files;
 }
 
+/// What a picture is called in the baseline: the file's own name and, where one was asked for, the layer.
+std::string name_of(const fs::path& image) {
+  const auto [file, layer] = picture_name(image);
+  return file.filename().string() + (layer ? ":" + *layer : "");
+}
+
 /// Pictures by name; those in the baseline that should be there and are not have an empty path.
 std::map<std::string, fs::path> pictures_of(const BaselineRequest& request) {
   std::map<std::string, fs::path> found;
   const auto add = [&found](const fs::path& file) {
-    const auto [at, fresh] = found.emplace(file.filename().string(), file);
+    const auto [at, fresh] = found.emplace(name_of(file), file);
     if (!fresh) refuse(file, "another picture of the name of " + at->second.string(), "each name once");
   };
   bool whole = false;
@@ -102,7 +108,7 @@ void check(CheckedPicture& picture) {
     picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
     return;
   }
-  if (!fs::exists(picture.reference)) {
+  if (!fs::exists(picture_name(picture.reference).file)) {
     picture.failures.push_back("the baseline lacks it; --update keeps it");
     return;
   }
@@ -140,9 +146,9 @@ std::vector<std::string> update_baseline(const BaselineRequest& request) {
   for (const auto& [name, image] : pictures_of(request)) {
     if (image.empty()) continue;  // not rendered this time: it stays
     read_image(image);            // throws for what is no picture
-    const fs::path target = request.folder / name;
-    if (!fs::equivalent(image, target, error) &&
-        !fs::copy_file(image, target, fs::copy_options::overwrite_existing, error))
+    const fs::path file = picture_name(image).file, target = request.folder / file.filename();
+    if (!fs::equivalent(file, target, error) &&
+        !fs::copy_file(file, target, fs::copy_options::overwrite_existing, error))
       throw IoError(target.string() + ": cannot write: " + error.message());
     tolerances[name] = chosen(request.limits, tolerances, name);
     names.push_back(name);

@@ -23,7 +23,8 @@ struct CheckedPicture {
 
 struct BaselineRequest {
   std::filesystem::path folder;
-  /// Pictures, or folders of them. Of a folder all pictures are taken, and those of the baseline that it lacks fail.
+  /// Pictures (see PictureName), or folders of them. Of a layer of an EXR the whole file is kept, and tolerances under
+  /// the layer's name. Of a folder all pictures are taken, and those of the baseline that it lacks fail.
   std::vector<std::filesystem::path> images;
   Tolerance limits;  ///< in place of those that are kept
 };

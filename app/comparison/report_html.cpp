@@ -1,4 +1,5 @@
 #include "app/comparison/baseline.h"
+#include "app/comparison/pair.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "core/image/image_io.h"
@@ -64,6 +65,7 @@ std::string row(const char* name, double value, const std::optional<double>& lim
 std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_map(c.flip_map, c.width, c.height);
+  const PicturePair pair = read_pair(picture.image, picture.reference);
   return fmt::format(
       "<div class=\"pair\"><figure><div class=\"slide\" style=\"max-width:{0}px\">"
       "<img alt=\"baseline\" src=\"{1}\"><img alt=\"rendered\" class=\"top\" src=\"{2}\">"
@@ -72,8 +74,7 @@ std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
       "style=\"max-width:max({0}px,8rem)\">"
       "<figcaption>left of the divider: rendered; right: baseline</figcaption></figure>\n"
       "<figure><img alt=\"FLIP\" src=\"{3}\"><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
-      c.width, data_of(read_image(picture.reference), beside), data_of(read_image(picture.image), beside),
-      data_of(flip, beside));
+      c.width, data_of(pair.reference, beside), data_of(pair.image, beside), data_of(flip, beside));
 }
 
 std::string section(const CheckedPicture& picture, const fs::path& beside) {
@@ -86,6 +87,8 @@ std::string section(const CheckedPicture& picture, const fs::path& beside) {
   text += "<table><tr><th></th><th>measured</th><th>at most</th></tr>\n" + row("FLIP", c.flip, picture.limits.flip) +
           row("relMSE", c.error.rel_mse, picture.limits.rel_mse) + row("RMSE", c.error.rmse, picture.limits.rmse) +
           row("PSNR (dB)", c.error.psnr, {}) + "</table>\n";
+  const std::string overlap = overlap_text(c);
+  if (!overlap.empty()) text += "<p>Pixels: " + overlap + ".</p>\n";
   return text + pictures_of(picture, beside) + "</section>\n";
 }
 

@@ -56,6 +56,11 @@ done
 # What the clean view and a replay know of the surface is the same colour.
 expect 0 "$tyndall" render quad.json --replay 2,32,0
 grep -Eq 'm .*\(?1 0 0|colour +1 0 0|throughput +1 0 0' out || fail "a replay at the left edge: $(cat out)"
+if has_exr; then
+  expect 0 "$tyndall" render quad.json --spp 8 -q -o quad.exr
+  expect 0 "$tyndall" compare quad.exr:Albedo quad.pfm --json --max-rmse 0.01
+fi
+
 # Alpha: one line when it is loaded, one in inspect; none for pictures without.
 scene alpha.json alpha.png "$quad"
 expect 0 "$tyndall" render alpha.json --spp 8 -q -o alpha.pfm
@@ -72,5 +77,10 @@ cp out alpha_report.json
 same 'textures with alpha' '["t"]' "$(json alpha_report.json textures_with_alpha)"
 expect 0 "$tyndall" inspect quad.json
 ! grep -q alpha out || fail 'alpha where there is none'
+
+# A texture has no layers.
+scene layer.json columns.png:R "$quad"
+expect 2 "$tyndall" render layer.json -o no.pfm
+complains 'layer.json: /textures/t/file' 'found layer "R" of' 'which has no layers'
 
 finish

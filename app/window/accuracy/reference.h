@@ -21,12 +21,13 @@ struct Reference {
   bool known_method = false;  ///< the scene's method is that of the picture
 };
 
-/// Reads an image file, and the scene and film that it may hold. document: what it is for. Throws ImageFileError, and
-/// UsageError for another size than the document's picture has.
-Reference read_reference(const std::filesystem::path& file, const Document& document);
+/// Reads a picture, and the scene and film that its file may hold. name: see PictureName; the film is not that of a
+/// layer. document: what it is for. Throws as read_whole_picture() does, and UsageError for another size than the
+/// document's picture has.
+Reference read_reference(const std::filesystem::path& name, const Document& document);
 
-/// Whether this is an image that holds no scene.
-bool shows_no_scene(const std::filesystem::path& file);
+/// Whether this is an image that holds no scene, or a layer of one.
+bool shows_no_scene(const std::filesystem::path& name);
 
 /// How a reference is rendered.
 struct ReferenceOrder {
