@@ -17,7 +17,9 @@ namespace tyndall {
 namespace {
 
 /// Chromaticities are written with four decimals.
-bool near(Imath::V2f a, Imath::V2f b) { return std::abs(a.x - b.x) < 1e-4f && std::abs(a.y - b.y) < 1e-4f; }
+bool near(const Imath::V2f& a, const Imath::V2f& b) {
+  return std::abs(a.x - b.x) < 1e-4f && std::abs(a.y - b.y) < 1e-4f;
+}
 
 bool near(const Imf::Chromaticities& a, const Imf::Chromaticities& b) {
   return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) && near(a.white, b.white);
@@ -49,10 +51,10 @@ Imf::Chromaticities chromaticities_of(const std::filesystem::path& file, const I
 }
 
 /// The linear Bradford transform of XYZ that turns one white into another. (Row vectors, as Imath has them.)
-Imath::M44f adaptation(Imath::V2f from, Imath::V2f to) {
+Imath::M44f adaptation(const Imath::V2f& from, const Imath::V2f& to) {
   const Imath::M44f cones(0.8951f, -0.7502f, 0.0389f, 0, 0.2664f, 1.7135f, -0.0685f, 0, -0.1614f, 0.0367f, 1.0296f, 0,
                           0, 0, 0, 1);
-  const auto cones_of = [&cones](Imath::V2f white) {
+  const auto cones_of = [&cones](const Imath::V2f& white) {
     return Imath::V3f(white.x / white.y, 1, (1 - white.x - white.y) / white.y) * cones;
   };
   Imath::M44f scale;

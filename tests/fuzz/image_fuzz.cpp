@@ -11,6 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (image.rgb.size() != 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
       std::abort();
   });
+  fuzz::survives<ImageFileError>([&] { read_image(file.path().string() + ":a"); });  // a layer, where it has one
   fuzz::survives<ImageFileError>([&] { read_rgb8(file.path()); });
   fuzz::survives<ImageFileError>([&] { read_embedded_scene(file.path()); });
   return 0;
