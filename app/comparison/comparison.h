@@ -1,6 +1,7 @@
 #pragma once
 #include "core/accuracy/bias.h"
 #include "core/accuracy/error.h"
+#include "core/image/image.h"
 
 #include <filesystem>
 #include <optional>
@@ -22,10 +23,17 @@ struct Comparison {
   ImageError error;
   double flip = 0;              ///< mean
   std::vector<float> flip_map;  ///< of each pixel, top row first
+  bool has_ppm = false;         ///< one of the two is a PPM
+  /// What a user should know of how the files were read, a line each.
+  std::vector<std::string> remarks{};
 };
 
-/// Reads and compares two images. Throws UsageError if their sizes differ, ImageFileError.
-Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference);
+/// Reads and compares two images. ppm: how PPM files are read. Throws UsageError if the sizes differ, ImageFileError.
+Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
+                          PpmCurve ppm = PpmCurve::srgb);
+
+/// Throws UsageError if --gamma2 was given and no PPM was read.
+void check_gamma2(PpmCurve ppm, bool has_ppm);
 
 /// What is too large, each like "RMSE is 0.2, expected at most 0.1". An error that is not a number always is.
 std::vector<std::string> too_large(const Comparison& comparison, const Tolerance& limits);
