@@ -150,15 +150,17 @@ struct PngColour {
   /// cICP names primaries, curve, matrix and range by the numbers of ITU-T H.273.
   double power_of_code_points(std::span<const std::uint8_t> code) {
     constexpr std::uint8_t bt709 = 1, gamma_22 = 4, linear = 8, srgb = 13;
-    const bool known = code[1] == gamma_22 || code[1] == linear || code[1] == srgb;
-    if (!known || code[2] != 0 || code[3] != 1) {
+    const std::uint8_t curve = code[1];
+    const bool video = curve == 1 || curve == 6 || curve == 14 || curve == 15;  // frames of ordinary videos
+    if ((!video && curve != gamma_22 && curve != linear && curve != srgb) || code[2] != 0 || code[3] != 1) {
       std::string found = "found the colours (cICP) ";
       for (std::size_t i = 0; i < 4; ++i) found += (i > 0 ? "/" : "") + std::to_string(code[i]);
       cannot_read(file, found + ", expected 1/13/0/1, which is sRGB, 1/4/0/1 or 1/8/0/1");
     }
     if (code[0] != bt709)
       remarks.push_back("its primaries (cICP) are not those of sRGB; its pixels are read as sRGB's");
-    return code[1] == linear ? 1 : srgb_curve;
+    if (video) remarks.push_back("its curve (cICP) is that of videos; its pixels are read by that of sRGB");
+    return curve == linear ? 1 : srgb_curve;
   }
 
   /// cHRM: white, red, green and blue as x and y, times 100,000. Without it they are sRGB's.

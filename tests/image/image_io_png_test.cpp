@@ -139,6 +139,10 @@ TEST_CASE("png: code points (cICP) go before all; curves that are not read are r
   CHECK(is_srgb(picture_of(pixel(cicp(std::string("\1\x0d\0\1", 4)) + gama(100000)))));
   CHECK(is_linear(picture_of(pixel(cicp(std::string("\1\x08\0\1", 4)) + srgb()))));
   CHECK(picture_of(pixel(cicp(std::string("\x0c\x0d\0\1", 4)))).remarks.size() == 1);
+  const PictureFile video = picture_of(pixel(cicp(std::string("\1\1\0\1", 4))));
+  CHECK(is_srgb(video));
+  REQUIRE(video.remarks.size() == 1);
+  CHECK(video.remarks[0].ends_with("its curve (cICP) is that of videos; its pixels are read by that of sRGB"));
   CHECK(message_for(pixel(cicp(std::string("\x09\x10\0\1", 4)))) ==
         "found the colours (cICP) 9/16/0/1, expected 1/13/0/1, which is sRGB, 1/4/0/1 or 1/8/0/1");
   CHECK(message_for(pixel(cicp(std::string("\1\x0d\0\0", 4)))).starts_with("found the colours (cICP) 1/13/0/0"));
