@@ -82,7 +82,9 @@ class ChartJob {
   }
   ChartReference read(const Scene& scene) const {
     const std::filesystem::path& file = command_.reference;
-    ChartReference reference{read_whole_picture(file), 0, file.filename().string()};
+    PictureFile picture = read_whole_picture(file);
+    for (const std::string& remark : picture.remarks) complain(remark);
+    ChartReference reference{std::move(picture.image), 0, file.filename().string()};
     if (reference.image.width != scene.width || reference.image.height != scene.height)
       throw UsageError("--reference: found " + std::to_string(reference.image.width) + "x" +
                        std::to_string(reference.image.height) + " pixels, expected " + std::to_string(scene.width) +

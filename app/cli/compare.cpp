@@ -90,10 +90,12 @@ int compare_with_baseline(const CompareCommand& command) {
     if (c) text += fmt::format("  FLIP {:.4g}  relMSE {:.4g}  RMSE {:.4g}", c->flip, c->error.rel_mse, c->error.rmse);
     const std::string overlap = c ? overlap_text(*c) : "";
     text += (overlap.empty() ? "" : "  pixels: " + overlap) + "\n";
+    if (c)
+      for (const std::string& remark : c->remarks) complain(remark);
     for (const std::string& failure : picture.failures) complain(picture.name + ": " + failure);
     good = good && picture.failures.empty();
   }
-  if (!command.report.empty()) write_html_report(command.report, pictures);
+  if (!command.report.empty()) write_html_report(command.report, pictures, command.baseline.ppm);
   if (!command.junit.empty()) write_text_file(command.junit, junit_report(pictures));
   write_standard_output(text);
   return good ? 0 : 1;
@@ -106,7 +108,9 @@ int run(const CompareCommand& command) {
   check_outputs({{"--heatmap", command.heatmap}},
                 {picture_name(command.image).file, picture_name(command.reference).file});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
-  const Comparison comparison = compare_images(command.image, command.reference);
+  const Comparison comparison = compare_images(command.image, command.reference, command.baseline.ppm);
+  check_gamma2(command.baseline.ppm, comparison.has_ppm);
+  for (const std::string& remark : comparison.remarks) complain(remark);
   const std::optional<BlockScores> blocks = compare_films(command);
   if (!command.heatmap.empty())
     write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb,

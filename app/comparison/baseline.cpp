@@ -103,7 +103,7 @@ Tolerance chosen(const Tolerance& given, const std::map<std::string, Tolerance>&
   return usual;
 }
 
-void check(CheckedPicture& picture) {
+void check(CheckedPicture& picture, PpmCurve ppm) {
   if (picture.image.empty()) {
     picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
     return;
@@ -114,7 +114,7 @@ void check(CheckedPicture& picture) {
   }
   const auto start = std::chrono::steady_clock::now();
   try {
-    picture.comparison = compare_images(picture.image, picture.reference);
+    picture.comparison = compare_images(picture.image, picture.reference, ppm);
     picture.failures = too_large(*picture.comparison, picture.limits);
   } catch (const std::exception& error) {
     picture.failures.push_back(error.what());
@@ -128,12 +128,15 @@ std::vector<CheckedPicture> check_baseline(const BaselineRequest& request) {
   if (!fs::is_directory(request.folder)) refuse(request.folder, "no such folder", "a baseline; --update makes one");
   const auto tolerances = read_tolerances(request.folder);
   std::vector<CheckedPicture> pictures;
+  bool has_ppm = false;
   for (const auto& [name, image] : pictures_of(request)) {
     CheckedPicture& picture = pictures.emplace_back();
     picture.name = name, picture.image = image, picture.reference = request.folder / name;
     picture.limits = chosen(request.limits, tolerances, name);
-    check(picture);
+    check(picture, request.ppm);
+    has_ppm = has_ppm || (picture.comparison && picture.comparison->has_ppm);
   }
+  check_gamma2(request.ppm, has_ppm);
   return pictures;
 }
 
@@ -142,10 +145,14 @@ std::vector<std::string> update_baseline(const BaselineRequest& request) {
   fs::create_directories(request.folder, error);
   if (error) throw IoError(request.folder.string() + ": cannot make the folder: " + error.message());
   auto tolerances = read_tolerances(request.folder);
+  const auto pictures = pictures_of(request);
+  bool has_ppm = false;
+  for (const auto& [name, image] : pictures)
+    if (!image.empty() && read_picture(image, request.ppm).kind == ImageKind::ppm) has_ppm = true;
+  check_gamma2(request.ppm, has_ppm);
   std::vector<std::string> names;
-  for (const auto& [name, image] : pictures_of(request)) {
+  for (const auto& [name, image] : pictures) {
     if (image.empty()) continue;  // not rendered this time: it stays
-    read_image(image);            // throws for what is no picture
     const fs::path file = picture_name(image).file, target = request.folder / file.filename();
     if (!fs::equivalent(file, target, error) &&
         !fs::copy_file(file, target, fs::copy_options::overwrite_existing, error))

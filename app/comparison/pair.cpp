@@ -86,10 +86,23 @@ void cut(LinearImage& image, const Region& place, const Region& part) {
   if (image.frame) image.frame->data = part;
 }
 
+/// Takes over what is told of a file, and returns its pixels.
+LinearImage take(PicturePair& pair, const Path& name, PictureFile picture) {
+  pair.has_ppm = pair.has_ppm || picture.kind == ImageKind::ppm;
+  for (std::string& remark : picture.remarks) pair.remarks.push_back(std::move(remark));
+  if (picture.has_alpha)
+    pair.remarks.push_back(name.string() + ": alpha is not looked at: what is hidden beneath it is compared");
+  return std::move(picture.image);
+}
+
 }  // namespace
 
-PicturePair read_pair(const Path& image_name, const Path& reference_name) {
-  PicturePair pair{read_image(image_name), read_image(reference_name)};
+PicturePair read_pair(const Path& image_name, const Path& reference_name, PpmCurve ppm) {
+  PicturePair pair;
+  pair.image = take(pair, image_name, read_picture(image_name, ppm));
+  const std::vector<std::string> told = pair.remarks;
+  pair.reference = take(pair, reference_name, read_picture(reference_name, ppm));
+  if (image_name == reference_name) pair.remarks = told;
   pair.image_pixels = pair.image.rgb.size() / 3, pair.reference_pixels = pair.reference.rgb.size() / 3;
   const Placed image{image_name, pair.image}, reference{reference_name, pair.reference};
   const auto [a, b] = places_of(image, reference);
@@ -101,9 +114,10 @@ PicturePair read_pair(const Path& image_name, const Path& reference_name) {
   return pair;
 }
 
-LinearImage read_whole_picture(const Path& name) {
-  LinearImage image = read_image(name);
-  if (!image.frame) return image;
+PictureFile read_whole_picture(const Path& name) {
+  PictureFile picture = read_picture(name);
+  LinearImage& image = picture.image;
+  if (!image.frame) return picture;
   const Region display = image.frame->display, data = image.frame->data;
   if (image.frame->pixel_aspect != 1)
     throw UsageError(
@@ -113,7 +127,7 @@ LinearImage read_whole_picture(const Path& name) {
         fmt::format("{}: found the pixels of its data window {} alone, expected all of its display window {}",
                     name.string(), text_of(data), text_of(display)));
   cut(image, data, display);
-  return image;
+  return picture;
 }
 
 }  // namespace tyndall

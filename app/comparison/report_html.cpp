@@ -62,10 +62,10 @@ std::string row(const char* name, double value, const std::optional<double>& lim
   return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value, limit_text(limit));
 }
 
-std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
+std::string pictures_of(const CheckedPicture& picture, const fs::path& beside, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_map(c.flip_map, c.width, c.height);
-  const PicturePair pair = read_pair(picture.image, picture.reference);
+  const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
   return fmt::format(
       "<div class=\"pair\"><figure><div class=\"slide\" style=\"max-width:{0}px\">"
       "<img alt=\"baseline\" src=\"{1}\"><img alt=\"rendered\" class=\"top\" src=\"{2}\">"
@@ -77,7 +77,7 @@ std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
       c.width, data_of(pair.reference, beside), data_of(pair.image, beside), data_of(flip, beside));
 }
 
-std::string section(const CheckedPicture& picture, const fs::path& beside) {
+std::string section(const CheckedPicture& picture, const fs::path& beside, PpmCurve ppm) {
   const bool good = picture.failures.empty();
   std::string text = fmt::format("<section class=\"{}\"><h2>{} <em>{}</em></h2>\n", good ? "good" : "failed",
                                  escaped(picture.name), good ? "passed" : "failed");
@@ -89,7 +89,7 @@ std::string section(const CheckedPicture& picture, const fs::path& beside) {
           row("PSNR (dB)", c.error.psnr, {}) + "</table>\n";
   const std::string overlap = overlap_text(c);
   if (!overlap.empty()) text += "<p>Pixels: " + overlap + ".</p>\n";
-  return text + pictures_of(picture, beside) + "</section>\n";
+  return text + pictures_of(picture, beside, ppm) + "</section>\n";
 }
 
 constexpr char page_start[] = R"(<!doctype html>
@@ -131,14 +131,14 @@ document.querySelectorAll('input[type=range]').forEach(function (input) {
 
 }  // namespace
 
-void write_html_report(const fs::path& file, const std::vector<CheckedPicture>& pictures) {
+void write_html_report(const fs::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
   std::size_t failed = 0;
   for (const CheckedPicture& picture : pictures) failed += !picture.failures.empty();
   std::string text = page_start + fmt::format("<h1>{} of {} pictures look like their baseline</h1>\n",
                                               pictures.size() - failed, pictures.size());
   for (const bool good : {false, true})  // failures first
     for (const CheckedPicture& picture : pictures)
-      if (picture.failures.empty() == good) text += section(picture, file);
+      if (picture.failures.empty() == good) text += section(picture, file, ppm);
   write_text_file(file, text + page_end);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/film/film.h"
 
-#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -60,11 +59,21 @@ struct Embedded {
   bool film = true;   ///< whether an EXR holds the film itself
 };
 
-/// 8-bit RGB, top row first, as it stands in the file: for textures. channels: 3.
-struct Rgb8Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
-  bool has_alpha = false;  ///< the file also says how opaque its pixels are, which is not looked at
+/// The kinds of image files. `ppm` also stands for greys (P2, P5).
+enum class ImageKind { unknown, png, jpeg, bmp, tga, ppm, pfm, hdr, exr };
+
+/// How the numbers of a PPM stand for light: by sRGB's curve, or as the programs of the "Ray Tracing in One Weekend"
+/// books write them, which take the square root.
+enum class PpmCurve { srgb, gamma2 };
+
+/// A picture as it was read from a file.
+struct PictureFile {
+  LinearImage image;
+  ImageKind kind = ImageKind::unknown;
+  int bits = 32;           ///< of each number in the file, rounded up to 8, 16 or 32; 32: floating point
+  bool has_alpha = false;  ///< some pixel is not opaque, which is not looked at: its colour is read as it stands
+  /// What a user should know of how the file was read, a line each: "FILE: …".
+  std::vector<std::string> remarks;
 };
 
 }  // namespace tyndall

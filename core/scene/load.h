@@ -22,6 +22,9 @@ struct LoadedScene {
 /// for standard input. A name goes before a file of the same name: "./cover" is the file. Throws SceneError.
 LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides = {});
 
+/// What a user should know of how the pictures of the scene's textures were read: a line each, each once.
+std::vector<std::string> texture_remarks(const Scene& scene);
+
 struct BuiltIn {
   std::string name;   ///< what load_scene takes
   std::string title;  ///< the scene's own name, else its first comment

@@ -2,7 +2,6 @@
 #include "core/base/math.h"
 #include "core/textures/point.h"
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,7 +9,7 @@
 /// Pictures as textures: what the scene holds, and their colour at a point.
 namespace tyndall {
 
-/// A picture in sRGB of 8 bits, laid on a surface by its uv coordinates and interpolated between pixels. v points up.
+/// A picture, laid on a surface by its uv coordinates and interpolated between pixels. v points up.
 /// Outside of [0, 1] v gives the colour of the first or last row. u does the same with columns, except on spheres: they
 /// are closed in that direction, so the picture goes on from its last column to its first.
 struct Image {
@@ -20,8 +19,9 @@ struct Image {
       "edge of quads and boxes. An alpha channel is not looked at: what is hidden beneath it is shown. Not for media.";
   struct Pixels {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb;  ///< 3·width·height, top row first
-    bool has_alpha = false;         ///< the file has an alpha channel, which is not looked at
+    std::vector<float> rgb;              ///< 3·width·height linear numbers in [0, 1], top row first
+    bool has_alpha = false;              ///< some pixel of the file is not opaque, which is not looked at
+    std::vector<std::string> remarks{};  ///< what a user should know of how the file was read, a line each
     bool operator==(const Pixels&) const = default;
   };
   std::string file;                      ///< as written in the scene file

@@ -59,7 +59,7 @@ void write_plain_exr(const fs::path& file, Imf::Compression compression, bool ti
 void write_foreign_exr(const fs::path& folder) {
   using test::constant_channels, test::exr_header;
   const auto part = [](const char* name, const std::vector<std::pair<std::string, float>>& channels) {
-    test::ExrPartSource made{exr_header(4, 4), constant_channels(channels)};
+    test::ExrPartSource made{exr_header(4, 3), constant_channels(channels)};
     made.header.setName(name);
     return made;
   };
@@ -92,11 +92,23 @@ void write_films(const fs::path& folder) {
   write_exr(folder / "whole.exr", small_film(true, false), {}, notes);
 }
 
+/// A BMP and a TGA of 2 x 1 pixels.
+void write_stb_kinds(const fs::path& folder) {
+  std::string bmp("BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\1\0\0\0\1\0\x18\0", 30);
+  bmp += std::string(24, '\0') + std::string("\0\0\xff\xc0\x80\x40\0\0", 8);
+  std::ofstream(of(folder, "bmp") / "a.bmp", std::ios::binary) << bmp;
+  const std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x20\x28\0\0\xff\xff\xc0\x80\x40\x10", 26);
+  std::ofstream(of(folder, "tga") / "a.tga", std::ios::binary) << tga;
+}
+
 void write_seeds(const fs::path& folder) {
   const Embedded notes = {"{\"tyndall\": 1, \"objects\": []}", "{}", {}};
   write_png(of(folder, "png") / "a.png", ramp(), 0, ToneMap::srgb, notes);
   write_pfm(of(folder, "pfm") / "a.pfm", ramp());
   write_hdr(of(folder, "hdr") / "a.hdr", ramp());
+  write_ppm(of(folder, "ppm") / "a.ppm", ramp(), 0, ToneMap::srgb);
+  std::ofstream(folder / "ppm" / "text") << "P3 # by hand\n2 1\n255\n1 2 3\n4 5 -6\n";
+  write_stb_kinds(folder);
   for (int i = 0; i < Imf::NUM_COMPRESSION_METHODS; ++i)
     for (const bool tiled : {false, true})
       write_plain_exr(of(folder, "exr") / (std::to_string(i) + (tiled ? "tiled" : "rows")),
@@ -109,7 +121,7 @@ void write_seeds(const fs::path& folder) {
     for (const bool progressive : {false, true}) {
       const fs::path file =
           of(folder, "jpeg") / (std::to_string(channels) + (progressive ? "progressive" : "sequential"));
-      std::ofstream(file, std::ios::binary) << test::jpeg_bytes(width, height, pixels, {channels, progressive, false});
+      std::ofstream(file, std::ios::binary) << test::jpeg_bytes(width, height, pixels, {channels, progressive});
     }
 }
 

@@ -54,8 +54,8 @@ BUGS = [
     ("image", "a wrong end of the dark part of sRGB", "core/image/tonemap.cpp", "if (linear <= 0.0031308f)", "if (linear <= 0.031308f)", "image/tonemap"),
     ("image", "another order of luminance and chroma", "core/image/image_io_exr_layers.cpp", "{has(\"Y\"), has(\"RY\"), has(\"BY\")}", "{has(\"Y\"), has(\"BY\"), has(\"RY\")}", "image/image_io_exr_header"),
     ("image", "the white of an EXR is not adapted", "core/image/image_io_exr_colour.cpp", "matrix = matrix * adaptation(neutral, rec709.white);", "matrix = matrix;", "image/image_io_exr_header"),
-    ("image", "PFM with the top row first", "core/image/image_io_pfm.cpp", "subspan(left - row, row)", "subspan(image.rgb.size() - left, row)", "image/image_io"),
-    ("image", "PFM files of the other byte order are read as they are", "core/image/image_io_pfm.cpp", "header.scale > 0));", "false));", "image/image_io image/image_io_hostile"),
+    ("image", "PFM with the top row first", "core/image/image_io_pfm.cpp", "subspan(left - row, row)", "subspan(image.rgb.size() - left, row)", "image/image_io_pfm"),
+    ("image", "PFM files of the other byte order are read as they are", "core/image/image_io_pfm.cpp", "header.scale > 0));", "false));", "image/image_io_pfm image/image_io_hostile"),
     # accuracy
     ("accuracy", "black pixels dominate", "core/accuracy/error.cpp", "(square(ref) + floor_of_square)", "(square(ref) + 1e-6)", "accuracy/error"),
     ("accuracy", "the noise of halves counted twice", "core/accuracy/bias.cpp", "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2", "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1)))", "accuracy/bias"),

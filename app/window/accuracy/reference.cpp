@@ -51,13 +51,14 @@ void check_size(const std::string& name, const LinearImage& image, const Scene& 
 }
 
 Reference read_reference(const fs::path& name, const Document& document) {
-  Reference reference{read_whole_picture(name), 0, name.filename().string(), document.scene};
+  PictureFile picture = read_whole_picture(name);
+  Reference reference{std::move(picture.image), 0, name.filename().string(), document.scene};
+  reference.remarks = std::move(picture.remarks);
   check_size(name.string(), reference.image, document.scene);
+  if (picture.bits < 32) reference.about += " (" + std::to_string(picture.bits) + " bit)";
   const auto [file, layer] = picture_name(name);
-  const ImageKind kind = image_kind(read_bytes(file, 16));
-  if (kind == ImageKind::png || kind == ImageKind::jpeg) reference.about += " (8 bit)";
   if (const auto scene = scene_in(file, document)) reference.scene = *scene, reference.known_method = true;
-  if (kind != ImageKind::exr || layer) return reference;
+  if (picture.kind != ImageKind::exr || layer) return reference;
   if (const auto film = read_film(file)) {
     const double error = estimated_relative_error(*film);
     if (std::isfinite(error)) reference.rel_mse = error * error;
@@ -70,7 +71,7 @@ bool shows_no_scene(const fs::path& name) {
   if (layer) return true;
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return false;
-  return image_kind(read_bytes(file, 16)) != ImageKind::unknown && !read_embedded_scene(file);
+  return image_kind(read_bytes(file, kind_size)) != ImageKind::unknown && !read_embedded_scene(file);
 }
 
 std::optional<Reference> rendered_reference(const ReferenceOrder& order,

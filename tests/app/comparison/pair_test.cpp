@@ -119,7 +119,7 @@ TEST_CASE("pair: a picture without windows is the display window of an EXR, or i
 
 TEST_CASE("pair: what others are measured against is cut to its display window, and must fill it") {
   const fs::path folder = scratch_folder("pair_reference");
-  const LinearImage image = read_whole_picture(exr(folder / "a.exr", {5, 5, 21, 14}, {0, 0, 40, 40}));
+  const LinearImage image = read_whole_picture(exr(folder / "a.exr", {5, 5, 21, 14}, {0, 0, 40, 40})).image;
   CHECK(image.width == 16);
   CHECK(image.height == 9);
   CHECK(image.rgb[0] == 5);
@@ -149,7 +149,7 @@ TEST_CASE("baseline: layers of EXR files, and parts of pictures") {
   const auto again = check_baseline(request);
   CHECK(again[0].failures.empty());
   CHECK(again[0].comparison->flip_map.size() == 24);
-  write_html_report(folder / "report.html", again);
+  write_html_report(folder / "report.html", again, PpmCurve::srgb);
   CHECK(read_text(folder / "report.html").find("24 that both have, of 144 in the image and 24") != std::string::npos);
   write_exr_file(folder / "a.exr", exr_header(display, display), constant_channels({{"x.R", 2}}));
   REQUIRE(check_baseline(request)[0].failures.size() == 1);
