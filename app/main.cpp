@@ -5,6 +5,7 @@
 #include "core/base/limits.h"
 #include "core/base/text.h"
 #include "core/film/merge.h"
+#include "core/image/image.h"
 
 #include <csignal>
 #include <exception>
@@ -39,6 +40,8 @@ int main(int argc, char** argv) {
   } catch (const tyndall::SceneError& error) {
     return fail(error, wrong_usage);
   } catch (const tyndall::MergeError& error) {
+    return fail(error, wrong_usage);
+  } catch (const tyndall::NoSuchLayer& error) {
     return fail(error, wrong_usage);
   } catch (const std::bad_alloc&) {
     tyndall::complain("not enough memory" + tyndall::memory_limit_text());

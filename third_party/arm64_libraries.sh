@@ -7,10 +7,10 @@ set -euo pipefail
 folder=$(mkdir -p "${1:?usage: arm64_libraries.sh FOLDER}" && cd "$1" && pwd -P)
 [ -e "$folder/complete" ] && exit 0
 
-wanted=(libc6 libstdc++6 libhwy-dev libfmt-dev libjpeg62-turbo-dev libopenexr-dev nlohmann-json3-dev libcli11-dev
+wanted=(libc6 libstdc++6 libhwy-dev libfmt-dev libjpeg62-turbo-dev libpng-dev libopenexr-dev nlohmann-json3-dev libcli11-dev
   libstb-dev doctest-dev)
 # What these need in turn, without the C library's headers: the cross compiler has its own.
-needed='^(libgcc-s1|libc6|libstdc\+\+6|libhwy.*|libfmt.*|libjpeg.*|libopenexr.*|libimath.*|libdeflate.*|zlib1g.*|nlohmann.*|libcli11.*|libstb.*|doctest.*)$'
+needed='^(libgcc-s1|libc6|libstdc\+\+6|libhwy.*|libfmt.*|libjpeg.*|libpng.*|libopenexr.*|libimath.*|libdeflate.*|zlib1g.*|nlohmann.*|libcli11.*|libstb.*|doctest.*)$'
 
 apt=$folder/apt
 mkdir -p "$apt/state/lists/partial" "$apt/cache/archives/partial" "$folder/usr/lib"

@@ -1,5 +1,5 @@
 # Where the libraries of the core and of the command line come from: the system's packages.
-# Required: threads, nlohmann_json, CLI11, {fmt}, stb, libjpeg-turbo. Optional: Highway (SIMD kernels), OpenEXR,
+# Required: threads, nlohmann_json, CLI11, {fmt}, stb, libjpeg-turbo, libpng. Optional: Highway (SIMD kernels), OpenEXR,
 # doctest (tests).
 find_package(Threads REQUIRED)
 find_package(PkgConfig)
@@ -7,6 +7,7 @@ find_package(nlohmann_json 3.9 CONFIG REQUIRED)
 find_package(CLI11 2 CONFIG REQUIRED)
 find_package(fmt 8 CONFIG REQUIRED)
 find_package(JPEG REQUIRED)
+find_package(PNG 1.6 REQUIRED)
 find_package(doctest 2.4 CONFIG QUIET)
 
 # Debian's {fmt} and OpenEXR are compiled with GNU's standard library. With libc++ {fmt} is taken from its headers, and

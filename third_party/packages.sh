@@ -6,7 +6,7 @@
 # Used by the scripts that source this file.
 # shellcheck disable=SC2034
 build_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libgl-dev libimgui-dev libstb-dev
-  libjpeg-dev python3-glad nlohmann-json3-dev libcli11-dev libfmt-dev doctest-dev libopenexr-dev libhwy-dev)
+  libjpeg-dev libpng-dev python3-glad nlohmann-json3-dev libcli11-dev libfmt-dev doctest-dev libopenexr-dev libhwy-dev)
 # shellcheck disable=SC2034
 run_packages=(libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono)
 # shellcheck disable=SC2034
@@ -61,9 +61,9 @@ other_systems() {
   cat >&2 <<'MSG'
 This is not a Debian or Ubuntu system, so Tyndall cannot install the packages that it needs. Install these, then start
 again with TYNDALL_SKIP_PACKAGES=1 in front, as in "TYNDALL_SKIP_PACKAGES=1 ./run":
-  Fedora:  sudo dnf install gcc-c++ cmake ninja-build pkgconf glfw-devel mesa-libGL-devel stb_image-devel stb_image_write-devel libjpeg-turbo-devel json-devel cli11-devel fmt-devel doctest-devel openexr-devel highway-devel
-  Arch:    sudo pacman -S --needed base-devel cmake ninja glfw mesa stb libjpeg-turbo nlohmann-json cli11 fmt doctest openexr highway
-  macOS:   brew install cmake ninja pkg-config glfw jpeg-turbo nlohmann-json cli11 fmt doctest openexr highway
+  Fedora:  sudo dnf install gcc-c++ cmake ninja-build pkgconf glfw-devel mesa-libGL-devel stb_image-devel stb_image_write-devel libjpeg-turbo-devel libpng-devel json-devel cli11-devel fmt-devel doctest-devel openexr-devel highway-devel
+  Arch:    sudo pacman -S --needed base-devel cmake ninja glfw mesa stb libjpeg-turbo libpng nlohmann-json cli11 fmt doctest openexr highway
+  macOS:   brew install cmake ninja pkg-config glfw jpeg-turbo libpng nlohmann-json cli11 fmt doctest openexr highway
 The window also needs glad 2 (pip install glad2) and Dear ImGui; to build with its sources, once call
 "cmake --preset release -DIMGUI_DIR=FOLDER". Without them Tyndall is built without the window.
 MSG

@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/cli/signals.h"
+#include "app/comparison/pair.h"
 #include "app/curves/chart_files.h"
 #include "app/curves/measure.h"
 #include "app/files/open_scene.h"
@@ -49,8 +50,9 @@ class ChartJob {
   Chart make(const SceneRequest& request, const std::filesystem::path& svg) {
     LoadedScene loaded = open_scene(request);
     std::vector<std::filesystem::path> inputs = loaded.files;
-    if (!command_.reference.empty()) inputs.push_back(command_.reference);
+    if (!command_.reference.empty()) inputs.push_back(picture_name(command_.reference).file);
     check_outputs({{"--output", svg}, {"--output", csv_beside(svg)}}, inputs);
+    tell_alpha(loaded);
     Scene& scene = loaded.scene;
     if (!request.size) make_small(scene);
     std::vector<ChartMethod> methods;
@@ -80,7 +82,9 @@ class ChartJob {
   }
   ChartReference read(const Scene& scene) const {
     const std::filesystem::path& file = command_.reference;
-    ChartReference reference{read_image(file), 0, file.filename().string()};
+    PictureFile picture = read_whole_picture(file);
+    for (const std::string& remark : picture.remarks) complain(remark);
+    ChartReference reference{std::move(picture.image), 0, file.filename().string()};
     if (reference.image.width != scene.width || reference.image.height != scene.height)
       throw UsageError("--reference: found " + std::to_string(reference.image.width) + "x" +
                        std::to_string(reference.image.height) + " pixels, expected " + std::to_string(scene.width) +

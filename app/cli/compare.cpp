@@ -33,6 +33,7 @@ std::string json_text(const Comparison& c, const std::optional<BlockScores>& blo
   json["flip"] = c.flip;
   json["mean_image"] = channels(c.error.mean_image);
   json["mean_reference"] = channels(c.error.mean_reference);
+  json["pixels"] = {{"compared", c.flip_map.size()}, {"image", c.image_pixels}, {"reference", c.reference_pixels}};
   if (blocks)
     json["blocks"] = {{"count", blocks->blocks},
                       {"mean_square_z", blocks->mean_square},
@@ -60,14 +61,18 @@ std::string table(const Comparison& c, const std::optional<BlockScores>& blocks)
       "  green  {:<13.6g} {:.6g}\n"
       "  blue   {:<13.6g} {:.6g}\n",
       a.x, b.x, a.y, b.y, a.z, b.z);
-  return row("MSE", c.error.mse, "") + row("RMSE", c.error.rmse, "") +
-         row("relMSE", c.error.rel_mse, "depends on the unit of radiance") + row("PSNR", c.error.psnr, "dB, sRGB") +
-         row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") + (blocks ? blocks_text(*blocks) : "") + means;
+  const std::string overlap = overlap_text(c);
+  return (overlap.empty() ? "" : "pixels   " + overlap + "\n") + row("MSE", c.error.mse, "") +
+         row("RMSE", c.error.rmse, "") + row("relMSE", c.error.rel_mse, "depends on the unit of radiance") +
+         row("PSNR", c.error.psnr, "dB, sRGB") + row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") +
+         (blocks ? blocks_text(*blocks) : "") + means;
 }
 
 /// A line for each picture, and the reports. Returns the exit code.
 int compare_with_baseline(const CompareCommand& command) {
-  check_outputs({{"--report", command.report}, {"--junit", command.junit}}, command.baseline.images);
+  std::vector<std::filesystem::path> inputs;
+  for (const auto& image : command.baseline.images) inputs.push_back(picture_name(image).file);
+  check_outputs({{"--report", command.report}, {"--junit", command.junit}}, inputs);
   for (const auto& file : {command.report, command.junit})
     if (!file.empty()) check_can_write(file);
   if (command.update) {
@@ -82,12 +87,15 @@ int compare_with_baseline(const CompareCommand& command) {
   for (const CheckedPicture& picture : pictures) {
     const auto& c = picture.comparison;
     text += fmt::format("{:<6} {}", picture.failures.empty() ? "ok" : "FAILED", picture.name);
-    text +=
-        c ? fmt::format("  FLIP {:.4g}  relMSE {:.4g}  RMSE {:.4g}\n", c->flip, c->error.rel_mse, c->error.rmse) : "\n";
+    if (c) text += fmt::format("  FLIP {:.4g}  relMSE {:.4g}  RMSE {:.4g}", c->flip, c->error.rel_mse, c->error.rmse);
+    const std::string overlap = c ? overlap_text(*c) : "";
+    text += (overlap.empty() ? "" : "  pixels: " + overlap) + "\n";
+    if (c)
+      for (const std::string& remark : c->remarks) complain(remark);
     for (const std::string& failure : picture.failures) complain(picture.name + ": " + failure);
     good = good && picture.failures.empty();
   }
-  if (!command.report.empty()) write_html_report(command.report, pictures);
+  if (!command.report.empty()) write_html_report(command.report, pictures, command.baseline.ppm);
   if (!command.junit.empty()) write_text_file(command.junit, junit_report(pictures));
   write_standard_output(text);
   return good ? 0 : 1;
@@ -97,9 +105,12 @@ int compare_with_baseline(const CompareCommand& command) {
 
 int run(const CompareCommand& command) {
   if (!command.baseline.folder.empty()) return compare_with_baseline(command);
-  check_outputs({{"--heatmap", command.heatmap}}, {command.image, command.reference});
+  check_outputs({{"--heatmap", command.heatmap}},
+                {picture_name(command.image).file, picture_name(command.reference).file});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
-  const Comparison comparison = compare_images(command.image, command.reference);
+  const Comparison comparison = compare_images(command.image, command.reference, command.baseline.ppm);
+  check_gamma2(command.baseline.ppm, comparison.has_ppm);
+  for (const std::string& remark : comparison.remarks) complain(remark);
   const std::optional<BlockScores> blocks = compare_films(command);
   if (!command.heatmap.empty())
     write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb,

@@ -88,6 +88,7 @@ std::string json_text(const Report& report) {
   if (report.gain) json["kernel_gain"] = json_of(*report.gain);
   json["scene_bytes"] = bytes_of(report.prepared->columns());
   json["film_bytes"] = report.film_bytes;
+  json["textures_with_alpha"] = c.with_alpha;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -195,6 +196,7 @@ std::string table(const Report& report) {
   row("shapes", listed(c.shapes, true));
   row("materials", listed(c.materials, false));
   row("textures", listed(c.textures, false));
+  if (!c.with_alpha.empty()) row("", alpha_note(c.with_alpha));
   const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
   row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
   row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));

@@ -52,26 +52,35 @@ void finish_compare(const CLI::App& app, const std::vector<std::string>& images,
 
 Command read_compare(Words words) {
   CompareCommand command;
-  const auto app =
-      new_command("compare IMAGE REFERENCE | IMAGE... --baseline DIR [options]",
-                  "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
-                  "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
-                  "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
-                  "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
-                  "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
-                  "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
-                  "whether the difference is more than noise.",
-                  "Exit code 1: an error is above its --max-..., or not a number.\n\n"
-                  "Examples:\n"
-                  "  tyndall compare out.png snapshot.png\n"
-                  "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
-                  "  tyndall compare a.exr --baseline kept --report report.html");
+  const auto app = new_command(
+      "compare IMAGE REFERENCE | IMAGE... --baseline DIR [options]",
+      "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
+      "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+      "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
+      "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
+      "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
+      "What a file says of its pixels (exposure, curve, orientation) is honoured or refused; what is read\n"
+      "in another way than the file says, such as other primaries than sRGB's, is told in a line.\n\n"
+      "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
+      "whether the difference is more than noise.\n\n"
+      "EXR files of one display window and different data windows (a region, overscan) are compared by\n"
+      "position, over the pixels that both have. Beside an EXR, a picture of another format is its display\n"
+      "window if it has the size of that, else its data window.",
+      "Exit code 1: an error is above its --max-..., or not a number.\n\n"
+      "Examples:\n"
+      "  tyndall compare out.png snapshot.png\n"
+      "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
+      "  tyndall compare a.exr --baseline kept --report report.html");
   std::vector<std::string> images;
   add_arguments(*app, "IMAGE REFERENCE",
-                "PNG, JPEG, PFM, HDR or EXR; the second one is what the first should\n"
-                "look like, of the same size. With --baseline: any number of images,\n"
-                "and folders of them",
+                "PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR, or FILE.exr:LAYER for a\n"
+                "layer, a part, a view or a channel of an EXR; the second one is what\n"
+                "the first should look like, of the same size. With --baseline: any\n"
+                "number of images, and folders of them",
                 images);
+  add_gamma2(*app,
+             "read PPM files as the books' programs write them, by the square of\ntheir numbers, not by sRGB's curve",
+             command.baseline.ppm);
   add_value(*app, "--heatmap", "FILE.png", "write FLIP of each pixel, in colours, with their scale beneath",
             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
   app->add_flag("--json", command.json, "print JSON");
@@ -100,7 +109,8 @@ Command read_merge(Words words) {
                   "  tyndall merge a.exr b.exr -o fog.exr -o fog.png");
   std::vector<std::string> parts;
   add_arguments(*app, "PART", "EXR files that hold films of the same scene, in any order", parts);
-  add_outputs(*app, ".png .exr .pfm .hdr or -, as for render; repeatable; required", command.outputs, command.form);
+  add_outputs(*app, ".png .exr .pfm .hdr .ppm or -, as for render; repeatable; required", command.outputs,
+              command.form);
   app->add_flag("--denoise", command.denoise, "files hold the filtered picture, as with 'tyndall render --denoise'");
   if (auto help = parse(*app, words)) return PrintCommand{*help};
   require(*app, !parts.empty(), "PART");
@@ -121,7 +131,7 @@ Command read_denoise(Words words) {
   std::string film;
   add_argument(*app, "FILM.exr", "an EXR that 'tyndall render' or 'tyndall merge' wrote", film);
   add_outputs(*app,
-              ".png .pfm .hdr: the filtered picture; .exr: the film, and beside\n"
+              ".png .pfm .hdr .ppm: the filtered picture; .exr: the film, beside\n"
               "it denoised.R/G/B and denoised.error; - for standard output;\n"
               "repeatable; required",
               command.outputs, command.form);

@@ -44,7 +44,8 @@ Command read_chart(const std::vector<std::string>& words) {
              "a curve: the scene's settings, and what its flags change\n"
              "(those of Method in 'tyndall render', and --isa); repeatable",
              [&](const std::string& t) { command.methods.push_back(read_method(t)); });
-  add_value(*app, "--reference", "FILE", "image to measure errors against, of the same size [rendered]",
+  add_value(*app, "--reference", "FILE",
+            "image to measure errors against, of the same size; FILE.exr:LAYER\ntakes a layer of an EXR [rendered]",
             [&](const std::string& t) { command.reference = t; });
   add_value(*app, "--budget", "SECONDS", "time for all, the reference included [50]",
             [&](const std::string& t) { command.budget = read_number(t, above(0), "a number of seconds > 0"); });

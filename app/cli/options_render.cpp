@@ -49,12 +49,13 @@ void add_output(CLI::App& app, RenderCommand& command) {
   app.option_defaults()->group("Output");
   add_outputs(app,
               ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
-              "itself; .pfm, .hdr: float, linear; - for standard output;\n"
+              "itself; .pfm, .hdr: float, linear; .ppm: 8-bit sRGB, as PNG; - for\n"
+              "standard output;\n"
               "repeatable; required",
               command.outputs, command.form);
   add_value(app, "--region", "X0,Y0,X1,Y1",
             "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
-            "PNG, PFM and HDR get the region's size, EXR a data window",
+            "EXR gets a data window, other files the region's size",
             [&](Text t) { command.region = read_region(t); });
   app.add_flag("--denoise", command.denoise,
                "files hold the filtered picture: noise is taken away where the\n"
@@ -82,6 +83,8 @@ void add_output(CLI::App& app, RenderCommand& command) {
 
 void refuse_conflicts(const RenderCommand& c) {
   if (c.replay && !c.outputs.empty()) throw UsageError("--replay and -o exclude each other: a replay writes no image");
+  if (c.replay && c.form.ppm == PpmCurve::gamma2)
+    throw UsageError("--replay and --gamma2 exclude each other: a replay writes no image");
   if (c.denoise && c.spp && *c.spp < least_clean_spp)
     throw UsageError("--denoise: found --spp " + std::to_string(*c.spp) + ", expected at least " +
                      std::to_string(least_clean_spp) + " samples a pixel");
@@ -123,12 +126,21 @@ void add_isa(CLI::App& app, std::string& isa) {
             read, names);
 }
 
+void add_gamma2(CLI::App& app, const std::string& help, PpmCurve& ppm) {
+  app.add_flag_callback(
+      "--gamma2", [&ppm] { ppm = PpmCurve::gamma2; }, help);
+}
+
 void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form) {
   add_values(app, "-o,--output", "FILE", help, [&](Text t) { files.push_back(t); });
-  const std::vector<std::string> formats{"png", "exr", "pfm", "hdr"};
+  const std::vector<std::string> formats{"png", "exr", "pfm", "hdr", "ppm"};
   add_value(
-      app, "--format", "NAME", "png, exr, pfm or hdr: the format of what goes to standard output",
+      app, "--format", "NAME", "png, exr, pfm, hdr or ppm: the format of what goes to standard output",
       [&form, formats](Text t) { form.format = formats[read_name(t, formats)]; }, formats);
+  add_gamma2(app,
+             "write PPM files as the books' programs do: by the square root in\nplace of sRGB's curve, rounded down, "
+             "not dithered",
+             form.ppm);
   add_value(app, "--exr-film", "yes|no",
             "whether .exr files hold the film itself, which merge, denoise,\n"
             "--resume and checkpoints need; without it they are smaller [yes]",
@@ -171,8 +183,10 @@ Command read_view(const std::vector<std::string>& words) {
   add_image_options(*app, command.scene);
   add_method_options(*app, command.scene);
   add_machine_options(*app, command.threads, command.isa);
-  add_value(*app, "--reference", "FILE", "an image of the same scene and size, to show the true error against",
-            [&](Text t) { command.reference = t; });
+  add_value(
+      *app, "--reference", "FILE",
+      "an image of the same scene and size, to show the true error against;\nFILE.exr:LAYER takes a layer of an EXR",
+      [&](Text t) { command.reference = t; });
   add_value(*app, "--ui-log", "FILE",
             "for tests: write what is on the screen and how long things took;\n- for standard output",
             [&](Text t) { command.ui_log = t; });

@@ -15,6 +15,8 @@ Command read_chart(const std::vector<std::string>& words);
 void add_method_options(CLI::App& app, SceneRequest& scene);
 void add_machine_options(CLI::App& app, int& threads, std::string& isa);
 void add_isa(CLI::App& app, std::string& isa);
+/// --gamma2. help: what the command does by it.
+void add_gamma2(CLI::App& app, const std::string& help, PpmCurve& ppm);
 /// -o FILE, repeatable, and the options that say how images are written. help: what the command says of -o.
 void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form);
 void add_progress(CLI::App& app, ProgressStyle& style);

@@ -97,6 +97,7 @@ void prepare(Job& job) {
   job.samples_before = totals(job.begin.film).samples;
   if (!job.begin.note.empty()) complain(job.begin.note);
   check_if_ignored(command, job.loaded.scene.render);
+  tell_alpha(job.loaded);
 }
 
 /// What the picture lacks, if it lacks anything.

@@ -3,6 +3,8 @@
 #include "app/cli/setting_options.h"
 #include "app/files/film_files.h"
 #include "app/files/outputs.h"
+#include "app/report/contents.h"
+#include "app/text/standard_streams.h"
 #include "core/base/text.h"
 #include "core/render/plan.h"
 
@@ -75,6 +77,11 @@ std::string differing_settings(const RenderSettings& film, const RenderSettings&
 }
 
 }  // namespace
+
+void tell_alpha(const LoadedScene& loaded) {
+  const std::string note = alpha_note(contents_of(loaded.scene).with_alpha);
+  if (!note.empty()) complain(loaded.name + ": " + note);
+}
 
 std::string differing_scene(const Scene& film, const Scene& asked) {
   if (same_samples(film, asked)) return "";

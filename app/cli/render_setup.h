@@ -32,6 +32,9 @@ struct RenderStart {
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels);
 
+/// One line on standard error if textures of the scene have an alpha channel, which is not looked at.
+void tell_alpha(const LoadedScene& loaded);
+
 /// How a film's scene differs from the one that is asked for if their samples do, as "found X, expected Y" without
 /// "found"; "": they are the same.
 std::string differing_scene(const Scene& film, const Scene& asked);

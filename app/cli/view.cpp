@@ -4,6 +4,7 @@
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "core/base/error.h"
+#include "core/image/image_io.h"
 
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
@@ -71,11 +72,12 @@ int run(const ViewCommand& command) {
   find_kernels(command.isa);
   check_memory(loaded.scene);
   std::vector<std::filesystem::path> inputs = loaded.files;
-  if (!command.reference.empty()) inputs.push_back(command.reference);
+  if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
   check_outputs({{"--ui-log", command.ui_log}}, inputs);
   const std::string instead = "; the same picture without a window: " + headless_command(command);
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
 #ifdef TYNDALL_WINDOW
+  tell_alpha(loaded);
   try {
     const auto& words = command.words;
     const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();

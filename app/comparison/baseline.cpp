@@ -68,11 +68,17 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return files;
 }
 
+/// What a picture is called in the baseline: the file's own name and, where one was asked for, the layer.
+std::string name_of(const fs::path& image) {
+  const auto [file, layer] = picture_name(image);
+  return file.filename().string() + (layer ? ":" + *layer : "");
+}
+
 /// Pictures by name; those in the baseline that should be there and are not have an empty path.
 std::map<std::string, fs::path> pictures_of(const BaselineRequest& request) {
   std::map<std::string, fs::path> found;
   const auto add = [&found](const fs::path& file) {
-    const auto [at, fresh] = found.emplace(file.filename().string(), file);
+    const auto [at, fresh] = found.emplace(name_of(file), file);
     if (!fresh) refuse(file, "another picture of the name of " + at->second.string(), "each name once");
   };
   bool whole = false;
@@ -97,18 +103,18 @@ Tolerance chosen(const Tolerance& given, const std::map<std::string, Tolerance>&
   return usual;
 }
 
-void check(CheckedPicture& picture) {
+void check(CheckedPicture& picture, PpmCurve ppm) {
   if (picture.image.empty()) {
     picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
     return;
   }
-  if (!fs::exists(picture.reference)) {
+  if (!fs::exists(picture_name(picture.reference).file)) {
     picture.failures.push_back("the baseline lacks it; --update keeps it");
     return;
   }
   const auto start = std::chrono::steady_clock::now();
   try {
-    picture.comparison = compare_images(picture.image, picture.reference);
+    picture.comparison = compare_images(picture.image, picture.reference, ppm);
     picture.failures = too_large(*picture.comparison, picture.limits);
   } catch (const std::exception& error) {
     picture.failures.push_back(error.what());
@@ -122,12 +128,15 @@ std::vector<CheckedPicture> check_baseline(const BaselineRequest& request) {
   if (!fs::is_directory(request.folder)) refuse(request.folder, "no such folder", "a baseline; --update makes one");
   const auto tolerances = read_tolerances(request.folder);
   std::vector<CheckedPicture> pictures;
+  bool has_ppm = false;
   for (const auto& [name, image] : pictures_of(request)) {
     CheckedPicture& picture = pictures.emplace_back();
     picture.name = name, picture.image = image, picture.reference = request.folder / name;
     picture.limits = chosen(request.limits, tolerances, name);
-    check(picture);
+    check(picture, request.ppm);
+    has_ppm = has_ppm || (picture.comparison && picture.comparison->has_ppm);
   }
+  check_gamma2(request.ppm, has_ppm);
   return pictures;
 }
 
@@ -136,13 +145,17 @@ std::vector<std::string> update_baseline(const BaselineRequest& request) {
   fs::create_directories(request.folder, error);
   if (error) throw IoError(request.folder.string() + ": cannot make the folder: " + error.message());
   auto tolerances = read_tolerances(request.folder);
+  const auto pictures = pictures_of(request);
+  bool has_ppm = false;
+  for (const auto& [name, image] : pictures)
+    if (!image.empty() && read_picture(image, request.ppm).kind == ImageKind::ppm) has_ppm = true;
+  check_gamma2(request.ppm, has_ppm);
   std::vector<std::string> names;
-  for (const auto& [name, image] : pictures_of(request)) {
+  for (const auto& [name, image] : pictures) {
     if (image.empty()) continue;  // not rendered this time: it stays
-    read_image(image);            // throws for what is no picture
-    const fs::path target = request.folder / name;
-    if (!fs::equivalent(image, target, error) &&
-        !fs::copy_file(image, target, fs::copy_options::overwrite_existing, error))
+    const fs::path file = picture_name(image).file, target = request.folder / file.filename();
+    if (!fs::equivalent(file, target, error) &&
+        !fs::copy_file(file, target, fs::copy_options::overwrite_existing, error))
       throw IoError(target.string() + ": cannot write: " + error.message());
     tolerances[name] = chosen(request.limits, tolerances, name);
     names.push_back(name);

@@ -23,22 +23,25 @@ struct CheckedPicture {
 
 struct BaselineRequest {
   std::filesystem::path folder;
-  /// Pictures, or folders of them. Of a folder all pictures are taken, and those of the baseline that it lacks fail.
+  /// Pictures (see PictureName), or folders of them. Of a layer of an EXR the whole file is kept, and tolerances under
+  /// the layer's name. Of a folder all pictures are taken, and those of the baseline that it lacks fail.
   std::vector<std::filesystem::path> images;
-  Tolerance limits;  ///< in place of those that are kept
+  Tolerance limits;               ///< in place of those that are kept
+  PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are read
 };
 
 /// Compares each picture with the one of its name. What goes wrong with one is its failure, and the others go on.
-/// Throws UsageError where the folder or its tolerances cannot be read, or two pictures have one name.
+/// Throws UsageError where the folder or its tolerances cannot be read, or two pictures have one name, or for --gamma2
+/// without a PPM.
 std::vector<CheckedPicture> check_baseline(const BaselineRequest& request);
 
 /// Copies the pictures into the folder and keeps the limits as their tolerances; where none are given, those that are
 /// kept stay. Returns the names. Throws UsageError, IoError.
 std::vector<std::string> update_baseline(const BaselineRequest& request);
 
-/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP. Writes pictures of its own
-/// beside `file` for a moment. Throws ImageFileError.
-void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures);
+/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP. ppm: how PPM files are
+/// read. Writes pictures of its own beside `file` for a moment. Throws ImageFileError.
+void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm);
 
 /// A report in the form that JUnit gave to continuous integration.
 std::string junit_report(const std::vector<CheckedPicture>& pictures);

@@ -1,24 +1,36 @@
 #include "app/comparison/comparison.h"
 
+#include "app/comparison/pair.h"
 #include "app/text/values.h"
 #include "core/accuracy/flip.h"
-#include "core/image/image_io.h"
 
 #include <fmt/core.h>
 
 namespace tyndall {
 
-Comparison compare_images(const std::filesystem::path& image_file, const std::filesystem::path& reference_file) {
-  const LinearImage image = read_image(image_file), reference = read_image(reference_file);
-  const auto size = [](const LinearImage& i) { return std::to_string(i.width) + "x" + std::to_string(i.height); };
-  if (image.width != reference.width || image.height != reference.height)
-    throw UsageError(image_file.string() + ": found " + size(image) + " pixels, expected " + size(reference) +
-                     " as in " + reference_file.string());
+Comparison compare_images(const std::filesystem::path& image_file, const std::filesystem::path& reference_file,
+                          PpmCurve ppm) {
+  PicturePair pair = read_pair(image_file, reference_file, ppm);
+  const LinearImage &image = pair.image, &reference = pair.reference;
   Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}};
+  result.image_pixels = pair.image_pixels, result.reference_pixels = pair.reference_pixels;
+  result.has_ppm = pair.has_ppm, result.remarks = std::move(pair.remarks);
   result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
   for (const float value : result.flip_map) result.flip += static_cast<double>(value);
   result.flip /= static_cast<double>(result.flip_map.size());
   return result;
+}
+
+std::string overlap_text(const Comparison& c) {
+  const std::size_t both = c.flip_map.size();
+  if (both == c.image_pixels && both == c.reference_pixels) return "";
+  return fmt::format("{} that both have, of {} in the image and {} in the reference", both, c.image_pixels,
+                     c.reference_pixels);
+}
+
+void check_gamma2(PpmCurve ppm, bool has_ppm) {
+  if (ppm == PpmCurve::gamma2 && !has_ppm)
+    throw UsageError("--gamma2: found no PPM among the images, expected one: only PPM is read so");
 }
 
 std::vector<std::string> too_large(const Comparison& c, const Tolerance& limits) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/accuracy/bias.h"
 #include "core/accuracy/error.h"
+#include "core/image/image.h"
 
 #include <filesystem>
 #include <optional>
@@ -18,14 +19,25 @@ struct Tolerance {
 };
 
 struct Comparison {
-  int width = 0, height = 0;
+  int width = 0, height = 0;  ///< of what was compared: the pixels that both pictures have
   ImageError error;
-  double flip = 0;              ///< mean
-  std::vector<float> flip_map;  ///< of each pixel, top row first
+  double flip = 0;                                     ///< mean
+  std::vector<float> flip_map;                         ///< of each pixel, top row first
+  std::size_t image_pixels = 0, reference_pixels = 0;  ///< that the pictures have
+  bool has_ppm = false;                                ///< one of the two is a PPM
+  /// What a user should know of how the files were read, a line each.
+  std::vector<std::string> remarks{};
 };
 
-/// Reads and compares two images. Throws UsageError if their sizes differ, ImageFileError.
-Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference);
+/// Reads and compares two images, and throws as read_pair() (pair.h) does. ppm: how PPM files are read.
+Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
+                          PpmCurve ppm = PpmCurve::srgb);
+
+/// Throws UsageError if --gamma2 was given and no PPM was read.
+void check_gamma2(PpmCurve ppm, bool has_ppm);
+
+/// "600 that both have, of 2048 in the image and 600 in the reference"; "" where all pixels were compared.
+std::string overlap_text(const Comparison& comparison);
 
 /// What is too large, each like "RMSE is 0.2, expected at most 0.1". An error that is not a number always is.
 std::vector<std::string> too_large(const Comparison& comparison, const Tolerance& limits);

@@ -1,4 +1,5 @@
 #include "app/comparison/baseline.h"
+#include "app/comparison/pair.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "core/image/image_io.h"
@@ -61,9 +62,10 @@ std::string row(const char* name, double value, const std::optional<double>& lim
   return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value, limit_text(limit));
 }
 
-std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
+std::string pictures_of(const CheckedPicture& picture, const fs::path& beside, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_map(c.flip_map, c.width, c.height);
+  const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
   return fmt::format(
       "<div class=\"pair\"><figure><div class=\"slide\" style=\"max-width:{0}px\">"
       "<img alt=\"baseline\" src=\"{1}\"><img alt=\"rendered\" class=\"top\" src=\"{2}\">"
@@ -72,11 +74,10 @@ std::string pictures_of(const CheckedPicture& picture, const fs::path& beside) {
       "style=\"max-width:max({0}px,8rem)\">"
       "<figcaption>left of the divider: rendered; right: baseline</figcaption></figure>\n"
       "<figure><img alt=\"FLIP\" src=\"{3}\"><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
-      c.width, data_of(read_image(picture.reference), beside), data_of(read_image(picture.image), beside),
-      data_of(flip, beside));
+      c.width, data_of(pair.reference, beside), data_of(pair.image, beside), data_of(flip, beside));
 }
 
-std::string section(const CheckedPicture& picture, const fs::path& beside) {
+std::string section(const CheckedPicture& picture, const fs::path& beside, PpmCurve ppm) {
   const bool good = picture.failures.empty();
   std::string text = fmt::format("<section class=\"{}\"><h2>{} <em>{}</em></h2>\n", good ? "good" : "failed",
                                  escaped(picture.name), good ? "passed" : "failed");
@@ -86,7 +87,9 @@ std::string section(const CheckedPicture& picture, const fs::path& beside) {
   text += "<table><tr><th></th><th>measured</th><th>at most</th></tr>\n" + row("FLIP", c.flip, picture.limits.flip) +
           row("relMSE", c.error.rel_mse, picture.limits.rel_mse) + row("RMSE", c.error.rmse, picture.limits.rmse) +
           row("PSNR (dB)", c.error.psnr, {}) + "</table>\n";
-  return text + pictures_of(picture, beside) + "</section>\n";
+  const std::string overlap = overlap_text(c);
+  if (!overlap.empty()) text += "<p>Pixels: " + overlap + ".</p>\n";
+  return text + pictures_of(picture, beside, ppm) + "</section>\n";
 }
 
 constexpr char page_start[] = R"(<!doctype html>
@@ -128,14 +131,14 @@ document.querySelectorAll('input[type=range]').forEach(function (input) {
 
 }  // namespace
 
-void write_html_report(const fs::path& file, const std::vector<CheckedPicture>& pictures) {
+void write_html_report(const fs::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
   std::size_t failed = 0;
   for (const CheckedPicture& picture : pictures) failed += !picture.failures.empty();
   std::string text = page_start + fmt::format("<h1>{} of {} pictures look like their baseline</h1>\n",
                                               pictures.size() - failed, pictures.size());
   for (const bool good : {false, true})  // failures first
     for (const CheckedPicture& picture : pictures)
-      if (picture.failures.empty() == good) text += section(picture, file);
+      if (picture.failures.empty() == good) text += section(picture, file, ppm);
   write_text_file(file, text + page_end);
 }
 

@@ -44,6 +44,7 @@ std::uint64_t writing(const MemoryPlan& plan, const std::filesystem::path& file)
   const std::string ending = image_ending(file, plan.form);
   if (ending == ".exr") return 52 + (plan.clean ? 16 : 0);  // layers, one of them also in 16 bits
   if (ending == ".hdr") return 26;
+  if (ending == ".ppm") return 3;
   return ending == ".png" ? 20 : 0;
 }
 

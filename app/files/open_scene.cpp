@@ -1,9 +1,11 @@
 #include "app/files/open_scene.h"
 
+#include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/scene/check.h"
 
 namespace tyndall {
+
 LoadedScene open_scene(const SceneRequest& request) {
   LoadedScene loaded = load_scene(request.what, request.overrides);
   if (request.size) loaded.scene.width = request.size->width, loaded.scene.height = request.size->height;
@@ -11,6 +13,7 @@ LoadedScene open_scene(const SceneRequest& request) {
   apply(request.display, loaded.scene.display);
   if (const auto broken = check(loaded.scene))
     throw SceneError(loaded.name, broken->where, broken->found, broken->expected);
+  for (const std::string& remark : texture_remarks(loaded.scene)) complain(remark);
   return loaded;
 }
 

@@ -6,7 +6,7 @@
 namespace tyndall {
 
 /// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
-/// again. Throws SceneError.
+/// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError.
 LoadedScene open_scene(const SceneRequest& request);
 
 }  // namespace tyndall

@@ -78,10 +78,14 @@ void check_image_names(const std::vector<std::filesystem::path>& files, const Im
   for (const std::filesystem::path& file : files) {
     const std::string name = "--output: found " + in_quotes(file.string());
     const std::filesystem::path full = name_with_ending(file, form);
-    if (!is_image_output(full)) throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm or .hdr");
+    if (!is_image_output(full))
+      throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm, .hdr or .ppm");
     if (is_exr(full) && !has_openexr())
-      throw UsageError(name + ", expected .png, .pfm or .hdr: this build has no OpenEXR");
+      throw UsageError(name + ", expected .png, .pfm, .hdr or .ppm: this build has no OpenEXR");
   }
+  const auto is_ppm = [&form](const auto& file) { return image_ending(file, form) == ".ppm"; };
+  if (form.ppm == PpmCurve::gamma2 && std::none_of(files.begin(), files.end(), is_ppm))
+    throw UsageError("--gamma2: found no output that ends in .ppm, expected one: only PPM is written so");
   check_outputs(outputs_of("--output", files), {});
 }
 
@@ -161,13 +165,16 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : files) {
     try {
+      const Display& display = picture.display;
       const Region& region = picture.film.region;
+      const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
       const std::string kind = image_ending(file, picture.form);
       if (kind == ".exr")
         write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
       else if (kind == ".png")
-        write_png(file, shown(picture), picture.display.exposure, picture.display.tone_map, picture.embedded(file),
-                  picture.display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt);
+        write_png(file, shown(picture), display.exposure, display.tone_map, picture.embedded(file), dither);
+      else if (kind == ".ppm")
+        write_ppm(file, shown(picture), display.exposure, display.tone_map, picture.form.ppm, dither);
       else if (kind == ".pfm")
         write_pfm(file, shown(picture));
       else

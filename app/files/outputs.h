@@ -14,11 +14,13 @@ namespace tyndall {
 /// How image files are written, where their names do not say it.
 struct ImageForm {
   std::string
-      format;  ///< of what goes to standard output, the file "-": png, exr, pfm or hdr; empty: nothing goes there
-  bool exr_film = true;  ///< whether EXR files hold the film itself, which merge, denoise and --resume need
+      format;  ///< of what goes to standard output, the file "-": png, exr, pfm, hdr or ppm; empty: nothing goes there
+  bool exr_film = true;           ///< whether EXR files hold the film itself, which merge, denoise and --resume need
+  PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are written
 };
 
-/// Throws UsageError for an ending that is no image's, EXR in a build without it, or a file named twice; and if a
+/// Throws UsageError for an ending that is no image's, EXR in a build without it, a file named twice, or --gamma2
+/// without a PPM; and if a
 /// format for standard output is missing, or given though no image goes there, or if the figures (`stats`) go there,
 /// too.
 void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form = {},
@@ -56,7 +58,7 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<std::fi
 struct Picture {
   const Film& film;
   const LinearImage& image;                                             ///< the film's means
-  Display display;                                                      ///< for PNG
+  Display display;                                                      ///< for PNG and PPM
   std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
   std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty
   const CleanPicture* clean = nullptr;         ///< shown in place of the means, in EXR beside them; null: none

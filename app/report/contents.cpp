@@ -1,5 +1,7 @@
 #include "app/report/contents.h"
 
+#include "core/base/text.h"
+
 #include <type_traits>
 #include <variant>
 
@@ -52,12 +54,25 @@ Contents contents_of(const Scene& scene) {
   Contents contents;
   count(scene, scene.objects, contents);
   for (const Material& material : scene.materials) ++contents.materials[type_of(material.kind)];
-  for (const Texture& texture : scene.textures) ++contents.textures[type_of(texture.kind)];
+  for (const Texture& texture : scene.textures) {
+    ++contents.textures[type_of(texture.kind)];
+    const auto* image = std::get_if<Image>(&texture.kind);
+    if (image && image->pixels && image->pixels->has_alpha) contents.with_alpha.push_back(texture.name);
+  }
   contents.motion =
       contents.shapes.count("moving sphere") > 0 && scene.camera.shutter_close > scene.camera.shutter_open;
   contents.defocus = scene.camera.defocus_angle > 0;
   contents.background = background_of(scene);
   return contents;
+}
+
+std::string alpha_note(const std::vector<std::string>& with_alpha) {
+  if (with_alpha.empty()) return "";
+  std::string names;
+  for (const std::string& name : with_alpha) names += (names.empty() ? "" : ", ") + in_quotes(name);
+  if (with_alpha.size() == 1)
+    return "texture " + names + " has an alpha channel, which is not looked at: what is hidden beneath it is shown";
+  return "textures " + names + " have alpha channels, which are not looked at: what is hidden beneath them is shown";
 }
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 /// This room finds out what both the window and the commands tell about scenes, pictures and kernels.
 namespace tyndall {
@@ -12,6 +13,7 @@ struct Contents {
   std::map<std::string, int> shapes;     ///< by type; moving spheres as "moving sphere"
   std::map<std::string, int> materials;  ///< by type
   std::map<std::string, int> textures;   ///< by type
+  std::vector<std::string> with_alpha;   ///< names of the textures whose pictures have an alpha channel
   int media = 0, phase_functions = 0;    ///< phase_functions: media with g != 0
   int lights = 0;                        ///< emitting primitives; a box has six
   bool motion = false;                   ///< something moves while the shutter is open
@@ -20,5 +22,8 @@ struct Contents {
 };
 
 Contents contents_of(const Scene& scene);
+
+/// One sentence about the textures that have an alpha channel: it is not looked at. "": none has.
+std::string alpha_note(const std::vector<std::string>& with_alpha);
 
 }  // namespace tyndall

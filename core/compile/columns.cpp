@@ -3,7 +3,6 @@
 #include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/image/tonemap.h"
 
 #include <cmath>
 
@@ -16,16 +15,6 @@ constexpr double radians = pi / 180;
 double focus_distance(const Camera& camera) {
   if (camera.defocus_angle == 0) return length(camera.look_from - camera.look_at);
   return camera.focus_distance.value_or(length(camera.look_from - camera.look_at));
-}
-
-/// The texels of an image as linear floats.
-std::shared_ptr<const std::vector<float>> linear_texels(const Image::Pixels& pixels) {
-  float decoded[256];
-  for (int i = 0; i < 256; ++i) decoded[i] = srgb_decode(static_cast<float>(i) / 255.0f);
-  auto texels = std::make_shared<std::vector<float>>();
-  texels->reserve(pixels.rgb.size());
-  for (const std::uint8_t value : pixels.rgb) texels->push_back(decoded[value]);
-  return texels;
 }
 
 Vec3d modulo(Vec3d v, double period) {
@@ -126,16 +115,12 @@ Materials material_columns(const std::vector<Material>& materials) {
   return out;
 }
 
-std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin,
-                                            const std::vector<TextureColumns>& before) {
+std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin) {
   std::vector<TextureColumns> out;
   for (const Texture& texture : textures) {
     TextureColumns columns;
     columns.kind = static_cast<std::int32_t>(texture.kind.index());
     std::visit([&](const auto& t) { fill(columns, t, origin); }, texture.kind);
-    for (const TextureColumns& old : before)
-      if (columns.pixels && old.pixels == columns.pixels) columns.texels = old.texels;
-    if (columns.pixels && !columns.texels) columns.texels = linear_texels(*columns.pixels);
     out.push_back(std::move(columns));
   }
   return out;

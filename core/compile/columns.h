@@ -16,9 +16,7 @@ double lens_radius(const Camera& camera);
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);
-/// before: the textures of the scene before. Images that are in both share their linear texels.
-std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin,
-                                            const std::vector<TextureColumns>& before);
+std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin);
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
 std::shared_ptr<const std::vector<float>> gradient_table();
 

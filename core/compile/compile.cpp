@@ -207,7 +207,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.camera = camera_columns(scene.camera, scene.width, scene.height, out.origin);
   out.background = background_columns(scene.background);
   out.materials = material_columns(scene.materials);
-  out.textures = texture_columns(scene.textures, out.origin, before ? before->textures : std::vector<TextureColumns>{});
+  out.textures = texture_columns(scene.textures, out.origin);
   for (const TextureColumns& t : out.textures)
     if (t.kind == place_in<Noise<>, TextureKinds<double>> && !out.gradients) out.gradients = gradient_table();
   fill_geometry(flat, scene, before, out);
@@ -254,7 +254,7 @@ std::size_t bytes_of(const RenderScene& s) {
     bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +
              (sizeof(BvhInput) + 4) * s.bvh->input.size();
   for (const TextureColumns& t : s.textures)
-    if (t.texels) bytes += sizeof(float) * t.texels->size();
+    if (t.pixels) bytes += sizeof(float) * t.pixels->rgb.size();
   return bytes;
 }
 

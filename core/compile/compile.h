@@ -7,7 +7,7 @@ namespace tyndall {
 
 /// Flattens a checked scene for the kernels: composes transforms in double, moves the origin into the middle of the
 /// shapes and rounds to float last. before: the result for an earlier scene, or null. What is equal in both scenes, for
-/// example the tree or the texels of images, is taken from there to save time. The result depends on `scene` alone.
+/// example the tree, is taken from there to save time. The result depends on `scene` alone.
 RenderScene compile(const Scene& scene, const RenderScene* before = nullptr);
 
 /// Approximate bytes held by the compiled scene.

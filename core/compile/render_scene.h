@@ -110,8 +110,7 @@ struct TextureColumns {
   float z_scale = 0, z_offset = 0;  ///< marble: turns per unit of z, and the origin's
   NoiseStyle style = NoiseStyle::marble;
   int width = 0, height = 0;
-  std::shared_ptr<const Image::Pixels> pixels;       ///< where the texels come from
-  std::shared_ptr<const std::vector<float>> texels;  ///< 3·width·height linear
+  std::shared_ptr<const Image::Pixels> pixels;  ///< the scene's own, which kernels read; null: no image
 };
 
 struct MediumColumns {

@@ -1,5 +1,7 @@
 #pragma once
-#include <cstdint>
+#include "core/film/film.h"
+
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,10 +14,24 @@ struct ImageFileError : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
+/// A picture's name that asks for a layer which the file has not. One line with the layers that there are.
+struct NoSuchLayer : ImageFileError {
+  using ImageFileError::ImageFileError;
+};
+
+/// What an EXR says of where its pixels lie and what they mean. Pictures of other formats say nothing of the kind.
+struct ImageFrame {
+  Region display;                          ///< the picture that is meant; coordinates may be negative
+  Region data;                             ///< the pixels that the file has: a part of it, or more (overscan)
+  float pixel_aspect = 1;                  ///< width of a pixel over its height
+  std::optional<float> white_luminance{};  ///< cd/m² of RGB (1, 1, 1), where the file says so
+};
+
 /// Linear Rec.709 RGB, 3 floats a pixel, top row first.
 struct LinearImage {
   int width = 0, height = 0;
   std::vector<float> rgb;
+  std::optional<ImageFrame> frame{};  ///< of an EXR; width and height are those of its data
 };
 
 /// A further picture of the same size for EXR, for example "Albedo" (R, G, B), "Ns" (X, Y, Z) or "Depth" (Z).
@@ -43,10 +59,21 @@ struct Embedded {
   bool film = true;   ///< whether an EXR holds the film itself
 };
 
-/// 8-bit RGB, top row first, as it stands in the file: for textures. channels: 3.
-struct Rgb8Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
+/// The kinds of image files. `ppm` also stands for greys (P2, P5).
+enum class ImageKind { unknown, png, jpeg, bmp, tga, ppm, pfm, hdr, exr };
+
+/// How the numbers of a PPM stand for light: by sRGB's curve, or as the programs of the "Ray Tracing in One Weekend"
+/// books write them, which take the square root.
+enum class PpmCurve { srgb, gamma2 };
+
+/// A picture as it was read from a file.
+struct PictureFile {
+  LinearImage image;
+  ImageKind kind = ImageKind::unknown;
+  int bits = 32;           ///< of each number in the file, rounded up to 8, 16 or 32; 32: floating point
+  bool has_alpha = false;  ///< some pixel is not opaque, which is not looked at: its colour is read as it stands
+  /// What a user should know of how the file was read, a line each: "FILE: …".
+  std::vector<std::string> remarks;
 };
 
 }  // namespace tyndall

@@ -14,6 +14,10 @@ namespace tyndall {
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
                const Embedded& embedded, std::optional<DitherOrigin> dither = {});
+/// PPM (P6, 8 bits): the bytes of the PNG; with PpmCurve::gamma2 those of gamma2_bytes(), which are not dithered. It
+/// carries no scene and no statistics.
+void write_ppm(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
+               PpmCurve ppm = PpmCurve::srgb, std::optional<DitherOrigin> dither = {});
 /// PFM: bottom row first, scale -1.0 (little endian). It carries no scene and no statistics.
 void write_pfm(const std::filesystem::path& file, const LinearImage& image);
 /// Radiance HDR (RGBE). It carries no scene and no statistics.
@@ -27,8 +31,23 @@ void write_exr(const std::filesystem::path& file, const Film& film, const std::v
 void write_checkpoint(const std::filesystem::path& file, const Film& film, const Embedded& embedded);
 bool has_openexr();
 
-/// Reads a PNG or JPEG (8 bits, decoded from sRGB to linear), PFM, HDR or EXR; the content tells which, not the name.
-LinearImage read_image(const std::filesystem::path& file);
+/// What a user calls a picture: FILE, or FILE.exr:LAYER for a layer of an EXR.
+struct PictureName {
+  std::filesystem::path file;
+  std::optional<std::string> layer{};
+};
+/// Takes such a name apart. A file that has the whole name is meant itself, even if there is a ':' in it; else the
+/// longest beginning up to a ':' that is the name of a file. Where no file is found, the whole name is the file's.
+PictureName picture_name(const std::filesystem::path& name);
+
+/// Reads a picture of any kind; the content tells which, not the name. What the file says of its pixels is honoured,
+/// refused or told in a remark; core/image/README.md lists each format's fields. ppm: how the numbers of a PPM are
+/// read. name: see PictureName. Throws NoSuchLayer for a layer that is not there.
+PictureFile read_picture(const std::filesystem::path& name, PpmCurve ppm = PpmCurve::srgb);
+/// The same for a texture: floating-point pixels, which may be brighter than white, are refused.
+PictureFile read_texture(const std::filesystem::path& file);
+/// The light of read_picture() alone.
+LinearImage read_image(const std::filesystem::path& name);
 /// The film in an EXR that Tyndall wrote; nothing if it holds none.
 std::optional<Film> read_film(const std::filesystem::path& file);
 /// The same without pixels and emission: its size, region, first sample and unit.
@@ -40,9 +59,7 @@ std::optional<std::string> read_embedded_stats(const std::filesystem::path& file
 /// The scene text in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file);
 
-Rgb8Image read_rgb8(const std::filesystem::path& file);
-
-/// True for an ending that write_* knows: .png .exr .pfm .hdr (any case).
+/// True for an ending that write_* knows: .png .exr .pfm .hdr .ppm (any case).
 bool is_image_output(const std::filesystem::path& file);
 
 }  // namespace tyndall

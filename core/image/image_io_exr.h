@@ -27,6 +27,9 @@ void check_exr(const std::filesystem::path& file);
 inline constexpr const char* without_openexr =
     "this build has no EXR images (OpenEXR was not found when it was configured)";
 
+/// What users are told about pixels with many depths.
+inline constexpr const char* deep_data = "found deep data (many depths a pixel), expected a flat picture";
+
 /// The version of the form in which films are written. 0 had neither label nor planned rounds. All up to this one are
 /// read.
 inline constexpr int film_format = 1;

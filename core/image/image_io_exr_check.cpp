@@ -68,6 +68,7 @@ struct ExrPart {
   std::uint32_t tile_width = 0, tile_height = 0;  ///< 0: rows
   std::vector<ExrChannel> channels;
   std::uint64_t chunks = 0;  ///< as the attribute chunkCount says; 0: it is not there
+  bool deep = false;         ///< many depths a pixel: its pixels are never read
 };
 
 /// Bytes that a value of this type has; 0: as many as the attribute says.
@@ -129,7 +130,12 @@ void take_value(ExrBytes& in, ExrPart& part, const std::string& name, const std:
     part.compression = in.take<std::uint8_t>();
   else if (type == "int" && name == "chunkCount")
     part.chunks = in.take<std::uint32_t>();
-  else if (type == "chlist")
+  else if (type == "string" && name == "type") {
+    std::string kind(std::min<std::uint64_t>(size, 4), '\0');
+    in.take(kind.data(), kind.size());
+    in.skip(size - kind.size());
+    part.deep = kind == "deep";  // "deepscanline" or "deeptile"
+  } else if (type == "chlist")
     part.channels = take_channels(in, start + size);
   else if (type == "tiledesc" && name == "tiles") {
     part.tile_width = in.take<std::uint32_t>();
@@ -174,6 +180,7 @@ std::uint64_t least_size(ExrBytes& in, const ExrPart& part, bool tiled, bool sev
   const auto width = static_cast<std::uint64_t>(columns), height = static_cast<std::uint64_t>(rows);
   const ExrCompression compression = compression_of(part.compression);
   std::uint64_t bytes = 0, chunks = part.chunks;
+  if (part.deep) return 8 * chunks;
   for (const ExrChannel& channel : part.channels)
     bytes += channel.bytes * over(width, channel.every_x) * over(height, channel.every_y);
   if (!tiled || several) chunks = std::max(chunks, over(height, compression.rows));
@@ -188,7 +195,7 @@ void check_exr(const std::filesystem::path& file) {
   in.skip(4);  // the mark of an EXR
   const auto flags = in.take<std::uint32_t>();
   const bool tiled = (flags & 0x200u) != 0, deep = (flags & 0x800u) != 0, several = (flags & 0x1000u) != 0;
-  if (deep) cannot_read(file, "found an EXR with many depths a pixel, expected a flat one");
+  if (deep && !several) cannot_read(file, deep_data);
   std::vector<ExrPart> found;
   for (std::string name = in.take_name(); !name.empty(); name = in.take_name()) {
     ExrPart& part = found.emplace_back();

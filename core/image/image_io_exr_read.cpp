@@ -1,250 +1,116 @@
-#include "core/base/limits.h"
-#include "core/film/rounds.h"
-#include "core/image/image_io.h"
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io_file.h"
 
 #ifdef TYNDALL_OPENEXR
 
+#include "core/image/image_io_exr_colour.h"
+#include "core/image/image_io_exr_layers.h"
+#include "core/image/image_io_exr_open.h"
+
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <sstream>
 
 namespace tyndall {
 
 namespace {
 
-/// Runs `read` on the opened EXR. Whatever goes wrong becomes an ImageFileError that names the file.
-template <class Read>
-auto with_exr(const std::filesystem::path& file, Read read) {
-  try {
-    check_exr(file);
-    Imf::InputFile exr(file.c_str());
-    return read(exr);
-  } catch (const ImageFileError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    cannot_read(file, "not enough memory" + memory_limit_text());
-  } catch (const std::exception& error) {
-    cannot_read(file, error.what());
-  }
+Region region_of(const Imath::Box2i& window) {
+  return {window.min.x, window.min.y, window.max.x + 1, window.max.y + 1};
 }
 
-/// The channels to read, and where their values go.
-struct Target {
-  Imf::FrameBuffer buffer;
-  Imath::Box2i window;
-
-  void add(const std::string& name, Imf::PixelType type, void* first, std::size_t stride) {
-    buffer.insert(name, Imf::Slice::Make(type, first, window, stride));
-  }
-  void read(Imf::InputFile& exr) {
-    exr.setFrameBuffer(buffer);
-    exr.readPixels(window.min.y, window.max.y);
-  }
-};
-
-/// The size of the data window.
-std::pair<int, int> size_of(const std::filesystem::path& file, const Imath::Box2i& window) {
-  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  check_readable(file, width, height);
-  return {static_cast<int>(width), static_cast<int>(height)};
-}
-
-LinearImage read_rgb(const std::filesystem::path& file, Imf::InputFile& exr) {
-  const Imf::ChannelList& channels = exr.header().channels();
-  const bool colour = channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B");
-  if (!colour && !channels.findChannel("Y")) cannot_read(file, "found no channels R, G and B");
-  Target target{{}, exr.header().dataWindow()};
-  const auto [width, height] = size_of(file, target.window);
-  LinearImage image{width, height, {}};
+/// The picture without its pixels, which are black.
+LinearImage empty_picture(const std::filesystem::path& file, const Imf::Header& header) {
+  const auto [width, height] = size_of(file, header.dataWindow());
+  LinearImage image{width, height, {}, ImageFrame{region_of(header.displayWindow()), region_of(header.dataWindow())}};
+  image.frame->pixel_aspect = header.pixelAspectRatio();
+  if (Imf::hasWhiteLuminance(header)) image.frame->white_luminance = Imf::whiteLuminance(header);
   image.rgb.resize(std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  const std::size_t stride = 3 * sizeof(float);
-  target.add(colour ? "R" : "Y", Imf::FLOAT, image.rgb.data(), stride);
-  if (colour) target.add("G", Imf::FLOAT, image.rgb.data() + 1, stride);
-  if (colour) target.add("B", Imf::FLOAT, image.rgb.data() + 2, stride);
-  target.read(exr);
-  for (std::size_t i = 0; !colour && i < image.rgb.size(); i += 3) image.rgb[i + 1] = image.rgb[i + 2] = image.rgb[i];
   return image;
 }
 
-[[noreturn]] void damaged_film(const std::filesystem::path& file, const std::string& what) {
-  cannot_read(file, "its film is damaged: " + what);
+/// How many columns and rows of pixels share a value of a channel.
+std::pair<int, int> sampling_of(const Imf::Header& header, const std::string& name) {
+  const Imf::Channel& channel = header.channels()[name];
+  return {channel.xSampling, channel.ySampling};
 }
 
-template <class Attribute>
-auto value_of(const std::filesystem::path& file, const Imf::Header& header, const char* name) {
-  const auto* attribute = header.findTypedAttribute<Attribute>(name);
-  if (attribute == nullptr) damaged_film(file, std::string("no ") + name);
-  return attribute->value();
+void check_sampling(const std::filesystem::path& file, const Imf::Header& header, const std::string& name) {
+  const auto [x, y] = sampling_of(header, name);
+  if (x == 1 && y == 1) return;
+  cannot_read(file, "found one value for every " + std::to_string(x) + " x " + std::to_string(y) +
+                        " pixels in channel " + name + ", expected one for each pixel");
 }
 
-ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Header& header) {
-  std::istringstream text(value_of<Imf::StringAttribute>(file, header, exr_name::cut_throughput));
-  ExactSum sum;
-  if (!(text >> sum.high >> sum.low)) damaged_film(file, std::string(exr_name::cut_throughput) + " is no sum");
-  return sum;
+/// Reads channels that have a value for each pixel into red, green and blue, or one into all three.
+void read_channels(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
+                   LinearImage& image) {
+  const Imf::Header& header = exr.header(layer.part);
+  ExrTarget target{{}, header.dataWindow()};
+  float* rgb = image.rgb.data();
+  for (std::size_t i = 0; i < layer.channels.size(); ++i) {
+    check_sampling(file, header, layer.channels[i]);
+    target.add(layer.channels[i], Imf::FLOAT, rgb + i, 3 * sizeof(float));
+  }
+  target.read(exr, layer.part);
+  for (std::size_t i = 0; layer.channels.size() == 1 && i < image.rgb.size(); i += 3) rgb[i + 1] = rgb[i + 2] = rgb[i];
 }
 
-void check_format(const std::filesystem::path& file, const Imf::Header& header) {
-  const auto* format = header.findTypedAttribute<Imf::IntAttribute>(exr_name::film_format);
-  if (format != nullptr && format->value() > film_format)
-    cannot_read(file, "found a film in format " + std::to_string(format->value()) + ", expected at most " +
-                          std::to_string(film_format) + ": a newer version of Tyndall wrote it");
-}
-
-/// The rounds of adaptive sampling. Every pixel must be where the round of its cell can have brought it.
-void read_planned(const std::filesystem::path& file, const Imf::Header& header, Film& film) {
-  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(exr_name::planned);
-  if (attribute == nullptr) return;
-  const std::string& bytes = attribute->value();
-  film.planned.resize(planned_cells(film.region));
-  if (bytes.size() != film.planned.size() * sizeof(PlannedSamples))
-    damaged_film(file, std::string(exr_name::planned) + " does not fit the picture");
-  std::memcpy(film.planned.data(), bytes.data(), bytes.size());
-  const auto width = static_cast<std::size_t>(film.region.width());
-  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-    const std::size_t row = i / width / planned_cell_edge, column = i % width / planned_cell_edge;
-    const PlannedSamples& planned = film.planned[row * planned_columns(film.region) + column];
-    if (planned.from > film.pixels[i].taken || film.pixels[i].taken > planned.to || planned.to > (1u << 24u))
-      damaged_film(file, std::string(exr_name::planned) + " and its counts contradict each other");
+/// Luminance and chroma with a value for each pixel, by the definitions in OpenEXR's ImfRgbaYca.h.
+void read_whole_chroma(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
+                       LinearImage& image) {
+  read_channels(file, exr, layer, image);
+  const Imath::V3f weights = luminance_weights(file, exr.header(layer.part));
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    const float y = image.rgb[i], red = (image.rgb[i + 1] + 1) * y, blue = (image.rgb[i + 2] + 1) * y;
+    image.rgb[i] = red, image.rgb[i + 1] = (y - red * weights.x - blue * weights.z) / weights.y,
+    image.rgb[i + 2] = blue;
   }
 }
 
-/// The film's size, region and settings, without pixels.
-Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
-  check_format(file, header);
-  const Imath::Box2i& window = header.dataWindow();
-  const auto [region_width, region_height] = size_of(file, window);
-  Film film;
-  film.width = value_of<Imf::IntAttribute>(file, header, exr_name::width);
-  film.height = value_of<Imf::IntAttribute>(file, header, exr_name::height);
-  if (window.min.x < 0 || window.min.y < 0 || window.max.x >= film.width || window.max.y >= film.height) {
-    damaged_film(file, "its data window is not within the image");
-  }
-  film.region = {window.min.x, window.min.y, window.min.x + region_width, window.min.y + region_height};
-  const double first = value_of<Imf::DoubleAttribute>(file, header, exr_name::first_sample);
-  if (!(first >= 0 && first <= std::numeric_limits<std::uint32_t>::max() && first == std::floor(first))) {
-    damaged_film(file, std::string(exr_name::first_sample) + " is no sample index");
-  }
-  film.first_sample = static_cast<std::uint32_t>(first);
-  film.unit = value_of<Imf::DoubleAttribute>(file, header, exr_name::unit);
-  int exponent = 0;
-  if (!(film.unit > 0) || !std::isfinite(film.unit) || std::frexp(film.unit, &exponent) != 0.5) {
-    damaged_film(file, std::string(exr_name::unit) + " is no power of two");
-  }
-  film.cut_throughput = read_cut_throughput(file, header);
-  return film;
-}
-
-/// Refuses counts that contradict each other, for example more rejected samples than there are: differences would
-/// wrap around.
-void check_counts(const std::filesystem::path& file, const Film& film) {
-  for (FilmPixel pixel : film.pixels) {
-    const std::uint32_t rejected[2] = {pixel.rejected[0], pixel.rejected[1]};
-    pixel.rejected[0] = pixel.rejected[1] = 0;
-    const bool good = rejected[0] <= counted(film, pixel, 0) && rejected[1] <= counted(film, pixel, 1) &&
-                      pixel.taken <= std::numeric_limits<std::uint32_t>::max() - film.first_sample;
-    if (!good) damaged_film(file, "its counts contradict each other");
+/// Luminance for each pixel and chroma for every 2 x 2, by OpenEXR's own filter, in its 16 bits a value.
+void read_half_chroma(const std::filesystem::path& file, const ExrLayer& layer, LinearImage& image) {
+  Imf::RgbaInputFile exr(file.c_str(), layer.prefix);
+  const Region& data = image.frame->data;
+  std::vector<Imf::Rgba> row(static_cast<std::size_t>(image.width));
+  exr.setFrameBuffer(Imf::ComputeBasePointer(row.data(), {data.x0, 0}, image.width), 1, 0);
+  auto* to = image.rgb.data();
+  for (int y = data.y0; y < data.y1; ++y) {
+    exr.readPixels(y);
+    for (const Imf::Rgba& pixel : row)
+      for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = value;
   }
 }
 
-/// The text of an attribute; "": there is none.
-std::string text_in(const Imf::Header& header, const char* name) {
-  const auto* found = header.findTypedAttribute<Imf::StringAttribute>(name);
-  return found == nullptr ? std::string() : found->value();
-}
-
-FilmLabel label_in(const Imf::Header& header) {
-  const auto* unfinished = header.findTypedAttribute<Imf::IntAttribute>(exr_name::unfinished);
-  return {text_in(header, exr_name::version), text_in(header, exr_name::isa),
-          unfinished != nullptr && unfinished->value() != 0};
-}
-
-/// Refuses a film that is not bit for bit the one that was written. Files from before there was a checksum have none.
-void check_sum(const std::filesystem::path& file, const Imf::Header& header, const Film& film) {
-  const std::string checksum = text_in(header, exr_name::checksum);
-  if (!checksum.empty() && checksum != checksum_text(film, {text_in(header, exr_name::scene), "", label_in(header)}))
-    damaged_film(file, "it is not what its checksum says");
-}
-
-std::optional<Film> read_frame_of(const std::filesystem::path& file, Imf::InputFile& exr) {
-  if (!exr.header().channels().findChannel("film.taken")) return {};
-  return read_frame(file, exr.header());
-}
-
-std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::InputFile& exr) {
-  const Imf::ChannelList& present = exr.header().channels();
-  std::optional<Film> frame = read_frame_of(file, exr);
-  if (!frame) return {};
-  Film& film = *frame;
-  const auto count = static_cast<std::size_t>(film.region.width()) * static_cast<std::size_t>(film.region.height());
-  film.pixels.resize(count);
-  Target target{{}, exr.header().dataWindow()};
-  const auto add = [&](const std::vector<FilmChannel>& channels, void* first, std::size_t stride) {
-    for (const FilmChannel& channel : channels) {
-      const Imf::Channel* found = present.findChannel(channel.name);
-      if (found == nullptr || found->type != Imf::UINT)
-        damaged_film(file, "no channel " + channel.name + " of type uint");
-      target.add(channel.name, Imf::UINT, static_cast<char*>(first) + channel.offset, stride);
-    }
-  };
-  add(film_channels(), film.pixels.data(), sizeof(FilmPixel));
-  if (present.findChannel(emission_channels().front().name)) {
-    film.emission.resize(count);
-    add(emission_channels(), film.emission.data(), sizeof(EmissionSums));
-  }
-  target.read(exr);
-  check_counts(file, film);
-  read_planned(file, exr.header(), film);
-  check_sum(file, exr.header(), film);
-  return frame;
+void read_luminance_chroma(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
+                           LinearImage& image) {
+  const Imf::Header& header = exr.header(layer.part);
+  const bool half = sampling_of(header, layer.channels[1]) == std::pair{2, 2} &&
+                    sampling_of(header, layer.channels[2]) == std::pair{2, 2};
+  if (!half) return read_whole_chroma(file, exr, layer, image);
+  check_sampling(file, header, layer.channels[0]);
+  luminance_weights(file, header);  // refuses chromaticities that cannot be
+  if (exr.parts() > 1)
+    cannot_read(file, "found luminance and chroma of 2 x 2 pixels in a file of several parts, expected one part");
+  read_half_chroma(file, layer, image);
 }
 
 }  // namespace
 
-LinearImage read_exr(const std::filesystem::path& file) {
-  return with_exr(file, [&](Imf::InputFile& exr) { return read_rgb(file, exr); });
-}
-
-std::optional<Film> read_film(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
-  return with_exr(file, [&](Imf::InputFile& exr) { return read_film_of(file, exr); });
-}
-
-std::optional<Film> read_film_frame(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
-  return with_exr(file, [&](Imf::InputFile& exr) { return read_frame_of(file, exr); });
-}
-
-std::optional<FilmLabel> read_film_label(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
-  return with_exr(file, [&](Imf::InputFile& exr) -> std::optional<FilmLabel> {
-    if (!exr.header().channels().findChannel("film.taken")) return {};
-    check_format(file, exr.header());
-    return label_in(exr.header());
-  });
-}
-
-std::optional<std::string> read_embedded_stats(const std::filesystem::path& file) {
-  return exr_text(file, exr_name::stats);
-}
-
-std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name) {
-  return with_exr(file, [&](Imf::InputFile& exr) -> std::optional<std::string> {
-    const auto* text = exr.header().findTypedAttribute<Imf::StringAttribute>(name);
-    if (text == nullptr) return {};
-    return text->value();
+LinearImage read_exr(const std::filesystem::path& file, const std::optional<std::string>& name) {
+  return with_exr(file, [&](Imf::MultiPartInputFile& exr) {
+    const ExrLayer layer = find_exr_layer(file, exr, name);
+    const Imf::Header& header = exr.header(layer.part);
+    LinearImage image = empty_picture(file, header);
+    if (layer.colour == ExrColour::luminance_chroma)
+      read_luminance_chroma(file, exr, layer, image);
+    else
+      read_channels(file, exr, layer, image);
+    if (layer.colour == ExrColour::luminance_chroma || layer.colour == ExrColour::rgb)
+      convert_to_rec709(file, header, image.rgb);
+    return image;
   });
 }
 
@@ -254,20 +120,7 @@ std::optional<std::string> exr_text(const std::filesystem::path& file, const std
 
 namespace tyndall {
 
-LinearImage read_exr(const std::filesystem::path& file) { cannot_read(file, without_openexr); }
-
-std::optional<Film> read_film(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) == ImageKind::exr) cannot_read(file, without_openexr);
-  return {};
-}
-
-std::optional<Film> read_film_frame(const std::filesystem::path& file) { return read_film(file); }
-
-std::optional<FilmLabel> read_film_label(const std::filesystem::path&) { return {}; }
-
-std::optional<std::string> read_embedded_stats(const std::filesystem::path&) { return {}; }
-
-std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
+LinearImage read_exr(const std::filesystem::path& file, const std::optional<std::string>&) {
   cannot_read(file, without_openexr);
 }
 

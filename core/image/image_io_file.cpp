@@ -79,14 +79,50 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+namespace {
+
+bool is_line_end(std::string_view text) { return text.starts_with('\n') || text.starts_with("\r\n"); }
+
+/// A TGA has no mark: it is told by values of its header that can hardly be anything else.
+/// Truevision TGA File Format Specification, version 2.0.
+bool is_tga(std::span<const std::uint8_t> start) {
+  if (start.size() < kind_size) return false;
+  const unsigned palette = start[1], type = start[2], bits = start[16];
+  const bool mapped = type == 1 || type == 9, coloured = type == 2 || type == 3 || type == 10 || type == 11;
+  const bool known_bits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
+  return known_bits && ((palette == 1 && (mapped || coloured)) || (palette == 0 && coloured));
+}
+
+}  // namespace
+
+std::size_t pixels_after(std::span<const std::uint8_t> bytes, std::size_t end, std::size_t pixels) {
+  const bool two = end + 1 < bytes.size() && bytes[end] == '\r' && bytes[end + 1] == '\n';
+  const std::size_t start = std::min(end + 1, bytes.size());
+  return two && bytes.size() - start > pixels ? start + 1 : start;
+}
+
+void check_end(const std::filesystem::path& file, std::span<const std::uint8_t> after, std::string_view magic) {
+  const std::string_view text(reinterpret_cast<const char*>(after.data()), after.size());
+  const auto first = std::find_if_not(text.begin(), text.end(), is_space);
+  if (first == text.end()) return;
+  if (text.substr(static_cast<std::size_t>(first - text.begin())).starts_with(magic))
+    cannot_read(file, "found several pictures in one file, expected one");
+  cannot_read(file, "found " + std::to_string(after.size()) + " bytes after the last pixel, expected none");
+}
+
 ImageKind image_kind(std::span<const std::uint8_t> start) {
   const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
   if (text.starts_with("\x89PNG\r\n\x1a\n")) return ImageKind::png;
   if (text.starts_with("\xff\xd8\xff")) return ImageKind::jpeg;
   if (text.starts_with("\x76\x2f\x31\x01")) return ImageKind::exr;
-  if (text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n")) return ImageKind::hdr;
-  if (text.size() > 2 && (text.starts_with("PF") || text.starts_with("Pf")) && text[2] <= ' ') return ImageKind::pfm;
-  return ImageKind::unknown;
+  for (const std::string_view name : {"#?RADIANCE", "#?RGBE"})
+    if (text.starts_with(name) && is_line_end(text.substr(name.size()))) return ImageKind::hdr;
+  if (text.starts_with("BM") && text.size() >= 6 && text.find('\0') != text.npos) return ImageKind::bmp;
+  if (text.size() > 2 && text[0] == 'P' && (is_space(text[2]) || text[2] == '#')) {
+    if (text[1] == 'F' || text[1] == 'f') return ImageKind::pfm;
+    if (text[1] >= '1' && text[1] <= '7') return ImageKind::ppm;
+  }
+  return is_tga(start) ? ImageKind::tga : ImageKind::unknown;
 }
 
 }  // namespace tyndall

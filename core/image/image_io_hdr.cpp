@@ -1,8 +1,12 @@
 #include "core/image/image_io.h"
+
+#include "core/base/text.h"
 #include "core/image/image_io_file.h"
+#include "core/image/picture_file.h"
 #include "core/image/whole_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -42,8 +46,8 @@ namespace {
   cannot_read(file, std::string("damaged: ") + what);
 }
 
-/// Skips the header (lines of text, an empty line, and a line with the size) and returns the bytes after it.
-/// G. Ward: Radiance, File Formats (picture files).
+/// Takes the parts of a picture one after the other: the header (lines of text, an empty line, and a line with the
+/// size), and rows. G. Ward: Radiance, File Formats (picture files).
 struct HdrReader {
   const std::filesystem::path& file;
   std::span<const std::uint8_t> bytes;
@@ -58,7 +62,8 @@ struct HdrReader {
     const auto end = std::find(bytes.begin(), bytes.end(), std::uint8_t{'\n'});
     const auto line = take(static_cast<std::size_t>(end - bytes.begin()));
     take(1);
-    return {line.begin(), line.end()};
+    const bool carriage_return = !line.empty() && line.back() == '\r';
+    return {line.begin(), line.end() - (carriage_return ? 1 : 0)};
   }
   /// One channel of a row: runs (a count above 128 and a byte) and copies (a count and bytes).
   void take_runs(std::uint8_t* channel, std::size_t width) {
@@ -78,6 +83,10 @@ struct HdrReader {
       for (std::size_t channel = 0; channel < 4; ++channel) take_runs(row.data() + channel, width);
     } else {
       const auto plain = take(4 * width);
+      // A pixel of 1, 1, 1 is none: it is the sign of the runs of the format's first version.
+      for (std::size_t x = 0; x < plain.size(); x += 4)
+        if (plain[x] == 1 && plain[x + 1] == 1 && plain[x + 2] == 1)
+          cannot_read(file, "found an HDR with runs of the old kind, expected plain rows or the runs of today");
       std::copy(plain.begin(), plain.end(), row.begin());
     }
   }
@@ -98,27 +107,112 @@ void put_row(std::vector<float>& rgb, const std::vector<std::uint8_t>& row) {
   }
 }
 
+/// What a header says of the pixels. Lines that begin with white space are those of pictures that this one was made of.
+struct HdrHeader {
+  const std::filesystem::path& file;
+  bool rgbe = false;
+  std::array<double, 3> factors{1, 1, 1};  ///< by which light was multiplied: the product of all such lines
+
+  /// The numbers behind "KEY=".
+  template <std::size_t count>
+  std::array<double, count> numbers(const std::string& line) const {
+    std::array<double, count> values{};
+    std::size_t start = line.find('=') + 1;
+    for (double& value : values) {
+      start = std::min(line.find_first_not_of(" \t", start), line.size());
+      const std::size_t end = std::min(line.find_first_of(" \t", start), line.size());
+      if (!number_from_text(std::string_view(line).substr(start, end - start), value))
+        cannot_read(file, "found " + in_quotes(line) + ", expected " + std::to_string(count) + " numbers");
+      start = end;
+    }
+    return values;
+  }
+
+  void multiply(const std::string& line, const std::array<double, 3>& by) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      factors[i] *= by[i];
+      if (!(factors[i] > 0) || !std::isfinite(factors[i]))
+        cannot_read(file, "found " + in_quotes(line) + ", expected numbers above 0");
+    }
+  }
+
+  /// Red, green, blue and white as x and y: those of Rec.709, or Radiance's own, which stand for them here.
+  void check_primaries(const std::string& line) const {
+    constexpr std::array<double, 8> rec709{0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
+    constexpr std::array<double, 8> radiance{0.64, 0.33, 0.29, 0.60, 0.15, 0.06, 0.3333, 0.3333};
+    const auto found = numbers<8>(line);
+    const auto is_near = [&](const std::array<double, 8>& known) {
+      return std::equal(found.begin(), found.end(), known.begin(),
+                        [](double a, double b) { return std::abs(a - b) <= 0.002; });
+    };
+    if (!is_near(rec709) && !is_near(radiance))
+      cannot_read(file, "found " + in_quotes(line) + ", expected the primaries of Rec.709");
+  }
+
+  void read(const std::string& line) {
+    if (line.starts_with("FORMAT=")) {
+      rgbe = line.ends_with("32-bit_rle_rgbe") && line.find_first_not_of(" \t", 7) == line.size() - 15;
+      if (!rgbe) cannot_read(file, "found " + in_quotes(line) + ", expected FORMAT=32-bit_rle_rgbe");
+    } else if (line.starts_with("EXPOSURE=")) {
+      const double factor = numbers<1>(line)[0];
+      multiply(line, {factor, factor, factor});
+    } else if (line.starts_with("COLORCORR=")) {
+      multiply(line, numbers<3>(line));
+    } else if (line.starts_with("GAMMA=")) {
+      if (numbers<1>(line)[0] != 1) cannot_read(file, "found " + in_quotes(line) + ", expected GAMMA=1, light itself");
+    } else if (line.starts_with("PRIMARIES=")) {
+      check_primaries(line);
+    }
+  }
+};
+
+/// The file's rows: how many, and of how many pixels, as the picture's size and their orientation say it.
+struct HdrRows {
+  int rows = 0, columns = 0;
+  Orientation orientation;
+};
+
+/// "-Y 480 +X 640": 480 rows from the top, each of 640 pixels from the left. With X first the rows are columns.
+HdrRows read_size_line(const std::filesystem::path& file, const std::string& line) {
+  HdrRows found;
+  char signs[2] = {}, axes[2] = {}, rest = 0;
+  const int read = std::sscanf(line.c_str(), " %c%c %9d %c%c %9d %c", &signs[0], &axes[0], &found.rows, &signs[1],
+                               &axes[1], &found.columns, &rest);
+  const bool known = read == 6 && (signs[0] == '-' || signs[0] == '+') && (signs[1] == '-' || signs[1] == '+') &&
+                     ((axes[0] == 'Y' && axes[1] == 'X') || (axes[0] == 'X' && axes[1] == 'Y'));
+  if (!known) cannot_read(file, "found " + in_quotes(line) + ", expected the size of an HDR, such as -Y 480 +X 640");
+  found.orientation.columns = axes[0] == 'X';
+  const char x = signs[found.orientation.columns ? 0 : 1], y = signs[found.orientation.columns ? 1 : 0];
+  found.orientation.from_right = x == '-', found.orientation.from_bottom = y == '+';
+  check_readable(file, found.columns, found.rows);
+  return found;
+}
+
+void divide(std::vector<float>& rgb, const std::array<double, 3>& factors) {
+  if (factors == std::array<double, 3>{1, 1, 1}) return;
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    rgb[i] = static_cast<float>(static_cast<double>(rgb[i]) / factors[i % 3]);
+}
+
 }  // namespace
 
-LinearImage read_hdr(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+PictureFile read_hdr(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   HdrReader reader{file, bytes};
-  bool rgbe = false;
-  for (std::string line = reader.take_line(); !line.empty(); line = reader.take_line()) {
-    rgbe = rgbe || line == "FORMAT=32-bit_rle_rgbe";
+  HdrHeader header{file};
+  for (std::string line = reader.take_line(); !line.empty(); line = reader.take_line()) header.read(line);
+  if (!header.rgbe) cannot_read(file, "found no line FORMAT=32-bit_rle_rgbe in the header of the HDR");
+  const HdrRows size = read_size_line(file, reader.take_line());
+  check_enough(file, reader.bytes.size(), least_hdr_bytes(size.columns, size.rows));
+  LinearImage stored{size.columns, size.rows, {}};
+  std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(size.columns));
+  for (int y = 0; y < size.rows; ++y) {
+    reader.take_row(row, static_cast<std::size_t>(size.columns));
+    put_row(stored.rgb, row);
   }
-  if (!rgbe) cannot_read(file, "expected an HDR of format 32-bit_rle_rgbe");
-  LinearImage image;
-  if (std::sscanf(reader.take_line().c_str(), "-Y %9d +X %9d", &image.height, &image.width) != 2) {
-    cannot_read(file, "expected an HDR from the top left, row by row (-Y height +X width)");
-  }
-  check_readable(file, image.width, image.height);
-  check_enough(file, reader.bytes.size(), least_hdr_bytes(image.width, image.height));
-  std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(image.width));
-  for (int y = 0; y < image.height; ++y) {
-    reader.take_row(row, static_cast<std::size_t>(image.width));
-    put_row(image.rgb, row);
-  }
-  return image;
+  divide(stored.rgb, header.factors);
+  PictureFile picture;
+  picture.image = oriented(std::move(stored), size.orientation);
+  return picture;
 }
 
 }  // namespace tyndall

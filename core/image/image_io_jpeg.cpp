@@ -1,7 +1,10 @@
 #include "core/image/image_io_file.h"
+#include "core/image/picture_file.h"
 
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include <jpeglib.h>
 
@@ -22,9 +25,14 @@ struct JpegDecoder {
   jpeg_progress_mgr watch{};
   std::jmp_buf stop{};
   char problem[JMSG_LENGTH_MAX] = "";
+  JOCTET* profile = nullptr;  ///< colour profile; null: none, or it cannot be read
+  unsigned profile_size = 0;
 
   JpegDecoder() = default;
-  ~JpegDecoder() { jpeg_destroy_decompress(&info); }
+  ~JpegDecoder() {
+    jpeg_destroy_decompress(&info);
+    std::free(profile);
+  }
   JpegDecoder(const JpegDecoder&) = delete;
   JpegDecoder& operator=(const JpegDecoder&) = delete;
 };
@@ -50,7 +58,9 @@ void watch_scans(j_common_ptr info) {
   std::longjmp(decoder.stop, 1);
 }
 
-/// Reads up to the first scan. False: see `problem`.
+constexpr int exif_marker = JPEG_APP0 + 1, profile_marker = JPEG_APP0 + 2;
+
+/// Reads up to the first scan, and what the file says of its colours and its orientation. False: see `problem`.
 bool read_jpeg_header(JpegDecoder& decoder, std::span<const std::uint8_t> bytes) {
   decoder.info.err = jpeg_std_error(&decoder.errors);
   decoder.errors.error_exit = stop_decoding;
@@ -61,7 +71,9 @@ bool read_jpeg_header(JpegDecoder& decoder, std::span<const std::uint8_t> bytes)
   decoder.watch.progress_monitor = watch_scans;
   decoder.info.progress = &decoder.watch;
   jpeg_mem_src(&decoder.info, bytes.data(), bytes.size());
+  for (const int marker : {exif_marker, profile_marker}) jpeg_save_markers(&decoder.info, marker, 0xffff);
   jpeg_read_header(&decoder.info, TRUE);
+  jpeg_read_icc_profile(&decoder.info, &decoder.profile, &decoder.profile_size);
   return true;
 }
 
@@ -79,12 +91,29 @@ bool read_jpeg_rows(JpegDecoder& decoder, std::uint8_t* rgb) {
   return true;
 }
 
+/// The data of the first marker of this number that begins so; empty if there is none.
+std::span<const std::uint8_t> marker_data(const jpeg_decompress_struct& info, int number, std::string_view beginning) {
+  for (const jpeg_marker_struct* marker = info.marker_list; marker; marker = marker->next) {
+    const std::span<const std::uint8_t> data(marker->data, marker->data_length);
+    const std::string_view text(reinterpret_cast<const char*>(data.data()), data.size());
+    if (marker->marker == number && text.starts_with(beginning)) return data.subspan(beginning.size());
+  }
+  return {};
+}
+
+Samples read_samples(const std::filesystem::path& file, JpegDecoder& decoder) {
+  const jpeg_decompress_struct& info = decoder.info;
+  Samples samples{static_cast<int>(info.image_width), static_cast<int>(info.image_height), 3, 255, {}};
+  samples.bytes.resize(std::size_t{3} * info.image_width * info.image_height);
+  if (!read_jpeg_rows(decoder, samples.bytes.data())) cannot_read(file, std::string("damaged: ") + decoder.problem);
+  return samples;
+}
+
 }  // namespace
 
-Rgb8Image read_jpeg(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+PictureFile read_jpeg(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   JpegDecoder decoder;
-  const auto damaged = [&] { cannot_read(file, std::string("damaged: ") + decoder.problem); };
-  if (!read_jpeg_header(decoder, bytes)) damaged();
+  if (!read_jpeg_header(decoder, bytes)) cannot_read(file, std::string("damaged: ") + decoder.problem);
   const jpeg_decompress_struct& info = decoder.info;
   if (info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK)
     cannot_read(file, "found a JPEG for printing (CMYK), expected RGB or grey");
@@ -92,10 +121,13 @@ Rgb8Image read_jpeg(const std::filesystem::path& file, std::span<const std::uint
   check_readable(file, info.image_width, info.image_height);
   // The coarsest JPEG has one bit for each block of 8 x 8 pixels.
   check_enough(file, bytes.size(), std::uint64_t{info.image_width} * info.image_height / 512);
-  Rgb8Image image{static_cast<int>(info.image_width), static_cast<int>(info.image_height), {}};
-  image.rgb.resize(std::size_t{3} * info.image_width * info.image_height);
-  if (!read_jpeg_rows(decoder, image.rgb.data())) damaged();
-  return image;
+  // The markers are gone once the rows are read.
+  const bool profile = !marker_data(info, profile_marker, "ICC_PROFILE").empty();
+  const Orientation orientation = exif_orientation(marker_data(info, exif_marker, std::string_view("Exif\0\0", 6)));
+  PictureFile picture = picture_of(read_samples(file, decoder), srgb_curve);
+  if (profile && !is_srgb_profile({decoder.profile, decoder.profile_size})) add_remark(picture, file, other_profile);
+  picture.image = oriented(std::move(picture.image), orientation);
+  return picture;
 }
 
 }  // namespace tyndall

@@ -32,18 +32,19 @@ namespace {
 struct PfmHeader {
   int width = 0, height = 0;
   std::size_t channels = 3;
-  double scale = -1;     ///< negative: little endian
-  std::size_t size = 0;  ///< bytes before the first pixel
+  double scale = -1;    ///< negative: little endian
+  std::size_t end = 0;  ///< behind the last word
+  std::size_t pixels() const {
+    return channels * sizeof(float) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
 };
 
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
-
-/// The next word of a header, and one character of white space after it.
+/// The next word of a header.
 std::string_view next_word(std::string_view& text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   const auto end = std::find_if(text.begin(), text.end(), is_space);
   const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
-  text.remove_prefix(std::min(word.size() + 1, text.size()));
+  text.remove_prefix(word.size());
   return word;
 }
 
@@ -65,7 +66,7 @@ PfmHeader read_header(const std::filesystem::path& file, std::span<const std::ui
     cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
   }
   check_readable(file, header.width, header.height);
-  header.size = start - text.size();
+  header.end = start - text.size();
   return header;
 }
 
@@ -77,22 +78,25 @@ float read_float(const std::uint8_t* bytes, bool swap) {
 
 }  // namespace
 
-LinearImage read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+PictureFile read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   const PfmHeader header = read_header(file, bytes);
+  const auto pixels = bytes.subspan(pixels_after(bytes, header.end, header.pixels()));
+  if (pixels.size() < header.pixels()) cannot_read(file, "damaged: the PFM ends in the middle");
+  check_end(file, pixels.subspan(header.pixels()), "P");
   const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
-  const std::size_t needed = width * height * header.channels * sizeof(float);
-  if (bytes.size() - header.size < needed) cannot_read(file, "damaged: the PFM ends in the middle");
-  LinearImage image{header.width, header.height, {}};
+  PictureFile picture;
+  LinearImage& image = picture.image;
+  image.width = header.width, image.height = header.height;
   image.rgb.reserve(width * height * 3);
   const auto factor = static_cast<float>(std::abs(header.scale));
   for (std::size_t y = height; y-- > 0;) {
-    const std::uint8_t* row = bytes.data() + header.size + y * width * header.channels * sizeof(float);
+    const std::uint8_t* row = pixels.data() + y * width * header.channels * sizeof(float);
     for (std::size_t i = 0; i < width * 3; ++i) {
       const std::size_t at = header.channels == 3 ? i : i / 3;
       image.rgb.push_back(factor * read_float(row + at * sizeof(float), header.scale > 0));
     }
   }
-  return image;
+  return picture;
 }
 
 }  // namespace tyndall

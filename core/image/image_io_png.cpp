@@ -115,6 +115,17 @@ void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> 
   cannot_read(file, "damaged: the PNG ends in the middle");
 }
 
+std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type) {
+  for (std::size_t at = signature_size; png.size() - at >= 12;) {
+    const std::size_t length = get_u32(png.subspan(at));
+    const std::string_view found(reinterpret_cast<const char*>(png.data()) + at + 4, 4);
+    if (found == type) return png.subspan(at + 8, length);
+    if (found == "IEND") break;
+    at += length + 12;
+  }
+  return {};
+}
+
 std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,
                                     const std::string& keyword) {
   assert(image_kind(png) == ImageKind::png);

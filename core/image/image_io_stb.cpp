@@ -1,11 +1,16 @@
-// The only file that compiles stb's functions. Only the formats that textures and references have are compiled in,
-// because each further decoder is one more way in for a hostile file. stb's HDR decoder is left out because it loops
-// forever on a file that is cut off, its JPEG decoder because a damaged Huffman table makes it write past its own.
+// The only file that compiles stb's functions: the decoders of BMP and TGA, for which there is no library of their own,
+// and the writers of PNG and HDR. Each further decoder is one more way in for a hostile file. stb's PNG decoder does
+// not look at checksums, its JPEG decoder writes past a damaged Huffman table, and its HDR decoder loops forever on a
+// file that is cut off.
+#include "core/image/image_io_stb.h"
+
 #include "core/image/image_io_file.h"
 
 #include <cstddef>
 #include <cstdlib>
+#include <memory>
 #include <new>
+#include <string_view>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -15,7 +20,6 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #endif
 
-#define STBI_ONLY_PNG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
@@ -93,6 +97,37 @@ std::vector<std::uint8_t> encoded(Encode encode) {
 }
 
 }  // namespace
+
+namespace {
+
+struct Release {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+/// What stb_image says of its failure. Without memory it says so, or nothing at all.
+std::string why_it_failed() {
+  const char* reason = stbi_failure_reason();
+  if (!reason || reason == std::string_view("outofmem")) throw std::bad_alloc();
+  return reason;
+}
+
+}  // namespace
+
+Samples decode_stb(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  const int size = static_cast<int>(bytes.size());
+  Samples samples;
+  int channels = 0;
+  const bool known = stbi_info_from_memory(bytes.data(), size, &samples.width, &samples.height, &channels) != 0;
+  samples.channels = channels == 2 || channels == 4 ? 4 : 3;
+  std::unique_ptr<stbi_uc, Release> pixels;
+  if (known)
+    pixels.reset(stbi_load_from_memory(bytes.data(), size, &samples.width, &samples.height, &channels,
+                                       static_cast<int>(samples.channels)));
+  if (!pixels) cannot_read(file, "damaged: " + why_it_failed());
+  const auto count = static_cast<std::size_t>(samples.width) * static_cast<std::size_t>(samples.height);
+  samples.bytes.assign(pixels.get(), pixels.get() + samples.channels * count);
+  return samples;
+}
 
 std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb) {
   return encoded([&](void* to) { return stbi_write_png_to_func(append, to, width, height, 3, rgb, 3 * width); });

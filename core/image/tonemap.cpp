@@ -84,13 +84,17 @@ class ChannelCurve {
 /// Code values of 0 to 255 for a screen of gamma 2.2.
 class AgxCurve {
  public:
-  Rgb operator()(Rgb light) const {
+  Rgb operator()(const Rgb& light) const {
+    Rgb code = shown(light);
+    for (float& v : code) v = code_(v);
+    return code;
+  }
+  /// What the screen shines.
+  Rgb shown(Rgb light) const {
     for (float& v : light) v = v > 0 ? std::min(v, 1e6f) : 0.0f;
     Rgb shown = times(agx_inset, light);
     for (float& v : shown) v = contrast_(v);
-    shown = times(agx_outset, shown);
-    for (float& v : shown) v = code_(v);
-    return shown;
+    return times(agx_outset, shown);
   }
 
  private:
@@ -107,6 +111,25 @@ class AgxCurve {
     return values;
   }
   const Pieces &contrast_ = contrast(), &code_ = code();
+};
+
+/// Whole code values of 0 to 255 by the square root.
+class Gamma2Curve {
+ public:
+  explicit Gamma2Curve(ToneMap curve) : curve_(curve) {}
+  Rgb operator()(const Rgb& light) const {
+    Rgb code = curve_ == ToneMap::agx ? agx_.shown(light) : light;
+    for (float& v : code) {
+      const float bent = curve_ == ToneMap::aces && v > 0 ? aces(v) : v;
+      const double root = bent > 0 ? std::min(std::sqrt(static_cast<double>(bent)), 0.999) : 0.0;
+      v = static_cast<float>(std::floor(256 * root));
+    }
+    return code;
+  }
+
+ private:
+  ToneMap curve_;
+  AgxCurve agx_;
 };
 
 /// What is added before a value is cut to a whole number.
@@ -185,6 +208,13 @@ std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, doubl
                                             DitherOrigin origin) {
   std::vector<std::uint8_t> bytes;
   map_by(curve, rgb, exposure, bayer, {3, static_cast<std::size_t>(width), origin}, bytes);
+  return bytes;
+}
+
+std::vector<std::uint8_t> gamma2_bytes(const std::vector<float>& rgb, double exposure, ToneMap curve) {
+  constexpr Offsets none{};
+  std::vector<std::uint8_t> bytes;
+  map_pixels(rgb, exposure, Gamma2Curve(curve), none, {3, rgb.size(), {}}, bytes);
   return bytes;
 }
 

@@ -51,7 +51,13 @@ struct DitherOrigin {
 std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
                                             DitherOrigin origin);
 
-/// The same for a texture: `rgba` has 4 floats a pixel, of which the last is not read, `bytes` gets 4, the last is 255.
+/// The bytes that the programs of the "Ray Tracing in One Weekend" books write (4th edition, color.h): of
+/// v = curve(linear · 2^exposure), floor(256 · min(sqrt(v), 0.999)); NaN and what is below 0 give 0. They are not
+/// dithered.
+std::vector<std::uint8_t> gamma2_bytes(const std::vector<float>& rgb, double exposure, ToneMap curve);
+
+/// The same as tone_map_dithered() for a texture: `rgba` has 4 floats a pixel, of which the last is not read, `bytes`
+/// gets 4, the last is 255.
 void tone_map_rgba(const std::vector<float>& rgba, double exposure, ToneMap curve, int width, bool dither,
                    std::vector<std::uint8_t>& bytes);
 

@@ -35,7 +35,7 @@ TextureView view_of(const TextureColumns& t) {
           t.style,
           t.width,
           t.height,
-          t.texels ? t.texels->data() : nullptr};
+          t.pixels ? t.pixels->rgb.data() : nullptr};
 }
 
 LightView view_of(const Lights& l) {

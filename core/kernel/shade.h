@@ -59,21 +59,20 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
 
 /// uv of a point for image textures; see Elements::uv.
 template <class F>
-TYNDALL_INLINE void surface_uv(const SceneView& s, const SurfacePoint<F>& p, F& u, F& v) {
+TYNDALL_INLINE TextureUv<F> surface_uv(const SceneView& s, const SurfacePoint<F>& p) {
   const IntOf<F> at = p.element * IntOf<F>(8);
   F column[8];
   for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.uv + i, at);
-  u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
-  v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
+  const F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
+  const F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
   const auto round = mask_not(equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f)));
-  if (!any(round)) return;
+  if (!any(round)) return {u, v, round};
   const Vec3<F> outward = select(p.inverted, -p.normal, p.normal);
   const Vec3<F> own{mul_add(column[0], outward.x, -(column[1] * outward.z)), outward.y,
                     mul_add(column[1], outward.x, column[0] * outward.z)};
   F round_u, round_v;
   sphere_uv(own, round_u, round_v);
-  u = select(round, round_u, u);
-  v = select(round, round_v, v);
+  return {select(round, round_u, u), select(round, round_v, v), round};
 }
 
 /// Gives the uv coordinates of a surface to textures that want them.
@@ -81,11 +80,7 @@ template <class F>
 struct SurfaceUv {
   const SceneView* scene;
   const SurfacePoint<F>* surface;  ///< null in a medium, whose textures want none
-  TYNDALL_INLINE Pair<F> operator()() const {
-    Pair<F> uv;
-    surface_uv(*scene, *surface, uv.x, uv.y);
-    return uv;
-  }
+  TYNDALL_INLINE TextureUv<F> operator()() const { return surface_uv(*scene, *surface); }
 };
 
 // The loops over the kinds of textures and materials below are recursions on purpose. Closures that refer to closures

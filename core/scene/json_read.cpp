@@ -89,15 +89,21 @@ class PictureShelf {
     auto& pixels = shelf_[path];
     if (pixels) return pixels;
     std::error_code error;
-    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(path, error);
+    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(picture_name(path).file, error);
     if (!exists) fail(at, "no file " + in_quotes(path.string()), "an image, relative to the scene file");
+    if (const auto& layer = picture_name(path).layer)
+      fail(at, "layer " + in_quotes(*layer) + " of " + in_quotes(picture_name(path).file.string()),
+           "an image of 8 or 16 bits, such as PNG or JPEG, which has no layers");
     if (!std::filesystem::is_regular_file(path, error))
       fail(at, in_quotes(path.string()) + ", which is no file", "an image");
     try {
-      Rgb8Image image = read_rgb8(path);
-      pixels = std::make_shared<const Image::Pixels>(Image::Pixels{image.width, image.height, std::move(image.rgb)});
+      PictureFile read = read_texture(path);
+      LinearImage& image = read.image;
+      pixels = std::make_shared<const Image::Pixels>(
+          Image::Pixels{image.width, image.height, std::move(image.rgb), read.has_alpha, std::move(read.remarks)});
     } catch (const ImageFileError& why) {
-      fail(at, "a file that cannot be read (" + std::string(why.what()) + ")", "an 8-bit image, such as PNG or JPEG");
+      fail(at, "a file that cannot be read (" + std::string(why.what()) + ")",
+           "an image of 8 or 16 bits, such as PNG or JPEG");
     }
     return pixels;
   }

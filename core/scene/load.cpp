@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
 #include "core/scene/check.h"
 #include "core/scene/json_tree.h"
 
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <system_error>
 
 namespace tyndall {
@@ -50,8 +52,7 @@ std::string read_file(const std::string& name, std::size_t most = max_scene_byte
 }
 
 bool is_image(std::string_view bytes) {
-  constexpr std::string_view beginnings[] = {"\x89PNG", "\x76\x2f\x31\x01", "\xff\xd8\xff", "PF\n", "#?RADIANCE"};
-  return std::any_of(std::begin(beginnings), std::end(beginnings), [&](auto b) { return bytes.starts_with(b); });
+  return image_kind(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size())) != ImageKind::unknown;
 }
 
 std::string scene_in_image(const std::string& name) {
@@ -158,7 +159,7 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     if (fs::is_directory(status)) throw SceneError(what, "a folder", expected_scene);
     loaded.folder = fs::path(what).has_parent_path() ? fs::path(what).parent_path() : fs::path(".");
     // Of an image, which may be large, only the header is read. A pipe can be read only once.
-    const bool image = fs::is_regular_file(status) && is_image(read_file(what, 16));
+    const bool image = fs::is_regular_file(status) && is_image(read_file(what, kind_size));
     loaded.text = image ? scene_in_image(what) : read_file(what);
     if (!image && is_image(loaded.text)) loaded.text = scene_in_image(what);
     if (!image) loaded.source = what;
@@ -188,6 +189,15 @@ std::vector<fs::path> files_of_scene(const fs::path& file) {
   } catch (const Broken&) {      // it is not JSON
   }
   return files;
+}
+
+std::vector<std::string> texture_remarks(const Scene& scene) {
+  std::vector<std::string> remarks;
+  for (const Texture& texture : scene.textures)
+    if (const auto* image = std::get_if<Image>(&texture.kind); image && image->pixels)
+      for (const std::string& remark : image->pixels->remarks)
+        if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
+  return remarks;
 }
 
 Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {

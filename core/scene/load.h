@@ -26,6 +26,9 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
 /// and can be read. For those who wait until a broken one is mended.
 std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& file);
 
+/// What a user should know of how the pictures of the scene's textures were read: a line each, each once.
+std::vector<std::string> texture_remarks(const Scene& scene);
+
 struct BuiltIn {
   std::string name;   ///< what load_scene takes
   std::string title;  ///< the scene's own name, else its first comment

@@ -111,10 +111,10 @@ inline constexpr auto fields(const Display*) {
   // 2^100 and 2^-100 leave room for any picture within the range of single precision.
   return std::tuple{
       Field{"exposure", &Display::exposure, between(-100, 100), Slider{-6, 6}, "EV",
-            "stops, of PNG and window only: light is multiplied by 2 to this power"},
-      Field{"tone_map", &Display::tone_map, "of PNG and window only: what happens to light that is too bright"},
+            "stops, of PNG, PPM and window only: light is multiplied by 2 to this power"},
+      Field{"tone_map", &Display::tone_map, "of PNG, PPM and window only: what happens to light that is too bright"},
       Field{"dither", &Display::dither,
-            "of PNG and window only: rounds to 8 bits by a fixed pattern, so that smooth shades show no bands"}};
+            "of PNG, PPM and window only: rounds to 8 bits by a fixed pattern, so that smooth shades show no bands"}};
 }
 
 }  // namespace tyndall

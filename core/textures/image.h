@@ -2,7 +2,6 @@
 #include "core/base/math.h"
 #include "core/textures/point.h"
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,15 +9,19 @@
 /// Pictures as textures: what the scene holds, and their colour at a point.
 namespace tyndall {
 
-/// A picture in sRGB of 8 bits, laid on a surface by its uv coordinates and interpolated between pixels. v points up.
-/// Outside of [0, 1] u repeats the picture, and v gives the colour of its first or last row.
+/// A picture, laid on a surface by its uv coordinates and interpolated between pixels. v points up.
+/// Outside of [0, 1] v gives the colour of the first or last row. u does the same with columns, except on spheres: they
+/// are closed in that direction, so the picture goes on from its last column to its first.
 struct Image {
   static constexpr const char* type = "image";
   static constexpr const char* about =
-      "A picture laid on the surface by its uv coordinates, bilinear; u wraps, v is up. Not for media.";
+      "A picture laid on the surface by its uv coordinates, bilinear; v is up. u wraps around spheres and ends at the "
+      "edge of quads and boxes. An alpha channel is not looked at: what is hidden beneath it is shown. Not for media.";
   struct Pixels {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb;  ///< 3·width·height, top row first
+    std::vector<float> rgb;              ///< 3·width·height linear numbers in [0, 1], top row first
+    bool has_alpha = false;              ///< some pixel of the file is not opaque, which is not looked at
+    std::vector<std::string> remarks{};  ///< what a user should know of how the file was read, a line each
     bool operator==(const Pixels&) const = default;
   };
   std::string file;                      ///< as written in the scene file
@@ -28,14 +31,15 @@ struct Image {
   }
 };
 
-/// Colour at (u, v). texels: 3·width·height linear floats, top row first.
+/// Colour at a point of the picture. texels: 3·width·height linear floats, top row first.
 template <class F>
-TYNDALL_INLINE Vec3<F> image_colour(const float* texels, int width, int height, F u, F v) {
+TYNDALL_INLINE Vec3<F> image_colour(const float* texels, int width, int height, const TextureUv<F>& uv) {
   using I = IntOf<F>;
   const F zero = F(0.0f), one = F(1.0f);
   const F last_column = splat<F>(static_cast<float>(width - 1)), last_row = splat<F>(static_cast<float>(height - 1));
-  const F x = mul_add(u - floor(u), last_column + one, F(-0.5f));
-  const F y = min(max(mul_add(one - v, last_row + one, F(-0.5f)), zero), last_row);
+  const F across = mul_add(select(uv.wraps, uv.u - floor(uv.u), uv.u), last_column + one, F(-0.5f));
+  const F x = select(uv.wraps, across, min(max(across, zero), last_column));
+  const F y = min(max(mul_add(one - uv.v, last_row + one, F(-0.5f)), zero), last_row);
   const F x0 = floor(x), y0 = floor(y);
   const F fx = x - x0, fy = y - y0;
   // Clamped as well as wrapped: lanes that are not used may hold any number and still must not read beyond the table.
@@ -61,8 +65,7 @@ TYNDALL_INLINE void sphere_uv(Vec3<F> outward, F& u, F& v) {
 
 template <class F, class Uv>
 TYNDALL_INLINE Vec3<F> colour_at(const Image*, const auto& columns, const TexturePoint<F, Uv>& at) {
-  const auto uv = at.uv();
-  return image_colour(columns.texels, columns.width, columns.height, uv.x, uv.y);
+  return image_colour(columns.texels, columns.width, columns.height, at.uv());
 }
 
 }  // namespace tyndall

@@ -5,7 +5,14 @@
 /// colour_at(kind, columns, point): `kind` only names it, `columns` are its numbers as compile() laid them out.
 namespace tyndall {
 
-/// Uv: a function object that gives u and v of the surface there, as a Pair; media have none.
+/// A place in a picture that is laid on a surface.
+template <class F>
+struct TextureUv {
+  F u, v;
+  MaskOf<F> wraps;  ///< whether u goes on from 1 to 0, as around a sphere; elsewhere the picture ends at its edge
+};
+
+/// Uv: a function object that gives the TextureUv of the surface there; media have none.
 template <class F, class Uv>
 struct TexturePoint {
   Vec3<F> point;           ///< in the compiled scene's coordinates

@@ -58,4 +58,57 @@ complains 'text.png'
 expect 3 "$tyndall" compare red.pfm grey.pfm --heatmap nowhere/heat.png
 complains 'nowhere'
 
+has_exr || finish
+
+# EXR files of one display window are compared by position, over the pixels that both have; so is a region's picture of
+# another format, which has the size of its data window.
+render() { "$tyndall" render cornell-box --size 32x24 --spp 2 -q "$@" || fail "rendering $*"; }
+render -o whole.exr -o whole.pfm
+render --region 5,3,25,20 -o part.exr -o part.pfm
+for pair in 'part.exr whole.exr' 'part.exr whole.pfm' 'part.pfm part.exr' 'whole.pfm part.exr'; do
+  read -r image reference <<<"$pair"
+  expect 0 "$tyndall" compare "$image" "$reference" --max-rmse 0 --max-flip 0 --max-relmse 0 --heatmap region.png
+done
+expect 0 "$tyndall" compare part.exr whole.exr
+grep -qx 'pixels   340 that both have, of 340 in the image and 768 in the reference' out || fail "no number of pixels: $(cat out)"
+expect 0 "$tyndall" compare part.exr whole.exr --json
+cp out part.json
+same 'pixels' '{"compared": 340, "image": 340, "reference": 768}' "$(json part.json pixels)"
+same 'width' 20 "$(json part.json width)"
+expect 0 "$tyndall" compare whole.exr whole.exr
+! grep -q '^pixels' out || fail "a number of pixels where all were compared: $(cat out)"
+render --region 0,0,5,24 -o left.exr
+expect 2 "$tyndall" compare left.exr part.exr
+complains 'left.exr: found pixels in the data window 0,0,5,24 alone, expected some in 5,3,25,20 as in part.exr'
+"$tyndall" render cornell-box --size 33x24 --region 5,3,25,20 --spp 2 -q -o other.exr
+expect 2 "$tyndall" compare other.exr part.exr
+complains 'other.exr: found the display window 0,0,33,24, expected 0,0,32,24 as in part.exr'
+expect 2 "$tyndall" compare part.pfm whole.exr
+complains 'part.pfm: found 20x17 pixels, expected 32x24 as in whole.exr'
+expect 0 "$tyndall" compare part.exr --baseline kept --update
+cp part.exr kept/whole.exr
+expect 0 "$tyndall" compare whole.exr --baseline kept
+grep -q 'ok .*pixels: 340 that both have' out || fail "the baseline's line: $(cat out)"
+expect 2 "$tyndall" chart cornell-box --size 32x24 --budget 1 --reference part.exr -q -o chart.svg
+complains 'part.exr' 'data window 5,3,25,20 alone' 'display window 0,0,32,24'
+
+# One layer of an EXR, wherever a picture is named.
+expect 0 "$tyndall" compare whole.exr:Albedo whole.exr --json
+cp out albedo.json
+same 'blocks of a layer' '{"compared": 768, "image": 768, "reference": 768}' "$(json albedo.json pixels)"
+! grep -q blocks albedo.json || fail 'the noise of a film is not that of a layer'
+expect 0 "$tyndall" compare whole.exr:Albedo.R part.exr:Albedo.R --max-rmse 0
+expect 2 "$tyndall" compare whole.exr:Albdo whole.exr
+complains 'whole.exr: cannot read: found no layer "Albdo" (did you mean "Albedo"?), expected one of "Albedo", "Depth", "Ns"'
+expect 2 "$tyndall" compare whole.pfm:R whole.exr
+complains 'whole.pfm:R: found a layer'
+cp whole.exr 'a:b.exr'
+expect 0 "$tyndall" compare a:b.exr whole.exr --max-rmse 0
+expect 0 "$tyndall" compare a:b.exr:Albedo whole.exr:Albedo --max-rmse 0 --heatmap layer.png
+expect 0 "$tyndall" chart cornell-box --size 32x24 --budget 0.2 --reference whole.exr:Albedo -q -o layer.svg
+expect 2 "$tyndall" compare whole.exr:Albedo whole.exr --heatmap whole.exr
+expect 0 "$tyndall" compare whole.exr:Albedo --baseline kept --update
+expect 0 "$tyndall" compare whole.exr:Albedo --baseline kept
+grep -q '^ok *whole.exr:Albedo' out || fail "the baseline of a layer: $(cat out)"
+
 finish

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/_common.sh"
 
 scene=(cornell-box --size 20x16 --spp 2 -q)
-formats=(png pfm hdr)
+formats=(png pfm hdr ppm)
 has_exr && formats+=(exr)
 for format in "${formats[@]}"; do
   expect 0 "$tyndall" render "${scene[@]}" -o file.$format

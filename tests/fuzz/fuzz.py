@@ -17,6 +17,7 @@ import sys
 
 # What is read, and the target that reads it. Images have one target, which tells formats by their first bytes.
 READERS = {"scene": "scene", "set": "set", "png": "image", "jpeg": "image", "hdr": "image", "pfm": "image",
+           "ppm": "image", "bmp": "image", "tga": "image",
            "exr": "image", "film": "film", "merge": "merge", "arguments": "arguments", "compare": "compare"}
 LONGEST = {"scene": 4096, "film": 16384}  # bytes of an input; else 8192
 OVERRIDES = ["/camera/vfov=30\n/objects/0/radius=-2", "/materials/white/albedo=[1, 0, 0]\n/camera/look_from/1=3",

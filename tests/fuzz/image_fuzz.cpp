@@ -1,4 +1,4 @@
-// Images of all formats, by their first bytes: PNG, JPEG, PFM, HDR, EXR, BMP, TGA.
+// Images of all formats, by their first bytes: PNG, PPM, JPEG, PFM, HDR, EXR, BMP, TGA.
 #include "core/image/image_io.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -11,7 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (image.rgb.size() != 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
       std::abort();
   });
-  fuzz::survives<ImageFileError>([&] { read_rgb8(file.path()); });
+  fuzz::survives<ImageFileError>([&] { read_image(file.path().string() + ":a"); });  // a layer, where it has one
+  fuzz::survives<ImageFileError>([&] { read_texture(file.path()); });
   fuzz::survives<ImageFileError>([&] { read_embedded_scene(file.path()); });
   return 0;
 }

@@ -23,7 +23,7 @@ bool survives(const fs::path& file) {
     }
   };
   attempt([](const fs::path& f) { read_image(f); });
-  attempt([](const fs::path& f) { read_rgb8(f); });
+  attempt([](const fs::path& f) { read_texture(f); });
   attempt([](const fs::path& f) { read_film(f); });
   attempt([](const fs::path& f) { read_embedded_scene(f); });
   return good;
@@ -40,7 +40,8 @@ std::vector<fs::path> good_files(const fs::path& folder) {
   write_png(folder / "a.png", ramp(), 0, ToneMap::srgb, notes);
   write_pfm(folder / "a.pfm", ramp());
   write_hdr(folder / "a.hdr", ramp());
-  std::vector<fs::path> files = {folder / "a.png", folder / "a.pfm", folder / "a.hdr"};
+  write_ppm(folder / "a.ppm", ramp(), 0, ToneMap::srgb);
+  std::vector<fs::path> files = {folder / "a.png", folder / "a.pfm", folder / "a.hdr", folder / "a.ppm"};
   if (has_openexr()) {
     Film film = make_film(20, 12, {0, 0, 20, 12}, 0, 1);
     for (FilmPixel& pixel : film.pixels) pixel.taken = 4;
@@ -91,7 +92,7 @@ TEST_CASE("hostile files: a small one that says it is large takes no memory") {
   const auto refuses = [&](const std::string& bytes) {
     write_text(file, bytes);
     CHECK(test::peak_memory_of([&] { survives(file); }) < 8 << 20);
-    CHECK_THROWS_AS(read_rgb8(file), ImageFileError);
+    CHECK_THROWS_AS(read_texture(file), ImageFileError);
   };
   refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 268435456\n");
   refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\n" + std::string(1000, 'x'));
@@ -110,8 +111,8 @@ TEST_CASE("hostile files: a PNG with a chunk that says it is longer than the fil
   std::string bytes = read_text(file);
   bytes[bytes.find("IDAT") - 4] = 0x3f;  // the highest byte of its length: 1 GB
   write_text(file, bytes);
-  CHECK_THROWS_WITH_AS(read_rgb8(file), (file.string() + ": cannot read: damaged: the PNG ends in the middle").c_str(),
-                       ImageFileError);
+  CHECK_THROWS_WITH_AS(read_texture(file),
+                       (file.string() + ": cannot read: damaged: the PNG ends in the middle").c_str(), ImageFileError);
 }
 
 TEST_CASE("hostile files: what a file says of itself comes out in one line") {

@@ -1,6 +1,7 @@
 #include "core/image/image_io.h"
 #include "tests/support/jpeg_files.h"
 #include "tests/support/peak_memory.h"
+#include "tests/support/png_files.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
@@ -31,7 +32,7 @@ std::string good_jpeg(JpegKind kind = {}) { return jpeg_bytes(width, height, slo
 std::string message_for(const fs::path& file, const std::string& bytes) {
   write_text(file, bytes);
   try {
-    read_rgb8(file);
+    read_picture(file);
   } catch (const ImageFileError& error) {
     return std::string(error.what()).substr(file.string().size());
   }
@@ -42,18 +43,18 @@ std::string message_for(const fs::path& file, const std::string& bytes) {
 
 TEST_CASE("jpeg: RGB and grey, sequential and progressive, are read nearly as they were written") {
   const fs::path file = scratch_folder("jpeg") / "a.jpg";
-  for (const JpegKind kind : {JpegKind{3, false}, JpegKind{3, true}, JpegKind{1, false}, JpegKind{1, true}}) {
+  for (const JpegKind& kind : {JpegKind{3, false}, JpegKind{3, true}, JpegKind{1, false}, JpegKind{1, true}}) {
     const std::vector<std::uint8_t> pixels = slow_colours(kind.channels);
     write_text(file, good_jpeg(kind));
-    const Rgb8Image image = read_rgb8(file);
+    const LinearImage image = read_image(file);
     CHECK(image.width == width);
     CHECK(image.height == height);
     REQUIRE(image.rgb.size() == std::size_t{3} * width * height);
+    const std::vector<std::uint8_t> bytes = tone_map(image.rgb, 0, ToneMap::srgb);
     int worst = 0;
     for (std::size_t i = 0; i < image.rgb.size(); ++i)
-      worst = std::max(worst, std::abs(image.rgb[i] - pixels[kind.channels == 3 ? i : i / 3]));
+      worst = std::max(worst, std::abs(bytes[i] - pixels[kind.channels == 3 ? i : i / 3]));
     CHECK(worst <= 6);
-    CHECK(read_image(file).width == width);
   }
 }
 
@@ -62,6 +63,14 @@ TEST_CASE("jpeg: kinds that are not read are refused by name") {
   CHECK(message_for(file, good_jpeg({4})) == ": cannot read: found a JPEG for printing (CMYK), expected RGB or grey");
   CHECK(message_for(file, good_jpeg({3, false, true})) ==
         ": cannot read: found a JPEG with arithmetic coding, expected Huffman coding");
+}
+
+TEST_CASE("jpeg: 12 bits are refused by name; what follows the picture changes nothing") {
+  const fs::path file = scratch_folder("jpeg_bits") / "a.jpg";
+  std::string bytes = good_jpeg();
+  CHECK(message_for(file, bytes + "more") == "");
+  bytes[bytes.find("\xff\xc0") + 4] = 12;
+  CHECK(message_for(file, bytes) == ": cannot read: damaged: Unsupported JPEG data precision 12");
 }
 
 TEST_CASE("jpeg: a Huffman table with more codes than fit is refused before anything is written past its end") {
@@ -97,4 +106,74 @@ TEST_CASE("jpeg: a small file cannot ask for much memory or time") {
   const std::string repeated = bytes.substr(scan, end - scan);
   for (int i = 0; i < 300; ++i) bytes.insert(scan, repeated);
   CHECK(message_for(file, bytes) == ": cannot read: damaged: more than 200 passes over the picture");
+}
+
+TEST_CASE("jpeg: colours that are not transformed, as the marker of Adobe says, are read as they stand") {
+  const fs::path file = scratch_folder("jpeg_adobe") / "a.jpg";
+  JpegKind kind;
+  kind.untransformed = true;
+  const std::string bytes = good_jpeg(kind);
+  REQUIRE(bytes.find("Adobe") != bytes.npos);
+  write_text(file, bytes);
+  const std::vector<std::uint8_t> read = tone_map(read_image(file).rgb, 0, ToneMap::srgb);
+  const std::vector<std::uint8_t> pixels = slow_colours(3);
+  int worst = 0;
+  for (std::size_t i = 0; i < read.size(); ++i) worst = std::max(worst, std::abs(read[i] - pixels[i]));
+  CHECK(worst <= 6);
+}
+
+TEST_CASE("jpeg: the orientation in EXIF turns the picture") {
+  const fs::path file = scratch_folder("jpeg_exif") / "a.jpg";
+  // Where the file's first pixel lies, and the last one of its first row: 0: top left, 1: top right, 2: bottom left,
+  // ...
+  constexpr int first[8] = {0, 1, 3, 2, 0, 1, 3, 2}, end[8] = {1, 0, 2, 3, 2, 3, 1, 0};
+  for (const bool little : {false, true})
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+      JpegKind kind;
+      const char value = static_cast<char>(orientation);
+      kind.exif = little
+                      ? std::string("II\x2a\0\x08\0\0\0\1\0\x12\x01\3\0\1\0\0\0", 18) + value + std::string(7, '\0')
+                      : std::string("MM\0\x2a\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0", 19) + value + std::string(6, '\0');
+      write_text(file, good_jpeg(kind));
+      const LinearImage image = read_image(file);
+      CHECK(image.width == (orientation <= 4 ? width : height));
+      CHECK(image.height == (orientation <= 4 ? height : width));
+      const auto corner = [&](int which) {
+        const int x = which % 2 == 0 ? 0 : image.width - 1, y = which / 2 == 0 ? 0 : image.height - 1;
+        return &image.rgb[static_cast<std::size_t>(3 * (y * image.width + x))];
+      };
+      // Red grows along the file's rows, green from row to row: both are dark in the first pixel.
+      CHECK(corner(first[orientation - 1])[0] < 0.01f);
+      CHECK(corner(first[orientation - 1])[1] < 0.01f);
+      CHECK(corner(end[orientation - 1])[0] > 0.3f);
+      CHECK(corner(end[orientation - 1])[1] < 0.01f);
+    }
+}
+
+TEST_CASE("jpeg: damaged EXIF says nothing") {
+  const fs::path file = scratch_folder("jpeg_bad_exif") / "a.jpg";
+  const std::string good("MM\0\x2a\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0\6\0\0", 22);
+  for (const std::string& exif : {good.substr(0, 12), std::string("MM\0\x2a\xff\xff\xff\xff", 8), std::string("MM"),
+                                  std::string("XX\0\0\0\0\0\x08", 8), std::string("MM\0\x2a\0\0\0\x08\xff\xff", 10)}) {
+    JpegKind kind;
+    kind.exif = exif;
+    write_text(file, good_jpeg(kind));
+    CHECK(read_image(file).width == width);
+  }
+}
+
+TEST_CASE("jpeg: a colour profile that is not sRGB's is told once") {
+  const fs::path file = scratch_folder("jpeg_icc") / "a.jpg";
+  JpegKind kind;
+  kind.profile = icc_bytes(srgb_primaries, srgb_icc_curve());
+  write_text(file, good_jpeg(kind));
+  CHECK(read_picture(file).remarks.empty());
+  constexpr int adobe_primaries[9] = {6097, 3111, 195, 2053, 6257, 609, 1492, 632, 7446};
+  kind.profile = icc_bytes(adobe_primaries, srgb_icc_curve());
+  write_text(file, good_jpeg(kind));
+  REQUIRE(read_picture(file).remarks.size() == 1);
+  CHECK(read_picture(file).remarks[0].find("its colour profile (ICC) is not that of sRGB") != std::string::npos);
+  kind.profile = "no profile";
+  write_text(file, good_jpeg(kind));
+  CHECK(read_picture(file).remarks.size() == 1);
 }

@@ -39,7 +39,8 @@ BUGS = [
     ("media", "a wrong number in the cosine of fog that is nearly even", "core/media/medium.h", "F(3.0f) + s2)", "F(2.0f) + s2)", "media/medium"),
     # textures
     ("textures", "a checker that is flat along z", "core/textures/checker.h", "floor(cell.x) + floor(cell.y) + floor(cell.z)", "floor(cell.x) + floor(cell.y)", "textures/checker"),
-    ("textures", "pictures upside down", "core/textures/image.h", "mul_add(one - v, last_row + one", "mul_add(v, last_row + one", "textures/image"),
+    ("textures", "pictures upside down", "core/textures/image.h", "mul_add(one - uv.v, last_row + one", "mul_add(uv.v, last_row + one", "textures/image"),
+    ("textures", "pictures go round on quads", "core/textures/image.h", "select(uv.wraps, across, min(max(across, zero), last_column))", "across", "textures/image"),
     ("textures", "a wrong weight of octaves", "core/textures/noise.h", "weight *= 0.5f, frequency", "weight *= 0.6f, frequency", "textures/noise"),
     # film
     ("film", "a wrong limb: the low one is not added", "core/film/exact_sum.h", "    low += other.low;\n", "", "film/film", "core/film/film.cpp core/film/merge.cpp"),
@@ -51,8 +52,10 @@ BUGS = [
     ("film", "-0 changes the hash of a picture", "core/film/film.cpp", "value == 0 ? 0u : std::bit_cast<std::uint32_t>(value)", "std::bit_cast<std::uint32_t>(value)", "film/film", "core/film/film.cpp core/film/merge.cpp"),
     # image
     ("image", "a wrong end of the dark part of sRGB", "core/image/tonemap.cpp", "if (linear <= 0.0031308f)", "if (linear <= 0.031308f)", "image/tonemap"),
-    ("image", "PFM with the top row first", "core/image/image_io_pfm.cpp", "subspan(left - row, row)", "subspan(image.rgb.size() - left, row)", "image/image_io"),
-    ("image", "PFM files of the other byte order are read as they are", "core/image/image_io_pfm.cpp", "header.scale > 0));", "false));", "image/image_io image/image_io_hostile"),
+    ("image", "another order of luminance and chroma", "core/image/image_io_exr_layers.cpp", "{has(\"Y\"), has(\"RY\"), has(\"BY\")}", "{has(\"Y\"), has(\"BY\"), has(\"RY\")}", "image/image_io_exr_header"),
+    ("image", "the white of an EXR is not adapted", "core/image/image_io_exr_colour.cpp", "matrix = matrix * adaptation(neutral, rec709.white);", "matrix = matrix;", "image/image_io_exr_header"),
+    ("image", "PFM with the top row first", "core/image/image_io_pfm.cpp", "subspan(left - row, row)", "subspan(image.rgb.size() - left, row)", "image/image_io_pfm"),
+    ("image", "PFM files of the other byte order are read as they are", "core/image/image_io_pfm.cpp", "header.scale > 0));", "false));", "image/image_io_pfm image/image_io_hostile"),
     # accuracy
     ("accuracy", "black pixels dominate", "core/accuracy/error.cpp", "(square(ref) + floor_of_square)", "(square(ref) + 1e-6)", "accuracy/error"),
     ("accuracy", "the noise of halves counted twice", "core/accuracy/bias.cpp", "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2", "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1)))", "accuracy/bias"),

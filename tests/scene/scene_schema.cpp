@@ -145,8 +145,8 @@ JsonValue textures(const std::variant<Kinds...>*) {
                     {{"type", object({{"const", text(Image::type)}})},
                      {"file", object({{"type", text("string")},
                                       {"minLength", {1.0}},
-                                      {"description", text("Path of an 8-bit sRGB image, relative to the scene "
-                                                           "file.")}})}});
+                                      {"description", text("Path of an image of 8 or 16 bits (PNG, PPM, JPEG, BMP, "
+                                                           "TGA), relative to the scene file.")}})}});
     else
       return kind<Kind>();
   };
@@ -239,7 +239,7 @@ JsonValue definitions() {
                  {"background", background(static_cast<const Background*>(nullptr))},
                  {"render", with_fields("How the picture is computed. Options of the command line take precedence.",
                                         fields_of<RenderSettings>())},
-                 {"display", with_fields("How radiance becomes 8-bit colours in the window and in PNG files.",
+                 {"display", with_fields("How radiance becomes 8-bit colours in the window and in PNG and PPM files.",
                                          fields_of<Display>())},
                  {"texture", textures(static_cast<const TextureKinds<double>*>(nullptr))},
                  {"material", materials(static_cast<const MaterialKinds<double>*>(nullptr))},

@@ -21,9 +21,15 @@ std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t>& p
   info.in_color_space = kind.channels == 1 ? JCS_GRAYSCALE : kind.channels == 3 ? JCS_RGB : JCS_CMYK;
   jpeg_set_defaults(&info);
   jpeg_set_quality(&info, 95, TRUE);
+  if (kind.untransformed) jpeg_set_colorspace(&info, JCS_RGB);
   info.arith_code = kind.arithmetic ? TRUE : FALSE;
   if (kind.progressive) jpeg_simple_progression(&info);
   jpeg_start_compress(&info, TRUE);
+  const auto bytes_of = [](const std::string& text) { return reinterpret_cast<const JOCTET*>(text.data()); };
+  const std::string exif = std::string("Exif\0\0", 6) + kind.exif;
+  if (!kind.exif.empty()) jpeg_write_marker(&info, JPEG_APP0 + 1, bytes_of(exif), static_cast<unsigned>(exif.size()));
+  if (!kind.profile.empty())
+    jpeg_write_icc_profile(&info, bytes_of(kind.profile), static_cast<unsigned>(kind.profile.size()));
   while (info.next_scanline < info.image_height) {
     const std::size_t row =
         std::size_t{info.next_scanline} * info.image_width * static_cast<std::size_t>(info.input_components);

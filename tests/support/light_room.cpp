@@ -63,10 +63,18 @@ double linear_of(std::uint8_t byte) {  // IEC 61966-2-1
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-/// Bilinear between the middles of texels; u repeats, v stays at the edge rows, v = 1 is the top row.
-Vec3d image_at(const Image& image, double u, double v) {
+/// A point of a surface in pictures laid on it; closed: u goes on from 1 to 0.
+struct SurfacePlace {
+  double u = 0, v = 0;
+  bool closed = false;
+};
+
+/// Bilinear between the middles of texels. What is not closed ends at the edges, and so does v; v = 1 is the top row.
+Vec3d image_at(const Image& image, const SurfacePlace& at) {
   const auto& pixels = *image.pixels;
-  const double x = (u - std::floor(u)) * pixels.width - 0.5;
+  const auto [u, v, closed] = at;
+  const double x =
+      closed ? (u - std::floor(u)) * pixels.width - 0.5 : std::clamp(u * pixels.width - 0.5, 0.0, pixels.width - 1.0);
   const double y = std::clamp((1 - v) * pixels.height - 0.5, 0.0, pixels.height - 1.0);
   const auto texel = [&](double column, double row) {
     const int i = (static_cast<int>(column) + pixels.width) % pixels.width;
@@ -85,7 +93,7 @@ bool is_odd(const Checker<>& checker, Vec3d p) {
   return std::fmod(std::abs(sum), 2.0) == 1;
 }
 
-/// The colour of a texture at a point; uv(): two numbers of the surface there.
+/// The colour of a texture at a point; uv(): the place of the surface there.
 Vec3d colour_of(const Scene& scene, const ColourOrTexture& colour, Vec3d point, auto uv) {
   if (const auto* plain = std::get_if<Vec3d>(&colour)) return *plain;
   const auto index = static_cast<std::size_t>(std::get<TextureIndex>(colour).index);
@@ -95,10 +103,7 @@ Vec3d colour_of(const Scene& scene, const ColourOrTexture& colour, Vec3d point, 
                                  refuse(true, "noise");
                                  return Vec3d{};
                                },
-                               [&](const Image& image) {
-                                 const auto [u, v] = uv();
-                                 return image_at(image, u, v);
-                               }},
+                               [&](const Image& image) { return image_at(image, uv()); }},
                     scene.textures[index].kind);
 }
 
@@ -206,17 +211,18 @@ Vec3d LightRoom::colour(const RoomSurface& surface, Vec3d point, double time) co
   const auto uv = [&] {
     if (!surface.round) {
       const Vec3d at = point - surface.corner;
-      return std::pair{dot(surface.along_u, at), dot(surface.along_v, at)};
+      return SurfacePlace{dot(surface.along_u, at), dot(surface.along_v, at), false};
     }
     const Vec3d out =
         (1 / std::abs(surface.radius)) * turn({-surface.placement.degrees, {}}, point - surface.center_at(time));
-    return std::pair{(std::atan2(-out.z, out.x) + pi) / (2 * pi), std::acos(std::clamp(-out.y, -1.0, 1.0)) / pi};
+    return SurfacePlace{(std::atan2(-out.z, out.x) + pi) / (2 * pi), std::acos(std::clamp(-out.y, -1.0, 1.0)) / pi,
+                        true};
   };
   return colour_of(scene_, scene_.materials[static_cast<std::size_t>(surface.material)].colour, point, uv);
 }
 
 Vec3d LightRoom::colour(const PlacedVolume& volume, Vec3d point) const {
-  return colour_of(scene_, volume.albedo, point, [] { return std::pair{0.0, 0.0}; });
+  return colour_of(scene_, volume.albedo, point, [] { return SurfacePlace{}; });
 }
 
 }  // namespace tyndall::test

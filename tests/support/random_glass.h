@@ -54,7 +54,7 @@ class RandomGlass {
     scene_.textures.push_back({"checker", Checker<>{between(0.1, 1), colour(), colour()}});
     scene_.textures.push_back({"noise", Noise<>{between(0.5, 5), static_cast<NoiseStyle>(below(3))}});
     Image::Pixels pixels{5, 3, {}};
-    for (int i = 0; i < 5 * 3 * 3; ++i) pixels.rgb.push_back(static_cast<std::uint8_t>(below(256)));
+    for (int i = 0; i < 5 * 3 * 3; ++i) pixels.rgb.push_back(static_cast<float>(between(0, 1)));
     scene_.textures.push_back({"image", Image{"image.png", std::make_shared<const Image::Pixels>(pixels)}});
   }
   ColourOrTexture colour_or_texture(int textures) {

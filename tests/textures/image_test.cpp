@@ -18,7 +18,8 @@ const std::vector<float>& ramp() {
   return texels;
 }
 
-Vec3f at(float u, float v) { return image_colour(ramp().data(), width, height, u, v); }
+Vec3f at(float u, float v) { return image_colour<float>(ramp().data(), width, height, {u, v, true}); }
+Vec3f at_flat(float u, float v) { return image_colour<float>(ramp().data(), width, height, {u, v, false}); }
 
 void check_uv(Vec3f outward, float expected_u, float expected_v) {
   const float size = length(outward);
@@ -61,14 +62,21 @@ TEST_CASE("image: u wraps around, v ends at the edge rows") {
   for (const float v : {0.0f, -0.5f, -1e30f}) CHECK(at(0.125f, v).y == 1.0f);
 }
 
+TEST_CASE("image: on what is not closed, u ends at the edge columns: neither edge has anything of the other") {
+  for (const float u : {0.0f, 0.0625f, 0.125f, -1e-7f, -0.5f, -1e30f}) CHECK(at_flat(u, 0.75f).x == 0.0f);
+  for (const float u : {1.0f, 0.9375f, 0.875f, 1.0000001f, 1.5f, 1e30f}) CHECK(at_flat(u, 0.75f).x == 3.0f);
+  for (float u = 0.125f; u <= 0.875f; u += 0.03125f) CHECK(at_flat(u, 0.3f) == at(u, 0.3f));
+}
+
 TEST_CASE("image: never reads beyond the table, whatever u and v are") {
   for (const float u :
        {-1e30f, -1e-9f, -0x1p-30f, 0.0f, 1.0f, 0x1.fffffep-1f, 16777217.0f, 3e38f, INFINITY, -INFINITY, NAN})
     for (const float v : {-3e38f, 0.0f, 0x1.fffffep-1f, 1.0f, INFINITY, -INFINITY, NAN})
-      at(u, v);  // the sanitizers' builds find reads beyond the table
+      at(u, v), at_flat(u, v);  // the sanitizers' builds find reads beyond the table
   const std::vector<float> single{0.25f, 0.5f, 0.75f};
   for (const float u : {0.0f, 0.3f, 1.0f})
-    CHECK(image_colour(single.data(), 1, 1, u, 1 - u) == Vec3f{0.25f, 0.5f, 0.75f});
+    for (const bool wraps : {false, true})
+      CHECK(image_colour<float>(single.data(), 1, 1, {u, 1 - u, wraps}) == Vec3f{0.25f, 0.5f, 0.75f});
 }
 
 TEST_CASE("sphere uv: v from the south pole up, u eastwards from -x") {

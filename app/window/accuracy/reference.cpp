@@ -1,5 +1,6 @@
 #include "app/window/accuracy/reference.h"
 
+#include "app/comparison/pair.h"
 #include "app/text/numbers.h"
 #include "app/text/values.h"
 #include "core/accuracy/estimate.h"
@@ -49,13 +50,15 @@ void check_size(const std::string& name, const LinearImage& image, const Scene& 
                    size_text(scene.width, scene.height) + " as the picture has");
 }
 
-Reference read_reference(const fs::path& file, const Document& document) {
-  Reference reference{read_image(file), 0, file.filename().string(), document.scene};
-  check_size(file.string(), reference.image, document.scene);
-  const ImageKind kind = image_kind(read_bytes(file, 16));
-  if (kind == ImageKind::png || kind == ImageKind::jpeg) reference.about += " (8 bit)";
+Reference read_reference(const fs::path& name, const Document& document) {
+  PictureFile picture = read_whole_picture(name);
+  Reference reference{std::move(picture.image), 0, name.filename().string(), document.scene};
+  reference.remarks = std::move(picture.remarks);
+  check_size(name.string(), reference.image, document.scene);
+  if (picture.bits < 32) reference.about += " (" + std::to_string(picture.bits) + " bit)";
+  const auto [file, layer] = picture_name(name);
   if (const auto scene = scene_in(file, document)) reference.scene = *scene, reference.known_method = true;
-  if (kind != ImageKind::exr) return reference;
+  if (picture.kind != ImageKind::exr || layer) return reference;
   if (const auto film = read_film(file)) {
     const double error = estimated_relative_error(*film);
     if (std::isfinite(error)) reference.rel_mse = error * error;
@@ -63,10 +66,12 @@ Reference read_reference(const fs::path& file, const Document& document) {
   return reference;
 }
 
-bool shows_no_scene(const fs::path& file) {
+bool shows_no_scene(const fs::path& name) {
+  const auto [file, layer] = picture_name(name);
+  if (layer) return true;
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return false;
-  return image_kind(read_bytes(file, 16)) != ImageKind::unknown && !read_embedded_scene(file);
+  return image_kind(read_bytes(file, kind_size)) != ImageKind::unknown && !read_embedded_scene(file);
 }
 
 std::optional<Reference> rendered_reference(const ReferenceOrder& order,

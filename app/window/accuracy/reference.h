@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// References: pictures that are taken for the truth when errors are measured.
 namespace tyndall {
@@ -15,18 +16,20 @@ namespace tyndall {
 /// A picture that the window's own is measured against.
 struct Reference {
   LinearImage image;
-  double rel_mse = 0;         ///< its own noise, the part of measured errors that is due to it; 0: not known
-  std::string about;          ///< "sky.exr", "this scene at 512 spp, seed 1"
-  Scene scene;                ///< what it shows: the scene in its file, else the one that it was loaded for
-  bool known_method = false;  ///< the scene's method is that of the picture
+  double rel_mse = 0;                  ///< its own noise, the part of measured errors that is due to it; 0: not known
+  std::string about;                   ///< "sky.exr", "this scene at 512 spp, seed 1"
+  Scene scene;                         ///< what it shows: the scene in its file, else the one that it was loaded for
+  bool known_method = false;           ///< the scene's method is that of the picture
+  std::vector<std::string> remarks{};  ///< what the user should know of how its file was read
 };
 
-/// Reads an image file, and the scene and film that it may hold. document: what it is for. Throws ImageFileError, and
-/// UsageError for another size than the document's picture has.
-Reference read_reference(const std::filesystem::path& file, const Document& document);
+/// Reads a picture, and the scene and film that its file may hold. name: see PictureName; the film is not that of a
+/// layer. document: what it is for. Throws as read_whole_picture() does, and UsageError for another size than the
+/// document's picture has.
+Reference read_reference(const std::filesystem::path& name, const Document& document);
 
-/// Whether this is an image that holds no scene.
-bool shows_no_scene(const std::filesystem::path& file);
+/// Whether this is an image that holds no scene, or a layer of one.
+bool shows_no_scene(const std::filesystem::path& name);
 
 /// How a reference is rendered.
 struct ReferenceOrder {

@@ -73,7 +73,9 @@ bool References::collect() {
 
 void References::set(std::shared_ptr<const Reference> reference) {
   stop();
-  messages_.say("reference: " + reference->about);
+  std::string text = "reference: " + reference->about;
+  for (const std::string& remark : reference->remarks) text += "; " + remark;
+  messages_.say(text);
   accuracy_.set_reference(std::move(reference));
 }
 

@@ -99,9 +99,11 @@ void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
     events_.picture_changed();
   }
   watch();
+  std::string remarks;
+  for (const std::string& remark : texture_remarks(scene())) remarks += "; " + remark;
   messages_.say((own_file ? "read again: " : "opened ") + document().origin->title +
                 (film.word.empty() ? "" : "; " + film.word) +
-                (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left));
+                (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left) + remarks);
   if (film.film) events_.film_opened(film.film);
 }
 

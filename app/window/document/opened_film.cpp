@@ -30,7 +30,7 @@ OpenedFilm read_opened_film(const LoadedScene& loaded, const std::string& isa) {
   if (!loaded.source.empty() || loaded.files.empty()) return {};
   const std::filesystem::path& file = loaded.files.front();
   try {
-    const ImageKind kind = image_kind(read_bytes(file, 16));
+    const ImageKind kind = image_kind(read_bytes(file, kind_size));
     if (kind == ImageKind::unknown) return {};
     if (kind == ImageKind::png) return {nullptr, "it starts over, as a PNG holds no film; the EXR beside it does"};
     StoredFilm stored = read_stored_film(file);

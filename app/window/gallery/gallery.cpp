@@ -6,7 +6,7 @@ Gallery::Gallery(const std::function<void()>& wake)
     : list_(recent_files_list()), recent_(read_recent_files(list_)), thumbnails_(thumbnails_folder(), wake) {}
 
 bool Gallery::collect() {
-  return thumbnails_.collect([this](const std::string& scene, const Rgb8Image& picture) {
+  return thumbnails_.collect([this](const std::string& scene, const Thumbnail& picture) {
     const bool any = !picture.rgb.empty();
     pictures_[scene] =
         any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;

@@ -54,7 +54,7 @@ ThumbnailSize thumbnail_size(const Scene& scene) {
   return {pixels(width), pixels(height)};
 }
 
-std::optional<Rgb8Image> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on) {
+std::optional<Thumbnail> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on) {
   Scene small = scene;
   const ThumbnailSize size = thumbnail_size(scene);
   small.width = size.width, small.height = size.height;
@@ -67,20 +67,20 @@ std::optional<Rgb8Image> render_thumbnail(const Scene& scene, const std::functio
   const RenderResult result = render(*prepared, options, [&](const RenderProgress&) { return go_on(); });
   if (result.interrupted) return {};
   const std::vector<float> rgb = result.clean ? result.clean->rgb : finished_picture(*prepared, result).image.rgb;
-  return Rgb8Image{size.width, size.height, tone_map(rgb, scene.display.exposure, scene.display.tone_map)};
+  return Thumbnail{size.width, size.height, tone_map(rgb, scene.display.exposure, scene.display.tone_map)};
 }
 
-std::optional<Rgb8Image> read_thumbnail(const fs::path& file) {
+std::optional<Thumbnail> read_thumbnail(const fs::path& file) {
   try {
-    Rgb8Image picture = read_rgb8(file);
+    const LinearImage picture = read_image(file);
     if (picture.width > thumbnail_width || picture.height > thumbnail_height) return {};
-    return picture;
+    return Thumbnail{picture.width, picture.height, tone_map(picture.rgb, 0, ToneMap::srgb)};
   } catch (const std::exception&) {
     return {};
   }
 }
 
-void write_thumbnail(const fs::path& file, const Rgb8Image& picture) {
+void write_thumbnail(const fs::path& file, const Thumbnail& picture) {
   LinearImage linear{picture.width, picture.height, {}};
   for (const std::uint8_t byte : picture.rgb) linear.rgb.push_back(srgb_decode(static_cast<float>(byte) / 255.0f));
   std::error_code ignored;

@@ -1,11 +1,12 @@
 #pragma once
-#include "core/image/image.h"
 #include "core/scene/load.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// This room makes the small pictures of scenes, and keeps them and the list of recent files from one start to the
 /// next.
@@ -13,6 +14,12 @@ namespace tyndall {
 
 /// Small pictures are at most so large, in pixels.
 inline constexpr int thumbnail_width = 128, thumbnail_height = 80;
+
+/// A small picture as the screen shows it: 8-bit sRGB, 3 bytes a pixel, top row first.
+struct Thumbnail {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
 
 /// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is set.
 std::filesystem::path thumbnails_folder();
@@ -29,11 +36,11 @@ ThumbnailSize thumbnail_size(const Scene& scene);
 
 /// Renders one, for a second or two, with one thread of the caller's priority. Nothing if go_on() says no, which is
 /// asked every 50 ms.
-std::optional<Rgb8Image> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on);
+std::optional<Thumbnail> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on);
 
 /// A picture of the cache. Nothing if it is not there, or is damaged.
-std::optional<Rgb8Image> read_thumbnail(const std::filesystem::path& file);
+std::optional<Thumbnail> read_thumbnail(const std::filesystem::path& file);
 /// Puts a picture into the cache; fails silently, as it can be made again.
-void write_thumbnail(const std::filesystem::path& file, const Rgb8Image& picture);
+void write_thumbnail(const std::filesystem::path& file, const Thumbnail& picture);
 
 }  // namespace tyndall

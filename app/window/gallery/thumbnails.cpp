@@ -18,7 +18,7 @@ void give_way() {
 
 /// The picture from the cache, or rendered and put there; an empty one where the scene cannot be read, nothing if it
 /// was given up.
-std::optional<Rgb8Image> make(const std::string& scene, const std::filesystem::path& folder,
+std::optional<Thumbnail> make(const std::string& scene, const std::filesystem::path& folder,
                               const std::function<bool()>& go_on) {
   try {
     const LoadedScene loaded = load_scene(scene);
@@ -28,7 +28,7 @@ std::optional<Rgb8Image> make(const std::string& scene, const std::filesystem::p
     if (picture && !folder.empty()) write_thumbnail(file, *picture);
     return picture;
   } catch (const std::exception&) {
-    return Rgb8Image{};
+    return Thumbnail{};
   }
 }
 
@@ -51,7 +51,7 @@ void Thumbnails::begin_next() {
   }
 }
 
-bool Thumbnails::collect(const std::function<void(const std::string& scene, const Rgb8Image& picture)>& take) {
+bool Thumbnails::collect(const std::function<void(const std::string& scene, const Thumbnail& picture)>& take) {
   if (!jobs_.collect()) return false;
   const auto came = std::exchange(came_, {});
   for (const auto& [scene, picture] : came) take(scene, picture);

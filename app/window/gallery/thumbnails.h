@@ -29,7 +29,7 @@ class Thumbnails {
   void want(std::vector<std::string> scenes);
   /// Calls `take` for each picture that has come; an empty one where a scene has none, because it cannot be read.
   /// Whether there were any.
-  bool collect(const std::function<void(const std::string& scene, const Rgb8Image& picture)>& take);
+  bool collect(const std::function<void(const std::string& scene, const Thumbnail& picture)>& take);
   /// The scene's file has changed: its picture is made again when it is wanted.
   void forget(const std::string& scene) { known_.erase(scene); }
   /// Whether nothing is being made.
@@ -41,7 +41,7 @@ class Thumbnails {
   std::filesystem::path folder_;
   std::vector<std::string> wanted_;
   std::set<std::string> known_;  ///< made, or being made
-  std::map<std::string, Rgb8Image> came_;
+  std::map<std::string, Thumbnail> came_;
   std::atomic<bool> closing_ = false;
   JobQueue jobs_;  // last: its jobs use the others
 };

@@ -24,12 +24,16 @@ std::filesystem::path empty_folder(const char* name) {
 }  // namespace
 
 TEST_CASE("names of images") {
-  CHECK_NOTHROW(check_image_names({"a.png", "b.PFM", "c.hdr"}));
+  CHECK_NOTHROW(check_image_names({"a.png", "b.PFM", "c.hdr", "d.Ppm"}));
   for (const char* name : {"a.jpg", "png", "a", "a.png.txt", ".png"}) {
     CAPTURE(name);
     CHECK_THROWS_AS(check_image_names({name}), UsageError);
   }
   CHECK_THROWS_AS(check_image_names({"a.png", "b.png", "a.png"}), UsageError);
+  const ImageForm gamma2{"", true, PpmCurve::gamma2};
+  CHECK_NOTHROW(check_image_names({"a.png", "b.ppm"}, gamma2));
+  CHECK_THROWS_WITH_AS(check_image_names({"a.png"}, gamma2),
+                       "--gamma2: found no output that ends in .ppm, expected one: only PPM is written so", UsageError);
   CHECK(is_exr("a.EXR"));
   CHECK_FALSE(is_exr("a.png"));
 }

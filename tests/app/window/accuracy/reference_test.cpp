@@ -123,6 +123,33 @@ TEST_CASE("a film's own noise is known") {
   CHECK(read_reference(file, document).rel_mse == doctest::Approx(0.01 / 1.01).epsilon(1e-3).scale(0));
 }
 
+TEST_CASE("a layer of an EXR is a reference without a film's noise, and no scene when it is dropped") {
+  if (!has_openexr()) return;
+  const fs::path file = scratch("layer") / "a.exr";
+  const Document document = small_document("cover");
+  const Film film = two_halves(document.scene);
+  write_exr(file, film, {{"Albedo", {"R", "G", "B"}, std::vector<float>(3 * film.pixels.size(), 0.25f)}}, {"{}", ""});
+  CHECK_FALSE(shows_no_scene(file));
+  CHECK(shows_no_scene(file.string() + ":Albedo"));
+  const Reference reference = read_reference(file.string() + ":Albedo", document);
+  CHECK(reference.image.rgb[0] == 0.25f);
+  CHECK(reference.rel_mse == 0);
+  CHECK(reference.about == "a.exr:Albedo");
+  CHECK_THROWS_AS(read_reference(file.string() + ":albedo", document), NoSuchLayer);
+}
+
+TEST_CASE("a part of a picture is no reference") {
+  if (!has_openexr()) return;
+  const fs::path file = scratch("part") / "a.exr";
+  const Document document = small_document("cover");
+  write_exr(file, make_film(document.scene.width, document.scene.height, {1, 1, 5, 4}, 0, 1), {}, {});
+  CHECK_THROWS_WITH_AS(read_reference(file, document),
+                       (file.string() + ": found the pixels of its data window 1,1,5,4 alone, expected all of its "
+                                        "display window 0,0,8,6")
+                           .c_str(),
+                       UsageError);
+}
+
 TEST_CASE("a reference is rendered with other random numbers, and can be stopped") {
   Document document = small_document("simple-light");
   ReferenceOrder order{document.scene, 8, 1, ""};

@@ -1,0 +1,138 @@
+#include "tests/support/picture_bytes.h"
+#include "tests/support/scratch.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+
+using namespace tyndall;
+using namespace tyndall::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* start = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+/// Two pixels: (1, 2, 4) and (8, 0.5, 0.25).
+const std::string two_pixels("\x20\x40\x80\x83\x80\x08\x04\x84", 8);
+const std::vector<float> two_values{1, 2, 4, 8, 0.5f, 0.25f};
+
+/// An HDR of 2 x 1 pixels with these lines.
+std::string with_lines(const std::string& lines) { return start + lines + "\n-Y 1 +X 2\n" + two_pixels; }
+
+}  // namespace
+
+TEST_CASE("hdr: keeps 8 bits of the brightest channel, rounded to nearest") {
+  const fs::path file = scratch_folder("hdr") / "a.hdr";
+  LinearImage image{40, 25, {}};
+  double sum = 0, read_sum = 0;
+  for (int i = 0; i < 3000; ++i) {
+    image.rgb.push_back(std::exp2(static_cast<float>(i / 3) / 50 - 10) * (i % 3 == 1 ? 0.7f : 1));
+  }
+  write_hdr(file, image);
+  const LinearImage back = read_image(file);
+  REQUIRE(back.rgb.size() == image.rgb.size());
+  for (std::size_t i = 0; i < back.rgb.size(); ++i) {
+    CHECK(std::abs(back.rgb[i] / image.rgb[i] - 1) <= 1.001f / 180);
+    sum += static_cast<double>(image.rgb[i]);
+    read_sum += static_cast<double>(back.rgb[i]);
+  }
+  CHECK(read_sum / sum == doctest::Approx(1).epsilon(5e-4).scale(0));
+}
+
+TEST_CASE("hdr: reads rows that are not compressed, and refuses headers that are something else") {
+  const fs::path file = scratch_folder("hdr_kinds") / "a.hdr";
+  const std::string start = "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\n\n";
+  // The first of 4 pixels looks like the start of a row in runs, but rows of fewer than 8 pixels are always plain.
+  const std::string pixels(
+      "\2\2\0\4"
+      "\x80\0\0\x81"
+      "\0\x40\0\x82"
+      "\1\2\3\0",
+      16);
+  write_text(file, start + "-Y 1 +X 4\n" + pixels);
+  CHECK(read_image(file).rgb == std::vector<float>{0x1p-131f, 0x1p-131f, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0});
+  const auto refused = [&](const std::string& text) {
+    write_text(file, text);
+    CHECK_THROWS_AS(read_image(file), ImageFileError);
+  };
+  refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 4\n" + pixels);
+  refused(start + "-Y 4 +Y 1\n" + pixels);
+  refused(start + "-Y 2 +X 4\n" + pixels);
+  refused(start + "-Y 0 +X 4\n" + pixels);
+  refused(start + "-Y -1 +X 4\n" + pixels);
+  refused(start + "-Y 99999999 +X 99999999\n" + pixels);
+}
+
+TEST_CASE("hdr: what the format cannot hold becomes the nearest that it can") {
+  const fs::path file = scratch_folder("hdr_range") / "a.hdr";
+  const float huge = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  write_hdr(file, {3, 1, {-1, 0.5f, nan, huge, 0, 0, 0, 0, -5}});
+  const std::vector<float> rgb = read_image(file).rgb;
+  CHECK(rgb[0] == 0);
+  CHECK(rgb[1] == 0.5f);
+  CHECK(rgb[2] == 0);
+  CHECK(rgb[3] > 1.6e38f);
+  CHECK(std::vector<float>(rgb.begin() + 4, rgb.end()) == std::vector<float>(5, 0.0f));
+}
+
+TEST_CASE("hdr: light is divided by the product of all EXPOSURE and COLORCORR lines") {
+  CHECK(light_of(with_lines("")) == two_values);
+  CHECK(light_of(with_lines("EXPOSURE=4\n")) == std::vector<float>{0.25f, 0.5f, 1, 2, 0.125f, 0.0625f});
+  CHECK(light_of(with_lines("EXPOSURE= 8.000000e+00\nSOFTWARE=x\nEXPOSURE=0.5\n")) ==
+        std::vector<float>{0.25f, 0.5f, 1, 2, 0.125f, 0.0625f});
+  CHECK(light_of(with_lines("COLORCORR= 2 1 0.5\n")) == std::vector<float>{0.5f, 2, 8, 4, 0.5f, 0.5f});
+  CHECK(light_of(with_lines("COLORCORR=2 1 1\nEXPOSURE=2\nCOLORCORR=1 1 4\n")) ==
+        std::vector<float>{0.25f, 1, 0.5f, 2, 0.25f, 0.03125f});
+  CHECK(light_of(with_lines("\tEXPOSURE=4\n")) == two_values);  // of a picture that this one was made of
+  CHECK(message_for(with_lines("EXPOSURE=0\n")) == "found \"EXPOSURE=0\", expected numbers above 0");
+  CHECK(message_for(with_lines("EXPOSURE=bright\n")) == "found \"EXPOSURE=bright\", expected 1 numbers");
+  CHECK(message_for(with_lines("EXPOSURE=nan\n")) == "found \"EXPOSURE=nan\", expected numbers above 0");
+  CHECK(message_for(with_lines("COLORCORR=1 2\n")) == "found \"COLORCORR=1 2\", expected 3 numbers");
+}
+
+TEST_CASE("hdr: a gamma, other primaries and other formats are refused by name") {
+  CHECK(light_of(with_lines("GAMMA=1.0\n")) == two_values);
+  CHECK(message_for(with_lines("GAMMA=2.2\n")) == "found \"GAMMA=2.2\", expected GAMMA=1, light itself");
+  CHECK(light_of(with_lines("PRIMARIES=0.640 0.330 0.300 0.600 0.150 0.060 0.3127 0.3290\n")) == two_values);
+  CHECK(light_of(with_lines("PRIMARIES= 0.6400 0.3300 0.2900 0.6000 0.1500 0.0600 0.3333 0.3333\n")) == two_values);
+  CHECK(message_for(with_lines("PRIMARIES=0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.3290\n"))
+            .ends_with(", expected the primaries of Rec.709"));
+  CHECK(message_for("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n" + two_pixels) ==
+        "found \"FORMAT=32-bit_rle_xyze\", expected FORMAT=32-bit_rle_rgbe");
+  CHECK(message_for("#?RADIANCE\n\n-Y 1 +X 2\n" + two_pixels) ==
+        "found no line FORMAT=32-bit_rle_rgbe in the header of the HDR");
+  CHECK(light_of("#?RGBE\r\nFORMAT= 32-bit_rle_rgbe\r\nEXPOSURE=1\r\n\r\n-Y 1 +X 2\r\n" + two_pixels) == two_values);
+  const std::string old("\x20\x40\x80\x83\1\1\1\1", 8);
+  CHECK(message_for(start + std::string("\n-Y 1 +X 2\n") + old) ==
+        "found an HDR with runs of the old kind, expected plain rows or the runs of today");
+}
+
+TEST_CASE("hdr: lines that mean nothing here change nothing") {
+  CHECK(light_of(with_lines("VIEW= -vtv -vp 1 2 3\nPIXASPECT=1.5\nSOFTWARE=EXPOSURE=4\nrpict -x 2\n")) == two_values);
+}
+
+TEST_CASE("hdr: rows lie as the line of the size says") {
+  // 3 x 2 pixels; the file's numbers 0 to 5 are the exponents of its pixels.
+  std::string pixels;
+  for (int i = 0; i < 6; ++i) pixels += std::string("\x80\0\0", 3) + static_cast<char>(129 + i);
+  struct Case {
+    const char* line;
+    int width;
+    std::vector<int> numbers;  ///< of the picture's pixels, from the top left
+  };
+  for (const Case& c : {Case{"-Y 2 +X 3", 3, {0, 1, 2, 3, 4, 5}}, Case{"+Y 2 +X 3", 3, {3, 4, 5, 0, 1, 2}},
+                        Case{"-Y 2 -X 3", 3, {2, 1, 0, 5, 4, 3}}, Case{"+Y 2 -X 3", 3, {5, 4, 3, 2, 1, 0}},
+                        Case{"+X 2 -Y 3", 2, {0, 3, 1, 4, 2, 5}}, Case{"-X 2 -Y 3", 2, {3, 0, 4, 1, 5, 2}},
+                        Case{"+X 2 +Y 3", 2, {2, 5, 1, 4, 0, 3}}, Case{"-X 2 +Y 3", 2, {5, 2, 4, 1, 3, 0}}}) {
+    const fs::path file = scratch_folder("hdr_rows") / "a.hdr";
+    write_text(file, start + std::string("\n") + c.line + "\n" + pixels);
+    const LinearImage image = read_image(file);
+    CAPTURE(c.line);
+    CHECK(image.width == c.width);
+    CHECK(image.height == 6 / c.width);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(image.rgb[3 * i] == std::ldexp(1.0f, c.numbers[i]));
+  }
+  CHECK(message_for(start + std::string("\n+Z 2 +X 3\n") + pixels) ==
+        "found \"+Z 2 +X 3\", expected the size of an HDR, such as -Y 480 +X 640");
+}
