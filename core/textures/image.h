@@ -17,9 +17,9 @@ struct Image {
       "A picture laid on the surface by its uv coordinates, bilinear; u wraps, v is up. Not for media.";
   struct Pixels {
     int width = 0, height = 0;
-    std::vector<float> rgb;            ///< 3·width·height linear numbers in [0, 1], top row first
-    bool has_alpha = false;            ///< some pixel of the file is not opaque, which is not looked at
-    std::vector<std::string> remarks;  ///< what a user should know of how the file was read, a line each
+    std::vector<float> rgb;              ///< 3·width·height linear numbers in [0, 1], top row first
+    bool has_alpha = false;              ///< some pixel of the file is not opaque, which is not looked at
+    std::vector<std::string> remarks{};  ///< what a user should know of how the file was read, a line each
     bool operator==(const Pixels&) const = default;
   };
   std::string file;                      ///< as written in the scene file
