@@ -37,6 +37,10 @@ enum class Action {
   usual_text,
   other_theme,
   section,  ///< of the column: which one follows
+  row,      ///< of the column: which one follows
+  split,
+  reference,
+  export_chart,
   grab,
   add,
   duplicate,
@@ -76,15 +80,15 @@ struct ActionEntry {
   bool on_line_of_previous = false;  ///< the help table shows it in the line of the entry before
 };
 
-/// All actions but the views and sections, which have lists of their own.
+/// All actions but views, scenes, sections and rows, which have lists of their own.
 std::span<const ActionEntry> actions();
-/// Words that are not in an action's name by which the palette finds it, too; "": none.
+/// Words other than an action's name by which the palette finds it, too, separated by ", "; "": none.
 const char* other_words_for(Action action);
-/// The entry of an action; null for Action::view and Action::section.
+/// The entry of an action; null for those that have lists of their own.
 const ActionEntry* find_action(Action action);
 
-/// An action, and for Action::view and Action::section which: the number of the view, see views.h, or of the tab, see
-/// column_tabs().
+/// An action, and for those that have lists of their own which: the number of the view, see views.h, of the tab, see
+/// column_tabs(), of the row, see row_entries(), or of the scene.
 struct KeyCommand {
   Action action = Action::help;
   int which = 0;

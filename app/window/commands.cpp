@@ -2,6 +2,7 @@
 
 #include "app/window/accuracy/views.h"
 #include "app/window/document/open_document.h"
+#include "app/window/palette_list.h"
 #include "app/window/tools/camera_control.h"
 
 #include <utility>
@@ -28,6 +29,7 @@ void Commands::take(const InputEvents& events) {
 void Commands::act(const KeyCommand& command) {
   const ActionEntry* entry = find_action(command.action);
   if (log_ && entry) log_->line("did " + std::string(entry->name));
+  panels_.leave_row = command.action != Action::deselect;
   switch (command.action) {
     case Action::help:
       shows_help_ = !shows_help_;
@@ -63,6 +65,9 @@ void Commands::act(const KeyCommand& command) {
       panels_.tabs.jump = command.which;
       shows_panels_ = true;
       pacing_.on_event();
+      break;
+    case Action::row:
+      go_to_row(row_entries()[static_cast<std::size_t>(command.which)]);
       break;
     case Action::scene:
       session_.editor().open(listed_scenes().at(static_cast<std::size_t>(command.which)));
@@ -113,6 +118,14 @@ void Commands::act_on_document(Action action) {
       return save_as();
     case Action::snapshot:
       return session_.snapshot();
+    case Action::split:
+      session_.renderers().split() ? end_split() : session_.set_split(true);
+      return pacing_.on_new_start(clock_seconds());
+    case Action::reference:
+      ask_reference(dialog_);
+      return pacing_.on_event();
+    case Action::export_chart:
+      return session_.export_chart();
     default:
       return;
   }
@@ -121,24 +134,19 @@ void Commands::act_on_document(Action action) {
 void Commands::open_palette() {
   std::vector<PaletteItem> items;
   palette_commands_.clear();
-  for (const ActionEntry& entry : actions()) {
-    if (entry.action == Action::palette) continue;
-    items.push_back({entry.name, entry.key.code != 0 ? text_of(entry.key) : "", other_words_for(entry.action)});
-    palette_commands_.push_back({entry.action});
-  }
-  for (int k = 0; k < view_count; ++k) {
-    items.push_back({std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : "", ""});
-    palette_commands_.push_back({Action::view, k});
-  }
-  for (int k = 0; const Tab& tab : column_tabs()) {
-    items.push_back({std::string("go to: ") + tab.name, "", ""});
-    palette_commands_.push_back({Action::section, k++});
-  }
-  for (int k = 0; const std::string& what : listed_scenes()) {
-    items.push_back({"open: " + what, "", "scene"});
-    palette_commands_.push_back({Action::scene, k++});
+  for (PaletteLine& line : palette_lines(session_.editor().scene(), panels_.selected, listed_scenes())) {
+    items.push_back(std::move(line.item));
+    palette_commands_.push_back(line.command);
   }
   palette_.open(std::move(items));
+  pacing_.on_event();
+}
+
+void Commands::go_to_row(const RowEntry& row) {
+  if (owner_of(row, session_.editor().scene(), panels_.selected).empty())
+    return session_.messages().say(row.label + ": " + row.missing);
+  panels_.seek = RowPlace{row.part, row.label};
+  shows_panels_ = true;
   pacing_.on_event();
 }
 
@@ -214,6 +222,10 @@ void Commands::escape() {
     return;
   }
   if (palette_.is_open()) return palette_.close();
+  if (panels_.row_has_keys) {
+    panels_.leave_row = true;
+    return pacing_.on_event();
+  }
   if (objects_.escape()) return;
   const bool covered = asks() || shows_help_ || session_.messages().current().error;
   if (!covered && picture_.escape()) return;

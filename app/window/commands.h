@@ -2,6 +2,7 @@
 #include "app/window/actions.h"
 #include "app/window/closing.h"
 #include "app/window/menus/palette.h"
+#include "app/window/menus/row_list.h"
 #include "app/window/object_tools.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
@@ -44,10 +45,6 @@ class Commands {
   void ask_to_close();
   /// The window may go.
   bool closed() const { return closing_.done(); }
-  /// Ends the split view; asks which half to keep where they differ.
-  void end_split();
-  /// Asks which picture errors are measured against.
-  void ask_reference() { tyndall::ask_reference(dialog_); }
   /// Draws the help table and the question that waits for an answer, and does what was answered.
   void draw(Ui& ui, const Rect& area);
 
@@ -67,6 +64,10 @@ class Commands {
   void reset_camera();
   void frame_selection();
   void open_palette();
+  /// Brings up a row of the column; where that is not shown a message says what to do first.
+  void go_to_row(const RowEntry& row);
+  /// Ends the split view; asks which half to keep where they differ.
+  void end_split();
   void save();
   void save_as();
   /// What can be opened by a click: the built-in scenes, and the files that were opened before.

@@ -242,11 +242,8 @@ void MainWindow::apply_panels(double now) {
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   commands_.carry_out();
   if (wishes.open) session_.editor().open(*wishes.open);
-  if (wishes.export_chart) session_.export_chart();
-  if (wishes.split) {
-    *wishes.split ? session_.set_split(true) : commands_.end_split();
-    pacing_.on_new_start(now);
-  }
+  if (wishes.export_chart) commands_.act({Action::export_chart});
+  if (wishes.split) commands_.act({Action::split});
   if (wishes.clean) {
     session_.set_clean(*wishes.clean > 0);
     session_.set_clean_beside_raw(*wishes.clean > 1);
@@ -256,7 +253,7 @@ void MainWindow::apply_panels(double now) {
     at_window_ = *wishes.at_window;
     pacing_.on_new_start(now);
   }
-  if (wishes.reference) commands_.ask_reference();
+  if (wishes.reference) commands_.act({Action::reference});
   if (wishes.palette) commands_.act({Action::palette});
   gallery_.want(wishes.pictures);
   use_preferences();

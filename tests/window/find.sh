@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Finding things: the palette does what its lines say, by keys and by mouse; what is selected in the picture is shown in
-# the column; Esc closes the innermost thing first; types are chosen from a list.
+# Finding things: the palette does what its lines say, by keys and by mouse, and brings up rows by words of other
+# programs; what is selected in the picture is shown in the column; Esc closes the innermost thing first; types are chosen
+# from a list.
 . "$(dirname "$0")/_lib.sh"
 
 write_scene scene.json 0.2
@@ -21,6 +22,28 @@ wait_for '^gone palette$'
 has_value image.view.normal on || fail 'a digit in the palette changed the view'
 key 1
 wait_until has_value image.view.beauty on
+
+# Return without a match: the palette goes on. Words of other programs: a row in a folded section takes what is typed,
+# though all of it comes at once; one that is not there says what to select.
+find_and() { # WORDS: types them into the palette, and Return
+  chord ctrl k
+  type_text "$1"
+  key Return
+}
+click section.Render
+find_and qqq
+chord ctrl a
+type_text bounces
+kill -STOP "$pid"
+xdotool key --delay 0 Return 1 7 Return
+kill -CONT "$pid"
+wait_until has_value render.max_depth 17
+lines=$(here)
+find_and emission
+wait_for '^message Power: select a lamp first$' "$lines"
+find_and A/B
+wait_until has_value render.split.on on
+click render.split.off
 
 # By mouse.
 lines=$(here)

@@ -21,6 +21,45 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// The text without spaces and signs.
+std::string squeezed(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return c < 128 && !std::isalnum(c); });
+  return text;
+}
+
+bool holds_words(const std::string& where, const std::string& text) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (where.find(word) == std::string::npos) return false;
+  return true;
+}
+
+/// The parts of a text between commas, squeezed.
+std::vector<std::string> phrases_of(const std::string& text) {
+  std::vector<std::string> phrases;
+  std::istringstream in(text);
+  for (std::string phrase; std::getline(in, phrase, ',');) phrases.push_back(squeezed(phrase));
+  return phrases;
+}
+
+constexpr int ranks = 5;
+
+/// How likely the text, in small letters, means an item: 0 most likely, `ranks` not at all.
+int rank_of(const PaletteItem& item, const std::string& text) {
+  const std::string label = lower(item.label), also = lower(item.also), sought = squeezed(text);
+  const std::size_t colon = label.find(": ");
+  const std::string name = squeezed(label), end = colon == std::string::npos ? name : squeezed(label.substr(colon));
+  if (!sought.empty()) {
+    const std::vector<std::string> phrases = phrases_of(also);
+    if (sought == name || sought == end || std::find(phrases.begin(), phrases.end(), sought) != phrases.end()) return 0;
+    if (name.starts_with(sought) || end.starts_with(sought)) return 1;
+  }
+  if (holds_words(label, text)) return 2;
+  if (holds_words(label + " " + also, text)) return 3;
+  const bool held = (name + " " + squeezed(also)).find(sought) != std::string::npos;
+  return held && !sought.empty() ? 4 : ranks;
+}
+
 /// A line of the palette; returns whether it was clicked.
 bool palette_line(Ui& ui, const PaletteItem& item, bool marked, bool scroll) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -40,24 +79,12 @@ bool palette_line(Ui& ui, const PaletteItem& item, bool marked, bool scroll) {
 }  // namespace
 
 std::vector<int> matching_items(const std::vector<PaletteItem>& items, const std::string& text) {
-  const std::string wanted = lower(text);
-  const auto holds_all = [&](const std::string& where) {
-    std::istringstream words(wanted);
-    bool all = true;
-    for (std::string word; words >> word;) all = all && where.find(word) != std::string::npos;
-    return all;
-  };
-  std::vector<int> ranked[3];  // the label begins with the text, holds all words, does so with the other words
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    const std::string label = lower(items[k].label);
-    const int rank = !wanted.empty() && label.starts_with(wanted)    ? 0
-                     : holds_all(label)                              ? 1
-                     : holds_all(label + " " + lower(items[k].also)) ? 2
-                                                                     : -1;
-    if (rank >= 0) ranked[rank].push_back(static_cast<int>(k));
-  }
-  for (const auto& next : {ranked[1], ranked[2]}) ranked[0].insert(ranked[0].end(), next.begin(), next.end());
-  return ranked[0];
+  std::vector<int> ranked[ranks];
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (const int rank = rank_of(items[k], lower(text)); rank < ranks) ranked[rank].push_back(static_cast<int>(k));
+  std::vector<int> all;
+  for (const std::vector<int>& next : ranked) all.insert(all.end(), next.begin(), next.end());
+  return all;
 }
 
 void Palette::open(std::vector<PaletteItem> items) {
@@ -65,6 +92,7 @@ void Palette::open(std::vector<PaletteItem> items) {
   text_[0] = '\0';
   mark_ = 0;
   fresh_ = true;
+  resumes_ = false;
 }
 
 bool Palette::take_key(int key) {
@@ -72,6 +100,27 @@ bool Palette::take_key(int key) {
   mark_ += key == key_down_arrow ? 1 : -1;
   moved_ = true;
   return true;
+}
+
+/// The box that is typed into; it has the keyboard as long as the palette is open. Returns whether Enter was pressed.
+bool Palette::draw_text(Ui& ui) {
+  // Enter and clicks beside the text end typing: it goes on.
+  if (fresh_ || !(active_ || ImGui::IsAnyItemActive())) ImGui::SetKeyboardFocusHere();
+  const auto to_end = [](ImGuiInputTextCallbackData* text) {
+    bool& resumes = *static_cast<bool*>(text->UserData);
+    if (!std::exchange(resumes, false)) return 0;
+    text->ClearSelection();
+    text->CursorPos = text->BufTextLen;
+    return 0;
+  };
+  ImGui::SetNextItemWidth(-1);
+  constexpr ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways;
+  const bool enter = ImGui::InputTextWithHint("##text", "what to do: type a part of its name", text_, sizeof text_,
+                                              flags, to_end, &resumes_);
+  if (std::exchange(active_, ImGui::IsItemActive()) && !active_) resumes_ = true;
+  if (!active_) ui.wake_in = 0;
+  log_item(ui, "palette", text_);
+  return enter;
 }
 
 int Palette::draw(Ui& ui, const Rect& area) {
@@ -85,11 +134,8 @@ int Palette::draw(Ui& ui, const Rect& area) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 6 * s});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::panel);
   ImGui::Begin("##palette", nullptr, palette_flags);
-  if (fresh_) ImGui::SetWindowFocus(), ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  const bool enter = ImGui::InputTextWithHint("##text", "what to do: type a part of its name", text_, sizeof text_,
-                                              ImGuiInputTextFlags_EnterReturnsTrue);
-  log_item(ui, "palette", text_);
+  if (fresh_) ImGui::SetWindowFocus();
+  const bool enter = draw_text(ui);
   if (before != text_) mark_ = 0;
   const std::vector<int> found = matching_items(items_, text_);
   mark_ = std::clamp(mark_, 0, std::max(0, static_cast<int>(found.size()) - 1));

@@ -75,9 +75,9 @@ void begin_jump(Ui& ui, PanelState& state) {
   ui.wake_in = 0;
 }
 
-/// A part of the column, where a tab leads to.
+/// A part of the column.
 struct Part {
-  std::string_view tab;
+  std::string_view name;  ///< of its tab, if one leads there
   void (*draw)(Ui&, PanelState&);
 };
 
@@ -89,17 +89,21 @@ void histogram_part(Ui& ui, PanelState& state) {
 void draw_parts(Ui& ui, PanelState& state, std::span<const Part> parts) {
   ColumnTabs& to = state.tabs;
   const float scroll = ImGui::GetScrollY(), pad = 14 * ui.scale;
-  if (!to.moves && to.sent < 0) to.sent = scroll;
-  const bool scrolled = !to.moves && std::abs(scroll - to.sent) > 1;
+  const bool seeks = ui.sought.drawing >= 0;
+  to.sent = seeks ? -1 : !to.moves && to.sent < 0 ? scroll : to.sent;
+  const bool scrolled = !to.moves && !seeks && std::abs(scroll - to.sent) > 1;
   for (const Part& part : parts) {
     const float y = ImGui::GetCursorPosY();
     for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
-      if (part.tab != tabs[k].name) continue;
+      if (part.name != tabs[k].name) continue;
+      if (seeks && ui.sought.place.part == part.name) to.lit = k;
       if (to.moves && k == to.lit) ImGui::SetScrollY(std::max(0.0f, y - pad));
       if (scrolled && (k == 0 || y <= scroll + 3 * pad)) to.lit = k;
     }
+    ui.drawn = {std::string(part.name), ""};
     part.draw(ui, state);
   }
+  ui.drawn = {};
 }
 
 /// The left edge of the column: dragging it makes the column wider.
@@ -149,12 +153,12 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
     std::vector<Part> parts{{"Object", object_panel},
                             {"Camera", camera_panel},
                             {"Image", image_panel},
-                            {"", histogram_part},
+                            {"Histogram", histogram_part},
                             {"Render", render_panel}};
     if (!fixed_chart)
       parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, chart_height * u.scale); }});
-    for (const Part& part : {Part{"", background_panel}, Part{"Objects", objects_panel}, Part{"Scenes", scenes_panel},
-                             Part{"", window_panel}})
+    for (const Part& part : {Part{"Background", background_panel}, Part{"Objects", objects_panel},
+                             Part{"Scenes", scenes_panel}, Part{"Window", window_panel}})
       parts.push_back(part);
     draw_parts(ui, state, parts);
     scroll_column(ui);
@@ -184,8 +188,12 @@ std::span<const char* const> lasting_sections() {
 void draw_column(Ui& ui, PanelState& state, const Rect& column) {
   ui.drag.active = false;
   ui.drag.cancel = std::exchange(state.cancel_drag, false);
+  if (std::exchange(state.leave_row, false)) ui.sought.has_keys = false;
+  if (state.seek) seek_row(ui, *std::exchange(state.seek, std::nullopt));
   draw_shown_column(ui, state, column);
+  go_on_seeking(ui);
   state.drags = ui.drag.active;
+  state.row_has_keys = ui.sought.has_keys;
 }
 
 }  // namespace tyndall

@@ -94,7 +94,10 @@ struct PanelState {
   ObjectPath shown;  ///< the selected object that the column has jumped to
   Preferences look;  ///< theme, size of texts, width of the column; `clean` and `folded` are the window's
   ColumnTabs tabs;
-  int view = 0;  ///< see view_entry()
+  std::optional<RowPlace> seek;  ///< the column goes to that row in the next drawings, see SoughtRow
+  bool row_has_keys = false;     ///< the arrow keys go through the choices of a row
+  bool leave_row = false;        ///< they do not from the next drawing on
+  int view = 0;                  ///< see view_entry()
   Wishes wishes;
 };
 

@@ -200,7 +200,8 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
 bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits) {
   const ImGuiID item = ImGui::GetID(id);
   const std::string text = shown_text(row, value, fixed_digits);
-  if (ui.edit.next && ui.edit.id == 0) begin_edit(ui, item, text);
+  const bool sought = std::exchange(ui.sought.types, false);
+  if (sought || (ui.edit.next && ui.edit.id == 0)) begin_edit(ui, item, text);
   if (ui.edit.id == item) {
     const bool typed = edit_box(ui, row, value, width);
     log_item(ui, row.name + "." + id, "typing");

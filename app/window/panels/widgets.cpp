@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -17,7 +18,56 @@ Rect item_rect() {
 
 float right_edge() { return ImGui::GetWindowContentRegionMax().x; }
 
+bool is_sought(const Ui& ui, const std::string& label) {
+  return ui.sought.place.part == ui.drawn.part && ui.sought.place.label == label;
+}
+
+/// What is done with a row or section that is sought, where it begins.
+void meet_sought(Ui& ui, float height_ratio) {
+  SoughtRow& sought = ui.sought;
+  if (sought.drawing == 0) ui.folded.erase(ui.drawn.label), sought.found = true;
+  if (sought.drawing == 1) ImGui::SetScrollHereY(height_ratio);
+  if (sought.drawing == 2) sought.types = true;
+  sought.top = ImGui::GetCursorScreenPos().y;
+}
+
+/// The arrow keys go through the choices of a row that the column was sent to.
+bool choose_by_keys(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen) {
+  if (!ui.sought.has_keys || !is_sought(ui, row.label) || ImGui::GetIO().WantTextInput || ui.asks) return false;
+  if (compat::key_pressed(ImGuiKey_Enter)) ui.sought.has_keys = false;
+  const bool on = compat::key_pressed(ImGuiKey_RightArrow) || compat::key_pressed(ImGuiKey_DownArrow);
+  const bool back = compat::key_pressed(ImGuiKey_LeftArrow) || compat::key_pressed(ImGuiKey_UpArrow);
+  const int count = static_cast<int>(choices.size()), step = (on ? 1 : 0) - (back ? 1 : 0);
+  for (int k = chosen + step; step != 0 && k >= 0 && k < count; k += step) {
+    if (choices[static_cast<std::size_t>(k)].missing) continue;
+    chosen = k;
+    return true;
+  }
+  return false;
+}
+
+/// The frame around a choice that has the keyboard.
+void draw_keyboard_frame(Ui& ui) {
+  const float s = ui.scale, left = ImGui::GetWindowPos().x, bottom = ImGui::GetCursorScreenPos().y;
+  ImGui::GetWindowDrawList()->AddRect({left + 8 * s, ui.sought.top - 3 * s},
+                                      {left + right_edge() + 4 * s, bottom - 3 * s}, shade(palette::blue), 4 * s, 0,
+                                      1.5f * s);
+}
+
 }  // namespace
+
+void seek_row(Ui& ui, const RowPlace& place) { ui.sought = {place, 0}; }
+
+void go_on_seeking(Ui& ui) {
+  SoughtRow& sought = ui.sought;
+  if (ImGui::IsMouseClicked(0)) sought.has_keys = false;
+  if (sought.drawing < 0) return;
+  if (sought.drawing == 0 && !sought.found) ui.problem = sought.place.label + " is not shown for what is selected";
+  sought.drawing = sought.found && sought.drawing < 2 ? sought.drawing + 1 : -1;
+  ui.wake_in = 0;
+}
+
+bool was_sought(const Ui& ui, const RowPlace& place) { return ui.sought.place == place; }
 
 /// The text, cut and with ".." at its end where it does not fit.
 std::string clipped(const std::string& text, float width) {
@@ -96,8 +146,11 @@ void line_of_note(Ui& ui, const std::string& text, Tone colour) {
 float line_of_note_height(const Ui& ui) { return 19 * ui.scale; }
 
 bool section(Ui& ui, const std::string& name, const std::string& note_text) {
-  const bool open = !ui.folded.contains(name);
+  ui.drawn.label = name;
   ImGui::Dummy({0, 1 * ui.scale});
+  if (is_sought(ui, "")) meet_sought(ui, 0);
+  const bool looks = ui.sought.drawing == 0 && ui.sought.place.part == ui.drawn.part;
+  const bool open = !ui.folded.contains(name) || looks;
   const ImVec2 at = ImGui::GetCursorPos();
   const float height = ImGui::GetTextLineHeight() + 5 * ui.scale;
   ImGui::PushID(name.c_str());
@@ -128,6 +181,7 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
 }
 
 void begin_row(Ui& ui, const Row& row) {
+  if (is_sought(ui, row.label)) meet_sought(ui, 0.3f);
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
   clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
@@ -137,9 +191,12 @@ void begin_row(Ui& ui, const Row& row) {
 
 void end_row(Ui& ui, const Row& row) {
   ImGui::PopID();
-  if (row.meaning.empty()) return;
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
-  note(ui, row.meaning, true, row.warning ? palette::amber : palette::dim);
+  if (std::exchange(ui.sought.types, false)) ui.sought.has_keys = true;  // it has no number
+  if (!row.meaning.empty()) {
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
+    note(ui, row.meaning, true, row.warning ? palette::amber : palette::dim);
+  }
+  if (ui.sought.has_keys && is_sought(ui, row.label)) draw_keyboard_frame(ui);
 }
 
 bool slider_row(Ui& ui, const Row& row, double& value) {
@@ -176,7 +233,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   const int count = static_cast<int>(choices.size()), per_line = columns > 0 ? columns : count;
   const float space = 2 * ui.scale, left = ImGui::GetCursorPosX();
   const float width = (value_width(ui) - space * static_cast<float>(per_line - 1)) / static_cast<float>(per_line);
-  bool changed = false;
+  bool changed = choose_by_keys(ui, row, choices, chosen);
   compat::push_font(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * ui.scale, 2 * ui.scale});
@@ -202,7 +259,7 @@ bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& 
 bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen) {
   begin_row(ui, row);
   ImGui::SetNextItemWidth(value_width(ui));
-  bool changed = false;
+  bool changed = choose_by_keys(ui, row, choices, chosen);
   const char* now = chosen >= 0 ? choices[static_cast<std::size_t>(chosen)].name : "";
   const bool open = ImGui::BeginCombo("##list", now);
   log_item(ui, row.name, now);

@@ -39,6 +39,23 @@ struct NumberDrag {
   bool cancel = false;  ///< set it back, in this drawing
 };
 
+/// A row of the column by the part and the label under which it is seen; without a label the part's heading.
+struct RowPlace {
+  std::string part, label;
+  bool operator==(const RowPlace&) const = default;
+};
+
+/// The row that the column was sent to. In the first drawing its section is opened, in the second it is scrolled to, in
+/// the third the keyboard goes there: into its first number, or to its choices, through which the arrow keys go then.
+struct SoughtRow {
+  RowPlace place;         ///< of the last one, until there is another
+  int drawing = -1;       ///< from 0 on; -1: the keyboard is there
+  bool found = false;     ///< in the first drawing
+  bool types = false;     ///< the next number belongs to it and is to be typed into
+  bool has_keys = false;  ///< it is a choice, and the arrow keys go through it
+  float top = 0;          ///< of the row while it is drawn
+};
+
 /// The control under the mouse, whose tooltip comes after a moment.
 struct HoveredItem {
   ImGuiID id = 0;  ///< 0: none
@@ -64,6 +81,8 @@ struct Ui {
   NumberDrag drag;
   HoveredItem hovered;
   WheelOwner wheel;
+  SoughtRow sought;
+  RowPlace drawn;                ///< the part of the column that is being drawn, and its section
   double wake_in = 1e300;        ///< seconds until something appears by itself
   bool asks = false;             ///< a dialog waits for an answer: the column takes no input
   bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
@@ -85,6 +104,13 @@ struct Row {
   std::optional<Vec3d> original =
       std::nullopt;  ///< what a double click sets: what the scene's file has; of single numbers x
 };
+
+/// Sends the column to a row, in this drawing and the next two.
+void seek_row(Ui& ui, const RowPlace& place);
+/// At the end of a drawing of the column: goes on with what was sought.
+void go_on_seeking(Ui& ui);
+/// Whether the column was sent to this row last.
+bool was_sought(const Ui& ui, const RowPlace& place);
 
 /// A heading with a note on the right; a click folds the section. Returns whether it is open.
 bool section(Ui& ui, const std::string& name, const std::string& note);

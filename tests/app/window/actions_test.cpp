@@ -36,7 +36,7 @@ TEST_CASE("no two actions of the list have the same key, and the first nine view
     for (const Key& key : {entry.key, entry.other_key})
       if (key.code != 0) CHECK(command_of_key(key.code, {key.control, key.shift, false}) == KeyCommand{entry.action});
   }
-  CHECK(seen.size() == static_cast<std::size_t>(Action::add_fog) - 2);  // all but Action::view, scene and section
+  CHECK(seen.size() == static_cast<std::size_t>(Action::add_fog) - 3);  // all but Action::view, scene, section and row
   for (int k = 0; k < keyed_views; ++k) CHECK(command_of_key('1' + k, {}) == KeyCommand{Action::view, k});
   CHECK_FALSE(command_of_key('1' + keyed_views, {}).has_value());
 }

@@ -53,7 +53,7 @@ TEST_CASE("items are found by all words, in any order and case; those that begin
 
 TEST_CASE("actions are found by other words, too; the words of the name come before them") {
   const std::vector<PaletteItem> with_others{
-      {"larger text", "", "font size"}, {"full screen", "", ""}, {"size of the film", "", ""}};
+      {"larger text", "", "font size, preferences"}, {"full screen", "", ""}, {"size of the film", "", ""}};
   CHECK(matching_items(with_others, "font") == std::vector<int>{0});
   CHECK(matching_items(with_others, "larger font") == std::vector<int>{0});
   CHECK(matching_items(with_others, "size") == std::vector<int>{2, 0});
@@ -78,6 +78,32 @@ TEST_CASE("typing and Enter choose the first that fits, the arrow keys another o
   none.enter();
   CHECK(none.chosen == -1);
   CHECK(none.palette.is_open());
+}
+
+TEST_CASE("after Return without a match, or a click into the palette, typing goes on where it was") {
+  Drawn drawn;
+  drawn.type("sabe");
+  drawn.enter();
+  for (int k = 0; k < 3; ++k) drawn.draw();
+  drawn.press(ImGuiKey_Backspace);
+  drawn.press(ImGuiKey_Backspace);
+  drawn.type("ve a");
+  drawn.enter();
+  CHECK(drawn.chosen == 1);
+  Drawn clicked;
+  clicked.type("nothing");
+  compat::mouse_pos(ImGui::GetIO(), 450, 300);
+  clicked.draw();
+  for (const bool down : {true, false}) {
+    compat::mouse_button(ImGui::GetIO(), 0, down);
+    clicked.draw();
+  }
+  for (int k = 0; k < 3; ++k) clicked.draw();
+  REQUIRE(clicked.palette.is_open());
+  for (int k = 0; k < 7; ++k) clicked.press(ImGuiKey_Backspace);
+  clicked.type("undo");
+  clicked.enter();
+  CHECK(clicked.chosen == 3);
 }
 
 TEST_CASE("a click beside the palette closes it") {

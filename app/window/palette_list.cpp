@@ -1,0 +1,79 @@
+#include "app/window/palette_list.h"
+
+#include "app/window/accuracy/views.h"
+#include "app/window/menus/row_list.h"
+#include "app/window/panels/panels.h"
+
+#include <cctype>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+/// Other words for views and parts of the column, by their names.
+constexpr std::pair<std::string_view, const char*> words_of_parts[] = {
+    {"beauty", "combined, rgb"},
+    {"normal", "normals"},
+    {"depth", "depth buffer, z buffer, distance"},
+    {"noise", "variance map, convergence"},
+    {"samples", "sample map"},
+    {"cost", "heat map of time, time per pixel"},
+    {"error", "difference, error map"},
+    {"FLIP", "perceptual difference"},
+    {"object", "object id, cryptomatte"},
+    {"false colour", "false color, heat map, zebra"},
+    {"Object", "properties, selected object"},
+    {"Camera", "camera settings"},
+    {"Image", "image settings"},
+    {"Render", "render settings"},
+    {"Accuracy", "chart, statistics, graph"},
+    {"Objects", "outliner, hierarchy, object list, tree"},
+    {"Scenes", "examples, recent files, gallery"},
+};
+
+std::string words_for(std::string_view name) {
+  for (const auto& [of, words] : words_of_parts)
+    if (of == name) return words;
+  return "";
+}
+
+std::string name_of_row(const RowEntry& row) {
+  if (row.label.empty()) return "go to: " + row.part;
+  if (row.part != "Background") return "go to: " + row.label;
+  std::string label = row.label;
+  label[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(label[0])));
+  return "go to: Background " + label;
+}
+
+void add_rows(std::vector<PaletteLine>& lines, const Scene& scene, const ObjectPath& selected) {
+  std::vector<PaletteLine> missing;
+  for (int k = 0; const RowEntry& row : row_entries()) {
+    const std::string owner = owner_of(row, scene, selected);
+    PaletteLine line{{name_of_row(row), owner.empty() ? row.missing : owner, row.also}, {Action::row, k++}};
+    (owner.empty() ? missing : lines).push_back(std::move(line));
+  }
+  lines.insert(lines.end(), missing.begin(), missing.end());
+}
+
+}  // namespace
+
+std::vector<PaletteLine> palette_lines(const Scene& scene, const ObjectPath& selected,
+                                       const std::vector<std::string>& scenes) {
+  std::vector<PaletteLine> lines;
+  for (const ActionEntry& entry : actions())
+    if (entry.action != Action::palette)
+      lines.push_back(
+          {{entry.name, entry.key.code != 0 ? text_of(entry.key) : "", other_words_for(entry.action)}, {entry.action}});
+  add_rows(lines, scene, selected);
+  for (int k = 0; k < view_count; ++k)
+    lines.push_back({{std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : "",
+                      words_for(view_entry(k).name)},
+                     {Action::view, k}});
+  for (int k = 0; const Tab& tab : column_tabs())
+    lines.push_back({{std::string("go to: ") + tab.name, "", words_for(tab.name)}, {Action::section, k++}});
+  for (int k = 0; const std::string& what : scenes)
+    lines.push_back({{"open: " + what, "", "scene"}, {Action::scene, k++}});
+  return lines;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,24 @@
+#pragma once
+#include "app/window/actions.h"
+#include "app/window/document/object_path.h"
+#include "app/window/menus/palette.h"
+
+#include <string>
+#include <vector>
+
+/// All that the palette offers.
+namespace tyndall {
+
+/// A line of the palette, and what it does.
+struct PaletteLine {
+  PaletteItem item;
+  KeyCommand command;
+};
+
+/// Actions, rows of the column, views, parts of the column and scenes. Rows that the column does not show while this
+/// object is selected (an empty path: nothing is) come after those that it does, and say what to do first. scenes: what
+/// can be opened, for load_scene.
+std::vector<PaletteLine> palette_lines(const Scene& scene, const ObjectPath& selected,
+                                       const std::vector<std::string>& scenes);
+
+}  // namespace tyndall

@@ -1,0 +1,238 @@
+#include "app/window/palette_list.h"
+
+#include "app/window/menus/row_list.h"
+#include "tests/app/window/panels/column.h"
+
+#include <algorithm>
+#include <sstream>
+
+using namespace tyndall;
+
+namespace {
+
+/// A scene with every kind of object, material, texture and step of a transform.
+Scene varied_scene() {
+  Scene scene;
+  const auto pixels = std::make_shared<const Image::Pixels>(Image::Pixels{1, 1, {9, 9, 9}});
+  scene.textures = {
+      {"tiles", Checker<>{}}, {"stone", Noise<>{}}, {"plain", Solid<>{}}, {"photo", Image{"a.png", pixels}}};
+  scene.materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.2}},   {"glass", {}, Dielectric<>{1.5}},
+                     {"matt", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}, {"floor", TextureIndex{0}, Lambertian<>{}},
+                     {"wall", TextureIndex{1}, Metal<>{0.5}},        {"paint", TextureIndex{2}, Lambertian<>{}},
+                     {"globe", TextureIndex{3}, Lambertian<>{}},     {"lamp", Vec3d{4, 4, 4}, Light<>{}},
+                     {"screen", TextureIndex{3}, Light<>{}}};
+  const Sphere<> ball{{0, 0, 0}, 0.7, {}}, moving{{2, 0, 0}, 0.5, Vec3d{2, 1, 0}};
+  scene.objects = {{"gold", Solid3d{ball, 0}, {}},
+                   {"gold box", Solid3d{Box<>{}, 0}, {}},
+                   {"glass", Solid3d{ball, 1}, {Translate{{1, 0, 0}}}},
+                   {"matt", Solid3d{moving, 2}, {}},
+                   {"floor", Solid3d{Quad<>{}, 3}, {}},
+                   {"wall", Solid3d{Box<>{}, 4}, {RotateY{30}}},
+                   {"paint", Solid3d{ball, 5}, {}},
+                   {"globe", Solid3d{ball, 6}, {}},
+                   {"lamp", Solid3d{Quad<>{}, 7}, {}},
+                   {"screen", Solid3d{Quad<>{}, 8}, {}},
+                   {"fog", Volume{Box<>{}, {RotateY{10}}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}},
+                   {"tiled fog", Volume{ball, {}, Medium<>{1.1, 0}, TextureIndex{0}}, {}},
+                   {"group", Group{{{"inner", Solid3d{ball, 2}, {}}}}, {Translate{}}}};
+  return scene;
+}
+
+std::vector<PaletteItem> items_of(const std::vector<PaletteLine>& lines) {
+  std::vector<PaletteItem> items;
+  for (const PaletteLine& line : lines) items.push_back(line.item);
+  return items;
+}
+
+/// What is marked after the text was typed, that is what Return carries out; "": nothing.
+std::string chosen_by(const std::string& text, const ObjectPath& selected = {}) {
+  const std::vector<PaletteItem> items = items_of(palette_lines(varied_scene(), selected, {"cover", "showroom"}));
+  const std::vector<int> found = matching_items(items, text);
+  return found.empty() ? "" : items[static_cast<std::size_t>(found[0])].label;
+}
+
+const RowEntry& row_named(const std::string& label, const std::string& part = "Object") {
+  const auto rows = row_entries();
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const RowEntry& row) { return row.label == label && row.part == part; });
+  REQUIRE_MESSAGE(found != rows.end(), label);
+  return *found;
+}
+
+/// The column over the varied scene.
+struct VariedColumn : Column {
+  VariedColumn() {
+    state.scene = saved = varied_scene();
+    for (int k = 0; k < 3; ++k) draw();
+  }
+  void go(const RowEntry& row) {
+    problem.clear();
+    ui.edit = {};
+    state.leave_row = true;
+    state.seek = RowPlace{row.part, row.label};
+    for (int k = 0; k < 7; ++k) draw();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the words of other programs lead to the action or row that is meant there") {
+  const std::pair<const char*, const char*> meant[] = {
+      {"split", "split view"},
+      {"A/B", "split view"},
+      {"fullscreen", "full screen"},
+      {"full-screen", "full screen"},
+      {"Full Screen", "full screen"},
+      {"denoise", "clean view on or off"},
+      {"screenshot", "snapshot"},
+      {"screen shot", "snapshot"},
+      {"undo", "undo"},
+      {"render region", "refine a rectangle first"},
+      {"save as", "save as"},
+      {"ior", "go to: Refractive index"},
+      {"index of refraction", "go to: Refractive index"},
+      {"roughness", "go to: Fuzz"},
+      {"aperture", "go to: Defocus"},
+      {"f-stop", "go to: Defocus"},
+      {"depth of field", "go to: Defocus"},
+      {"emission", "go to: Power"},
+      {"intensity", "go to: Power"},
+      {"fov", "go to: Field of view"},
+      {"focal", "go to: Field of view"},
+      {"focal length", "go to: Field of view"},
+      {"focus distance", "go to: Focus"},
+      {"exposure", "go to: Exposure"},
+      {"bounces", "go to: Depth"},
+      {"samples", "go to: Limit"},
+      {"spp", "go to: Limit"},
+      {"albedo", "go to: Albedo"},
+      {"color", "go to: Albedo"},
+      {"base colour", "go to: Albedo"},
+      {"density", "go to: Density"},
+      {"anisotropy", "go to: Asymmetry g"},
+      {"resolution", "go to: Image size"},
+      {"threads", "go to: Threads"},
+      {"tone mapping", "go to: Tone map"},
+      {"environment", "go to: Background kind"},
+      {"histogram", "go to: Histogram"},
+      {"noise", "view: noise"},
+      {"false color", "view: false colour"},
+      {"render", "go to: Render"},
+      {"cover", "open: cover"},
+  };
+  for (const auto& [text, label] : meant) CHECK_MESSAGE(chosen_by(text) == label, text);
+}
+
+TEST_CASE(
+    "no two lines of the palette have the same name, each row has other words, and each other word leads to its own "
+    "line") {
+  for (const ObjectPath& selected : {ObjectPath{}, ObjectPath{0}, ObjectPath{10}}) {
+    const std::vector<PaletteItem> items = items_of(palette_lines(varied_scene(), selected, {}));
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      const bool is_row = items[k].label.starts_with("go to:");
+      CHECK_MESSAGE((!is_row || !items[k].also.empty()), items[k].label);
+      for (std::size_t other = 0; other < k; ++other) CHECK(items[other].label != items[k].label);
+      std::istringstream words(items[k].also);
+      for (std::string word; std::getline(words, word, ',');) {
+        const std::vector<int> found = matching_items(items, word);
+        REQUIRE_MESSAGE(!found.empty(), word);
+        CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == items[k].label, word);
+      }
+    }
+  }
+}
+
+TEST_CASE("each row is brought up and takes the keyboard, or it is said what to select, for whatever is selected") {
+  VariedColumn column;
+  const std::size_t count = column.state.scene.objects.size();
+  std::set<std::string> reached;
+  for (std::size_t k = 0; k <= count; ++k) {
+    column.state.selected = k < count ? ObjectPath{static_cast<int>(k)} : ObjectPath{};
+    for (int drawing = 0; drawing < 3; ++drawing) column.draw();
+    for (const RowEntry& row : row_entries()) {
+      column.go(row);
+      const bool shown = !owner_of(row, column.state.scene, column.state.selected).empty();
+      CHECK_MESSAGE(shown == column.problem.empty(), k, ": ", row.part, ": ", row.label);
+      if (shown && !row.label.empty()) {
+        const bool has_keyboard = column.ui.edit.id != 0 || column.ui.sought.has_keys;
+        CHECK_MESSAGE(has_keyboard, row.label);
+      }
+      if (shown) reached.insert(row.part + row.label);
+    }
+  }
+  for (const RowEntry& row : row_entries()) {
+    const bool of_other_background = row.part == "Background" && !row.missing.empty() && row.label != "Colour";
+    CHECK_MESSAGE((reached.contains(row.part + row.label) || of_other_background), row.part, row.label);
+  }
+}
+
+TEST_CASE("the rows of each kind of background are reached") {
+  VariedColumn column;
+  for (const auto& [background, label] : {std::pair<Background, const char*>{Gradient{}, "Top"},
+                                          {Gradient{}, "Bottom"},
+                                          {Hemispheres{}, "Above"},
+                                          {Hemispheres{}, "Below"}}) {
+    column.state.scene.background = background;
+    column.go(row_named(label, "Background"));
+    CHECK(column.problem.empty());
+    CHECK(column.ui.edit.id != 0);
+  }
+}
+
+TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and what is typed goes into it") {
+  VariedColumn column;
+  column.height = 420;
+  column.state.selected = {0};
+  for (const char* section : {"Gold", "Camera", "Render"}) column.ui.folded.insert(section);
+  for (int k = 0; k < 3; ++k) column.draw();
+  const auto type = [&](const char* label, const char* part, const char* text) {
+    column.go(row_named(label, part));
+    for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
+    column.draw();
+    column.press(ImGuiKey_Enter);
+  };
+  type("Seed", "Render", "77");
+  CHECK(column.state.scene.render.seed == 77);
+  CHECK(column.has("render.seed"));
+  CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Render"));
+  CHECK_FALSE(column.ui.folded.contains("Render"));
+  CHECK(column.ui.folded.contains("Camera"));
+  type("Fuzz", "Object", "0.75");
+  CHECK(std::get<Metal<>>(column.state.scene.materials[0].kind).fuzz == 0.75);
+  CHECK(column.has("gold.fuzz"));
+  type("Up", "Camera", "0.5");  // a row that the column hides as long as up is up
+  CHECK(column.state.scene.camera.vup.x == 0.5);
+}
+
+TEST_CASE("while nothing is selected the row is that of the first object that is shown; the others stay folded") {
+  VariedColumn column;
+  for (const char* title : {"Gold", "Glass", "Fog"}) column.ui.folded.insert(title);
+  column.go(row_named("Refractive index"));
+  CHECK_FALSE(column.ui.folded.contains("Glass"));
+  CHECK(column.ui.folded.contains("Gold"));
+  CHECK(column.ui.folded.contains("Fog"));
+  CHECK(owner_of(row_named("Density"), column.state.scene, {}) == "Fog");
+  CHECK(owner_of(row_named("Density"), column.state.scene, {0}).empty());
+  CHECK(row_named("Density").missing == "select fog first");
+  CHECK(row_named("Fuzz").missing == "select an object of metal first");
+}
+
+TEST_CASE("the arrow keys go through the choices of a row that was gone to, until Enter") {
+  VariedColumn column;
+  column.go(row_named("Tone map", "Image"));
+  REQUIRE(column.state.row_has_keys);
+  column.press(ImGuiKey_RightArrow);
+  CHECK(column.state.scene.display.tone_map == ToneMap::aces);
+  column.press(ImGuiKey_LeftArrow);
+  column.press(ImGuiKey_LeftArrow);  // there is none before the first
+  CHECK(column.state.scene.display.tone_map == ToneMap::srgb);
+  column.press(ImGuiKey_Enter);
+  CHECK_FALSE(column.state.row_has_keys);
+  column.press(ImGuiKey_RightArrow);
+  CHECK(column.state.scene.display.tone_map == ToneMap::srgb);
+  column.state.selected = {0};
+  column.draw();
+  column.go(row_named("Material"));
+  column.press(ImGuiKey_DownArrow);
+  CHECK(std::get<Solid3d>(column.state.scene.objects[0].kind).material == 1);
+}
