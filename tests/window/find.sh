@@ -35,7 +35,7 @@ find_and qqq
 chord ctrl a
 type_text bounces
 kill -STOP "$pid"
-xdotool key --delay 0 Return 1 7 Return
+xdotool key --delay 5 Return 1 7 Return # GLFW drops a key that comes twice within a millisecond
 kill -CONT "$pid"
 wait_until has_value render.max_depth 17
 lines=$(here)

@@ -43,7 +43,7 @@ void camera_panel(Ui& ui, PanelState& state) {
   const Camera* saved = &state.facts.saved->camera;
   field_rows(ui, camera, saved, [](const auto& value, auto name) { return is_any_of<double>(value, name); });
   focus_row(ui, state.scene, *saved);
-  const bool plain_up = camera.vup == Vec3d{0, 1, 0} && !was_sought(ui, {"Camera", label_of("vup")});
+  const bool plain_up = camera.vup == Vec3d{0, 1, 0} && !is_sought(ui, label_of("vup"));
   field_rows(ui, camera, saved, [&](const auto& value, std::string_view name) {
     return is_any_of<Vec3d>(value, name) && !(plain_up && name == "vup");
   });

@@ -18,32 +18,14 @@ Rect item_rect() {
 
 float right_edge() { return ImGui::GetWindowContentRegionMax().x; }
 
-bool is_sought(const Ui& ui, const std::string& label) {
-  return ui.sought.place.part == ui.drawn.part && ui.sought.place.label == label;
-}
-
 /// What is done with a row or section that is sought, where it begins.
 void meet_sought(Ui& ui, float height_ratio) {
   SoughtRow& sought = ui.sought;
-  if (sought.drawing == 0) ui.folded.erase(ui.drawn.label), sought.found = true;
+  sought.met = true;
+  if (sought.drawing == 0) ui.folded.erase(ui.drawn.label);
   if (sought.drawing == 1) ImGui::SetScrollHereY(height_ratio);
   if (sought.drawing == 2) sought.types = true;
   sought.top = ImGui::GetCursorScreenPos().y;
-}
-
-/// The arrow keys go through the choices of a row that the column was sent to.
-bool choose_by_keys(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen) {
-  if (!ui.sought.has_keys || !is_sought(ui, row.label) || ImGui::GetIO().WantTextInput || ui.asks) return false;
-  if (compat::key_pressed(ImGuiKey_Enter)) ui.sought.has_keys = false;
-  const bool on = compat::key_pressed(ImGuiKey_RightArrow) || compat::key_pressed(ImGuiKey_DownArrow);
-  const bool back = compat::key_pressed(ImGuiKey_LeftArrow) || compat::key_pressed(ImGuiKey_UpArrow);
-  const int count = static_cast<int>(choices.size()), step = (on ? 1 : 0) - (back ? 1 : 0);
-  for (int k = chosen + step; step != 0 && k >= 0 && k < count; k += step) {
-    if (choices[static_cast<std::size_t>(k)].missing) continue;
-    chosen = k;
-    return true;
-  }
-  return false;
 }
 
 /// The frame around a choice that has the keyboard.
@@ -60,14 +42,18 @@ void seek_row(Ui& ui, const RowPlace& place) { ui.sought = {place, 0}; }
 
 void go_on_seeking(Ui& ui) {
   SoughtRow& sought = ui.sought;
+  const bool met = std::exchange(sought.met, false);
   if (ImGui::IsMouseClicked(0)) sought.has_keys = false;
   if (sought.drawing < 0) return;
-  if (sought.drawing == 0 && !sought.found) ui.problem = sought.place.label + " is not shown for what is selected";
-  sought.drawing = sought.found && sought.drawing < 2 ? sought.drawing + 1 : -1;
+  if (sought.drawing == 0 && !met) ui.problem = sought.place.label + " is not shown for what is selected";
+  sought.drawing = met && sought.drawing < 2 ? sought.drawing + 1 : -1;
   ui.wake_in = 0;
 }
 
-bool was_sought(const Ui& ui, const RowPlace& place) { return ui.sought.place == place; }
+bool is_sought(const Ui& ui, const std::string& label) {
+  const RowPlace& place = ui.sought.place;
+  return !place.part.empty() && place.part == ui.drawn.part && place.label == label;
+}
 
 /// The text, cut and with ".." at its end where it does not fit.
 std::string clipped(const std::string& text, float width) {
@@ -181,7 +167,8 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
 }
 
 void begin_row(Ui& ui, const Row& row) {
-  if (is_sought(ui, row.label)) meet_sought(ui, 0.3f);
+  ui.sought.here = is_sought(ui, row.label) && !ui.sought.met;
+  if (ui.sought.here) meet_sought(ui, 0.3f);
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
   clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
@@ -196,7 +183,7 @@ void end_row(Ui& ui, const Row& row) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
     note(ui, row.meaning, true, row.warning ? palette::amber : palette::dim);
   }
-  if (ui.sought.has_keys && is_sought(ui, row.label)) draw_keyboard_frame(ui);
+  if (std::exchange(ui.sought.here, false) && ui.sought.has_keys) draw_keyboard_frame(ui);
 }
 
 bool slider_row(Ui& ui, const Row& row, double& value) {
@@ -206,76 +193,6 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
   tooltip(ui, row.help);
   ImGui::SameLine(0, gap * ui.scale);
   changed = value_box(ui, "value", row, value, box_width * ui.scale, true) || changed;
-  end_row(ui, row);
-  return changed;
-}
-
-namespace {
-
-/// A button of a choice. Returns whether it was pressed and so becomes the chosen one.
-bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2 size) {
-  ImGui::PushStyleColor(ImGuiCol_Button, on ? palette::chosen : palette::field);
-  ImGui::PushStyleColor(ImGuiCol_Text, choice.missing ? palette::faint : palette::text);
-  const bool pressed = ImGui::Button(choice.name, size);
-  ImGui::PopStyleColor(2);
-  log_item(ui, row.name + "." + choice.name, on ? "on" : choice.missing ? "missing" : "off");
-  if (!choice.missing) tooltip(ui, choice.help);
-  if (!choice.missing) return pressed && !on;
-  tooltip(ui, choice.missing);
-  if (pressed) ui.problem = std::string(choice.name) + ": " + choice.missing;
-  return false;
-}
-
-}  // namespace
-
-bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen, int columns) {
-  begin_row(ui, row);
-  const int count = static_cast<int>(choices.size()), per_line = columns > 0 ? columns : count;
-  const float space = 2 * ui.scale, left = ImGui::GetCursorPosX();
-  const float width = (value_width(ui) - space * static_cast<float>(per_line - 1)) / static_cast<float>(per_line);
-  bool changed = choose_by_keys(ui, row, choices, chosen);
-  compat::push_font(ui.fonts.small);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * ui.scale, 2 * ui.scale});
-  for (int k = 0; k < count; ++k) {
-    if (k % per_line != 0) ImGui::SameLine();
-    if (k > 0 && k % per_line == 0) ImGui::SetCursorPosX(left);
-    const ImVec2 size{width, ImGui::GetFontSize() + 10 * ui.scale};
-    if (choice_button(ui, row, choices[static_cast<std::size_t>(k)], k == chosen, size)) chosen = k, changed = true;
-  }
-  ImGui::PopStyleVar(2);
-  ImGui::PopFont();
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
-  end_row(ui, row);
-  return changed;
-}
-
-bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen) {
-  std::vector<Choice> choices;
-  for (const std::string& name : names) choices.push_back({name.c_str()});
-  return combo_row(ui, row, choices, chosen);
-}
-
-bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen) {
-  begin_row(ui, row);
-  ImGui::SetNextItemWidth(value_width(ui));
-  bool changed = choose_by_keys(ui, row, choices, chosen);
-  const char* now = chosen >= 0 ? choices[static_cast<std::size_t>(chosen)].name : "";
-  const bool open = ImGui::BeginCombo("##list", now);
-  log_item(ui, row.name, now);
-  if (open) {
-    for (int k = 0; k < static_cast<int>(choices.size()); ++k) {
-      const Choice& choice = choices[static_cast<std::size_t>(k)];
-      ImGui::PushID(k);
-      const ImGuiSelectableFlags flags = choice.missing ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
-      if (ImGui::Selectable(choice.name, k == chosen, flags)) changed = k != chosen, chosen = k;
-      ImGui::PopID();
-      log_item(ui, row.name + "." + choice.name, choice.missing ? "missing" : "item");
-      tooltip(ui, choice.missing ? choice.missing : choice.help);
-    }
-    if (ui.close_popup) ImGui::CloseCurrentPopup();
-    ImGui::EndCombo();
-  }
   end_row(ui, row);
   return changed;
 }

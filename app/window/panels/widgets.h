@@ -42,7 +42,6 @@ struct NumberDrag {
 /// A row of the column by the part and the label under which it is seen; without a label the part's heading.
 struct RowPlace {
   std::string part, label;
-  bool operator==(const RowPlace&) const = default;
 };
 
 /// The row that the column was sent to. In the first drawing its section is opened, in the second it is scrolled to, in
@@ -50,7 +49,8 @@ struct RowPlace {
 struct SoughtRow {
   RowPlace place;         ///< of the last one, until there is another
   int drawing = -1;       ///< from 0 on; -1: the keyboard is there
-  bool found = false;     ///< in the first drawing
+  bool met = false;       ///< in this drawing; of several rows of that label the first one counts
+  bool here = false;      ///< it is being drawn
   bool types = false;     ///< the next number belongs to it and is to be typed into
   bool has_keys = false;  ///< it is a choice, and the arrow keys go through it
   float top = 0;          ///< of the row while it is drawn
@@ -109,8 +109,8 @@ struct Row {
 void seek_row(Ui& ui, const RowPlace& place);
 /// At the end of a drawing of the column: goes on with what was sought.
 void go_on_seeking(Ui& ui);
-/// Whether the column was sent to this row last.
-bool was_sought(const Ui& ui, const RowPlace& place);
+/// Whether the column was sent last to the row of this label in the part that is being drawn.
+bool is_sought(const Ui& ui, const std::string& label);
 
 /// A heading with a note on the right; a click folds the section. Returns whether it is open.
 bool section(Ui& ui, const std::string& name, const std::string& note);

@@ -200,6 +200,9 @@ TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and w
   type("Fuzz", "Object", "0.75");
   CHECK(std::get<Metal<>>(column.state.scene.materials[0].kind).fuzz == 0.75);
   CHECK(column.has("gold.fuzz"));
+  column.state.scene.objects[0].transform = {RotateY{30}, RotateY{5}};
+  type("Turn", "Object", "45");  // the first of two
+  CHECK(column.state.scene.objects[0].transform == Transform{RotateY{45}, RotateY{5}});
   type("Up", "Camera", "0.5");  // a row that the column hides as long as up is up
   CHECK(column.state.scene.camera.vup.x == 0.5);
 }
