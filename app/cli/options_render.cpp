@@ -50,8 +50,7 @@ void add_output(CLI::App& app, RenderCommand& command) {
   add_outputs(app,
               ".png: 8-bit sRGB; .exr: float, linear, with layers and the film\n"
               "itself; .pfm, .hdr: float, linear; .ppm: 8-bit sRGB, as PNG; - for\n"
-              "standard output;\n"
-              "repeatable; required",
+              "standard output; repeatable; required",
               command.outputs, command.form);
   add_value(app, "--region", "X0,Y0,X1,Y1",
             "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"

@@ -27,6 +27,7 @@ sys.exit(status != 0 or abs(said / took - 1) > percent / 100)' "$said" "$percent
 needs 10 render quads -q --size 1600x1000 --spp 2 -o m.pfm
 needs 10 render cornell-box -q --size 1600x1000 --spp 2 -o m.pfm
 needs 10 render cornell-box -q --size 1600x1000 --spp 2 -o m.png
+needs 10 render cornell-box -q --size 1600x1000 --spp 2 -o m.ppm
 needs 10 render cornell-box -q --size 1600x1000 --spp 2 -o m.hdr -o m.pfm
 needs 10 render cornell-box -q --size 1600x1000 --spp 2 -o m.pfm --denoise
 needs 10 render cornell-box -q --size 3200x1000 --region 0,0,1600,1000 --spp 1 -o m.pfm

@@ -58,11 +58,6 @@ void refuse(bool wrong, const char* what) {
   if (wrong) throw std::invalid_argument(std::string("light_room: ") + what + " is not covered");
 }
 
-double linear_of(std::uint8_t byte) {  // IEC 61966-2-1
-  const double value = byte / 255.0;
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
 /// A point of a surface in pictures laid on it; closed: u goes on from 1 to 0.
 struct SurfacePlace {
   double u = 0, v = 0;
@@ -79,8 +74,8 @@ Vec3d image_at(const Image& image, const SurfacePlace& at) {
   const auto texel = [&](double column, double row) {
     const int i = (static_cast<int>(column) + pixels.width) % pixels.width;
     const int j = std::min(static_cast<int>(row), pixels.height - 1);
-    const std::uint8_t* rgb = &pixels.rgb[static_cast<std::size_t>(3 * (j * pixels.width + i))];
-    return Vec3d{linear_of(rgb[0]), linear_of(rgb[1]), linear_of(rgb[2])};
+    const float* rgb = &pixels.rgb[static_cast<std::size_t>(3 * (j * pixels.width + i))];
+    return Vec3d{static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
   };
   const double i = std::floor(x), j = std::floor(y), a = x - i, b = y - j;
   return (1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
