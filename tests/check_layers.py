@@ -45,7 +45,7 @@ RESERVED = [
     (r"fmt/", r"app/"),
     (r"hwy/", r"core/base/lanes_simd_arithmetic\.h$"),
     (r"nlohmann/", r"app/|core/scene/json[a-z_]*\.cpp$"),
-    (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_|jpeglib|jerror|png\.h", r"core/image/(image_io[a-z_]*\.cpp|image_io_exr_[a-z]+\.h)$"),
+    (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_|jpeglib|jerror|png\.h", r"core/image/(image_io[a-z_]*\.cpp|image_io_exr_open\.h)$"),
     (r"iostream$", r"app/"),
 ]
 GENERATED = {"shaders.h"}

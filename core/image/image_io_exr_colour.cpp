@@ -1,8 +1,6 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/image/image_io_exr_colour.h"
-
-#include "core/image/image_io_file.h"
+#include "core/image/image_io_exr_open.h"
 
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfHeader.h>

@@ -1,8 +1,6 @@
-#include "core/image/image_io_exr_layers.h"
-
-#include "core/image/image_io_exr.h"
-
 #ifdef TYNDALL_OPENEXR
+
+#include "core/image/image_io_exr_open.h"
 
 #include "core/base/text.h"
 

@@ -3,15 +3,20 @@
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io_file.h"
 
+#include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 
 #include <new>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
-/// How EXR files are opened for reading: for the files of this folder that include OpenEXR.
+/// How EXR files are opened, which of their channels are a picture, and what their header says of its colours: for the
+/// files of this folder that include OpenEXR.
 namespace tyndall {
 
 /// Runs `read` on the opened EXR. Whatever goes wrong becomes an ImageFileError that names the file.
@@ -52,5 +57,41 @@ inline std::pair<int, int> size_of(const std::filesystem::path& file, const Imat
   check_readable(file, width, height);
   return {static_cast<int>(width), static_cast<int>(height)};
 }
+
+/// What the channels of a layer mean.
+enum class ExrColour {
+  rgb,               ///< red, green, blue
+  vector,            ///< X, Y, Z: numbers that are no colour, shown as red, green, blue
+  luminance_chroma,  ///< Y, RY = (R - Y) / Y, BY = (B - Y) / Y
+  grey               ///< one channel
+};
+
+struct ExrLayer {
+  int part = 0;  ///< of the file, from 0 on
+  ExrColour colour = ExrColour::rgb;
+  std::string prefix;                 ///< of the channels' names, such as "ViewLayer.Combined"; "": none
+  std::vector<std::string> channels;  ///< whole names: one for grey, else three
+};
+
+/// The layer of that name. Without a name: the picture of the first part that has colour (R, G and B, or Y) without a
+/// layer's name before it, or, in files of several parts, with the part's own name.
+///
+/// A layer is known by its channels' prefix ("ViewLayer.Combined"), by its part's name, by both ("beauty.albedo"), or
+/// by the name of its view; and a single channel by its whole name ("Depth.Z"). What one of these names means is what
+/// the first part says that knows it.
+///
+/// Throws NoSuchLayer for an unknown name, ImageFileError for a file without colour; both list what there is.
+ExrLayer find_exr_layer(const std::filesystem::path& file, const Imf::MultiPartInputFile& exr,
+                        const std::optional<std::string>& name);
+
+/// The shares of red, green and blue in the luminance, by the attribute "chromaticities"; without it those of Rec.709.
+/// Throws ImageFileError for chromaticities that span no colours.
+Imath::V3f luminance_weights(const std::filesystem::path& file, const Imf::Header& header);
+
+/// Converts linear RGB, 3 floats a pixel, by the attribute "chromaticities" to the Rec.709 RGB of the same CIE XYZ.
+/// The white of the file is converted like any other colour, unless the attribute "adoptedNeutral" says which
+/// chromaticity is to look neutral: that one becomes the white of Rec.709, by a linear Bradford transform. Values of
+/// files in Rec.709 stay as they are, bit for bit. Throws ImageFileError for chromaticities that span no colours.
+void convert_to_rec709(const std::filesystem::path& file, const Imf::Header& header, std::vector<float>& rgb);
 
 }  // namespace tyndall

@@ -3,8 +3,6 @@
 
 #ifdef TYNDALL_OPENEXR
 
-#include "core/image/image_io_exr_colour.h"
-#include "core/image/image_io_exr_layers.h"
 #include "core/image/image_io_exr_open.h"
 
 #include <OpenEXR/ImfChannelList.h>
