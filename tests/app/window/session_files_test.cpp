@@ -1,10 +1,12 @@
 #include "app/window/document/open_document.h"
 #include "core/image/image_io.h"
+#include "core/image/tonemap.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -122,7 +124,11 @@ struct TexturedSession : OpenedSession {
       "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "land" }] })");
   }
   /// Of the texture that is shown.
-  int red() const { return std::get<Image>(editor().scene().textures[0].kind).pixels->rgb[0]; }
+  /// As the byte of a picture file.
+  int red() const {
+    const float light = std::get<Image>(editor().scene().textures[0].kind).pixels->rgb[0];
+    return static_cast<int>(std::lround(255 * srgb_encode(light)));
+  }
   bool complains() {
     return comes_true([&] { return session->messages().current().error; });
   }
