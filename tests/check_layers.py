@@ -12,6 +12,7 @@ import re
 import sys
 
 LEVELS = [
+    ["core/system"],
     ["core/base"],
     ["core/shapes", "core/materials", "core/media", "core/textures", "core/film"],
     ["core/image"],

@@ -1,7 +1,7 @@
 #include "app/files/memory.h"
 
 #include "app/text/values.h"
-#include "core/base/cgroup.h"
+#include "core/system/cgroup.h"
 #include "core/film/film.h"
 #include "core/image/image_io_file.h"
 

@@ -3,7 +3,7 @@
 #include "core/base/crew_memory.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 
 #include <cassert>
 #include <chrono>

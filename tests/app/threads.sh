@@ -29,7 +29,7 @@ if [ -n "$group" ] && [ "$(nproc)" -gt 1 ] && echo 50000 2>/dev/null >"$group/cp
     "$(threads_of sh -c 'echo $$ >"$0/cgroup.procs" && exec "$@"' "$group")" '1 "quota"'
 else
   [ -z "$group" ] || rmdir "$group"
-  echo 'no control group can be made here: quotas were tested with files alone (base/processors)'
+  echo 'no control group can be made here: quotas were tested with files alone (system/processors)'
 fi
 
 finish

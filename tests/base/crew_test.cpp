@@ -1,5 +1,5 @@
 #include "core/base/crew.h"
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 
 #include <doctest/doctest.h>
 

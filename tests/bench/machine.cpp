@@ -1,6 +1,6 @@
 #include "tests/bench/machine.h"
 
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 #include "core/kernel/kernels.h"
 
 #include <algorithm>

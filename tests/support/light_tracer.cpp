@@ -2,7 +2,7 @@
 
 #include "core/base/kinds.h"
 #include "core/base/math.h"
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 #include "tests/support/light_room.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/panels.h"
 #include "core/base/crew.h"
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 
 #include <fmt/core.h>
 

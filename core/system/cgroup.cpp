@@ -1,6 +1,6 @@
-#include "core/base/cgroup.h"
+#include "core/system/cgroup.h"
 
-#include "core/base/mounts.h"
+#include "core/system/mounts.h"
 
 #include <fstream>
 #include <optional>

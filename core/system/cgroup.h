@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-/// Control groups (cgroups): what containers and batch systems use to limit a group of processes.
+/// This room finds out what the operating system lets the process have. Control groups (cgroups): what containers and
+/// batch systems use to limit a group of processes.
 namespace tyndall {
 
 /// The folders of the groups that this process belongs to, from its own up to the topmost one that is mounted here,

@@ -1,4 +1,4 @@
-#include "core/base/mounts.h"
+#include "core/system/mounts.h"
 
 #include <sys/stat.h>
 #include <fcntl.h>

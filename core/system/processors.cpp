@@ -1,6 +1,6 @@
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 
-#include "core/base/cgroup.h"
+#include "core/system/cgroup.h"
 
 #ifdef __linux__
 #include <sched.h>

@@ -1,6 +1,6 @@
-#include "core/base/processors.h"
-#include "core/base/cgroup.h"
+#include "core/system/processors.h"
 #include "core/base/crew.h"
+#include "core/system/cgroup.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
