@@ -9,7 +9,7 @@
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
-#include "core/base/processors.h"
+#include "core/system/processors.h"
 
 #include <algorithm>
 #include <chrono>
@@ -111,20 +111,28 @@ class ChartJob {
   Clock::time_point start_ = Clock::now();
 };
 
+/// Writes the files of a chart, and its table to standard output. Whether all of that worked; what did not is told.
+bool write(const Chart& chart, const std::filesystem::path& svg, const std::string& table) {
+  const bool saved = written_or_told([&] { write_chart(chart, svg); });
+  return written_or_told([&] { write_standard_output(table); }) && saved;
+}
+
 int chart_all(const ChartCommand& command, const SignalWatch& signals) {
+  const auto file_of = [&command](const char* name) { return command.output / (std::string(name) + ".svg"); };
+  for (const char* name : gallery) check_can_write(file_of(name)), check_can_write(csv_beside(file_of(name)));
+  bool whole = true;
   for (const char* name : gallery) {
-    const std::filesystem::path file = command.output / (std::string(name) + ".svg");
-    check_can_write(file);
+    const std::filesystem::path file = file_of(name);
     ChartJob job(command, signals);
     SceneRequest request = command.scene;
     request.what = name;
     const Chart chart = job.make(request, file);
     if (chart.curves.empty()) break;
     job.finish(std::string("charted ") + name);
-    write_chart(chart, file);
-    write_standard_output(std::string(name) + "\n" + chart_table(chart) + "\n");
+    whole = write(chart, file, std::string(name) + "\n" + chart_table(chart) + "\n") && whole;
     if (job.stopped()) break;
   }
+  if (!whole) return output_failed;
   return signals.received() ? 128 + signals.received() : 0;
 }
 
@@ -143,9 +151,7 @@ int run(const ChartCommand& command) {
     return code;
   }
   job.finish("charted " + command.scene.what);
-  write_chart(chart, command.output);
-  write_standard_output(chart_table(chart));
-  return code;
+  return write(chart, command.output, chart_table(chart)) ? code : output_failed;
 }
 
 }  // namespace tyndall

@@ -95,9 +95,12 @@ int compare_with_baseline(const CompareCommand& command) {
     for (const std::string& failure : picture.failures) complain(picture.name + ": " + failure);
     good = good && picture.failures.empty();
   }
-  if (!command.report.empty()) write_html_report(command.report, pictures, command.baseline.ppm);
-  if (!command.junit.empty()) write_text_file(command.junit, junit_report(pictures));
-  write_standard_output(text);
+  bool whole = true;
+  const auto write = [&whole](const auto& output) { whole = written_or_told(output) && whole; };
+  if (!command.report.empty()) write([&] { write_html_report(command.report, pictures, command.baseline.ppm); });
+  if (!command.junit.empty()) write([&] { write_text_or_rescue(command.junit, junit_report(pictures)); });
+  write([&text] { write_standard_output(text); });
+  if (!whole) return output_failed;
   return good ? 0 : 1;
 }
 
@@ -112,12 +115,15 @@ int run(const CompareCommand& command) {
   check_gamma2(command.baseline.ppm, comparison.has_ppm);
   for (const std::string& remark : comparison.remarks) complain(remark);
   const std::optional<BlockScores> blocks = compare_films(command);
-  if (!command.heatmap.empty())
-    write_png(command.heatmap, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb,
-              {});
-  write_standard_output(command.json ? json_text(comparison, blocks) : table(comparison, blocks));
+  const auto write_heat_map = [&comparison](const std::filesystem::path& file) {
+    write_png(file, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb, {});
+  };
+  bool whole = command.heatmap.empty() || written_or_told([&] { write_or_rescue(command.heatmap, write_heat_map); });
+  const std::string text = command.json ? json_text(comparison, blocks) : table(comparison, blocks);
+  whole = written_or_told([&text] { write_standard_output(text); }) && whole;
   const std::vector<std::string> failures = too_large(comparison, command.limits);
   for (const std::string& failure : failures) complain("check failed: " + failure);
+  if (!whole) return output_failed;
   return failures.empty() ? 0 : 1;
 }
 

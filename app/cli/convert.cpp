@@ -15,7 +15,7 @@ int run(const ConvertCommand& command) {
   } else {
     check_outputs({{"--output", command.output}}, loaded.files);
     check_can_write(command.output);
-    write_text_file(command.output, text);
+    write_text_or_rescue(command.output, text);
   }
   return 0;
 }

@@ -76,7 +76,7 @@ MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vect
 int run(const MergeCommand& command) {
   check_image_names(command.outputs, command.form);
   check_outputs(outputs_of("--output", command.outputs), command.parts);
-  for (const auto& file : command.outputs) check_can_write(file);
+  check_can_write(outputs_of("--output", command.outputs));
   const Parts parts = read_parts(command.parts);
   MemoryPlan plan = memory_plan(parts.frames.front(), parts.scene, command.outputs, command.form);
   plan.parts = parts.frames.size() > 1;
@@ -97,8 +97,7 @@ int run(const DenoiseCommand& command) {
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
   outputs.push_back({"--stats", command.stats});
   check_outputs(outputs, {command.film});
-  for (const auto& file : command.outputs) check_can_write(file);
-  if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
+  check_can_write(outputs);
   const StoredFilm stored = read_stored_frame(command.film);
   MemoryPlan plan = memory_plan(stored.part, stored.scene, command.outputs, command.form);
   plan.clean = true;
@@ -112,7 +111,7 @@ int run(const DenoiseCommand& command) {
   if (command.stats == "-")
     write_standard_output(stats);
   else if (!command.stats.empty())
-    write_text_file(command.stats, stats);
+    write_text_or_rescue(command.stats, stats);
   return code;
 }
 

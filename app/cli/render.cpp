@@ -11,11 +11,11 @@
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
 #include "core/base/limits.h"
-#include "core/base/processors.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
+#include "core/system/processors.h"
 
 #include <fmt/core.h>
 
@@ -90,12 +90,13 @@ void prepare(Job& job) {
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
   outputs.push_back({"--stats", command.stats});
   check_outputs(outputs, job.loaded.files);
-  for (const auto& file : command.outputs) check_can_write(file);
-  if (!command.stats.empty() && command.stats != "-") check_can_write(command.stats);
+  check_can_write(outputs);
   check_memory(memory_plan(command, job.loaded, *job.options.region), free_memory());
   job.begin = find_start(command, job.loaded, job.options, job.kernels);
   job.samples_before = totals(job.begin.film).samples;
   if (!job.begin.note.empty()) complain(job.begin.note);
+  if (job.begin.as_asked) return;
+  for (const std::string& remark : remarks_on_outputs(command, job.begin.place)) complain(remark);
   check_if_ignored(command, job.loaded.scene.render);
   tell_alpha(job.loaded);
 }
@@ -135,7 +136,8 @@ Embedded embedded_in(const Job& job, const Film& film, const std::filesystem::pa
           {TYNDALL_VERSION, job.kernels.isa, unfinished}};
 }
 
-/// Tells if the pixels have different numbers of samples, which the figures and the files say as least_spp and most_spp.
+/// Tells if the pixels have different numbers of samples, which the figures and the files say as least_spp and
+/// most_spp.
 void warn_if_uneven(const Job& job, const Outcome& outcome) {
   const std::string text = uneven_text(job.loaded.scene, outcome.picture.totals);
   if (!text.empty()) complain(text);
@@ -155,14 +157,16 @@ bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
       {film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean, job.command.form}, files);
   const std::filesystem::path& stats = job.command.stats;
   try {
-    if (stats == "-" && at_end)
-      write_standard_output(stats_text(figures(job, outcome)));
-    else if (stats != "-" && !stats.empty())
-      write_text_file(stats, stats_text(figures(job, outcome)));
+    const bool due = !stats.empty() && (at_end || !is_stream(stats));
+    if (due && stats == "-") write_standard_output(stats_text(figures(job, outcome)));
+    if (due && stats != "-") write_text_or_rescue(stats, stats_text(figures(job, outcome)));
   } catch (const std::exception& error) {
     problems.emplace_back(error.what());
   }
   for (const std::string& problem : problems) complain(problem);
+  std::error_code ignored;  // what the file beside the output holds is in the output now
+  const std::filesystem::path apart = job.begin.place.beside();
+  if (at_end && problems.empty() && !apart.empty()) std::filesystem::remove(apart, ignored);
   return problems.empty();
 }
 
@@ -187,14 +191,14 @@ RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressRepor
     write_so_far(job, result);
   };
   if (job.command.checkpoint == 0) return breaks;
-  const bool kept = !checkpoints.file().empty();
-  breaks.film_due = [&checkpoints, &report, kept, said = false]() mutable {
+  const bool kept = !checkpoints.file().empty(), told = !job.begin.place.output.empty();
+  breaks.film_due = [&checkpoints, &report, kept, said = told]() mutable {
     if (const auto problem = checkpoints.problem()) report.say(*problem);
     if (kept || said || !checkpoints.due()) return kept && checkpoints.due();
     said = true;
     report.say(
-        "nothing is kept before the end; with an output that ends in .exr, and --exr-film yes, a killed render can go "
-        "on");
+        "nothing is kept before the end; with a file as output that ends in .exr, and --exr-film yes, a killed render "
+        "can go on");
     return false;
   };
   breaks.take_film = [&checkpoints](const Film& film, Crew& crew) { checkpoints.take(film, crew); };
@@ -215,7 +219,7 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
     report.show(now);
     return signals.received() == 0;
   };
-  const std::filesystem::path kept = kept_film(job.command.outputs, job.command.form);
+  const std::filesystem::path& kept = job.begin.place.unfinished;
   Checkpoints checkpoints(kept, job.command.checkpoint,
                           [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
   job.options.breaks = breaks_of(job, signals, report, checkpoints);

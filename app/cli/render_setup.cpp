@@ -174,9 +174,11 @@ RenderStart start_with(StoredFilm stored, const RenderCommand& command, const Lo
   RenderStart start;
   const std::uint32_t taken = labelled_spp(stored.part.film), asked = *options.spp;
   const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
-  if (taken > asked)
-    start.note = name + "the film has " + text_of_samples(taken) + " already, more than the " + std::to_string(asked) +
-                 " asked for; it is written as it is";
+  const std::uint32_t most = options.adaptive ? taken : totals(stored.part.film).most_taken;
+  const std::string range = (most > taken ? std::to_string(taken) + " to " : "") + text_of_samples(most);
+  if (most > asked)
+    start.note = name + "the film has " + range + " already, more than the " + std::to_string(asked) + " asked for; " +
+                 (taken < asked ? "all pixels get as many" : "it is written as it is");
   else if (taken == asked)
     start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
   else if (!command.resume)
@@ -210,14 +212,37 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
 
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels) {
-  const std::filesystem::path file = kept_film(command.outputs, command.form);
-  if (command.resume && file.empty())
+  const FilmPlace place = film_place(command.outputs, command.form);
+  if (command.resume && place.output.empty())
     throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
-  if (command.fresh) return {};
+  RenderStart start;
+  start.place = place;
+  if (command.fresh) return start;
+  std::error_code error;
+  const bool apart = !place.beside().empty() && std::filesystem::exists(place.beside(), error);
+  const std::filesystem::path& file = apart ? place.unfinished : place.output;
   std::optional<StoredFilm> stored;
   if (!file.empty()) stored = find_film(file, command, loaded, options, kernels);
-  spare_unfinished(command.outputs, file, stored ? &stored->scene : nullptr);
-  return stored ? start_with(std::move(*stored), command, loaded, options) : RenderStart{};
+  spare_unfinished(command.outputs, place.output, stored ? &stored->scene : nullptr);
+  if (stored) start = start_with(std::move(*stored), command, loaded, options);
+  start.place = place;
+  return start;
+}
+
+std::vector<std::string> remarks_on_outputs(const RenderCommand& command, const FilmPlace& film) {
+  std::vector<std::string> remarks;
+  for (const auto& file : command.outputs) {
+    const FilePlace place = check_can_write(file);
+    const bool keeps = file == film.output && command.checkpoint != 0;
+    if (place.way != WriteWay::in_place || (place.folder_problem.empty() && !keeps)) continue;
+    std::string text =
+        file.string() + ": cannot be replaced, as " + place.obstacle + "; the picture is written into it at the end";
+    if (!place.folder_problem.empty()) text += "; its folder takes no new files (" + place.folder_problem + ")";
+    if (keeps && film.beside().empty()) text += "; no checkpoints are kept, so that a killed render starts over";
+    if (keeps && !film.beside().empty()) text += "; checkpoints go to " + film.beside().string();
+    remarks.push_back(text);
+  }
+  return remarks;
 }
 
 }  // namespace tyndall

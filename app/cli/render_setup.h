@@ -1,11 +1,13 @@
 #pragma once
 #include "app/cli/requests.h"
+#include "app/files/outputs.h"
 #include "core/kernel/kernels.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 /// Turns what the user asked for into what render() is told.
 namespace tyndall {
@@ -23,9 +25,11 @@ struct RenderStart {
   bool as_asked =
       false;  ///< the film has all samples that are asked for, and the file holds what the command would write into it
   std::string note;  ///< what to tell the user; "": nothing
+  FilmPlace place;   ///< where the film is kept
 };
 
-/// Looks at the film in the .exr output. One that fits is gone on with if it is unfinished, has just the samples that
+/// Looks at the film in the .exr output, or in the unfinished file beside it (see FilmPlace) if that is there. One that
+/// fits is gone on with if it is unfinished, has just the samples that
 /// are asked for, or --resume asks for it. Throws UsageError where --resume finds no film that fits, and for an
 /// unfinished one that does not fit: it says what differs; likewise for unfinished ones in further outputs. Any other
 /// file is replaced in the end.
@@ -34,6 +38,10 @@ RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, 
 
 /// One line on standard error if textures of the scene have an alpha channel, which is not looked at.
 void tell_alpha(const LoadedScene& loaded);
+
+/// What to tell of outputs that nothing can take the place of, where that costs something: checkpoints go to another
+/// file or nowhere, and where the folder takes no new files, what cannot be written into an output goes far from it.
+std::vector<std::string> remarks_on_outputs(const RenderCommand& command, const FilmPlace& film);
 
 /// How a film's scene differs from the one that is asked for if their samples do, as "found X, expected Y" without
 /// "found"; "": they are the same.

@@ -154,9 +154,7 @@ std::vector<std::string> update_baseline(const BaselineRequest& request) {
   for (const auto& [name, image] : pictures) {
     if (image.empty()) continue;  // not rendered this time: it stays
     const fs::path file = picture_name(image).file, target = request.folder / file.filename();
-    if (!fs::equivalent(file, target, error) &&
-        !fs::copy_file(file, target, fs::copy_options::overwrite_existing, error))
-      throw IoError(target.string() + ": cannot write: " + error.message());
+    if (!fs::equivalent(file, target, error)) write_copy(file, target);
     tolerances[name] = chosen(request.limits, tolerances, name);
     names.push_back(name);
   }

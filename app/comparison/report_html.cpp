@@ -139,7 +139,7 @@ void write_html_report(const fs::path& file, const std::vector<CheckedPicture>& 
   for (const bool good : {false, true})  // failures first
     for (const CheckedPicture& picture : pictures)
       if (picture.failures.empty() == good) text += section(picture, file, ppm);
-  write_text_file(file, text + page_end);
+  write_text_or_rescue(file, text + page_end);
 }
 
 std::string junit_report(const std::vector<CheckedPicture>& pictures) {

@@ -1,9 +1,9 @@
 #include "app/files/memory.h"
 
 #include "app/text/values.h"
-#include "core/system/cgroup.h"
 #include "core/film/film.h"
 #include "core/image/image_io_file.h"
+#include "core/system/cgroup.h"
 
 #include <sys/resource.h>
 

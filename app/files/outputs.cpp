@@ -24,17 +24,12 @@ std::string ending(const std::filesystem::path& file) {
 
 bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
 
-bool is_stream(const std::filesystem::path& file) {
-  std::error_code error;
-  return file == "-" || std::filesystem::is_fifo(file, error);
-}
-
 std::filesystem::path kept_film(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
   if (!form.exr_film) return {};
   const auto keeps = [](const std::filesystem::path& file) {
     std::error_code error;
     const auto type = std::filesystem::status(file, error).type();
-    return is_exr(file) &&
+    return is_exr(file) && !is_stream(file) &&
            (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
   };
   const auto file = std::find_if(outputs.begin(), outputs.end(), keeps);
@@ -122,12 +117,35 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<std::fi
   }
 }
 
-void check_can_write(const std::filesystem::path& file) {
+FilePlace check_can_write(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
     throw IoError(file.string() + ": cannot write: there is no folder " + folder.string());
-  WholeFile probe(file);  // removed again, as it is not committed
+  return WholeFile(file).place();  // removed again, as it is not committed
+}
+
+void check_can_write(const std::vector<Output>& outputs) {
+  for (const Output& output : outputs)
+    if (!output.file.empty() && output.file != "-") check_can_write(output.file);
+}
+
+FilmPlace film_place(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
+  FilmPlace film;
+  film.output = kept_film(outputs, form);
+  if (film.output.empty()) return film;
+  const FilePlace place = check_can_write(film.output);
+  film.unfinished = film.output;
+  if (place.way == WriteWay::replace) return film;
+  film.unfinished = beside(place.target, "unfinished");
+  const auto is_that = [&film](const auto& file) { return is_same_file(file, film.unfinished); };
+  try {
+    const bool other = std::any_of(outputs.begin(), outputs.end(), is_that);
+    if (other || check_can_write(film.unfinished).way != WriteWay::replace) film.unfinished.clear();
+  } catch (const std::exception&) {
+    film.unfinished.clear();
+  }
+  return film;
 }
 
 namespace {
@@ -159,26 +177,30 @@ LinearImage shown(const Picture& picture) {
   return {picture.clean->width, picture.clean->height, picture.clean->rgb};
 }
 
+void write_image(const Picture& picture, const std::string& kind, const std::filesystem::path& file) {
+  const Display& display = picture.display;
+  const Region& region = picture.film.region;
+  const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
+  if (kind == ".exr")
+    write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
+  else if (kind == ".png")
+    write_png(file, shown(picture), display.exposure, display.tone_map, picture.embedded(file), dither);
+  else if (kind == ".ppm")
+    write_ppm(file, shown(picture), display.exposure, display.tone_map, picture.form.ppm, dither);
+  else if (kind == ".pfm")
+    write_pfm(file, shown(picture));
+  else
+    write_hdr(file, shown(picture));
+}
+
 }  // namespace
 
 std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : files) {
     try {
-      const Display& display = picture.display;
-      const Region& region = picture.film.region;
-      const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
       const std::string kind = image_ending(file, picture.form);
-      if (kind == ".exr")
-        write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
-      else if (kind == ".png")
-        write_png(file, shown(picture), display.exposure, display.tone_map, picture.embedded(file), dither);
-      else if (kind == ".ppm")
-        write_ppm(file, shown(picture), display.exposure, display.tone_map, picture.form.ppm, dither);
-      else if (kind == ".pfm")
-        write_pfm(file, shown(picture));
-      else
-        write_hdr(file, shown(picture));
+      write_or_rescue(file, [&](const std::filesystem::path& to) { write_image(picture, kind, to); });
     } catch (const std::bad_alloc&) {
       problems.push_back(file.string() + ": cannot write: not enough memory" + memory_limit_text());
     } catch (const std::exception& error) {

@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace tyndall {
 
@@ -52,18 +53,6 @@ std::string temporary_prefix(const fs::path& folder, const std::string& name) {
   std::size_t cut = room - 1 - digits_of_number;
   while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xc0) == 0x80) --cut;  // no half letters of UTF-8
   return name.substr(0, cut) + '~' + hexadecimal(fnv1a(name)) + temporary_mark;
-}
-
-/// Where a chain of symbolic links ends.
-fs::path end_of_links(const fs::path& file) {
-  fs::path target = file;
-  std::error_code error;
-  for (int links = 0; fs::is_symlink(target, error); ++links) {
-    if (links == 40) cannot_write(file, std::generic_category().message(ELOOP));
-    target = target.parent_path() / fs::read_symlink(target, error);
-    if (error) cannot_write(file, error.message());
-  }
-  return target;
 }
 
 /// Removes a temporary file if no living process holds its lock.
@@ -114,47 +103,50 @@ int sync_error(int descriptor, bool is_folder) {
 
 void WholeFile::fail(int number) const { cannot_write(file_, std::generic_category().message(number)); }
 
-WholeFile::WholeFile(const fs::path& file) : file_(file), target_(file) {
+WholeFile::WholeFile(const fs::path& file) : file_(file), place_(find_place(file)) {
   buffer_.reserve(buffer_size);
-  if (file != "-") replaced_ = owner_of_target();
-  if (file == "-" || replaced_.is_pipe)
-    open_unnamed();
-  else
-    open_beside();
+  if (place_.way == WriteWay::in_place) check_in_place();
+  if (place_.way != WriteWay::stream && place_.folder_problem.empty()) open_beside();
+  if (descriptor_ >= 0) return;
+  if (place_.way == WriteWay::in_place) check_in_place();  // as open_beside() may have found
+  open_unnamed();
 }
 
+/// Leaves descriptor_ < 0 where the folder takes no new files, but the file may be written into.
 void WholeFile::open_beside() {
-  target_ = end_of_links(file_);
-  folder_ = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-  if (!target_.has_filename()) fail(EISDIR);
-  const std::string prefix = temporary_prefix(folder_, target_.filename().string());
-  remove_dead(folder_, prefix);
+  const std::string prefix = temporary_prefix(place_.folder, place_.target.filename().string());
+  remove_dead(place_.folder, prefix);
   for (int attempt = 0; attempt < 1000; ++attempt)
-    if (create(folder_ / (prefix + hexadecimal(likely_unique())))) return;
-  fail(EEXIST);
+    if (create(place_.folder / (prefix + hexadecimal(likely_unique())))) return;
+  if (place_.way == WriteWay::replace) fail(EEXIST);
 }
 
-/// Refuses what must not be replaced: renaming would put a file in the place of a device such as /dev/null.
-WholeFile::Owner WholeFile::owner_of_target() const {
-  struct stat status {};
-  if (stat(target_.c_str(), &status) != 0) {
-    if (errno != ENOENT) fail(errno);
-    return {};
+/// Throws unless the file can be opened for writing.
+void WholeFile::check_in_place() {
+  const int file = open(place_.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (file < 0) {
+    const int error = errno;
+    if (place_.obstacle.empty()) fail(error);
+    cannot_write(file_, place_.obstacle + ", and into it: " + std::generic_category().message(error));
   }
-  if (S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (S_ISFIFO(status.st_mode)) return {true, true, 0, 0, 0};
-  if (!S_ISREG(status.st_mode)) cannot_write(file_, "not an ordinary file");
-  return {true, false, status.st_mode & 07777u, status.st_uid, status.st_gid};
+  close(file);
 }
 
-/// Creates and locks a temporary file. False if there is one of that name, or if another writer took it for a dead one
-/// and removed it between the two steps.
+/// Creates and locks a temporary file, or finds that the folder takes none. False if there is one of that name, or if
+/// another writer took it for a dead one and removed it between the two steps.
 bool WholeFile::create(const fs::path& temporary) {
-  temporary_ = temporary;                              // while there is no file: memory for the name may run out
-  const mode_t mode = replaced_.exists ? 0600 : 0666;  // what replaces a private file is private while it is written
+  temporary_ = temporary;                           // while there is no file: memory for the name may run out
+  const mode_t mode = place_.exists ? 0600 : 0666;  // what replaces a private file is private while it is written
   const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (descriptor < 0) temporary_.clear();
   if (descriptor < 0 && errno == EEXIST) return false;
+  const bool needless = place_.way == WriteWay::in_place || errno == EACCES || errno == EPERM || errno == EROFS;
+  if (descriptor < 0 && place_.exists && needless) {
+    place_.folder_problem = std::generic_category().message(errno);
+    if (place_.obstacle.empty()) place_.obstacle = "its folder takes no new files";
+    place_.way = WriteWay::in_place;
+    return true;
+  }
   if (descriptor < 0) fail(errno);
   // Where files cannot be locked, nobody can lock them in order to remove them, either.
   const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -202,20 +194,19 @@ void WholeFile::seek(std::uint64_t position) {
 /// was allowed is not given to another group.
 void WholeFile::keep_owner() const {
   struct stat now {};
-  if (!replaced_.exists) return;
+  if (!place_.exists) return;
   if (fstat(descriptor_, &now) != 0) fail(errno);
-  unsigned mode = replaced_.mode;
-  const bool same_group = now.st_gid == replaced_.group || fchown(descriptor_, now.st_uid, replaced_.group) == 0;
+  unsigned mode = place_.mode;
+  const bool same_group = now.st_gid == place_.group || fchown(descriptor_, now.st_uid, place_.group) == 0;
   if (!same_group) mode = (mode & ~070u) | ((mode & 7u) << 3);
-  const bool same_user =
-      now.st_uid == replaced_.user || fchown(descriptor_, replaced_.user, static_cast<gid_t>(-1)) == 0;
+  const bool same_user = now.st_uid == place_.user || fchown(descriptor_, place_.user, static_cast<gid_t>(-1)) == 0;
   if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
   if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return;
   if (errno != EPERM && errno != ENOTSUP) fail(errno);  // these two: the file system has no modes
 }
 
 void WholeFile::sync_folder() const {
-  const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int folder = open(place_.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0 && errno == EACCES) return;  // a folder into which one may write, but not look
   if (folder < 0) fail(errno);
   const int error = sync_error(folder, true);
@@ -224,34 +215,78 @@ void WholeFile::sync_folder() const {
 }
 
 void WholeFile::open_unnamed() {
-  stream_ = true;
   const std::unique_ptr<std::FILE, Closer> file(std::tmpfile());
   descriptor_ = file ? fcntl(fileno(file.get()), F_DUPFD_CLOEXEC, 3) : -1;
   if (descriptor_ < 0) fail(errno);
 }
 
-/// Copies what was written to standard output or into the pipe.
-void WholeFile::send() const {
-  const bool standard = file_ == "-";
-  const int to = standard ? STDOUT_FILENO : open(file_.c_str(), O_WRONLY | O_CLOEXEC);
-  if (to < 0 || lseek(descriptor_, 0, SEEK_SET) < 0) fail(errno);
+/// Copies all that was written to an open file.
+void WholeFile::copy_to(int to) const {
+  if (lseek(descriptor_, 0, SEEK_SET) < 0) fail(errno);
   std::vector<std::uint8_t> bytes(std::size_t{1} << 16);
-  int problem = 0;
-  while (problem == 0) {
+  for (;;) {
     const ssize_t got = read(descriptor_, bytes.data(), bytes.size());
-    if (got == 0) break;
-    problem = got < 0 ? errno : write_all(to, bytes.data(), static_cast<std::size_t>(got));
+    if (got == 0) return;
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(errno);
+    if (const int problem = write_all(to, bytes.data(), static_cast<std::size_t>(got))) fail(problem);
   }
-  if (!standard && close(to) != 0 && problem == 0) problem = errno;
-  if (problem != 0) fail(problem);
+}
+
+namespace {
+
+/// A file that is open in a scope.
+struct Opened {
+  int descriptor;
+  ~Opened() { close(); }
+  int close() { return descriptor > 2 ? ::close(std::exchange(descriptor, -1)) : 0; }
+};
+
+/// Asks the disk for room, so that it is not missed in the middle. 0, or what went wrong. Some file systems do not say.
+int reserve(int descriptor, std::uint64_t size) {
+#ifdef __linux__
+  while (size > 0 && fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL ? 0 : errno;
+  }
+#endif
+  return 0;
+}
+
+}  // namespace
+
+/// Copies what was written to standard output, into a pipe or device, or to the end of a file that is open elsewhere.
+void WholeFile::send() const {
+  Opened to{file_ == "-" ? STDOUT_FILENO : open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY)};
+  if (to.descriptor < 0) fail(errno);
+  copy_to(to.descriptor);
+  if (to.close() != 0) fail(errno);
+}
+
+/// Writes into the file that cannot be replaced.
+void WholeFile::overwrite() const {
+  Opened to{open(place_.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)};
+  if (to.descriptor < 0) fail(errno);
+  const off_t size = lseek(descriptor_, 0, SEEK_END);
+  if (size < 0) fail(errno);
+  if (const int problem = reserve(to.descriptor, static_cast<std::uint64_t>(size))) fail(problem);
+  try {
+    copy_to(to.descriptor);
+    if (ftruncate(to.descriptor, size) != 0) fail(errno);
+    if (const int problem = sync_error(to.descriptor, false)) fail(problem);
+    if (to.close() != 0 && errno != EINTR) fail(errno);
+  } catch (const ImageFileError& error) {
+    throw ImageFileError(std::string(error.what()) + "; what it holds now is neither the old file nor the new one");
+  }
 }
 
 void WholeFile::commit() {
   flush();
-  if (stream_) return send();
+  if (place_.way == WriteWay::stream) return send();
+  if (place_.way == WriteWay::in_place) return overwrite();
   keep_owner();
   if (const int error = sync_error(descriptor_, false)) fail(error);
-  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (rename(temporary_.c_str(), place_.target.c_str()) != 0) fail(errno);
   temporary_.clear();
   sync_folder();
   const int descriptor = descriptor_;  // closed last, as closing unlocks

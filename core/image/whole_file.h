@@ -1,4 +1,5 @@
 #pragma once
+#include "core/image/file_place.h"
 #include "core/image/image.h"
 
 #include <cstdint>
@@ -18,11 +19,15 @@ namespace tyndall {
 /// those. The mode of a file that is replaced is kept, and where that is permitted its owner and group. A symbolic link
 /// stays, and what it points to is replaced.
 ///
-/// Standard output, whose name is "-", and named pipes get the bytes when all are there; until then they are in a
-/// temporary file without a name. A pipe is opened only then.
+/// What cannot be replaced (see find_place), or is in a folder that takes no new files, is written into when all bytes
+/// are there, after the disk has promised the room. Only then can a crash leave a file that is neither old nor new; an
+/// error that does says so.
+///
+/// Standard output, whose name is "-", named pipes and devices get the bytes when all are there; until then they are in
+/// a temporary file without a name. A pipe is opened only then.
 class WholeFile {
  public:
-  /// Creates the temporary file. Only ordinary files are replaced, not folders and devices; pipes are written to.
+  /// Creates the temporary file, and finds out whether the file can be written. Nothing is changed by that.
   explicit WholeFile(const std::filesystem::path& file);
   ~WholeFile();  ///< removes what was written unless it was committed
   WholeFile(const WholeFile&) = delete;
@@ -32,17 +37,12 @@ class WholeFile {
   void write(std::span<const float> values);  ///< as they are in memory
   void seek(std::uint64_t position);
   std::uint64_t position() const { return position_; }
+  /// Where the file is, and how commit() will write it.
+  const FilePlace& place() const { return place_; }
   /// Puts the file in its place. When it returns, a power cut can no longer take the file away.
   void commit();
 
  private:
-  /// Of the file that is replaced.
-  struct Owner {
-    bool exists = false, is_pipe = false;
-    unsigned mode = 0, user = 0, group = 0;
-  };
-
-  Owner owner_of_target() const;
   bool create(const std::filesystem::path& temporary);
   void put(const void* data, std::size_t size);
   void flush();
@@ -50,12 +50,14 @@ class WholeFile {
   void sync_folder() const;
   void open_beside();
   void open_unnamed();
+  void check_in_place();
   void send() const;
+  void overwrite() const;
+  void copy_to(int descriptor) const;
   [[noreturn]] void fail(int number) const;
 
-  std::filesystem::path file_, target_, folder_, temporary_;
-  Owner replaced_;
-  bool stream_ = false;  ///< standard output or a pipe
+  std::filesystem::path file_, temporary_;
+  FilePlace place_;
   int descriptor_ = -1;
   std::vector<std::uint8_t> buffer_;  ///< what is to be written next; it ends at position_
   std::uint64_t position_ = 0;

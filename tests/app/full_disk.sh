@@ -2,6 +2,10 @@
 # A disk that is full while images are written: exit code 3, no half file, and what fits elsewhere is written.
 . "$(dirname "$0")/_common.sh"
 
+# What a full disk does not take goes among the temporary files, where these have room.
+export TMPDIR=$PWD/temporary
+mkdir "$TMPDIR"
+
 # 600x600 pixels: 4 MB as PFM, more as EXR.
 render=(render cornell-box --spp 1 -q)
 exr=()
@@ -15,6 +19,7 @@ code=$?
 grep -q 'big.pfm: cannot write' err || fail "big.pfm is not named: $(cat err)"
 [ ${#exr[@]} -eq 0 ] || grep -q 'big.exr: cannot write' err || fail "big.exr is not named: $(cat err)"
 [ ! -e big.pfm ] && [ ! -e big.exr ] || fail 'a half file is left'
+[ -z "$(ls "$TMPDIR")" ] || fail "left among the temporary files, which have no room either: $(ls "$TMPDIR")"
 same 'spp' "$(json figures.json spp)" 1
 no_leftovers
 
@@ -31,7 +36,8 @@ echo precious >big.pfm
 if mkdir disk && mount -t tmpfs -o size=1m tmpfs disk 2>/dev/null; then
   trap 'umount disk' EXIT
   expect 3 "$tyndall" "${render[@]}" -o disk/big.pfm -o kept.png
-  complains 'disk/big.pfm' 'space'
+  complains 'disk/big.pfm' 'space' "it is in $TMPDIR/tyndall-"
+  cmp -s "$TMPDIR"/tyndall-*/big.pfm <("$tyndall" "${render[@]}" -o - --format pfm) || fail 'the picture is lost'
   [ -s kept.png ] || fail 'the image that fits elsewhere was not written'
   [ -z "$(ls disk)" ] || fail "left on the disk: $(ls disk)"
 else

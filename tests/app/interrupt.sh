@@ -64,6 +64,32 @@ for _ in 1 2 3; do
 done
 [ "$uneven" -gt 0 ] || fail 'no signal came within a pass: this test has found nothing out'
 
+# Going on from such a film makes it even; where fewer samples are asked for than some pixels have, that is said.
+if has_exr; then
+  long=(render cornell-box --size 600x600 -t 1 -q -o uneven.exr)
+  for _ in 1 2 3; do
+    rm -f uneven.exr
+    "$tyndall" "${long[@]}" --spp 10000000 --stats uneven.json 2>err &
+    render=$!
+    wait_worked "$render" 2
+    kill -INT "$render"
+    wait "$render"
+    least=$(json uneven.json least_spp) most=$(json uneven.json most_spp)
+    [ "$least" != "$most" ] && [ "$((least + 1))" -lt "$most" ] && break
+  done
+  cp uneven.exr copy.exr
+  expect 0 "$tyndall" "${long[@]}" --spp "$least" --stats again.json
+  grep -q "has $least to $most samples a pixel already, more than the $least asked for; it is written as it is" err ||
+    fail "an uneven film of as many samples as asked for says: $(cat err)"
+  cp copy.exr uneven.exr
+  expect 0 "$tyndall" "${long[@]}" --spp $((least + 1)) --stats again.json
+  grep -q "more than the $((least + 1)) asked for; all pixels get as many" err || fail "it says: $(cat err)"
+  same 'least samples of a film that was made even' "$(json again.json least_spp)" "$most"
+  same 'most samples of a film that was made even' "$(json again.json most_spp)" "$most"
+  expect 0 "$tyndall" merge copy.exr -o merged.pfm
+  complains "$least to $most samples"
+fi
+
 # So is it for the picture that SIGUSR1 asks for; with adaptive sampling the numbers differ by design, and nothing is said.
 "$tyndall" render cornell-box --size 600x600 --spp 10000000 -t 1 -q -o told.png --stats told.json 2>err &
 render=$!

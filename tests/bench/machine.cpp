@@ -1,7 +1,7 @@
 #include "tests/bench/machine.h"
 
-#include "core/system/processors.h"
 #include "core/kernel/kernels.h"
+#include "core/system/processors.h"
 
 #include <algorithm>
 #include <fstream>

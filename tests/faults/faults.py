@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import resource
 import shutil
 import signal
@@ -62,6 +63,7 @@ class Faults:
         self.tyndall, self.shim, self.scratch = tyndall, shim, scratch
         self.log = scratch / "calls.log"
         self.folder = scratch / "work"
+        self.elsewhere = scratch / "elsewhere"  # where the program puts what cannot be written where it belongs
         self.problems, self.cases, self.crashes, self.errors = [], 0, 0, 0
 
     def fail(self, where, text):
@@ -71,7 +73,7 @@ class Faults:
     def run(self, command, **fault):
         self.log.unlink(missing_ok=True)
         environment = {**os.environ, "LD_PRELOAD": str(self.shim), "FAULT_UNDER": str(self.folder),
-                       "FAULT_LOG": str(self.log)}
+                       "FAULT_LOG": str(self.log), "TMPDIR": str(self.elsewhere)}
         environment |= {"FAULT_" + key.upper(): str(value) for key, value in fault.items()}
         done = subprocess.run([self.tyndall, *command], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -83,6 +85,8 @@ class Faults:
     def start(self, kept):
         """The folder as it is before the command."""
         shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.rmtree(self.elsewhere, ignore_errors=True)
+        self.elsewhere.mkdir()
         if kept and kept.exists():
             shutil.copytree(kept, self.folder)
         else:
@@ -180,6 +184,8 @@ class Faults:
             told = code != 0 or (not exact and "no checkpoint was written" in text)
             if not told and any(call in MUST_BE_TOLD for call in failed):
                 self.fail(where, f"ends with {code}, and does not tell: {text}")
+            if exact and "rename" in failed and not self.rescued(text):
+                self.fail(where, f"ends with {code}, and what could not be renamed is lost: {text}")
             if code == 0 and not new_files:
                 self.fail(where, f"ends with 0, and not all files are new: {text}")
         else:
@@ -187,6 +193,11 @@ class Faults:
             if code not in (0, -signal.SIGKILL):
                 self.fail(where, f"ends with {code}: {text}")
         self.check_next(where, scenario, new)
+
+    def rescued(self, text):
+        """Whether the message names a whole file that holds what could not be put in its place."""
+        places = re.findall(r"it is in (\S+) instead", text)
+        return bool(places) and all((self.folder / place).stat().st_size > 0 for place in places)
 
     def go_through(self, scenario, every):
         kept, old, new, calls = self.prepare(scenario)

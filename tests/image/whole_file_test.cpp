@@ -161,3 +161,45 @@ TEST_CASE("whole file: long files, and places written again") {
   expected.replace(3, 3, "yyy");
   CHECK(read_text(file) == expected);
 }
+
+TEST_CASE("whole file: what cannot be replaced is found beforehand, with the reason, and devices take bytes") {
+  const fs::path folder = scratch_folder("whole_place");
+  write_text(folder / "a", "old");
+  CHECK(find_place(folder / "a").way == WriteWay::replace);
+  CHECK(find_place(folder / "none").way == WriteWay::replace);
+  CHECK_FALSE(find_place(folder / "none").exists);
+  CHECK(find_place("-").way == WriteWay::stream);
+  for (const char* file : {"/dev/null", "/dev/fd/0"}) {
+    if (!fs::exists(file)) continue;
+    CAPTURE(file);
+    if (file == std::string("/dev/null")) CHECK(find_place(file).way == WriteWay::stream);
+    CHECK(is_stream(file));
+  }
+  fs::create_symlink("/dev/null", folder / "nowhere");
+  CHECK(find_place(folder / "nowhere").way == WriteWay::stream);
+  save(folder / "nowhere", "text");
+  CHECK(fs::is_symlink(folder / "nowhere"));
+  CHECK(fs::is_character_file("/dev/null"));
+  CHECK_THROWS_AS(find_place(folder), ImageFileError);
+  CHECK(beside("x/a.b.png", "new") == "x/a.b.new.png");
+}
+
+TEST_CASE("whole file: a file of a folder that takes no new ones is written into, and cut or made longer") {
+  if (geteuid() == 0) return;  // permissions do not apply; tests/app/in_place.sh tries it as another user
+  const fs::path folder = scratch_folder("whole_closed"), file = folder / "a";
+  for (const std::string& old : {std::string(200'000, 'x'), std::string("x"), std::string()}) {
+    write_text(file, old);
+    REQUIRE(chmod(folder.c_str(), 0555) == 0);
+    {
+      WholeFile out(file);
+      CHECK(out.place().way == WriteWay::in_place);
+      CHECK(out.place().folder_problem == "Permission denied");
+      put(out, "new bytes");
+      CHECK(read_text(file) == old);
+      out.commit();
+    }
+    CHECK(read_text(file) == "new bytes");
+    REQUIRE(chmod(folder.c_str(), 0755) == 0);
+  }
+  CHECK(count_files(folder) == 1);
+}

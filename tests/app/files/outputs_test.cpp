@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -98,4 +99,60 @@ TEST_CASE("what can be written is written, though something else cannot") {
   CHECK(read_image(folder / "a.pfm").width == 3);
   CHECK(read_embedded_scene(folder / "c.png") == "c.png");
   CHECK(read_embedded_scene(folder / "d.png") == "d.png");
+}
+
+TEST_CASE(
+    "what cannot be written where it belongs goes beside it, then among the temporary files, and the error says "
+    "where") {
+  const auto folder = empty_folder("outputs_rescue");
+  const auto refuses = [&](const std::filesystem::path& refused) {
+    return [=](const std::filesystem::path& file) {
+      if (file.parent_path() == refused || file == refused)
+        throw ImageFileError(file.string() + ": cannot write: busy");
+      write_text_file(file, "picture");
+    };
+  };
+  const auto problem = [](const std::filesystem::path& file, const auto& write) {
+    try {
+      write_or_rescue(file, write);
+    } catch (const ImageFileError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const auto file = folder / "a.png";
+  const std::string busy = file.string() + ": cannot write: busy";
+  CHECK(problem(folder / "b.png", refuses(file)) == "none");
+  CHECK(problem(file, refuses(file)) == busy + "; it is in " + (folder / "a.new.png").string() + " instead");
+  CHECK(problem(file, refuses(file)) == busy + "; it is in " + (folder / "a.new-2.png").string() + " instead");
+  CHECK(std::filesystem::file_size(folder / "a.new-2.png") == 7);
+  std::filesystem::create_directory(folder / "tmp");
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  setenv("TMPDIR", (folder / "tmp").c_str(), 1);
+  const std::string far = problem(file, refuses(folder));
+  CHECK(far.find(busy + "; it is in " + (folder / "tmp" / "tyndall-").string()) == 0);
+  CHECK(far.find("/a.png instead") != std::string::npos);
+  // Nowhere: the error alone, and nothing is left.
+  std::filesystem::remove_all(folder / "tmp");
+  std::filesystem::create_directory(folder / "tmp");
+  const auto never = [](const std::filesystem::path& at) {
+    throw ImageFileError(at.string() + ": cannot write: full");
+  };
+  CHECK(problem(file, never) == file.string() + ": cannot write: full");
+  CHECK(std::filesystem::is_empty(folder / "tmp"));
+  setenv("TMPDIR", "/nowhere", 1);
+  CHECK(problem(file, never) == file.string() + ": cannot write: full");
+  if (before)
+    setenv("TMPDIR", kept.c_str(), 1);
+  else
+    unsetenv("TMPDIR");
+  // What goes through a pipe was for a reader who has left.
+  int calls = 0;
+  const auto count = [&calls](const std::filesystem::path& at) {
+    ++calls;
+    throw ImageFileError(at.string() + ": cannot write: Broken pipe");
+  };
+  CHECK(problem("-", count) == "-: cannot write: Broken pipe");
+  CHECK(calls == 1);
 }
