@@ -14,6 +14,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -50,17 +51,18 @@ struct FileWatch::State {
   std::vector<fs::path> files;
   std::function<void()> on_change;
   std::map<int, Folder> folders;  ///< by what inotify calls them
+  int failure = 0;                ///< the error for which a file is not watched; 0: all are
   std::thread thread;
 
   void look();
-  void follow(const fs::path& file, std::map<int, Folder>& found) const;
+  void follow(const fs::path& file, std::map<int, Folder>& found);
   News news() const;
   News news_of(const inotify_event& event) const;
   void listen();
 };
 
 /// Watches each name on the way to a file in the folder where it stands: those of folders, of links, and of the file.
-void FileWatch::State::follow(const fs::path& file, std::map<int, Folder>& found) const {
+void FileWatch::State::follow(const fs::path& file, std::map<int, Folder>& found) {
   constexpr int most_links = 40;  // as many as the system follows
   std::vector<fs::path> rest;     // of the way, the next name at the end
   const auto go_on_with = [&](const fs::path& way) {
@@ -81,6 +83,8 @@ void FileWatch::State::follow(const fs::path& file, std::map<int, Folder>& found
     if (folder >= 0) {
       found[folder].path = at;
       found[folder].names.insert(name.string());
+    } else if (errno == ENOSPC || errno == ENOMEM || (rest.empty() && errno != ENOENT && errno != ENOTDIR)) {
+      failure = errno;  // what is not there yet is told of when it comes; of other folders only the last one matters
     }
     std::error_code error;
     const fs::path target = fs::read_symlink(at / name, error);
@@ -148,8 +152,15 @@ FileWatch::FileWatch(std::vector<fs::path> files, std::function<void()> on_chang
   state_->on_change = std::move(on_change);
   state_->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
   state_->leave = eventfd(0, EFD_CLOEXEC);
-  if (state_->events < 0 || state_->leave < 0) return;
+  if (state_->events < 0 || state_->leave < 0) {
+    problem_ = std::generic_category().message(errno);
+    return;
+  }
   state_->look();
+  if (state_->failure == ENOSPC)
+    problem_ = "the system watches no more files";
+  else if (state_->failure != 0)
+    problem_ = std::generic_category().message(state_->failure);
   state_->thread = std::thread([state = state_.get()] { state->listen(); });
 }
 
@@ -163,7 +174,7 @@ FileWatch::~FileWatch() {
 #else
 
 struct FileWatch::State {};
-FileWatch::FileWatch(std::vector<fs::path>, std::function<void()>) {}
+FileWatch::FileWatch(std::vector<fs::path>, std::function<void()>) : problem_("not on this system") {}
 FileWatch::~FileWatch() = default;
 
 #endif

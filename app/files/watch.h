@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 /// Notices that another program has written a file.
@@ -13,16 +14,20 @@ namespace tyndall {
 class FileWatch {
  public:
   /// files: need not exist. on_change: called from a thread of the watch; must be quick. A file that is gone is told of
-  /// a tenth of a second later, as many programs remove a file and write it anew. What cannot be watched (no inotify, a
-  /// folder that cannot be read) is not told of.
+  /// a tenth of a second later, as many programs remove a file and write it anew. What cannot be watched (see
+  /// problem()) is not told of.
   FileWatch(std::vector<std::filesystem::path> files, std::function<void()> on_change);
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
+  /// Why the file cannot be watched; "": it is.
+  const std::string& problem() const { return problem_; }
+
  private:
   struct State;
   std::unique_ptr<State> state_;
+  std::string problem_;
 };
 
 }  // namespace tyndall

@@ -31,7 +31,7 @@ bool Closing::draw_question(Ui& ui, const Rect& area, Dialog& dialog) {
   const Document* unsaved = session_.editor().unsaved();
   begin_dialog(ui, area);
   ImGui::TextUnformatted(("Save the edits of " + (unsaved ? unsaved->origin->title : "the scene") + "?").c_str());
-  note(ui, "They are in no file yet.", false);
+  note(ui, "The file of the scene does not have them.", false);
   const Answer answers[] = {{"dialog.save", "Save"}, {"dialog.discard", "Discard"}, {"dialog.cancel", "Cancel"}};
   const int answer = draw_answers(ui, dialog, answers);
   dialog.fresh = false;
@@ -48,6 +48,7 @@ bool Closing::draw_question(Ui& ui, const Rect& area, Dialog& dialog) {
 void Closing::finish() {
   step_ = session_.writes_files() ? Step::writes : Step::done;
   since_ = clock_seconds();
+  errors_before_ = session_.messages().errors();
   paused_before_ = session_.renderers().paused();
   session_.pause(true);
   if (step_ == Step::done) leave();
@@ -59,6 +60,8 @@ void Closing::leave() {
 }
 
 void Closing::draw_progress(Ui& ui, const Rect& area) {
+  const bool failed = session_.messages().errors() > errors_before_;
+  if (!session_.writes_files() && failed) return static_cast<void>(cancel());  // the message says what is missing
   if (!session_.writes_files()) return leave();
   const double seconds = clock_seconds() - since_;
   begin_dialog(ui, area);

@@ -5,7 +5,8 @@
 /// How the window closes without losing anything.
 namespace tyndall {
 
-/// Asks about edits that were not saved, then waits until all files are written. For the main thread.
+/// Asks about edits that were not saved, then waits until all files are written; if one cannot be, the window stays
+/// open and says so. For the main thread.
 class Closing {
  public:
   explicit Closing(Session& session) : session_(session) {}
@@ -38,6 +39,7 @@ class Closing {
   Step step_ = Step::none;
   bool discards_ = false;       ///< the user does not want the edits
   double since_ = 0;            ///< clock second at which writing began to be waited for
+  int errors_before_ = 0;       ///< that were said before
   bool paused_before_ = false;  ///< rendering was paused when that began
 };
 

@@ -36,7 +36,7 @@ class MainWindow {
   /// Until the window is closed. Returns the exit code.
   int run();
   /// Waits until the file of edits that were not saved holds all of them. From any thread.
-  void flush_edits() { session_.flush_edits(); }
+  std::string flush_edits() { return session_.flush_edits(); }
 
  private:
   bool hidden() const;

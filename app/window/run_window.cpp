@@ -1,12 +1,14 @@
 #include "app/window/main_window.h"
 
+#include "app/text/standard_streams.h"
 #include "app/window/document/open_document.h"
 #include "app/window/system/display_lost.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <utility>
 
 #ifdef __GLIBC__
@@ -62,17 +64,16 @@ int MainWindow::run() {
   return end_of_signal();
 }
 
-/// Says what becomes of the edits if a signal ends the window. Returns the exit code.
+/// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
   const int signal = signals_.received();
-  if (signal == 0) return 0;
   session_.pause(true);
   session_.keep_edits();
-  session_.flush_edits();
-  if (const Document* unsaved = session_.editor().unsaved())
-    std::fprintf(stderr, "tyndall: the edits of %s are kept and come back at the next start\n",
-                 unsaved->origin->title.c_str());
-  return 128 + signal;
+  const std::string edits = session_.flush_edits();
+  if (!edits.empty()) complain(printable(edits, 2000));
+  const std::string files = session_.finish_files();
+  if (!files.empty()) complain(printable(files, 2000));
+  return signal == 0 ? 0 : 128 + signal;
 }
 
 int run_window(const WindowOptions& options) {
@@ -84,7 +85,7 @@ int run_window(const WindowOptions& options) {
   if (!options.reference.empty())
     reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));
   MainWindow window(options, std::move(reference));
-  end_when_display_is_lost([&window] { window.flush_edits(); });
+  end_when_display_is_lost([&window] { return printable(window.flush_edits(), 2000); });
   const int code = window.run();
   end_when_display_is_lost({});  // what is left is gone soon
   return code;

@@ -4,10 +4,12 @@
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
 #include "core/base/error.h"
-#include "core/base/processors.h"
 #include "core/render/mailbox.h"
+#include "core/system/processors.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace tyndall {
@@ -29,7 +31,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
                },
                wake},
               loading_, messages_, log),
-      kept_(state_folder()),
+      kept_(state_folder(), wake),
       references_(editor_, accuracy_, messages_, wake),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
@@ -41,37 +43,6 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
   if (options.scene.source.empty()) editor_.open_film(options.scene);
-}
-
-/// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
-/// Settings of the command line apply to them, too.
-void Session::restore_edits(const WindowOptions& options) {
-  const std::filesystem::path file = kept_.take_over(options.scene_named ? editor_.document().origin->what : "");
-  kept_changes_ = editor_.changes();
-  try {
-    if (!file.empty()) {
-      Kept kept = read_kept(file, options.read_edits);
-      editor_.restore(std::move(kept.document), kept.file_changed);
-    }
-  } catch (const std::exception& error) {
-    kept_.leave();
-    messages_.say("cannot restore edits: " + std::string(error.what()), true);
-  }
-  const std::vector<std::string> others = kept_.others();
-  if (file.empty() && !others.empty())
-    messages_.say("there are edits of " + others.front() + " that were not saved; start with it to go on");
-}
-
-void Session::keep_edits() {
-  if (editor_.changes() == kept_changes_ || discarded_) return;
-  kept_changes_ = editor_.changes();
-  const Document* unsaved = editor_.unsaved();
-  if (unsaved == &editor_.document())
-    kept_.keep(shared_scene(), unsaved->origin);
-  else if (unsaved)
-    kept_.keep(std::make_shared<const Scene>(unsaved->scene), unsaved->origin);
-  else
-    kept_.keep(nullptr, nullptr);
 }
 
 /// The edited scene, copied once for all who go on using it.
@@ -97,12 +68,20 @@ void Session::set_picture_size(std::optional<PictureSize> size) {
   timer_.on_change(clock_seconds());
 }
 
-void Session::discard_edits() {
-  discarded_ = true;
-  kept_.keep(nullptr, nullptr);
-}
-
 Session::~Session() { closing_ = true; }
+
+std::string Session::finish_files() {
+  closing_ = true;
+  const int errors = messages_.errors();
+  std::string problems;
+  while (!saving_.idle()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const int before = messages_.errors();
+    saving_.collect();
+    if (messages_.errors() > before) problems += (problems.empty() ? "" : "; ") + messages_.current().text;
+  }
+  return messages_.errors() > errors ? problems : "";
+}
 
 bool Session::send(double now) {
   keep_edits();
@@ -150,6 +129,7 @@ bool Session::collect() {
   came = saving_.collect() || came;
   came = editor_.collect() || came;
   came = references_.collect() || came;
+  came = tell_of_keeping() || came;
   const auto problem = renderers_.problem();
   if (problem == told_problem_) return came;
   told_problem_ = problem;
@@ -179,15 +159,24 @@ void Session::set_view(View view, ErrorView error) {
   accuracy_.set_view(error);
 }
 
-/// A damaged file is told of once: it is set aside.
+namespace {
+
+/// aside: where a damaged file was put; empty: it could not be moved.
+std::string fate_of(const std::filesystem::path& aside) {
+  return aside.empty() ? ", and the file cannot be moved out of the way"
+                       : ", the file is now " + aside.filename().string();
+}
+
+}  // namespace
+
+/// A damaged file is told of once, if it can be set aside.
 void Session::read_preferences_file() {
   const std::filesystem::path file = preferences_file();
   const auto read = read_preferences(file);
   if (read)
     preferences_ = *read;
   else
-    messages_.say(file.string() + " is damaged; the window begins with its defaults, the file is now " +
-                  set_aside(file).filename().string());
+    messages_.say(file.string() + " is damaged; the window begins with its defaults" + fate_of(set_aside(file)));
   renderers_.set_clean(preferences_.clean);
 }
 
@@ -256,11 +245,13 @@ void Session::snapshot() {
   Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), isa_, renderers_.threads()};
   messages_.say_until_done("saving " + snapshot.base.filename().string() + " …");
   const std::filesystem::path base = snapshot.base;
-  snapshots_.write(base, [this, snapshot = std::move(snapshot), edit = renderers_.edit(Half::current)] {
+  const std::uint64_t edit = renderers_.edit(Half::current);
+  snapshots_.write(base, [this, snapshot = std::move(snapshot), edit](const std::filesystem::path& free) mutable {
     Film film =
         wait_for_film([this] { return renderers_.film(); },
                       [this, edit] { return renderers_.edit(Half::current) == edit; }, [this] { return !closing_; });
     if (film.pixels.empty()) throw IoError("no snapshot: the picture was edited before it had a sample everywhere");
+    snapshot.base = free;
     return write_snapshot(snapshot, std::move(film));
   });
 }
@@ -278,9 +269,9 @@ void Session::export_chart() {
                    (threads == 1 ? " thread" : " threads") +
                    (against ? "" : "; estimated from two halves of each pixel");
   const std::filesystem::path base = charts_.next_base(stem + "-chart");
-  charts_.write(base, [chart = std::move(chart), base] {
-    write_chart(chart, base.string() + ".svg");
-    return "saved " + base.filename().string() + ".csv and .svg";
+  charts_.write(base, [chart = std::move(chart)](const std::filesystem::path& free) {
+    write_chart(chart, free.string() + ".svg");
+    return "saved " + free.filename().string() + ".csv and .svg";
   });
 }
 

@@ -63,8 +63,16 @@ class Session {
 
   /// Hands edits that are not saved to the file that keeps them, if there are new ones.
   void keep_edits();
-  /// Waits until that file holds the newest edits. From any thread; only the main thread may edit meanwhile.
-  void flush_edits() { kept_.flush(); }
+  /// Waits until that file holds the newest edits, and returns what becomes of them if the program ends now, a
+  /// sentence;
+  /// "": there are none. From any thread; only the main thread may edit meanwhile.
+  std::string flush_edits() {
+    kept_.flush();
+    return kept_.last_words();
+  }
+  /// Waits until no file is being written any more, for a window that is about to go. Returns what could not be
+  /// written, a sentence; "": all was.
+  std::string finish_files();
   /// The user does not want the edits: they are not kept any longer.
   void discard_edits();
   /// Whether something is still to be written, and how much: a snapshot counts once.
@@ -116,6 +124,7 @@ class Session {
   void submit(double now);
   const std::shared_ptr<const Scene>& shared_scene();
   std::shared_ptr<const Scene> rendered_scene();
+  bool tell_of_keeping();
   void restore_edits(const WindowOptions& options);
   void read_preferences_file();
   void pause_at_limits(const Frame& frame);
@@ -137,10 +146,11 @@ class Session {
   bool beside_ = false;  ///< the clean view beside the raw one
   Editor editor_;
   std::optional<PictureSize> picture_size_;
-  std::shared_ptr<const Scene> shared_;  ///< a copy of the edited scene
-  std::uint64_t shared_changes_ = 0;     ///< Editor::changes() when it was copied
-  std::uint64_t kept_changes_ = 0;       ///< Editor::changes() when the edits were kept last
-  bool discarded_ = false;               ///< edits are not kept any more
+  std::shared_ptr<const Scene> shared_;                  ///< a copy of the edited scene
+  std::uint64_t shared_changes_ = 0;                     ///< Editor::changes() when it was copied
+  std::uint64_t kept_changes_ = 0;                       ///< Editor::changes() when the edits were kept last
+  bool discarded_ = false;                               ///< edits are not kept any more
+  Keeping::Kind told_keeping_ = Keeping::Kind::nothing;  ///< what the user was told last
   KeptEdits kept_;
   References references_;
   NumberedFiles snapshots_, charts_;

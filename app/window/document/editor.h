@@ -109,7 +109,8 @@ class Editor {
   std::string watched_scene_;  ///< Origin::what
   std::vector<std::filesystem::path> watched_;
   std::vector<std::filesystem::path> broken_files_;  ///< what a reading depends on that has failed; watched, too
-  std::unique_ptr<FileWatch> watch_;                 // declared last, because it uses the others
+  std::string unwatched_;             ///< why changes of these files are not seen, for the user; empty: they are
+  std::unique_ptr<FileWatch> watch_;  // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -1,23 +1,15 @@
 #include "app/window/document/kept_edits.h"
 
 #include "app/files/outputs.h"
-#include "app/window/document/open_document.h"
+#include "app/files/user_folders.h"
+#include "core/base/error.h"
 #include "core/base/stoppable.h"
-
-#include <fmt/core.h>
-
-#include <sys/file.h>
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <mutex>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace tyndall {
@@ -26,121 +18,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view first_line = "// Edits that were not saved, of ";
-constexpr std::string_view second_line = "// The FNV-1a hash of that file's text when they were made: ";
 constexpr auto least_interval = std::chrono::milliseconds(250);
-constexpr int most_windows = 1000;  // that keep edits at the same time
-
-/// On one line, as a comment needs it: what would end the line is written as %0A and the like.
-std::string escaped(const std::string& text) {
-  constexpr const char* digits = "0123456789ABCDEF";
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && c != '%')
-      out += c;
-    else
-      out += std::string("%") + digits[byte / 16] + digits[byte % 16];
-  }
-  return out;
-}
-
-std::string unescaped(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool code = text[i] == '%' && i + 2 < text.size();
-    out += code ? static_cast<char>(std::strtol(text.substr(i + 1, 2).c_str(), nullptr, 16)) : text[i];
-    if (code) i += 2;
-  }
-  return out;
-}
-
-/// What follows `start` in the line of the file's first two that begins with it; empty: none does.
-std::string rest_of_line(const fs::path& file, std::string_view start) {
-  std::ifstream in(file);
-  std::string line;
-  for (int k = 0; k < 2 && std::getline(in, line); ++k)
-    if (line.starts_with(start)) return line.substr(start.size());
-  return "";
-}
-
-/// The document as it is without edits; one that holds nothing where its scene cannot be read any more.
-Document unedited(const std::string& what) {
-  try {
-    return document_of(load_scene(what));
-  } catch (const std::exception&) {
-    auto origin = std::make_shared<Origin>();
-    origin->what = what;
-    const fs::path file(what);
-    origin->title = what.empty() ? "scene" : file.filename().string();
-    if (file.extension() == ".json") origin->file = file;
-    origin->folder = file.parent_path();
-    return {{}, std::move(origin)};
-  }
-}
+constexpr auto retry_interval = std::chrono::seconds(5);
 
 }  // namespace
 
 fs::path state_folder() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return fs::path(value ? value : "");
-  };
-  fs::path state = folder("XDG_STATE_HOME");
-  if (state.empty() && !folder("HOME").empty()) state = folder("HOME") / ".local" / "state";
+  const fs::path state = user_folder("XDG_STATE_HOME", ".local/state");
   return state.empty() ? state : state / "tyndall";
 }
 
-std::string kept_text(const Scene& scene, const Origin& origin, const fs::path& folder) {
-  const Scene moved = move_textures(scene, fs::absolute(origin.folder), fs::absolute(folder));
-  std::string text = std::string(first_line) + escaped(origin.what) + "\n";
-  if (origin.text_hash != 0) text += fmt::format("{}{:016x}\n", second_line, origin.text_hash);
-  return text + write_scene(moved);
-}
-
-Kept read_kept(const fs::path& file, const std::function<LoadedScene(const std::string& what)>& read) {
-  const LoadedScene kept = read(fs::absolute(file).string());
-  const std::string hash = rest_of_line(file, second_line);
-  Document document = unedited(kept_what(file));
-  document.scene = move_textures(kept.scene, kept.folder, fs::absolute(document.origin->folder));
-  const std::uint64_t now = document.origin->text_hash;
-  return {std::move(document), !hash.empty() && now != 0 && fmt::format("{:016x}", now) != hash};
-}
-
-std::string kept_what(const fs::path& file) { return unescaped(rest_of_line(file, first_line)); }
-
-/// A file of the folder, and its lock while this lives.
-struct Slot {
-  fs::path file;
-  int lock = -1;  ///< file descriptor; < 0: another window has it
-
-  Slot() = default;
-  Slot(const fs::path& folder, int number) : file(folder / ("unsaved-" + std::to_string(number) + ".json")) {
-    lock = open((folder / ("unsaved-" + std::to_string(number) + ".lock")).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0) release();
-  }
-  Slot(Slot&& other) noexcept : file(std::move(other.file)), lock(std::exchange(other.lock, -1)) {}
-  Slot& operator=(Slot&& other) noexcept {
-    release();
-    file = std::move(other.file);
-    lock = std::exchange(other.lock, -1);
-    return *this;
-  }
-  ~Slot() { release(); }
-  void release() {
-    if (lock >= 0) close(lock);
-    lock = -1;
-  }
-  bool held() const { return lock >= 0; }
-  bool used() const {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-  }
-};
-
 struct KeptEdits::State {
   fs::path folder;
-  Slot slot;
+  std::function<void()> on_change;
+  KeptSlot slot;  ///< of the thread that writes, once something is to be kept
 
   mutable std::mutex mutex;  ///< guards what follows
   StoppableCondition news, written;
@@ -150,94 +41,103 @@ struct KeptEdits::State {
   bool waits = false;    ///< the file does not hold `scene` yet
   bool writes = false;   ///< it is being written
   bool hurries = false;  ///< somebody waits for it
-  std::string problem{};
+  Keeping keeping{};
+  bool holds_older = false;                 ///< where edits are lost: the file holds some that were made before
   std::optional<StoppableThread> thread{};  // declared last, because it uses the others
 
-  explicit State(fs::path in) : folder(std::move(in)) {}
+  State(fs::path in, std::function<void()> call) : folder(std::move(in)), on_change(std::move(call)) {}
   void work(const StopToken& stop);
-  void write(const Scene* edits, const Origin* of);
-  bool has_slot();
-  /// Calls see(slot) for each file that nobody has; its lock is free again when the slot goes.
-  template <class See>
-  void for_free_files(const See& see) const;
+  Keeping write(const Scene* edits, const Origin* of);
+  Keeping remove();
+  void write_at(const KeepingPlace& place, const Scene& edits, const Origin& of);
 };
 
-template <class See>
-void KeptEdits::State::for_free_files(const See& see) const {
-  std::error_code gone;
-  for (const auto& entry : fs::directory_iterator(folder, gone)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with("unsaved-") || entry.path().extension() != ".json") continue;
-    Slot free(folder, std::atoi(name.c_str() + std::string_view("unsaved-").size()));
-    if (free.held() && free.file == entry.path()) see(std::move(free));
-  }
+/// Writes into this window's file, which is a new one where it is to be in another place than before.
+void KeptEdits::State::write_at(const KeepingPlace& place, const Scene& edits, const Origin& of) {
+  const std::string text = kept_text(edits, of, place.folder);
+  if (slot.held() && slot.place() == place) return write_text_file(slot.file(), text);
+  if (!place.beside_the_scene) fs::create_directories(place.folder);
+  KeptSlot fresh = free_slot(place);
+  write_text_file(fresh.file(), text);
+  std::error_code ignored;  // older edits that cannot be removed are older, which take_over() sees
+  if (slot.held()) fs::remove(slot.file(), ignored);
+  slot = std::move(fresh);
 }
 
-/// Takes a file that nobody has and that holds nothing.
-bool KeptEdits::State::has_slot() {
-  for (int number = 1; !slot.held() && number <= most_windows; ++number) {
-    Slot free(folder, number);
-    if (free.held() && !free.used()) slot = std::move(free);
-  }
-  return slot.held();
-}
-
-void KeptEdits::State::write(const Scene* edits, const Origin* of) {
-  std::string wrong;
-  try {
-    if (edits) {
-      fs::create_directories(folder);
-      if (!has_slot()) throw IoError(folder.string() + ": no file can be locked there");
-      write_text_file(slot.file, kept_text(*edits, *of, folder));
-    } else if (slot.held()) {
-      fs::remove(slot.file);
+Keeping KeptEdits::State::write(const Scene* edits, const Origin* of) {
+  if (!edits) return remove();
+  std::vector<KeepingPlace> places = keeping_places(folder, of->what);
+  std::string why = folder.empty() ? "neither XDG_STATE_HOME nor HOME names a folder" : "";
+  const auto own = std::find(places.begin(), places.end(), slot.place());
+  if (slot.held() && own != places.end()) std::rotate(places.begin(), own, own + 1);
+  for (const KeepingPlace& place : places) {
+    try {
+      write_at(place, *edits, *of);
+      return {place.beside_the_scene ? Keeping::Kind::beside : Keeping::Kind::kept, slot.file(), why};
+    } catch (const std::exception& error) {
+      why += (why.empty() ? "" : "; ") + std::string(error.what());
     }
-  } catch (const std::exception& error) {
-    wrong = error.what();
   }
-  const std::lock_guard lock(mutex);
-  problem = wrong;
+  return {Keeping::Kind::lost, {}, why};
+}
+
+Keeping KeptEdits::State::remove() {
+  std::error_code error;
+  if (slot.held()) fs::remove(slot.file(), error);
+  if (!error) return {};
+  return {Keeping::Kind::nothing, slot.file(), error.message()};
 }
 
 void KeptEdits::State::work(const StopToken& stop) {
   std::unique_lock lock(mutex);
   for (;;) {
-    news.wait(lock, stop, [&] { return waits; });
+    const auto asked = [&] { return waits; };
+    if (!keeping.failed())
+      news.wait(lock, stop, asked);
+    else if (!news.wait_for(lock, stop, retry_interval, asked) && !stop.stop_requested())
+      waits = true;      // a disk may have room again
     if (!waits) return;  // asked to stop, and nothing is left to do
     waits = false;
     writes = true;
     const auto edits = scene;
     const auto of = origin;
     lock.unlock();
-    write(edits.get(), of.get());
+    Keeping now = write(edits.get(), of.get());
     lock.lock();
     writes = false;
     if (!waits) hurries = false;
+    const bool changed = now.kind != keeping.kind || now.why != keeping.why;
+    keeping = std::move(now);
+    holds_older = keeping.kind == Keeping::Kind::lost && slot.used();
     written.notify_all();
+    lock.unlock();
+    if (changed && on_change) on_change();
+    lock.lock();
     news.wait_for(lock, stop, least_interval, [&] { return hurries; });
   }
 }
 
-KeptEdits::KeptEdits(fs::path folder) : state_(std::make_unique<State>(std::move(folder))) {
-  if (!state_->folder.empty())
-    state_->thread.emplace([state = state_.get()](const StopToken& stop) { state->work(stop); });
+KeptEdits::KeptEdits(fs::path folder, std::function<void()> on_change)
+    : state_(std::make_unique<State>(std::move(folder), std::move(on_change))) {
+  state_->thread.emplace([state = state_.get()](const StopToken& stop) { state->work(stop); });
 }
 
 KeptEdits::~KeptEdits() = default;
 
 fs::path KeptEdits::take_over(const std::string& what) {
-  Slot newest;
+  KeptSlot newest;
   std::error_code ignored;
-  state_->for_free_files([&](Slot&& free) {
-    if (!what.empty() && kept_what(free.file) != what) return;
+  const auto see = [&](KeptSlot&& free) {
+    if (!what.empty() && kept_what(free.file()) != what) return;
     const bool newer =
-        !newest.held() || fs::last_write_time(free.file, ignored) > fs::last_write_time(newest.file, ignored);
+        !newest.held() || fs::last_write_time(free.file(), ignored) > fs::last_write_time(newest.file(), ignored);
     if (newer) newest = std::move(free);
-  });
+  };
+  for (const KeepingPlace& place : keeping_places(state_->folder, what)) for_free_files(place, see);
   const std::lock_guard lock(state_->mutex);
   state_->slot = std::move(newest);
   state_->used = state_->slot.held();
-  return state_->used ? state_->slot.file : fs::path();
+  return state_->used ? state_->slot.file() : fs::path();
 }
 
 void KeptEdits::leave() {
@@ -248,15 +148,15 @@ void KeptEdits::leave() {
 
 std::vector<std::string> KeptEdits::others() const {
   std::vector<std::string> names;
-  state_->for_free_files([&](Slot&& free) {
-    const std::string what = kept_what(free.file);
+  const auto see = [&names](KeptSlot&& free) {
+    const std::string what = kept_what(free.file());
     if (!what.empty() && std::find(names.begin(), names.end(), what) == names.end()) names.push_back(what);
-  });
+  };
+  for (const KeepingPlace& place : keeping_places(state_->folder, "")) for_free_files(place, see);
   return names;
 }
 
 void KeptEdits::keep(std::shared_ptr<const Scene> scene, std::shared_ptr<const Origin> origin) {
-  if (state_->folder.empty()) return;
   const std::lock_guard lock(state_->mutex);
   if (!scene && !state_->used) return;
   state_->used = true;
@@ -267,16 +167,51 @@ void KeptEdits::keep(std::shared_ptr<const Scene> scene, std::shared_ptr<const O
 }
 
 void KeptEdits::flush() {
-  if (state_->folder.empty()) return;
   std::unique_lock lock(state_->mutex);
   state_->hurries = true;
+  if (state_->keeping.failed()) state_->waits = true;
   state_->news.notify_one();
   state_->written.wait(lock, [this] { return !state_->waits && !state_->writes; });
 }
 
-std::string KeptEdits::problem() const {
+Keeping KeptEdits::keeping() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->problem;
+  return state_->keeping;
+}
+
+namespace {
+
+/// How edits in the file come back: what the last line says of that.
+std::string way_back(const KeepingPlace& place, const fs::path& file, const Origin& of) {
+  std::error_code ignored;
+  const bool gone = of.what.empty() || (fs::path(of.what).is_absolute() && !fs::exists(of.what, ignored));
+  if (gone && place.beside_the_scene) return ", which opens as a scene; the one that was edited is gone";
+  const std::string start = gone ? "start without a scene" : "start with this scene";
+  const std::vector<fs::path> files = kept_files(place);
+  const bool others = std::any_of(files.begin(), files.end(), [&](const fs::path& other) {
+    return other != file && (gone || kept_what(other) == of.what);
+  });
+  if (!others) return " and come back at the next " + start;
+  return ", and so are others; each " + start + " brings back the newest that no window has";
+}
+
+}  // namespace
+
+std::string KeptEdits::last_words() const {
+  const std::lock_guard lock(state_->mutex);
+  const Keeping& now = state_->keeping;
+  if (!state_->scene && !now.failed()) return "";
+  if (!state_->scene)
+    return "edits that were saved or given up are still in " + now.file.string() + " (" + now.why +
+           ") and come back at the next start";
+  const std::string& title = state_->origin->title;
+  const std::string back =
+      state_->slot.held() ? way_back(state_->slot.place(), state_->slot.file(), *state_->origin) : "";
+  if (now.kind != Keeping::Kind::lost)
+    return "the edits of " + title + " are kept" +
+           (now.kind == Keeping::Kind::beside ? " in " + now.file.string() : "") + back;
+  if (!state_->holds_older) return "the edits of " + title + " are lost: " + now.why;
+  return "the newest edits of " + title + " are lost (" + now.why + "); older ones are kept" + back;
 }
 
 }  // namespace tyndall

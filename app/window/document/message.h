@@ -30,15 +30,19 @@ class MessageLine {
     current_ = {};
   }
   const Message& current() const { return current_; }
+  /// How many errors were said so far.
+  int errors() const { return errors_; }
 
  private:
   void show(Message message) {
     current_ = std::move(message);
+    errors_ += current_.error;
     if (log_) log_->line("message " + current_.text);
   }
 
   UiLog* log_;
   Message current_;
+  int errors_ = 0;
 };
 
 }  // namespace tyndall

@@ -2,7 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <sys/file.h>
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <exception>
 #include <utility>
@@ -35,13 +40,38 @@ fs::path NumberedFiles::next_base(const std::string& stem) {
   return base;
 }
 
-void NumberedFiles::write(const fs::path& base, std::function<std::string()> work) {
+namespace {
+
+/// Keeps other windows from choosing a name in the folder while this lives. Where folders cannot be locked it does not.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder) : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (folder_ >= 0 && flock(folder_, LOCK_EX) != 0 && errno == EINTR) continue;
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) close(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_;
+};
+
+}  // namespace
+
+void NumberedFiles::write(const fs::path& base, std::function<std::string(const fs::path& base)> work) {
   jobs_.run([this, base, work = std::move(work)]() -> JobQueue::Result {
     try {
-      const std::string text = work();
-      return [this, text, base] {
+      const FolderLock lock(base.parent_path());
+      const std::string name = base.filename().string();
+      const fs::path free =
+          numbered_base(base.parent_path(), name.substr(0, name.rfind('-')), number_of(base), endings_);
+      const std::string text = work(free);
+      return [this, text, free] {
+        last_ = std::max(last_, number_of(free));
         messages_.say(text);
-        if (log_) log_->line("saved " + base.string());
+        if (log_) log_->line("saved " + free.string());
       };
     } catch (const std::exception& error) {
       return [this, text = std::string(error.what())] { messages_.say(text, true); };

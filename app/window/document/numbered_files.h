@@ -29,8 +29,9 @@ class NumberedFiles {
 
   /// The next name: STEM-001, without its ending. Files that are still to be written count as written.
   std::filesystem::path next_base(const std::string& stem);
-  /// Runs `work` in the background: it writes the files of that base and returns what to tell the user, or throws.
-  void write(const std::filesystem::path& base, std::function<std::string()> work);
+  /// Runs work(base) in the background: it writes the files of that base and returns what to tell the user, or throws.
+  /// If another window or program has written files of that name meanwhile, work() gets the next free name.
+  void write(const std::filesystem::path& base, std::function<std::string(const std::filesystem::path& base)> work);
 
  private:
   std::vector<const char*> endings_;

@@ -6,6 +6,8 @@
 #include "app/files/stats.h"
 #include "app/window/system/clock.h"
 
+#include <fmt/format.h>
+
 #include <thread>
 #include <utility>
 
@@ -34,7 +36,7 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   std::vector<fs::path> files{snapshot.base.string() + ".png"};
   if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
   const std::vector<std::string> problems = write_images(picture, files);
-  if (!problems.empty()) throw ImageFileError(problems.front());
+  if (!problems.empty()) throw ImageFileError(fmt::format("{}", fmt::join(problems, "; ")));
   const FilmTotals& sum = finished.totals;
   const bool uneven = !scene.render.adaptive && sum.least_taken != sum.most_taken;  // within a pass, or refined first
   return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +

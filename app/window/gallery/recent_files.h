@@ -8,7 +8,8 @@ namespace tyndall {
 
 inline constexpr std::size_t most_recent_files = 8;
 
-/// $XDG_STATE_HOME/tyndall/recent.txt, else ~/.local/state/tyndall/recent.txt; empty where neither variable is set.
+/// $XDG_STATE_HOME/tyndall/recent.txt, else ~/.local/state/tyndall/recent.txt; empty where neither variable is an
+/// absolute path.
 std::filesystem::path recent_files_list();
 
 /// The files that the list names and that are there, the newest first. Whatever else is in the list is ignored.

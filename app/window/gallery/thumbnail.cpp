@@ -1,5 +1,6 @@
 #include "app/window/gallery/thumbnail.h"
 
+#include "app/files/user_folders.h"
 #include "core/base/fnv1a.h"
 #include "core/compile/compile.h"
 #include "core/image/image_io.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -28,12 +28,7 @@ constexpr double longest = 2;  // seconds
 }  // namespace
 
 fs::path thumbnails_folder() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return fs::path(value ? value : "");
-  };
-  fs::path cache = folder("XDG_CACHE_HOME");
-  if (cache.empty() && !folder("HOME").empty()) cache = folder("HOME") / ".cache";
+  const fs::path cache = user_folder("XDG_CACHE_HOME", ".cache");
   return cache.empty() ? cache : cache / "tyndall" / "thumbnails";
 }
 

@@ -21,7 +21,8 @@ struct Thumbnail {
   std::vector<std::uint8_t> rgb;
 };
 
-/// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is set.
+/// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is an absolute
+/// path.
 std::filesystem::path thumbnails_folder();
 
 /// 16 hex digits that say which picture a scene has: they change with the text of the scene and the bytes of its

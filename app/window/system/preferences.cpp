@@ -1,13 +1,13 @@
 #include "app/window/system/preferences.h"
 
 #include "app/files/outputs.h"
+#include "app/files/user_folders.h"
 #include "app/text/numbers.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <string>
@@ -15,12 +15,7 @@
 namespace tyndall {
 
 std::filesystem::path preferences_file() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return std::filesystem::path(value ? value : "");
-  };
-  std::filesystem::path config = folder("XDG_CONFIG_HOME");
-  if (config.empty() && !folder("HOME").empty()) config = folder("HOME") / ".config";
+  const std::filesystem::path config = user_folder("XDG_CONFIG_HOME", ".config");
   return config.empty() ? config : config / "tyndall" / "window.txt";
 }
 

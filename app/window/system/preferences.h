@@ -24,7 +24,8 @@ struct Preferences {
   bool operator==(const Preferences&) const = default;
 };
 
-/// $XDG_CONFIG_HOME/tyndall/window.txt, else ~/.config/tyndall/window.txt; empty where neither variable is set.
+/// $XDG_CONFIG_HOME/tyndall/window.txt, else ~/.config/tyndall/window.txt; empty where neither variable is an absolute
+/// path.
 std::filesystem::path preferences_file();
 
 /// What the file says; the defaults for what it does not say, and if there is none. Nothing if it is damaged.

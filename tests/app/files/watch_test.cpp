@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -125,4 +127,20 @@ TEST_CASE("links that lead round in a circle are watched without harm, and told 
   CHECK(watched.told());
   write_text(watched.folder / "b.json", "an end");
   CHECK(watched.told());
+}
+
+TEST_CASE("a file that is watched has no problem to tell, and neither has one whose folder is still to come") {
+  CHECK(FileWatch({scratch_folder("watchable") / "a.json"}, [] {}).problem().empty());
+  CHECK(FileWatch({"/no/such/folder/a.json"}, [] {}).problem().empty());
+}
+
+TEST_CASE("where the system opens no more files, nothing is watched, and that is said") {
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const fs::path folder = scratch_folder("unwatchable");
+  const rlimit none{0, before.rlim_max};
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
+  const std::string problem = FileWatch({folder / "a.json"}, [] {}).problem();
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &before) == 0);
+  CHECK(problem == "Too many open files");
 }

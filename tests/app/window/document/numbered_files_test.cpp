@@ -43,16 +43,43 @@ TEST_CASE("no number is given twice, and what was written, or why not, is told")
   const fs::path first = files.next_base("a"), second = files.next_base("a");
   CHECK(first.filename() == "a-001");
   CHECK(second.filename() == "a-002");
-  files.write(first, [] { return std::string("written"); });
+  files.write(first, [](const fs::path&) { return std::string("written"); });
   done.acquire();
   CHECK(jobs.collect());
   CHECK_FALSE(jobs.collect());
   CHECK(messages.current().text == "written");
   CHECK_FALSE(messages.current().error);
-  files.write(second, []() -> std::string { throw IoError("no room"); });
+  files.write(second, [](const fs::path&) -> std::string { throw IoError("no room"); });
   done.acquire();
   jobs.collect();
   CHECK(messages.current().text == "no room");
   CHECK(messages.current().error);
+  fs::current_path(before);
+}
+
+TEST_CASE("no file is overwritten that another window or program has written since the number was given") {
+  const fs::path before = fs::current_path();
+  fs::current_path(scratch("raced"));
+  std::counting_semaphore<> done(0);
+  MessageLine messages(nullptr);
+  JobQueue jobs([&] { done.release(); });
+  NumberedFiles first({".txt", ".more"}, jobs, messages, nullptr), second({".txt", ".more"}, jobs, messages, nullptr);
+  const auto write = [](const std::string& text) {
+    return [text](const fs::path& base) {
+      std::ofstream(base.string() + ".txt") << text;
+      return base.filename().string();
+    };
+  };
+  const fs::path one = first.next_base("a"), two = second.next_base("a");
+  CHECK(one == two);
+  first.write(one, write("first"));
+  second.write(two, write("second"));
+  done.acquire(), done.acquire();
+  jobs.collect();
+  CHECK(messages.current().text == "a-002");
+  CHECK(fs::file_size("a-001.txt") == 5);
+  CHECK(fs::file_size("a-002.txt") == 6);
+  std::ofstream("a-003.more") << "of another program";
+  CHECK(second.next_base("a").filename() == "a-004");
   fs::current_path(before);
 }

@@ -1,0 +1,111 @@
+#include "app/window/document/kept_slot.h"
+
+#include "core/base/error.h"
+
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int most_windows = 1000;  // that keep edits at the same time
+
+/// The number in a file's name; 0: it is not one of the place.
+int number_of(const KeepingPlace& place, const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(place.before)) return 0;
+  const int number = std::atoi(name.c_str() + place.before.size());
+  return number > 0 && place.file(number) == file ? number : 0;
+}
+
+}  // namespace
+
+std::vector<KeepingPlace> keeping_places(const fs::path& state, const std::string& what) {
+  std::vector<KeepingPlace> places;
+  if (!state.empty()) places.push_back({state, "unsaved-", ".json", false});
+  const fs::path scene(what);
+  if (scene.is_absolute())
+    places.push_back({scene.parent_path(), "." + scene.filename().string() + ".unsaved-", "", true});
+  return places;
+}
+
+KeptSlot::KeptSlot(KeepingPlace place, int number) : place_(std::move(place)), number_(number) {
+  for (int attempt = 0; attempt < 100 && lock_ < 0 && error_ == 0; ++attempt) {
+    take();
+    struct stat status {};
+    if (lock_ < 0 || (fstat(lock_, &status) == 0 && status.st_nlink > 0)) return;
+    close(std::exchange(lock_, -1));  // another window has removed it in between: the next attempt makes a new one
+  }
+}
+
+void KeptSlot::take() {
+  const std::string name = place_.lock(number_).string();
+  lock_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  const int why = errno;
+  if (lock_ < 0 && (why == EROFS || why == EACCES)) lock_ = open(name.c_str(), O_RDONLY | O_CLOEXEC);
+  if (lock_ < 0) error_ = why;
+  if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  error_ = errno == EWOULDBLOCK ? 0 : errno;
+  close(std::exchange(lock_, -1));
+}
+
+KeptSlot::KeptSlot(KeptSlot&& other) noexcept
+    : place_(std::move(other.place_)),
+      number_(other.number_),
+      lock_(std::exchange(other.lock_, -1)),
+      error_(other.error_) {}
+
+KeptSlot& KeptSlot::operator=(KeptSlot&& other) noexcept {
+  release();
+  place_ = std::move(other.place_);
+  number_ = other.number_;
+  lock_ = std::exchange(other.lock_, -1);
+  error_ = other.error_;
+  return *this;
+}
+
+void KeptSlot::release() {
+  if (lock_ < 0) return;
+  if (place_.beside_the_scene) unlink(place_.lock(number_).c_str());
+  close(std::exchange(lock_, -1));
+}
+
+bool KeptSlot::used() const {
+  std::error_code ignored;
+  return held() && fs::exists(file(), ignored);
+}
+
+KeptSlot free_slot(const KeepingPlace& place) {
+  for (int number = 1; number <= most_windows; ++number) {
+    KeptSlot slot(place, number);
+    if (slot.error() != 0)
+      throw IoError(place.folder.string() + ": cannot write: " + std::generic_category().message(slot.error()));
+    if (slot.held() && !slot.used()) return slot;
+  }
+  throw IoError(place.folder.string() + ": cannot write: too many windows keep edits there");
+}
+
+std::vector<fs::path> kept_files(const KeepingPlace& place) {
+  std::vector<fs::path> files;
+  std::error_code gone;
+  for (const auto& entry : fs::directory_iterator(place.folder, gone))
+    if (number_of(place, entry.path()) > 0) files.push_back(entry.path());
+  return files;
+}
+
+void for_free_files(const KeepingPlace& place, const std::function<void(KeptSlot&&)>& see) {
+  for (const fs::path& file : kept_files(place))
+    if (KeptSlot slot(place, number_of(place, file)); slot.held()) see(std::move(slot));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,65 @@
+#include "app/window/session.h"
+
+#include <utility>
+
+/// Edits that are in no file yet: what a session does so that they are not lost, and what it says of them.
+namespace tyndall {
+
+/// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
+/// Settings of the command line apply to them, too.
+void Session::restore_edits(const WindowOptions& options) {
+  const std::filesystem::path file = kept_.take_over(options.scene_named ? editor_.document().origin->what : "");
+  kept_changes_ = editor_.changes();
+  try {
+    if (!file.empty()) {
+      Kept kept = read_kept(file, options.read_edits);
+      editor_.restore(std::move(kept.document), kept.file_changed);
+    }
+  } catch (const std::exception& error) {
+    kept_.leave();
+    messages_.say("cannot restore edits: " + std::string(error.what()), true);
+  }
+  const std::vector<std::string> others = kept_.others();
+  if (file.empty() && !others.empty())
+    messages_.say("there are edits of " + others.front() +
+                  " that were not saved; starting with it, or where it is gone " +
+                  "without a scene, goes on with them");
+}
+
+/// Says once where edits are kept if that is not where they should be, and once that they cannot be kept: from the
+/// first edit on that is so. Returns whether it said something.
+bool Session::tell_of_keeping() {
+  const Keeping now = kept_.keeping();
+  if (now.kind == Keeping::Kind::nothing || now.kind == told_keeping_) return false;
+  const Keeping::Kind before = std::exchange(told_keeping_, now.kind);
+  if (now.kind == Keeping::Kind::lost)
+    messages_.say_until_done("edits cannot be kept: " + now.why +
+                             "; until they are saved, they are lost when the window ends");
+  else if (now.kind == Keeping::Kind::beside)
+    messages_.say_until_done("edits are kept in " + now.file.string() +
+                             (now.why.empty() ? "" : ", because of: " + now.why));
+  else if (before == Keeping::Kind::lost)
+    messages_.say("edits can be kept again, and are");
+  else
+    return false;
+  return true;
+}
+
+void Session::keep_edits() {
+  if (editor_.changes() == kept_changes_ || discarded_) return;
+  kept_changes_ = editor_.changes();
+  const Document* unsaved = editor_.unsaved();
+  if (unsaved == &editor_.document())
+    kept_.keep(shared_scene(), unsaved->origin);
+  else if (unsaved)
+    kept_.keep(std::make_shared<const Scene>(unsaved->scene), unsaved->origin);
+  else
+    kept_.keep(nullptr, nullptr);
+}
+
+void Session::discard_edits() {
+  discarded_ = true;
+  kept_.keep(nullptr, nullptr);
+}
+
+}  // namespace tyndall
