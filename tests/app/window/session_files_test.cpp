@@ -344,3 +344,28 @@ TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
   REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
   fs::create_directories(folder);
 }
+
+TEST_CASE("a damaged file of preferences that cannot be moved is not said to be elsewhere") {
+  const fs::path config = scratch_folder() / "damaged_preferences", file = config / "tyndall" / "window.txt";
+  fs::remove_all(config);
+  fs::create_directories(config / "tyndall" / "window.txt.damaged" / "in the way");
+  std::ofstream(file) << "no preferences\n";
+  const char* before = std::getenv("XDG_CONFIG_HOME");
+  const std::string kept = before ? before : "";
+  setenv("XDG_CONFIG_HOME", config.c_str(), 1);
+  {
+    OpenedSession stays("damaged_stays");
+    CHECK(stays.session->messages().current().text ==
+          file.string() +
+              " is damaged; the window begins with its defaults, and the file cannot be moved out of the way");
+    CHECK(fs::exists(file));
+    fs::remove_all(config / "tyndall" / "window.txt.damaged");
+    OpenedSession goes("damaged_goes");
+    CHECK(goes.session->messages().current().text ==
+          file.string() + " is damaged; the window begins with its defaults, the file is now window.txt.damaged");
+  }
+  if (before)
+    setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
+  else
+    unsetenv("XDG_CONFIG_HOME");
+}
