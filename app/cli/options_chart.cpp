@@ -52,7 +52,7 @@ Command read_chart(const std::vector<std::string>& words) {
   add_value(*app, "--size", "WxH", "image size in pixels [the scene's, made smaller to 65,536 pixels]",
             [&](const std::string& t) { command.scene.size = read_size(t); });
   add_value(*app, "-t,--threads", "N",
-            "worker threads [the processors that this process may use: affinity and quota, rounded up]",
+            "worker threads [the processors that this process may use:\naffinity, and quota rounded up]",
             [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, most_threads)); });
   add_progress(*app, command.progress);
   app->add_flag("-q,--quiet", quiet, "no progress");

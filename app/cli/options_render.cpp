@@ -111,8 +111,8 @@ void add_method_options(CLI::App& app, SceneRequest& scene) {
 void add_machine_options(CLI::App& app, int& threads, std::string& isa) {
   app.option_defaults()->group("Machine");
   add_value(app, "-t,--threads", "N",
-            "worker threads; the image is the same for any number [the processors that this process may use: affinity "
-            "and quota, rounded up]",
+            "worker threads; the image is the same for any number\n[processors that this process may use: affinity, "
+            "and quota rounded up]",
             [&](Text t) { threads = static_cast<int>(read_whole(t, 1, most_threads)); });
   add_isa(app, isa);
 }
