@@ -3,7 +3,6 @@
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
-#include "core/base/text.h"
 #include "core/film/merge.h"
 #include "core/image/image.h"
 
@@ -19,11 +18,7 @@ namespace {
 constexpr int wrong_usage = 2, input_output_error = 3;
 
 int fail(const std::exception& error, int code) {
-  try {
-    tyndall::complain(tyndall::printable(error.what(), 2000));
-  } catch (const std::bad_alloc&) {
-    tyndall::complain("not enough memory for a longer message");
-  }
+  tyndall::complain(error.what());
   return code;
 }
 

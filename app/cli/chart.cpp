@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
 #include "app/cli/signals.h"
+#include "app/comparison/comparison.h"
 #include "app/comparison/pair.h"
 #include "app/curves/chart_files.h"
 #include "app/curves/measure.h"
@@ -89,6 +90,7 @@ class ChartJob {
       throw UsageError("--reference: found " + std::to_string(reference.image.width) + "x" +
                        std::to_string(reference.image.height) + " pixels, expected " + std::to_string(scene.width) +
                        "x" + std::to_string(scene.height) + " as the charted picture has (see --size)");
+    check_finite(file, reference.image);
     if (is_exr(file))
       if (const auto film = read_film(file)) {
         const double error = estimated_relative_error(*film);

@@ -3,6 +3,7 @@
 #include "app/report/heat_map.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/bias.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -40,6 +41,7 @@ std::string json_text(const Comparison& c, const std::optional<BlockScores>& blo
                       {"worst_z", blocks->worst},
                       {"limit", blocks->most},
                       {"only_noise", blocks->noise()}};
+  json["not_finite"] = c.not_finite;
   return json.dump(2) + "\n";
 }
 
@@ -76,17 +78,20 @@ int compare_with_baseline(const CompareCommand& command) {
   for (const auto& file : {command.report, command.junit})
     if (!file.empty()) check_can_write(file);
   if (command.update) {
+    const BaselineUpdate update = update_baseline(command.baseline);
     std::string text;
-    for (const std::string& name : update_baseline(command.baseline)) text += name + "  kept\n";
+    for (const std::string& name : update.names) text += all_printable(name) + "  kept\n";
+    for (const std::string& note : update.notes) complain(note);
     write_standard_output(text);
     return 0;
   }
-  const std::vector<CheckedPicture> pictures = check_baseline(command.baseline);
+  const auto [pictures, notes] = check_baseline(command.baseline);
+  for (const std::string& note : notes) complain(note);
   std::string text;
   bool good = true;
   for (const CheckedPicture& picture : pictures) {
     const auto& c = picture.comparison;
-    text += fmt::format("{:<6} {}", picture.failures.empty() ? "ok" : "FAILED", picture.name);
+    text += fmt::format("{:<6} {}", picture.failures.empty() ? "ok" : "FAILED", all_printable(picture.name));
     if (c) text += fmt::format("  FLIP {:.4g}  relMSE {:.4g}  RMSE {:.4g}", c->flip, c->error.rel_mse, c->error.rmse);
     const std::string overlap = c ? overlap_text(*c) : "";
     text += (overlap.empty() ? "" : "  pixels: " + overlap) + "\n";

@@ -16,11 +16,14 @@ void add_baseline_options(CLI::App& app, CompareCommand& command) {
   app.option_defaults()->group("Baseline (a folder of pictures that renders should go on looking like)");
   add_value(app, "--baseline", "DIR",
             "compare each image with the one of its name in this folder, by the\n"
-            "tolerances that are kept there, else --max-flip 0.02",
+            "tolerances that are kept there, else --max-flip 0.02; that one also\n"
+            "fails where relMSE among values outside [0, 1], which FLIP clips, is\n"
+            "above 0.01",
             [&](Text t) { command.baseline.folder = t; });
-  app.add_flag(
-      "--update", command.update,
-      "put the images into the folder, and the limits of --max-... as their\ntolerances; without limits these stay");
+  app.add_flag("--update", command.update,
+               "put the images into the folder, and the limits of --max-... as their\n"
+               "tolerances; without limits these stay. Nothing is changed where an\n"
+               "image cannot be read or has values that are not finite");
   add_value(app, "--report", "FILE.html", "write one page with numbers, both pictures behind a slider, and FLIP",
             [&](Text t) { command.report = read_file_name(t, ".html"); });
   add_value(app, "--junit", "FILE.xml", "write the results as JUnit does",
@@ -66,7 +69,8 @@ Command read_compare(Words words) {
       "EXR files of one display window and different data windows (a region, overscan) are compared by\n"
       "position, over the pixels that both have. Beside an EXR, a picture of another format is its display\n"
       "window if it has the size of that, else its data window.",
-      "Exit code 1: an error is above its --max-..., or not a number.\n\n"
+      "Exit code 1: an error is above its --max-...; a value of one of the images is not finite (NaN and\n"
+      "infinity are equal to nothing, with --max-... or without); or --baseline found no image.\n\n"
       "Examples:\n"
       "  tyndall compare out.png snapshot.png\n"
       "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
@@ -76,7 +80,7 @@ Command read_compare(Words words) {
                 "PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR, or FILE.exr:LAYER for a\n"
                 "layer, a part, a view or a channel of an EXR; the second one is what\n"
                 "the first should look like, of the same size. With --baseline: any\n"
-                "number of images, and folders of them",
+                "number of images, and folders of them, with all folders in them",
                 images);
   add_gamma2(*app,
              "read PPM files as the books' programs write them, by the square of\ntheir numbers, not by sRGB's curve",

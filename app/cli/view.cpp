@@ -4,12 +4,15 @@
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/image/image_io.h"
 
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
 #include "app/window/window.h"
 #endif
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -22,8 +25,18 @@ std::string shell_word(const std::string& word) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
   std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+  if (all_printable(word) == word) {
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+  }
+  for (const char c : word) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
+      quoted += fmt::format("\\x{:02x}", byte);
+    else
+      quoted += c;
+  }
+  return "$" + quoted + "'";
 }
 
 /// The render command that makes the picture which the window would show.
@@ -40,7 +53,8 @@ std::string headless_command(const ViewCommand& command) {
   }
   const std::filesystem::path scene(command.scene.what);
   const std::string name = scene.extension() == ".png" ? scene.stem().string() + "-again" : scene.stem().string();
-  return text + " -o " + shell_word((name == "-" ? "image" : name) + ".png");
+  const std::string file = (name == "-" ? "image" : name) + ".png";
+  return text + " -o " + shell_word(file.starts_with('-') ? "./" + file : file);  // a dash would begin an option
 }
 
 bool is_set(const char* variable) {

@@ -1,5 +1,6 @@
 #include "app/comparison/baseline.h"
 
+#include "app/comparison/picture_folder.h"
 #include "app/files/outputs.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
@@ -7,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -39,6 +41,9 @@ Tolerance read_limits(const fs::path& file, const std::string& picture, const Js
   return limits;
 }
 
+/// What stands for a picture in tolerances.json: its name, which JSON can hold if it is UTF-8.
+std::string key_of(const std::string& name) { return is_utf8(name) ? name : all_printable(name); }
+
 std::map<std::string, Tolerance> read_tolerances(const fs::path& folder) {
   std::map<std::string, Tolerance> tolerances;
   const fs::path file = folder / tolerances_name;
@@ -46,120 +51,204 @@ std::map<std::string, Tolerance> read_tolerances(const fs::path& folder) {
   if (!stream) return tolerances;
   const Json json = Json::parse(stream, nullptr, false);
   if (!json.is_object()) refuse(file, "no JSON object", "pictures' names with their tolerances");
-  for (const auto& [name, value] : json.items()) tolerances[name] = read_limits(file, name, value);
+  for (const auto& [picture, value] : json.items()) tolerances[picture] = read_limits(file, picture, value);
   return tolerances;
 }
 
 void write_tolerances(const fs::path& folder, const std::map<std::string, Tolerance>& tolerances) {
   Json json = Json::object();
-  for (const auto& [name, limits] : tolerances) {
-    Json& entry = json[name] = Json::object();
+  for (const auto& [picture, limits] : tolerances) {
+    Json& entry = json[picture] = Json::object();
     for (const auto& [key, member] : keys)
       if (limits.*member) entry[key] = *(limits.*member);
   }
   write_text_file(folder / tolerances_name, json.dump(2) + "\n");
 }
 
-std::vector<fs::path> pictures_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && is_image_output(entry.path())) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+/// Pictures by name, with what is to be said of the folders that they are in.
+struct Pictures {
+  std::map<std::string, fs::path> files;  ///< those in the baseline that should be there and are not have an empty path
+  std::vector<std::string> notes;
+};
+
+/// "a, b, c and 4 more"
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
-/// What a picture is called in the baseline: the file's own name and, where one was asked for, the layer.
+/// What is left out of a folder, a line for each reason.
+void add_notes(const fs::path& folder, const PictureFolder& found, std::vector<std::string>& notes) {
+  std::vector<std::string> others = found.others;
+  std::erase(others, tolerances_name);
+  if (!others.empty())
+    notes.push_back(folder.string() + ": left out, as their names end in none of " + picture_endings + ": " +
+                    listed(others));
+  if (!found.loops.empty())
+    notes.push_back(folder.string() + ": left out, as links to folders around them: " + listed(found.loops));
+}
+
+/// What a picture that is named itself is called in the baseline: its file's own name and, where one was asked for, the
+/// layer.
 std::string name_of(const fs::path& image) {
   const auto [file, layer] = picture_name(image);
   return file.filename().string() + (layer ? ":" + *layer : "");
 }
 
-/// Pictures by name; those in the baseline that should be there and are not have an empty path.
-std::map<std::string, fs::path> pictures_of(const BaselineRequest& request) {
-  std::map<std::string, fs::path> found;
-  const auto add = [&found](const fs::path& file) {
-    const auto [at, fresh] = found.emplace(name_of(file), file);
+Pictures pictures_of(const BaselineRequest& request) {
+  Pictures pictures;
+  const auto add = [&files = pictures.files](const std::string& name, const fs::path& file) {
+    const auto [at, fresh] = files.emplace(name, file);
     if (!fresh) refuse(file, "another picture of the name of " + at->second.string(), "each name once");
   };
   bool whole = false;
+  std::error_code error;  // what cannot be looked at fails when it is read
   for (const fs::path& image : request.images) {
-    const bool folder = fs::is_directory(image);
-    whole = whole || folder;
-    if (!folder) add(image);
-    if (folder)
-      for (const fs::path& file : pictures_in(image)) add(file);
+    if (!fs::is_directory(image, error)) {
+      add(name_of(image), image);
+      continue;
+    }
+    whole = true;
+    const PictureFolder found = pictures_in(image, {request.folder});
+    for (const auto& [name, file] : found.pictures) add(name, file);
+    add_notes(image, found, pictures.notes);
   }
-  if (whole && fs::is_directory(request.folder))
-    for (const fs::path& file : pictures_in(request.folder)) found.emplace(file.filename().string(), fs::path());
-  return found;
+  if (!whole || !fs::is_directory(request.folder, error)) return pictures;
+  for (const auto& [name, file] : pictures_in(request.folder, request.images).pictures)
+    pictures.files.emplace(name, fs::path());
+  return pictures;
 }
 
 Tolerance chosen(const Tolerance& given, const std::map<std::string, Tolerance>& kept, const std::string& name) {
   if (!given.none()) return given;
-  const auto at = kept.find(name);
-  if (at != kept.end() && !at->second.none()) return at->second;
-  Tolerance usual;
-  usual.flip = usual_flip;
-  return usual;
+  const auto at = kept.find(key_of(name));
+  return at == kept.end() || at->second.none() ? usual_tolerance : at->second;
+}
+
+/// Throws for what is there and no file, such as a pipe, which would be waited for.
+void check_ordinary(const fs::path& image) {
+  std::error_code error;
+  const fs::file_status status = fs::status(picture_name(image).file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    refuse(image, "something that is not an ordinary file", "a picture");
 }
 
 void check(CheckedPicture& picture, PpmCurve ppm) {
+  std::error_code error;
   if (picture.image.empty()) {
     picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
     return;
   }
-  if (!fs::exists(picture_name(picture.reference).file)) {
+  if (!fs::exists(picture_name(picture.reference).file, error)) {
     picture.failures.push_back("the baseline lacks it; --update keeps it");
     return;
   }
   const auto start = std::chrono::steady_clock::now();
   try {
+    check_ordinary(picture.image);
     picture.comparison = compare_images(picture.image, picture.reference, ppm);
     picture.failures = too_large(*picture.comparison, picture.limits);
-  } catch (const std::exception& error) {
-    picture.failures.push_back(error.what());
+    const OutsideError& outside = picture.comparison->outside;
+    if (picture.limits == usual_tolerance && !(outside.rel_mse <= usual_outside))
+      picture.failures.push_back(
+          fmt::format("relMSE among the {} values outside [0, 1], which FLIP clips, is {:.6g}, expected at most {:g}",
+                      outside.values, outside.rel_mse, usual_outside));
+  } catch (const std::exception& problem) {
+    picture.failures.emplace_back(problem.what());
   }
   picture.seconds = seconds_since(start);
 }
 
+/// What stands in the place of pictures where there is none: nothing was checked, which is no success.
+CheckedPicture nothing_compared(const BaselineRequest& request) {
+  CheckedPicture none;
+  none.name = "no picture";
+  none.failures.push_back("nothing was compared: there is no picture in " + request.images.front().string() +
+                          " (names that end in " + picture_endings + ")");
+  return none;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw IoError(folder.string() + ": cannot make the folder: " + error.message());
+}
+
+/// The files of the pictures, which are whole files for layers too, and what becomes of each in the baseline. Throws
+/// IoError unless all of them can be written.
+std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pictures, const fs::path& folder) {
+  std::map<fs::path, fs::path> copies;
+  for (const auto& [name, image] : pictures) {
+    const auto [file, layer] = picture_name(image);
+    const fs::path target = folder / (layer ? file.filename() : fs::path(name));
+    std::error_code error;
+    make_folder(target.parent_path());
+    if (fs::equivalent(file, target, error)) continue;
+    check_can_write(target);
+    copies[target] = file;
+  }
+  return copies;
+}
+
+/// What goes wrong here is the disk's fault, and is told with how far it got.
+void copy_all(const std::map<fs::path, fs::path>& copies) {
+  std::size_t done = 0;
+  try {
+    for (const auto& [target, file] : copies) write_copy(file, target), ++done;
+  } catch (const std::runtime_error& problem) {
+    throw IoError(std::string(problem.what()) + " (" + std::to_string(done) + " of " + std::to_string(copies.size()) +
+                  " pictures were copied)");
+  }
+}
+
 }  // namespace
 
-std::vector<CheckedPicture> check_baseline(const BaselineRequest& request) {
-  if (!fs::is_directory(request.folder)) refuse(request.folder, "no such folder", "a baseline; --update makes one");
+BaselineCheck check_baseline(const BaselineRequest& request) {
+  std::error_code error;
+  if (!fs::is_directory(request.folder, error))
+    refuse(request.folder, "no such folder", "a baseline; --update makes one");
   const auto tolerances = read_tolerances(request.folder);
-  std::vector<CheckedPicture> pictures;
+  const Pictures found = pictures_of(request);
+  BaselineCheck result{{}, found.notes};
   bool has_ppm = false;
-  for (const auto& [name, image] : pictures_of(request)) {
-    CheckedPicture& picture = pictures.emplace_back();
+  for (const auto& [name, image] : found.files) {
+    CheckedPicture& picture = result.pictures.emplace_back();
     picture.name = name, picture.image = image, picture.reference = request.folder / name;
     picture.limits = chosen(request.limits, tolerances, name);
     check(picture, request.ppm);
     has_ppm = has_ppm || (picture.comparison && picture.comparison->has_ppm);
   }
   check_gamma2(request.ppm, has_ppm);
-  return pictures;
+  if (result.pictures.empty()) result.pictures.push_back(nothing_compared(request));
+  return result;
 }
 
-std::vector<std::string> update_baseline(const BaselineRequest& request) {
-  std::error_code error;
-  fs::create_directories(request.folder, error);
-  if (error) throw IoError(request.folder.string() + ": cannot make the folder: " + error.message());
+BaselineUpdate update_baseline(const BaselineRequest& request) {
+  Pictures found = pictures_of(request);
+  BaselineUpdate update{{}, found.notes};
+  for (const auto& [name, image] : found.files)
+    if (image.empty()) update.notes.push_back(name + ": not rendered this time; the baseline keeps what it has");
+  std::erase_if(found.files, [](const auto& picture) { return picture.second.empty(); });
+  if (found.files.empty())
+    refuse(request.images.front(), "no picture",
+           "at least one, with a name that ends in " + std::string(picture_endings));
   auto tolerances = read_tolerances(request.folder);
-  const auto pictures = pictures_of(request);
   bool has_ppm = false;
-  for (const auto& [name, image] : pictures)
-    if (!image.empty() && read_picture(image, request.ppm).kind == ImageKind::ppm) has_ppm = true;
-  check_gamma2(request.ppm, has_ppm);
-  std::vector<std::string> names;
-  for (const auto& [name, image] : pictures) {
-    if (image.empty()) continue;  // not rendered this time: it stays
-    const fs::path file = picture_name(image).file, target = request.folder / file.filename();
-    if (!fs::equivalent(file, target, error)) write_copy(file, target);
-    tolerances[name] = chosen(request.limits, tolerances, name);
-    names.push_back(name);
+  for (const auto& [name, image] : found.files) {
+    check_ordinary(image);
+    const PictureFile picture = read_picture(image, request.ppm);  // throws for what is no picture
+    check_finite(image, picture.image);
+    has_ppm = has_ppm || picture.kind == ImageKind::ppm;
+    tolerances[key_of(name)] = chosen(request.limits, tolerances, name);
+    update.names.push_back(name);
   }
+  check_gamma2(request.ppm, has_ppm);
+  const auto copies = copies_of(found.files, request.folder);
   write_tolerances(request.folder, tolerances);
-  return names;
+  copy_all(copies);
+  return update;
 }
 
 }  // namespace tyndall

@@ -9,11 +9,14 @@
 ///   { "box.png": { "max_flip": 0.02 }, "fog.exr": { "max_relmse": 0.001, "max_flip": 0.05 } }
 namespace tyndall {
 
-inline constexpr double usual_flip = 0.02;  ///< the tolerance of a picture for which none was ever given
+/// The tolerance of a picture for which none was ever given. FLIP clips its pictures to [0, 1], so with it also relMSE
+/// among the values outside has a limit; 8-bit pictures have no such values.
+inline constexpr Tolerance usual_tolerance{{}, {}, 0.02};
+inline constexpr double usual_outside = 0.01;
 
 /// One picture and what became of it.
 struct CheckedPicture {
-  std::string name;                        ///< of the file, without its folder
+  std::string name;                        ///< from the folder on: "box.png", "fog/thin.exr"
   std::filesystem::path image, reference;  ///< reference: in the baseline; image: empty if it was not rendered
   Tolerance limits;
   std::optional<Comparison> comparison;  ///< absent if there was nothing to compare
@@ -23,24 +26,36 @@ struct CheckedPicture {
 
 struct BaselineRequest {
   std::filesystem::path folder;
-  /// Pictures (see PictureName), or folders of them. Of a layer of an EXR the whole file is kept, and tolerances under
-  /// the layer's name. Of a folder all pictures are taken, and those of the baseline that it lacks fail.
+  /// Pictures (see PictureName), or folders of them, at least one. Of a layer of an EXR the whole file is kept, and
+  /// tolerances under the layer's name. Of a folder all pictures are taken, those in folders within it included, and
+  /// those of the baseline that it lacks fail.
   std::vector<std::filesystem::path> images;
   Tolerance limits;               ///< in place of those that are kept
   PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are read
 };
 
+struct BaselineCheck {
+  std::vector<CheckedPicture> pictures;  ///< never empty: where there is nothing to compare, that is a failure
+  std::vector<std::string> notes;        ///< what was left out of folders and why, a line each
+};
+
 /// Compares each picture with the one of its name. What goes wrong with one is its failure, and the others go on.
 /// Throws UsageError where the folder or its tolerances cannot be read, or two pictures have one name, or for --gamma2
 /// without a PPM.
-std::vector<CheckedPicture> check_baseline(const BaselineRequest& request);
+BaselineCheck check_baseline(const BaselineRequest& request);
+
+struct BaselineUpdate {
+  std::vector<std::string> names;  ///< of the pictures that are kept now
+  std::vector<std::string> notes;  ///< what was left out, and what the baseline keeps from before, a line each
+};
 
 /// Copies the pictures into the folder and keeps the limits as their tolerances; where none are given, those that are
-/// kept stay. Returns the names. Throws UsageError, IoError.
-std::vector<std::string> update_baseline(const BaselineRequest& request);
+/// kept stay. Looks at all pictures first: where one cannot be read, or has values that are not finite, or there is
+/// none, nothing is changed. Throws UsageError, IoError, ImageFileError.
+BaselineUpdate update_baseline(const BaselineRequest& request);
 
 /// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP. ppm: how PPM files are
-/// read. Writes pictures of its own beside `file` for a moment. Throws ImageFileError.
+/// read. Throws ImageFileError.
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm);
 
 /// A report in the form that JUnit gave to continuous integration.

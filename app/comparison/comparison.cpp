@@ -2,11 +2,31 @@
 
 #include "app/comparison/pair.h"
 #include "app/text/values.h"
+#include "core/accuracy/finite.h"
 #include "core/accuracy/flip.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 
 namespace tyndall {
+namespace {
+
+struct Picture {
+  const std::filesystem::path& file;
+  const LinearImage& image;
+};
+
+/// What is equal to nothing: says so in words, and in the map of FLIP, which takes such values for black or white.
+void find_not_finite(const Picture& image, const Picture& reference, Comparison& result) {
+  for (const Picture* one : {&image, &reference}) {
+    const std::string text = not_finite_text(one->image);
+    if (!text.empty()) result.not_finite.push_back(all_printable(one->file.string()) + ": " + text);
+  }
+  for (std::size_t i = 0; i < result.flip_map.size() && !result.not_finite.empty(); ++i)
+    if (!is_finite(image.image, i) || !is_finite(reference.image, i)) result.flip_map[i] = 1;
+}
+
+}  // namespace
 
 Comparison compare_images(const std::filesystem::path& image_file, const std::filesystem::path& reference_file,
                           PpmCurve ppm) {
@@ -16,6 +36,8 @@ Comparison compare_images(const std::filesystem::path& image_file, const std::fi
   result.image_pixels = pair.image_pixels, result.reference_pixels = pair.reference_pixels;
   result.has_ppm = pair.has_ppm, result.remarks = std::move(pair.remarks);
   result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
+  result.outside = outside_error(image.rgb, reference.rgb);
+  find_not_finite({image_file, image}, {reference_file, reference}, result);
   for (const float value : result.flip_map) result.flip += static_cast<double>(value);
   result.flip /= static_cast<double>(result.flip_map.size());
   return result;
@@ -34,7 +56,7 @@ void check_gamma2(PpmCurve ppm, bool has_ppm) {
 }
 
 std::vector<std::string> too_large(const Comparison& c, const Tolerance& limits) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = c.not_finite;
   const auto check = [&lines](const char* name, double value, const std::optional<double>& limit) {
     if (!limit || value <= *limit) return;
     lines.push_back(fmt::format("{} is {:.6g}, expected at most {:.6g}", name, value, *limit));
@@ -43,6 +65,11 @@ std::vector<std::string> too_large(const Comparison& c, const Tolerance& limits)
   check("relMSE", c.error.rel_mse, limits.rel_mse);
   check("FLIP", c.flip, limits.flip);
   return lines;
+}
+
+void check_finite(const std::filesystem::path& file, const LinearImage& image) {
+  const std::string found = not_finite_text(image);
+  if (!found.empty()) throw UsageError(file.string() + ": found that " + found + ", expected finite values");
 }
 
 }  // namespace tyndall

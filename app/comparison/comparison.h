@@ -22,11 +22,14 @@ struct Comparison {
   int width = 0, height = 0;  ///< of what was compared: the pixels that both pictures have
   ImageError error;
   double flip = 0;                                     ///< mean
-  std::vector<float> flip_map;                         ///< of each pixel, top row first
+  std::vector<float> flip_map;                         ///< of each pixel, top row first; 1 where one is not finite
   std::size_t image_pixels = 0, reference_pixels = 0;  ///< that the pictures have
   bool has_ppm = false;                                ///< one of the two is a PPM
   /// What a user should know of how the files were read, a line each.
   std::vector<std::string> remarks{};
+  OutsideError outside{};  ///< of the values that FLIP clips
+  /// "FILE: 3 of 256 pixels are not finite, the first at 5,0 (red is nan)" of each of both that has such pixels.
+  std::vector<std::string> not_finite{};
 };
 
 /// Reads and compares two images, and throws as read_pair() (pair.h) does. ppm: how PPM files are read.
@@ -39,7 +42,11 @@ void check_gamma2(PpmCurve ppm, bool has_ppm);
 /// "600 that both have, of 2048 in the image and 600 in the reference"; "" where all pixels were compared.
 std::string overlap_text(const Comparison& comparison);
 
-/// What is too large, each like "RMSE is 0.2, expected at most 0.1". An error that is not a number always is.
+/// Why the pictures do not pass: values that are not finite, which are equal to nothing, whatever the limits are; and
+/// what is too large, each like "RMSE is 0.2, expected at most 0.1". An error that is not a number always is.
 std::vector<std::string> too_large(const Comparison& comparison, const Tolerance& limits);
+
+/// Throws UsageError "FILE: found that 3 of 256 pixels are not finite, …" for a picture with such values.
+void check_finite(const std::filesystem::path& file, const LinearImage& image);
 
 }  // namespace tyndall

@@ -2,57 +2,31 @@
 #include "app/comparison/pair.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
+#include "app/text/markup.h"
 #include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
 
 #include <fmt/core.h>
-
-#include <fstream>
-#include <iterator>
 
 namespace tyndall {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 /// RFC 4648, section 4.
-std::string base64(const std::string& bytes) {
+std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
     for (std::size_t k = 0; k < 4; ++k) out += i + k < bytes.size() + 1 ? digits[word >> (18 - 6 * k) & 63] : '=';
   }
   return out;
 }
 
 /// The picture within the page, as PNG.
-std::string data_of(const LinearImage& image, const fs::path& beside) {
-  fs::path file = beside;
-  file += ".part.png";
-  write_png(file, image, 0, ToneMap::srgb, {});
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  std::error_code error;
-  fs::remove(file, error);
-  return "data:image/png;base64," + base64(bytes);
+std::string data_of(const LinearImage& image) {
+  const std::vector<std::uint8_t> rgb = tone_map(image.rgb, 0, ToneMap::srgb);
+  return "data:image/png;base64," + base64(encode_png(image.width, image.height, rgb.data()));
 }
 
 std::string limit_text(const std::optional<double>& limit) { return limit ? fmt::format("{:.6g}", *limit) : "–"; }
@@ -62,7 +36,7 @@ std::string row(const char* name, double value, const std::optional<double>& lim
   return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value, limit_text(limit));
 }
 
-std::string pictures_of(const CheckedPicture& picture, const fs::path& beside, PpmCurve ppm) {
+std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_map(c.flip_map, c.width, c.height);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
@@ -74,22 +48,27 @@ std::string pictures_of(const CheckedPicture& picture, const fs::path& beside, P
       "style=\"max-width:max({0}px,8rem)\">"
       "<figcaption>left of the divider: rendered; right: baseline</figcaption></figure>\n"
       "<figure><img alt=\"FLIP\" src=\"{3}\"><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
-      c.width, data_of(pair.reference, beside), data_of(pair.image, beside), data_of(flip, beside));
+      c.width, data_of(pair.reference), data_of(pair.image), data_of(flip));
 }
 
-std::string section(const CheckedPicture& picture, const fs::path& beside, PpmCurve ppm) {
+std::string section(const CheckedPicture& picture, PpmCurve ppm) {
   const bool good = picture.failures.empty();
   std::string text = fmt::format("<section class=\"{}\"><h2>{} <em>{}</em></h2>\n", good ? "good" : "failed",
-                                 escaped(picture.name), good ? "passed" : "failed");
-  for (const std::string& failure : picture.failures) text += "<p class=\"bad\">" + escaped(failure) + "</p>\n";
+                                 in_html(picture.name), good ? "passed" : "failed");
+  for (const std::string& failure : picture.failures) text += "<p class=\"bad\">" + in_html(failure) + "</p>\n";
   if (!picture.comparison) return text + "</section>\n";
   const Comparison& c = *picture.comparison;
   text += "<table><tr><th></th><th>measured</th><th>at most</th></tr>\n" + row("FLIP", c.flip, picture.limits.flip) +
           row("relMSE", c.error.rel_mse, picture.limits.rel_mse) + row("RMSE", c.error.rmse, picture.limits.rmse) +
-          row("PSNR (dB)", c.error.psnr, {}) + "</table>\n";
+          row("PSNR (dB)", c.error.psnr, {});
+  if (c.outside.values > 0) {
+    const bool looked_at = picture.limits == usual_tolerance;
+    text += row("relMSE outside [0, 1]", c.outside.rel_mse, looked_at ? std::optional(usual_outside) : std::nullopt);
+  }
+  text += "</table>\n";
   const std::string overlap = overlap_text(c);
   if (!overlap.empty()) text += "<p>Pixels: " + overlap + ".</p>\n";
-  return text + pictures_of(picture, beside, ppm) + "</section>\n";
+  return text + pictures_of(picture, ppm) + "</section>\n";
 }
 
 constexpr char page_start[] = R"(<!doctype html>
@@ -131,14 +110,14 @@ document.querySelectorAll('input[type=range]').forEach(function (input) {
 
 }  // namespace
 
-void write_html_report(const fs::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
+void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
   std::size_t failed = 0;
   for (const CheckedPicture& picture : pictures) failed += !picture.failures.empty();
   std::string text = page_start + fmt::format("<h1>{} of {} pictures look like their baseline</h1>\n",
                                               pictures.size() - failed, pictures.size());
   for (const bool good : {false, true})  // failures first
     for (const CheckedPicture& picture : pictures)
-      if (picture.failures.empty() == good) text += section(picture, file, ppm);
+      if (picture.failures.empty() == good) text += section(picture, ppm);
   write_text_or_rescue(file, text + page_end);
 }
 
@@ -148,7 +127,7 @@ std::string junit_report(const std::vector<CheckedPicture>& pictures) {
   std::string cases;
   for (const CheckedPicture& picture : pictures) {
     seconds += picture.seconds;
-    cases += fmt::format("  <testcase classname=\"pictures\" name=\"{}\" time=\"{:.3f}\"", escaped(picture.name),
+    cases += fmt::format("  <testcase classname=\"pictures\" name=\"{}\" time=\"{:.3f}\"", in_xml(picture.name),
                          picture.seconds);
     if (picture.failures.empty()) {
       cases += "/>\n";
@@ -157,7 +136,7 @@ std::string junit_report(const std::vector<CheckedPicture>& pictures) {
     ++failed;
     std::string message;
     for (const std::string& failure : picture.failures) message += (message.empty() ? "" : "; ") + failure;
-    cases += ">\n    <failure message=\"" + escaped(message) + "\"/>\n  </testcase>\n";
+    cases += ">\n    <failure message=\"" + in_xml(message) + "\"/>\n  </testcase>\n";
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"tyndall compare\" tests=\"{}\" failures=\"{}\" "

@@ -1,5 +1,7 @@
 #include "app/curves/chart.h"
 
+#include "core/base/text.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace {
 
 /// A name as one field of CSV.
 std::string csv_field(const std::string& name) {
-  if (name.find_first_of(",\"\n") == std::string::npos) return name;
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';
@@ -34,7 +36,7 @@ std::string chart_table(const Chart& chart) {
     return seconds ? fmt::format("{:.3g} s", *seconds) : std::string("-");
   };
   std::size_t longest = 6;
-  for (const ErrorCurve& curve : chart.curves) longest = std::max(longest, curve.method.size());
+  for (const ErrorCurve& curve : chart.curves) longest = std::max(longest, printable(curve.method).size());
   const auto padded = [](std::string text, std::size_t to) {
     return text += std::string(to - std::min(to, text.size()), ' ');
   };
@@ -43,8 +45,8 @@ std::string chart_table(const Chart& chart) {
   for (const ErrorCurve& curve : chart.curves) {
     const auto bias = bias_of(curve, chart.reference_noise);
     const auto speed = bias ? std::nullopt : speed_against(*first, curve);
-    out += padded(curve.method, longest + 2) + padded(time(curve, 0.01), 11) + padded(time(curve, 0.001), 11) +
-           padded(speed ? fmt::format("{:.3g}x", *speed) : "-", 10) +
+    out += padded(printable(curve.method), longest + 2) + padded(time(curve, 0.01), 11) +
+           padded(time(curve, 0.001), 11) + padded(speed ? fmt::format("{:.3g}x", *speed) : "-", 10) +
            (bias ? fmt::format("{:.2g}", *bias) : std::string("none seen")) + "\n";
   }
   return out;

@@ -1,6 +1,7 @@
 #include "app/curves/svg.h"
 
 #include "app/curves/decades.h"
+#include "app/text/markup.h"
 
 #include <fmt/core.h>
 
@@ -35,15 +36,8 @@ constexpr const char* style =
     ".f5{fill:#4aa3e0}.f6{fill:#ff8a4c}.f7{fill:#c9a566}}"
     "</style>";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
-}
-
 std::string text_at(double x, double y, const std::string& attributes, const std::string& words) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" ", x, y) + attributes + ">" + escaped(words) + "</text>\n";
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" ", x, y) + attributes + ">" + in_xml(words) + "</text>\n";
 }
 std::string line(double x0, double y0, double x1, double y1, const std::string& kind) {
   return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x0, y0, x1, y1,
@@ -165,7 +159,7 @@ std::string chart_svg(const Chart& chart) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" width=\"{:g}\" height=\"{:g}\" "
       "role=\"img\">\n",
       width, height, width, height);
-  out += std::string("<title>") + escaped(chart.title) + "</title>\n" + style + "\n";
+  out += std::string("<title>") + in_xml(chart.title) + "</title>\n" + style + "\n";
   out += fmt::format("<rect class=\"paper\" width=\"{:g}\" height=\"{:g}\"/>\n", width, height);
   out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
   out += grid(plot) + slope_guide(plot, chart.curves);

@@ -1,5 +1,8 @@
 #include "app/text/progress.h"
 
+#include "app/text/standard_streams.h"
+#include "core/base/text.h"
+
 #include <fmt/core.h>
 
 #include <sys/ioctl.h>
@@ -82,7 +85,7 @@ void ProgressReport::show(double seconds, double part, const std::string& text) 
     draw_bar(part, text);
     next_ = seconds + 0.1;
   } else {
-    std::fprintf(stderr, "tyndall: %s\n", text.c_str());
+    complain(text);
     next_ = seconds + std::clamp(0.25 * seconds, 2.0, 60.0);
   }
   said_ = true;
@@ -98,7 +101,8 @@ void ProgressReport::draw_bar(double part, const std::string& text) {
     bar = "[" + std::string(colour_ ? "\x1b[36m" : "") + std::string(full, '#') + (colour_ ? "\x1b[0m" : "") +
           std::string(static_cast<std::size_t>(cells) - full, '.') + "] ";
   }
-  std::fprintf(stderr, "\r\x1b[2K%s%s", bar.c_str(), text.substr(0, static_cast<std::size_t>(columns)).c_str());
+  std::fprintf(stderr, "\r\x1b[2K%s%s", bar.c_str(),
+               printable(text).substr(0, static_cast<std::size_t>(columns)).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -112,12 +116,12 @@ void ProgressReport::clear_bar() {
 
 void ProgressReport::say(const std::string& text) {
   clear_bar();
-  std::fprintf(stderr, "tyndall: %s\n", text.c_str());
+  complain(text);
 }
 
 void ProgressReport::finish(const std::string& summary) {
   clear_bar();
-  if (said_) std::fprintf(stderr, "tyndall: %s\n", summary.c_str());
+  if (said_) complain(summary);
 }
 
 }  // namespace tyndall

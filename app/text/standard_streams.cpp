@@ -1,15 +1,22 @@
 #include "app/text/standard_streams.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <new>
 #include <system_error>
 
 namespace tyndall {
+namespace {
+
+constexpr std::size_t longest_message = 10000;  // bytes: two of the longest names of files, and what is said of them
+
+}  // namespace
 
 void keep_standard_streams() {
   for (;;) {
@@ -27,6 +34,12 @@ void write_standard_output(const std::string& text) {
     throw IoError("standard output: cannot write: " + std::generic_category().message(errno));
 }
 
-void complain(const std::string& text) { std::fprintf(stderr, "tyndall: %s\n", text.c_str()); }
+void complain(std::string_view text) {
+  try {
+    std::fprintf(stderr, "tyndall: %s\n", printable(text, longest_message).c_str());
+  } catch (const std::bad_alloc&) {
+    std::fputs("tyndall: not enough memory for a longer message\n", stderr);
+  }
+}
 
 }  // namespace tyndall

@@ -106,6 +106,20 @@ double relative_mse(const std::vector<float>& image, const std::vector<float>& r
   return sum / static_cast<double>(image.size());
 }
 
+OutsideError outside_error(const std::vector<float>& image, const std::vector<float>& reference) {
+  assert(image.size() == reference.size());
+  const auto outside = [](float v) { return v < 0 || v > 1; };
+  OutsideError error;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const bool finite = std::isfinite(image[i]) && std::isfinite(reference[i]);
+    if (!finite || (!outside(image[i]) && !outside(reference[i]))) continue;
+    error.rel_mse += squared_error(image[i], reference[i]);
+    ++error.values;
+  }
+  if (error.values > 0) error.rel_mse /= static_cast<double>(error.values);
+  return error;
+}
+
 namespace {
 
 /// sRGB of a value clipped to [0, 1]; what is not a number stays so.

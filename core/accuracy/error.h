@@ -31,4 +31,13 @@ ImageError image_error(const std::vector<float>& image, const std::vector<float>
 /// relMSE alone, which is quicker.
 double relative_mse(const std::vector<float>& image, const std::vector<float>& reference);
 
+/// relMSE of the values that are outside [0, 1] in the image or in the reference. There FLIP and PSNR, which clip, see
+/// no difference.
+struct OutsideError {
+  double rel_mse = 0;      ///< 0 if there are no such values
+  std::size_t values = 0;  ///< how many there are; three a pixel at most
+};
+/// Values that are not finite are left out.
+OutsideError outside_error(const std::vector<float>& image, const std::vector<float>& reference);
+
 }  // namespace tyndall

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 
 namespace tyndall {
@@ -12,22 +13,37 @@ namespace {
 
 constexpr bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
 
-void append_hex(std::string& out, unsigned char c) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  out += digits[c >> 4];
-  out += digits[c & 15];
+void append_hex(std::string& out, std::uint32_t number, int digits) {
+  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) out += "0123456789abcdef"[number >> shift & 15];
 }
 
-void append_escaped(std::string& out, unsigned char c) {
-  if (c == '\n') {
+/// \n, \t, \r, else like \u001b. letter: below 0x10000.
+void append_escaped(std::string& out, std::uint32_t letter) {
+  if (letter == '\n') {
     out += "\\n";
-  } else if (c == '\t') {
+  } else if (letter == '\t') {
     out += "\\t";
-  } else if (c == '\r') {
+  } else if (letter == '\r') {
     out += "\\r";
   } else {
-    append_hex(out += "\\u00", c);
+    append_hex(out += "\\u", letter, 4);
   }
+}
+
+/// The number of the letter, whose UTF-8 is the whole text.
+std::uint32_t letter_of(std::string_view utf8) {
+  std::uint32_t letter = static_cast<unsigned char>(utf8[0]);
+  if (utf8.size() > 1) letter &= 0x7fu >> utf8.size();
+  for (const char c : utf8.substr(1)) letter = letter << 6 | (static_cast<unsigned char>(c) & 0x3fu);
+  return letter;
+}
+
+/// Controls (some terminals obey U+0080 … U+009F), what ends a line or turns its direction, and the two that XML
+/// refuses besides (Extensible Markup Language 1.0, section 2.2).
+bool is_unprintable(std::uint32_t letter) {
+  const auto within = [letter](std::uint32_t first, std::uint32_t last) { return letter >= first && letter <= last; };
+  return letter < 0x20 || within(0x7f, 0x9f) || within(0x2028, 0x202e) || within(0x2066, 0x2069) ||
+         within(0xfffe, 0xffff);
 }
 
 /// How many bytes the UTF-8 letter at the beginning of a text has, 1 to 4; 0 if it is not UTF-8. (Unicode, table 3-7.)
@@ -64,31 +80,42 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t size = letter_size(text);
+    if (size == 0) return false;
+    text.remove_prefix(size);
+  }
+  return true;
+}
+
 std::string printable(std::string_view text, std::size_t limit) {
   std::string out;
-  for (std::size_t i = 0; i < text.size();) {
+  while (!text.empty()) {
     if (out.size() >= limit) return out + "…";
-    const std::string_view rest = text.substr(i);
-    const std::size_t size = letter_size(rest);
-    const auto first = static_cast<unsigned char>(rest[0]);
+    const std::size_t size = letter_size(text);
+    const std::string_view letter = text.substr(0, std::max<std::size_t>(size, 1));
     if (size == 0) {
-      append_hex(out += "\\x", first);
-    } else if (is_control(first)) {
-      append_escaped(out, first);
-    } else if (size == 2 && first == 0xc2 && static_cast<unsigned char>(rest[1]) < 0xa0) {
-      append_escaped(out, static_cast<unsigned char>(rest[1]));  // U+0080 … U+009F, which some terminals obey
+      append_hex(out += "\\x", static_cast<unsigned char>(letter[0]), 2);
+    } else if (is_unprintable(letter_of(letter))) {
+      append_escaped(out, letter_of(letter));
     } else {
-      out += rest.substr(0, size);
+      out += letter;
     }
-    i += std::max<std::size_t>(size, 1);
+    text.remove_prefix(letter.size());
   }
   return out;
 }
 
-std::string shortened(std::string_view text, std::size_t limit) {
-  if (text.size() <= limit) return std::string(text);
+std::size_t size_of_letters(std::string_view text, std::size_t limit) {
+  if (text.size() <= limit) return text.size();
   while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0) == 0x80) --limit;
-  return std::string(text.substr(0, limit)) + "…";
+  return limit;
+}
+
+std::string shortened(std::string_view text, std::size_t limit) {
+  const std::size_t size = size_of_letters(text, limit);
+  return std::string(text.substr(0, size)) + (size < text.size() ? "…" : "");
 }
 
 std::string in_quotes(std::string_view text) {

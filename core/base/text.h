@@ -7,9 +7,18 @@
 /// Text for messages and files: what is printed safely, quoted, shortened, or suggested for a misspelt name.
 namespace tyndall {
 
-/// The text as it can be printed in one line: control characters as \n or \u001b, bytes that are not UTF-8 as \xff.
+/// The text as it can be printed in one line, also in XML and HTML: control characters, what ends a line or turns its
+/// direction, U+FFFE and U+FFFF as \n, \u001b or \u2028; bytes that are not UTF-8 as \xff.
 /// What exceeds `limit` bytes is replaced by "…".
 std::string printable(std::string_view text, std::size_t limit = 300);
+/// The same of any length.
+inline std::string all_printable(std::string_view text) { return printable(text, std::string_view::npos); }
+
+/// Whether the text is UTF-8 without surrogates (Unicode, table 3-7), so that JSON can hold it as it is.
+bool is_utf8(std::string_view text);
+
+/// How many of the text's first `limit` bytes are whole letters of UTF-8.
+std::size_t size_of_letters(std::string_view text, std::size_t limit);
 
 /// The text, or its first `limit` bytes (whole letters) and "…".
 std::string shortened(std::string_view text, std::size_t limit);

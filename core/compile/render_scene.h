@@ -36,8 +36,8 @@ constexpr bool has_material(const Needs& needs) {
 /// Names of the needs that are set, in the order above.
 std::vector<std::string> names_of(const Needs& needs);
 
-/// The surface on which the camera stands (camera_surface.h). Camera rays that start within rounding of it leave it like
-/// all other rays that leave a surface, so that they cannot meet the place where they start.
+/// The surface on which the camera stands (camera_surface.h). Camera rays that start within rounding of it leave it
+/// like all other rays that leave a surface, so that they cannot meet the place where they start.
 struct CameraSurface {
   std::int32_t element = -1;  ///< -1: the camera stands on none
   Vec3f normal;               ///< unit, outward, where the centre of the lens is

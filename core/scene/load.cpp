@@ -209,7 +209,8 @@ Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
     if (!image || fs::path(image->file).is_absolute()) continue;
     const fs::path file = fs::weakly_canonical(fs::absolute(from / image->file, error), error);
     const fs::path relative = file.lexically_relative(target);
-    image->file = (relative.empty() ? file : relative).generic_string();
+    const std::string text = (relative.empty() ? file : relative).generic_string();
+    image->file = is_utf8(text) ? text : all_printable(text);
   }
   return scene;
 }

@@ -44,7 +44,8 @@ std::vector<BuiltIn> built_in_scenes();
 std::filesystem::path assets_folder();
 
 /// The scene with its relative texture files respelt so that a scene file in folder `to` finds what one in folder
-/// `from` found.
+/// `from` found. Names of folders between the two that are not UTF-8, which JSON cannot hold, are written printably:
+/// there it will be told that the texture is missing.
 Scene move_textures(Scene scene, const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace tyndall

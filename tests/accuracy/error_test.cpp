@@ -75,3 +75,13 @@ TEST_CASE("the error of each pixel against a reference: by the reference's size,
       CHECK(errors[at(x, y) / 3] == doctest::Approx(near ? peak : 0.0));
     }
 }
+
+TEST_CASE("error outside [0, 1]: only of values that one of both has there, in both directions") {
+  const OutsideError error = outside_error({0.2f, 3.0f, 1.0f, -0.5f, 0.0f, 1.0f}, {0.9f, 2.0f, 1.5f, 0.0f, 1.0f, 1.0f});
+  CHECK(error.values == 3);
+  CHECK(error.rel_mse == doctest::Approx((1 / 4.01 + 0.25 / 2.26 + 0.25 / 0.01) / 3).epsilon(1e-6).scale(0));
+  CHECK(outside_error({0, 0.5f, 1}, {1, 0, 0}).values == 0);
+  CHECK(outside_error({0, 0.5f, 1}, {1, 0, 0}).rel_mse == 0);
+  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  CHECK(outside_error({nan, infinity, 2}, {3, infinity, 2}).values == 1);
+}

@@ -21,6 +21,14 @@ ln -s "$tyndall" bin/tyndall
 command=$(sed "s/.*: tyndall render/tyndall render/" err)
 (PATH=$PWD/bin:$PATH && eval "$command --size 8x8 --spp 1 -q") || fail "does not work: $command"
 [ -s 'my quads.png' ] || fail 'no image'
+for name in "it's" $'line\nfeed\x1b' $'bytes\xff' 'back\slash $HOME' $'\xe2\x80\xa8' -dash; do
+  cp 'my quads.json' "./$name.json"
+  expect 3 "$tyndall" "./$name.json"
+  complains 'tyndall render'
+  command=$(sed "s/.*: tyndall render/tyndall render/" err)
+  (PATH=$PWD/bin:$PATH && eval "$command --size 8x8 --spp 1 -q") || fail "does not work: $command"
+  [ -s "./$name.png" ] || fail "no image: $command"
+done
 
 # If the scene cannot be read either, that is what is reported.
 expect 2 "$tyndall" missing.json

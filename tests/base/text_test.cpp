@@ -22,11 +22,27 @@ TEST_CASE("printable: one line of UTF-8, whatever comes in") {
   CHECK(printable("ab", 2) == "ab");
 }
 
+TEST_CASE("printable: what ends or turns a line, and what XML refuses") {
+  CHECK(printable("a\u2028b\u2029c\u202ed\u2066e") == "a\\u2028b\\u2029c\\u202ed\\u2066e");
+  CHECK(printable("\xef\xbf\xbe\xef\xbf\xbf") == "\\ufffe\\uffff");
+  CHECK(printable("\u2027\u202f\ufffd\U0001f642") == "\u2027\u202f\ufffd\U0001f642");
+  CHECK(all_printable(std::string(1000, '\n')).size() == 2000);
+}
+
+TEST_CASE("UTF-8: surrogates, long forms and cut letters are none") {
+  CHECK(is_utf8(""));
+  CHECK(is_utf8("a\n\x01 Grüße, 世界 🙂 \xef\xbf\xbe"));
+  for (const char* bytes : {"\xff", "a\xed\xa0\x80", "\xc0\xaf", "\xe2\x82", "\xf5\x80\x80\x80"})
+    CHECK_FALSE(is_utf8(bytes));
+}
+
 TEST_CASE("shortened: whole letters") {
   CHECK(shortened("abc", 3) == "abc");
   CHECK(shortened("abcd", 3) == "abc…");
   CHECK(shortened("aäb", 2) == "a…");
   CHECK(shortened("aäb", 3) == "aä…");
+  CHECK(size_of_letters("aäb", 2) == 1);
+  CHECK(size_of_letters("aäb", 9) == 4);
 }
 
 TEST_CASE("in_quotes: JSON's escapes") { CHECK(in_quotes("a\"b\\c/\n\x01ä") == "\"a\\\"b\\\\c/\\n\\u0001ä\""); }

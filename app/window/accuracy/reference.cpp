@@ -1,5 +1,6 @@
 #include "app/window/accuracy/reference.h"
 
+#include "app/comparison/comparison.h"
 #include "app/comparison/pair.h"
 #include "app/text/numbers.h"
 #include "app/text/values.h"
@@ -55,6 +56,7 @@ Reference read_reference(const fs::path& name, const Document& document) {
   Reference reference{std::move(picture.image), 0, name.filename().string(), document.scene};
   reference.remarks = std::move(picture.remarks);
   check_size(name.string(), reference.image, document.scene);
+  check_finite(name, reference.image);
   if (picture.bits < 32) reference.about += " (" + std::to_string(picture.bits) + " bit)";
   const auto [file, layer] = picture_name(name);
   if (const auto scene = scene_in(file, document)) reference.scene = *scene, reference.known_method = true;

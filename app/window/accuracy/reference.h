@@ -25,7 +25,7 @@ struct Reference {
 
 /// Reads a picture, and the scene and film that its file may hold. name: see PictureName; the film is not that of a
 /// layer. document: what it is for. Throws as read_whole_picture() does, and UsageError for another size than the
-/// document's picture has.
+/// document's picture has and for values that are not finite.
 Reference read_reference(const std::filesystem::path& name, const Document& document);
 
 /// Whether this is an image that holds no scene, or a layer of one.

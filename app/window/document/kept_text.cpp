@@ -60,7 +60,7 @@ Document unedited(const std::string& what) {
     auto origin = std::make_shared<Origin>();
     origin->what = what;
     const fs::path file(what);
-    origin->title = what.empty() ? "scene" : file.filename().string();
+    origin->title = what.empty() ? "scene" : title_of(file);
     if (file.extension() == ".json") origin->file = file;
     origin->folder = file.parent_path();
     return {{}, std::move(origin)};

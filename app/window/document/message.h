@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/system/clock.h"
 #include "app/window/system/ui_log.h"
+#include "core/base/text.h"
 
 #include <limits>
 #include <string>
@@ -36,9 +37,12 @@ class MessageLine {
  private:
   void show(Message message) {
     current_ = std::move(message);
+    current_.text = printable(current_.text, longest);
     errors_ += current_.error;
     if (log_) log_->line("message " + current_.text);
   }
+
+  static constexpr std::size_t longest = 2000;  // bytes
 
   UiLog* log_;
   Message current_;

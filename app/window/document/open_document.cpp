@@ -2,6 +2,7 @@
 
 #include "app/files/outputs.h"
 #include "core/base/fnv1a.h"
+#include "core/base/text.h"
 
 #include <fstream>
 #include <iterator>
@@ -35,9 +36,11 @@ std::string what_opens(const LoadedScene& loaded) {
 
 }  // namespace
 
+std::string title_of(const fs::path& file) { return all_printable(file.filename().string()); }
+
 Document document_of(const LoadedScene& loaded) {
   auto origin = std::make_shared<Origin>();
-  origin->title = fs::path(loaded.name).filename().string();
+  origin->title = title_of(loaded.name);
   origin->what = what_opens(loaded);
   origin->file = loaded.source;
   origin->folder = loaded.folder;
@@ -53,7 +56,7 @@ std::shared_ptr<const Origin> save_document(const Document& document, const fs::
   const std::string text = write_scene(scene);
   write_text_file(file, text);
   auto origin = std::make_shared<Origin>(*document.origin);
-  origin->title = file.filename().string();
+  origin->title = title_of(file);
   origin->what = fs::absolute(file).lexically_normal().string();
   origin->file = file;
   origin->folder = folder;
@@ -80,13 +83,15 @@ std::vector<fs::path> watched_files(const Document& document) {
   return files;
 }
 
+constexpr std::size_t longest_stem = 200;  // bytes of the 255 that most file systems have for a name
+
 std::string stem_of(const std::string& title) {
   std::string stem = fs::path(title).stem().string();
   const std::size_t dash = stem.rfind('-');
   const bool numbered = dash != std::string::npos && dash > 0 && stem.size() - dash >= 4 &&
                         stem.find_first_not_of("0123456789", dash + 1) == std::string::npos;
   if (numbered) stem.resize(dash);
-  return stem.empty() || stem == "-" ? "scene" : stem;
+  return stem.empty() || stem == "-" ? "scene" : shortened(stem, longest_stem);
 }
 
 }  // namespace tyndall

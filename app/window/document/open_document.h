@@ -30,4 +30,7 @@ std::vector<std::filesystem::path> watched_files(const Document& document);
 /// "showroom" of "showroom.json" or "showroom-003.png": what snapshots and copies are named after.
 std::string stem_of(const std::string& title);
 
+/// What the window calls a file: its name, as one line.
+std::string title_of(const std::filesystem::path& file);
+
 }  // namespace tyndall

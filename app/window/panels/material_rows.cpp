@@ -4,6 +4,7 @@
 #include "app/window/edit/material_edits.h"
 #include "app/window/panels/field_rows.h"
 #include "core/base/kinds.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 
@@ -101,7 +102,7 @@ void colour_rows(Ui& ui, PanelState& state, ColourOrTexture& colour, const Colou
   }
   int& index = std::get<TextureIndex>(colour).index;
   std::vector<std::string> names;
-  for (const Texture& texture : state.scene.textures) names.push_back(texture.name);
+  for (const Texture& texture : state.scene.textures) names.push_back(printable(texture.name));
   combo_row(ui, row, names, index);
   texture_rows(ui, state, state.scene.textures[static_cast<std::size_t>(index)]);
 }
@@ -125,7 +126,7 @@ void surface_rows(Ui& ui, PanelState& state, ObjectPath& path) {
   type_row(ui, state, path);
   Solid3d& solid = std::get<Solid3d>(find_object(state.scene, path)->kind);
   std::vector<std::string> names;
-  for (const Material& material : state.scene.materials) names.push_back(material.name);
+  for (const Material& material : state.scene.materials) names.push_back(printable(material.name));
   const int users = users_of(state.scene, solid.material);
   Row row{"material", "Material", {}, {}, "", "which of the scene's materials it has", ""};
   if (users > 1) row.meaning = "shared by " + std::to_string(users) + " objects: all of them change";

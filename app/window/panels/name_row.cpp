@@ -1,5 +1,7 @@
 #include "app/window/panels/widgets.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -40,7 +42,7 @@ bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::
       if (begin) ImGui::SetScrollHereY();
       ui.edit = {};
       ui.edit.id = id;
-      ui.edit.start = value.substr(0, sizeof ui.edit.text - 1);
+      ui.edit.start = value.substr(0, size_of_letters(value, sizeof ui.edit.text - 1));
       std::strncpy(ui.edit.text, ui.edit.start.c_str(), sizeof ui.edit.text - 1);
       ui.wake_in = 0;
     }
@@ -49,7 +51,7 @@ bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::
     draw->AddRectFilled(a, b, shade(ImGui::IsItemHovered() ? palette::field_hovered : palette::field), 4 * ui.scale);
     draw->PushClipRect(a, b, true);
     draw->AddText({a.x + 8 * ui.scale, a.y + 4 * ui.scale}, shade(value.empty() ? palette::dim : palette::text),
-                  value.empty() ? hint.c_str() : value.c_str());
+                  printable(value.empty() ? hint : value).c_str());
     draw->PopClipRect();
     log_item(ui, row.name, value);
   }

@@ -1,6 +1,7 @@
 #include "app/window/panels/widgets.h"
 
 #include "app/window/system/imgui_compat.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +56,9 @@ bool is_sought(const Ui& ui, const std::string& label) {
   return !place.part.empty() && place.part == ui.drawn.part && place.label == label;
 }
 
-/// The text, cut and with ".." at its end where it does not fit.
-std::string clipped(const std::string& text, float width) {
+/// The text as one line, cut and with ".." at its end where it does not fit.
+std::string clipped(const std::string& whole, float width) {
+  const std::string text = printable(whole);
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   const char *begin = text.c_str(), *rest = begin;
   const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);

@@ -1,6 +1,7 @@
 #include "app/window/system/ui_log.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 
@@ -36,7 +37,7 @@ UiLog::~UiLog() {
 
 void UiLog::line(const std::string& text) {
   resting_ = false;
-  std::fprintf(stream_, "%s\n", text.c_str());
+  std::fprintf(stream_, "%s\n", all_printable(text).c_str());
   std::fflush(stream_);
 }
 

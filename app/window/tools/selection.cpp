@@ -1,5 +1,7 @@
 #include "app/window/tools/selection.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -64,7 +66,7 @@ const char* material_name(const Material& material) {
 std::string title_of(const Scene& scene, const ObjectPath& path) {
   const Object* object = find_object(scene, path);
   if (!object) return "";
-  std::string title = object->name;
+  std::string title = printable(object->name);
   if (title.empty()) title = std::string(kind_name(*object)) + " " + std::to_string(path.back() + 1);
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   return title;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -57,6 +58,21 @@ TEST_CASE("a reference of another size is refused, with both sizes") {
     CHECK(error.what() == file.string() + ": found 9x6 pixels, expected 8x6 as the picture has");
   }
   CHECK_THROWS_AS(read_reference(file.string() + "no", small_document("cover")), ImageFileError);
+}
+
+TEST_CASE("a reference with a value that is not finite is refused, with its place") {
+  const fs::path file = scratch("not_finite") / "inf.pfm";
+  LinearImage image = grey_image(8, 6);
+  image.rgb[3 * (2 * 8 + 5) + 1] = std::numeric_limits<float>::infinity();
+  write_pfm(file, image);
+  try {
+    read_reference(file, small_document("cover"));
+    FAIL("it was taken");
+  } catch (const UsageError& error) {
+    CHECK(error.what() ==
+          file.string() +
+              ": found that 1 of 48 pixels is not finite, the first at 5,2 (green is inf), expected finite values");
+  }
 }
 
 TEST_CASE("a plain image belongs to the scene that it was loaded for, whatever the method") {

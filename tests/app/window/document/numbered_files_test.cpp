@@ -57,6 +57,12 @@ TEST_CASE("no number is given twice, and what was written, or why not, is told")
   fs::current_path(before);
 }
 
+TEST_CASE("messages are one line") {
+  MessageLine messages(nullptr);
+  messages.say("opened a\nb\xff.json");
+  CHECK(messages.current().text == "opened a\\nb\\xff.json");
+}
+
 TEST_CASE("no file is overwritten that another window or program has written since the number was given") {
   const fs::path before = fs::current_path();
   fs::current_path(scratch("raced"));

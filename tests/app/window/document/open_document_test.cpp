@@ -35,3 +35,16 @@ TEST_CASE("names for snapshots: that of the scene, without its number") {
   CHECK(stem_of("my-scene.json") == "my-scene");
   CHECK(stem_of("-") == "scene");
 }
+
+TEST_CASE("titles are one line, and names for snapshots leave room for numbers and endings") {
+  CHECK(title_of("folder/cornell.json") == "cornell.json");
+  CHECK(title_of("a\nb\x1b\xff.json") == "a\\nb\\u001b\\xff.json");
+  const fs::path file = scratch_folder("odd_titles") / "line\nfeed.json";
+  const auto origin = save_document(document_of(load_scene("cornell-box")), file);
+  CHECK(origin->title == "line\\nfeed.json");
+  CHECK(origin->file == file);
+  CHECK(document_of(load_scene(file.string())).origin->title == "line\\nfeed.json");
+  std::string long_title, long_stem;
+  for (int k = 0; k < 125; ++k) long_title += "ä", long_stem += k < 100 ? "ä" : "";
+  CHECK(stem_of(long_title) == long_stem + "…");
+}

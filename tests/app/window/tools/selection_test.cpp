@@ -60,6 +60,9 @@ TEST_CASE("objects by path: through groups, and nothing where there is nothing")
   CHECK(title_of(scene, {0}) == "Matt");
   CHECK(title_of(scene, {1, 0}) == "Sphere 1");
   CHECK(title_of(scene, {7}).empty());
+  Scene odd = scene;
+  odd.objects[0].name = "two\nlines\x1b";
+  CHECK(title_of(odd, {0}) == "Two\\nlines\\u001b");
   CHECK(users_of(scene, 1) == 1);
 }
 

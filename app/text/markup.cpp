@@ -1,0 +1,29 @@
+#include "app/text/markup.h"
+
+#include "core/base/text.h"
+
+namespace tyndall {
+namespace {
+
+/// The printable text with references in place of the letters that are among `special`.
+std::string with_references(std::string_view text, std::string_view special) {
+  const auto reference_of = [](char c) -> std::string_view {
+    return c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : "&#39;";
+  };
+  std::string out;
+  for (const char c : all_printable(text)) {
+    if (special.find(c) == special.npos)
+      out += c;
+    else
+      out += reference_of(c);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string in_xml(std::string_view text) { return with_references(text, "<>&\"'"); }
+
+std::string in_html(std::string_view text) { return with_references(text, "<&\"'"); }
+
+}  // namespace tyndall
