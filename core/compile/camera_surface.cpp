@@ -9,7 +9,9 @@
 namespace tyndall {
 namespace {
 
-constexpr double rounding_share = 0x1p-21;  // single precision rounds to 2^-24; tests of spheres square and subtract
+// Of the largest number in play. Single precision rounds to 2^-24, and tests of spheres square and subtract.
+constexpr double rounding_share = 0x1p-21, touching_sphere = 0x1p-24, touching_flat = 0x1p-40;
+constexpr double lens_rounding = 0x1p-22;  // of heights of points of the lens, over its radius
 
 double largest_component(Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -59,13 +61,18 @@ class NearestSurface {
     keep(normal, dot(normal, arm), 0, size, element);
   }
 
-  /// size: of the largest number that is rounded where rays are tested against the surface.
+  /// size: of the largest number that is rounded where rays are tested against the surface. curvature: 0 for flats.
   void keep(Vec3d normal, double height, double curvature, double size, std::int32_t element) {
-    const double rounding = rounding_share * std::max(size, largest_component(eye_ - origin_));
+    const double largest = std::max(size, largest_component(eye_ - origin_)), rounding = rounding_share * largest;
+    const double touching = (curvature == 0 ? touching_flat : touching_sphere) * largest + lens_rounding * lens_;
     if (std::abs(height) > rounding) return;
     if (found.element >= 0 && std::abs(static_cast<double>(found.height)) <= std::abs(height)) return;
-    found = {element, to_float(normal), static_cast<float>(height), static_cast<float>(curvature),
-             static_cast<float>(rounding)};
+    found = {element,
+             to_float(normal),
+             static_cast<float>(height),
+             static_cast<float>(curvature),
+             static_cast<float>(rounding),
+             static_cast<float>(touching)};
   }
 };
 

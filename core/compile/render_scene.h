@@ -43,7 +43,9 @@ struct CameraSurface {
   Vec3f normal;               ///< unit, outward, where the centre of the lens is
   float height = 0;           ///< of the centre of the lens above the surface, scene units; negative: below it
   float curvature = 0;        ///< 1 / radius of a sphere; 0: flat
-  float rounding = 0;         ///< rays that start at most so far above or below the surface start on it, scene units
+  /// Scene units. A start at most `rounding` from the surface counts as on it for rays that go on away from it on the
+  /// side where the start is; one at most `touching` from it for all rays.
+  float rounding = 0, touching = 0;
 };
 
 /// Camera in the form of Ray Tracing in One Weekend, section 13.2: rays start in the lens and pass the plane in focus.

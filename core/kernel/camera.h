@@ -8,8 +8,8 @@
 namespace tyndall {
 
 /// Ray::from of rays that leave the lens at `offset` from its centre, for a camera that stands on a surface: they go
-/// out of the surface or into it where they start within rounding of it, and start nowhere elsewhere. Over a sphere a
-/// point of the lens is higher by the square of its distance from the normal over the sphere's diameter, up to third
+/// out of the surface or into it where they start on it (see CameraSurface), and start nowhere elsewhere. Over a sphere
+/// a point of the lens is higher by the square of its distance from the normal over the sphere's diameter, up to third
 /// order.
 template <class F>
 TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> offset, Vec3<F> direction) {
@@ -19,7 +19,8 @@ TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> off
   const F curvature = splat<F>(c.curvature);
   const F height = splat<F>(c.height) + mul_add(F(0.5f) * curvature, across2, rise);
   const auto outward = less_equal(F(0.0f), dot(direction, along(normal, curvature, offset)));
-  const auto on = less_equal(abs(height), splat<F>(c.rounding));
+  const F ahead = select(outward, height, -height);  // how far the start is on the side to which the ray goes
+  const auto on = mask_and(less_equal(abs(height), splat<F>(c.rounding)), less_equal(splat<F>(-c.touching), ahead));
   const std::int32_t first = 4 * c.element;
   return select(on,
                 select(outward, I(first + static_cast<std::int32_t>(Side::outward)),

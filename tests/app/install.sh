@@ -28,7 +28,7 @@ share=moved/share
 gzip -dc $share/man/man1/tyndall.1.gz >tyndall.1
 for command in $("$moved" --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
   [ "$command" = help ] && continue
-  for option in $("$moved" "$command" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE '\-\-[a-z-]+'); do
+  for option in $("$moved" "$command" --help | grep -oE '^  (-[a-z],)?--[a-z0-9-]+' | grep -oE '\-\-[a-z0-9-]+'); do
     grep -qF -- "\\fB${option//-/\\-}" tyndall.1 || fail "the manual lacks $option of $command"
     grep -qF -- " ${option#--} " $share/fish/vendor_completions.d/tyndall.fish ||
       grep -qE -- "-l ${option#--}( |$)" $share/fish/vendor_completions.d/tyndall.fish || fail "fish lacks $option"

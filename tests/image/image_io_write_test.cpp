@@ -135,7 +135,7 @@ TEST_CASE("writing: folders, pipes and links") {
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
   for (const auto& [name, write] : writers(4, 4)) {
     CHECK(error_of(write, folder / "dir.png") == ": cannot write: Is a directory");
-    CHECK(error_of(write, "/dev/null") == ": cannot write: not an ordinary file");
+    CHECK_NOTHROW(write("/dev/null"));
     write(folder / "link");
     const std::string whole = read_text(folder / "real" / "target");
     CHECK(from_pipe(folder / "pipe", write) == whole);

@@ -88,12 +88,24 @@ TEST_CASE("camera on a surface: whoever stands on a ball, quad or box and looks 
   for (const double scale : scales)
     for (int round = 0; round < 4; ++round) {
       CAPTURE(scale);
-      const double heights[] = {0, 1e-9 * scale, -5e-8 * scale, 1e-5};
+      const double heights[] = {0, 1e-9 * scale, 5e-8 * scale, 1e-5};
       const double height = heights[round] > 1e-2 * scale ? 1e-3 * scale : heights[round];
-      for (const Place& at :
-           {on_ball(engine, scale, 1), on_ball(engine, scale, -1), on_quad(engine, scale), on_box(engine, scale)})
+      for (const double sign : {1.0, -1.0}) {
+        const Place at = on_ball(engine, scale, sign);
+        CHECK(wrong_values(scene_at(at, height, scale * at.normal, black), 1) == 0);
+        CHECK(wrong_values(scene_at(at, -std::min(height, 5e-8 * scale), scale * at.normal, black), 1) == 0);
+      }
+      for (const Place& at : {on_quad(engine, scale), on_box(engine, scale)})
         CHECK(wrong_values(scene_at(at, height, scale * at.normal, black), 1) == 0);
     }
+}
+
+TEST_CASE("camera on a surface: closer to a wide lamp than single precision tells, it is seen from both sides") {
+  Scene scene = scene_at({{"", Solid3d{Quad<>{{-1e4, 0, -1e4}, {0, 0, 2e4}, {2e4, 0, 0}}, 0}, {}}, {}, {0, 1, 0}}, 2e-4,
+                         {0, -1, 0}, {"", Vec3d{3, 3, 3}, Light<>{}});
+  CHECK(wrong_values(scene, 3) == 0);
+  scene.camera.look_from.y = -2e-4, scene.camera.look_at.y = 1;
+  CHECK(wrong_values(scene, 3) == 0);
 }
 
 TEST_CASE("camera on a surface: with a lens, and far from the middle of the scene") {
