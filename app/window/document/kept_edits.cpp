@@ -10,6 +10,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace tyndall {
@@ -56,7 +57,9 @@ struct KeptEdits::State {
 void KeptEdits::State::write_at(const KeepingPlace& place, const Scene& edits, const Origin& of) {
   const std::string text = kept_text(edits, of, place.folder);
   if (slot.held() && slot.place() == place) return write_text_file(slot.file(), text);
-  if (!place.beside_the_scene) fs::create_directories(place.folder);
+  std::error_code error;
+  if (!place.beside_the_scene && !fs::create_directories(place.folder, error) && error)
+    throw IoError(place.folder.string() + ": cannot make the folder: " + error.message());
   KeptSlot fresh = free_slot(place);
   write_text_file(fresh.file(), text);
   std::error_code ignored;  // older edits that cannot be removed are older, which take_over() sees
