@@ -85,8 +85,9 @@ int compare_with_baseline(const CompareCommand& command) {
     write_standard_output(text);
     return 0;
   }
-  const auto [pictures, notes] = check_baseline(command.baseline);
-  for (const std::string& note : notes) complain(note);
+  const BaselineCheck checked = check_baseline(command.baseline);
+  const std::vector<CheckedPicture>& pictures = checked.pictures;
+  for (const std::string& note : checked.notes) complain(note);
   std::string text;
   bool good = true;
   for (const CheckedPicture& picture : pictures) {

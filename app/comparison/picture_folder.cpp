@@ -27,8 +27,7 @@ class Walk {
     std::error_code error;
     fs::directory_iterator entry(folder, error);
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-      const std::string file = entry->path().filename().string();
-      take(*entry, name.empty() ? file : name + "/" + file);
+      take(*entry, (fs::path(name) / entry->path().filename()).generic_string());
     }
     if (error) throw IoError(folder.string() + ": cannot read the folder: " + error.message());
     around_.pop_back();

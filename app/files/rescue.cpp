@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 fs::path free_name(const fs::path& file) {
   std::error_code error;
   for (int number = 1; number < 1000; ++number) {
-    const fs::path name = beside(file, number == 1 ? "new" : "new-" + std::to_string(number));
+    fs::path name = beside(file, number == 1 ? "new" : "new-" + std::to_string(number));
     if (fs::symlink_status(name, error).type() == fs::file_type::not_found) return name;
   }
   return {};

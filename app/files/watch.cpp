@@ -146,9 +146,10 @@ void FileWatch::State::listen() {
   }
 }
 
-FileWatch::FileWatch(std::vector<fs::path> files, std::function<void()> on_change) : state_(std::make_unique<State>()) {
+FileWatch::FileWatch(const std::vector<fs::path>& files, std::function<void()> on_change)
+    : state_(std::make_unique<State>()) {
   std::error_code error;
-  for (fs::path& file : files) state_->files.push_back(fs::absolute(file, error));
+  for (const fs::path& file : files) state_->files.push_back(fs::absolute(file, error));
   state_->on_change = std::move(on_change);
   state_->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
   state_->leave = eventfd(0, EFD_CLOEXEC);
@@ -174,7 +175,7 @@ FileWatch::~FileWatch() {
 #else
 
 struct FileWatch::State {};
-FileWatch::FileWatch(std::vector<fs::path>, std::function<void()>) : problem_("not on this system") {}
+FileWatch::FileWatch(const std::vector<fs::path>&, std::function<void()>) : problem_("not on this system") {}
 FileWatch::~FileWatch() = default;
 
 #endif

@@ -16,7 +16,7 @@ class FileWatch {
   /// files: need not exist. on_change: called from a thread of the watch; must be quick. A file that is gone is told of
   /// a tenth of a second later, as many programs remove a file and write it anew. What cannot be watched (see
   /// problem()) is not told of.
-  FileWatch(std::vector<std::filesystem::path> files, std::function<void()> on_change);
+  FileWatch(const std::vector<std::filesystem::path>& files, std::function<void()> on_change);
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;

@@ -37,7 +37,7 @@ effect_of() {
     actual_size) echo '^widget zoom ' ;;
     refine_a_rectangle_first) echo '^message drag over' ;;
     store_the_camera) echo '^widget camera.slot.1 .* on$' ;;
-    split_view) echo '^widget render.split.on .* on$' ;;
+    split_view) echo '^widget split.b ' ;;
     reference_picture) echo '^widget dialog.load ' ;;
     export_the_chart) echo '^message saved ' ;;
     dark_or_light_theme) echo '^widget window.theme.* on$' ;;
@@ -81,7 +81,11 @@ check() { # NAME WAY LINE
       key Escape
       key Escape
       ;;
-    split_view) click render.split.off ;;
+    split_view)
+      chord ctrl k
+      type_text 'split view'
+      key Return
+      ;;
     this_table | full_screen | pause_or_go_on | actual_size) sends 1 "^did ${1//_/ }\$" again "$1" ;;
   esac
   echo "$1 by $2"

@@ -201,7 +201,7 @@ void Editor::watch() {
   watched_ = files;
   unwatched_.clear();
   if (files.empty()) return;
-  watch_ = std::make_unique<FileWatch>(std::move(files), [this] { file_changed_ = true, events_.wake(); });
+  watch_ = std::make_unique<FileWatch>(files, [this] { file_changed_ = true, events_.wake(); });
   if (watch_->problem().empty()) return;
   unwatched_ = "changes of " + document().origin->title + " by other programs are not seen: " + watch_->problem();
   messages_.say_until_done(unwatched_);

@@ -58,7 +58,7 @@ bool is_sought(const Ui& ui, const std::string& label) {
 
 /// The text as one line, cut and with ".." at its end where it does not fit.
 std::string clipped(const std::string& whole, float width) {
-  const std::string text = printable(whole);
+  std::string text = printable(whole);
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   const char *begin = text.c_str(), *rest = begin;
   const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);
