@@ -10,6 +10,7 @@
 #include "app/files/stats.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
+#include "core/accuracy/rare.h"
 #include "core/base/limits.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"

@@ -1,5 +1,6 @@
 #include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/whole_file.h"
 
