@@ -156,7 +156,7 @@ std::string sharing_text(const Report& report) {
   if (!report.loaded.scene.render.sharing) return "off";
   if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
   if (compiled.needs.moving_spheres) return "none: spheres move";
-  const SharingGain& gain = report.prepared->sharing_gain();
+  const SharingGain& gain = report.prepared->reuse_gain();
   if (!gain.probed) return "none: too few paths scatter evenly at their first two vertices";
   const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
                                         gain.variance, gain.time);

@@ -37,7 +37,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
   if (!prepared->columns().chains.ball.empty())
     switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
-  if (prepared->shares()) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
+  if (prepared->reuses_paths()) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});

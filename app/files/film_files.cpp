@@ -49,7 +49,7 @@ bool could_have_chains(Scene scene) {
 
 bool could_share(Scene scene) {
   scene.render.sharing = true;
-  return prepare(scene)->shares();
+  return prepare(scene)->reuses_paths();
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ std::string stats_text(const RunFigures& run) {
   add_clean(json, run);
   json.add("seconds_denoise", run.result.seconds_clean);
   json.add("denoised_hash", clean_hash(run));
-  json.add("sharing", run.prepared.shares());  // whether it was done, not only allowed
+  json.add("sharing", run.prepared.reuses_paths());  // whether it was done, not only allowed
   json.add("threads_from", run.threads_from);
   add_choices(json, run.prepared.scene().render);
   return json.text();
@@ -114,7 +114,7 @@ std::string embedded_stats_text(const RunFigures& run) {
   add_losses(json, run, sum);
   add_clean(json, run);
   json.add("denoised_hash", clean_hash(run));
-  json.add("sharing", run.prepared.shares());  // whether it was done, not only allowed
+  json.add("sharing", run.prepared.reuses_paths());  // whether it was done, not only allowed
   add_choices(json, run.prepared.scene().render);
   return json.text();
 }

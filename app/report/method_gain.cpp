@@ -58,7 +58,7 @@ MethodGain measure_chain_gain(Scene scene, const std::string& isa) {
 MethodGain measure_sharing_gain(Scene scene, const std::string& isa) {
   make_small(scene);
   const auto with = prepare(scene);
-  if (!with->shares()) return {};
+  if (!with->reuses_paths()) return {};
   scene.render.sharing = false;
   return measure(*with, *prepare(scene), isa);
 }

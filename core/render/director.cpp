@@ -27,7 +27,7 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step, cons
 
 void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
   if (picture.taken() < least_rare_spp || !picture.estimate_is_new()) return;
-  found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), shown.prepared->chance_of_caustics());
+  found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), shown.prepared->caustic_chance());
 }
 
 Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
@@ -213,7 +213,7 @@ void Director::publish() {
   frame->mrays_per_s = tally.last_mrays_per_s;
   frame->first_picture_ms = *first_picture_ms_;
   frame->samples = tally.samples, frame->rejected = tally.rejected, frame->truncated = tally.truncated;
-  frame->shares = shown_.prepared->shares();
+  frame->shares = shown_.prepared->reuses_paths();
   frame->cut_throughput = picture_.cut_throughput();
   frame->film_bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
   frame->isa = kernels_.isa;

@@ -12,16 +12,16 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
       columns_(std::move(columns)),
       textures_(texture_views(columns_)),
       view_(view_of(columns_, textures_)) {
-  glints_ = find_glints(view_);
-  view_.glint_count = static_cast<int>(glints_.size());
-  view_.glints = glints_.data();
-  if (columns_.may_share) sharing_gain_ = probe_sharing(view_);
-  view_.shares = columns_.may_share && is_worthwhile(sharing_gain_);
+  subpixel_lights_ = find_glints(view_);
+  view_.glint_count = static_cast<int>(subpixel_lights_.size());
+  view_.glints = subpixel_lights_.data();
+  if (columns_.may_share) reuse_gain_ = probe_sharing(view_);
+  view_.shares = columns_.may_share && is_worthwhile(reuse_gain_);
 }
 
-double PreparedScene::chance_of_caustics() const {
-  std::call_once(chance_found_, [this] { chance_ = tyndall::chance_of_caustics(*scene_, columns_); });
-  return chance_;
+double PreparedScene::caustic_chance() const {
+  std::call_once(caustic_chance_found_, [this] { caustic_chance_ = chance_of_caustics(*scene_, columns_); });
+  return caustic_chance_;
 }
 
 std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before) {

@@ -11,8 +11,8 @@
 /// The stage between compiling a scene and rendering it.
 namespace tyndall {
 
-/// Everything that is found out about a scene before its first sample: its compiled columns, the small lamps that the
-/// camera sees, whether second vertices are shared between pixels, and how likely paths are to meet caustics. It is
+/// Everything that is found out about a scene before its first sample: its compiled columns, the subpixel lights that
+/// the camera sees, whether second vertices are shared between pixels, and how likely paths are to meet caustics. It is
 /// found once, never changes, and can be used by any number of threads at once.
 class PreparedScene {
  public:
@@ -26,21 +26,21 @@ class PreparedScene {
   /// What kernels read; valid as long as this object.
   const SceneView& view() const { return view_; }
   /// Whether second vertices are shared between pixels, because that is allowed, possible and pays.
-  bool shares() const { return view_.shares; }
+  bool reuses_paths() const { return view_.shares; }
   /// What sharing would gain; not probed where it is not allowed or not possible.
-  const SharingGain& sharing_gain() const { return sharing_gain_; }
+  const SharingGain& reuse_gain() const { return reuse_gain_; }
   /// See chance_of_caustics(). Found when it is first asked for, as only pictures of many samples need it.
-  double chance_of_caustics() const;
+  double caustic_chance() const;
 
  private:
   std::shared_ptr<const Scene> scene_;
   RenderScene columns_;
   std::vector<TextureView> textures_;
-  std::vector<Glint> glints_;
-  SharingGain sharing_gain_;
+  std::vector<Glint> subpixel_lights_;
+  SharingGain reuse_gain_;
   SceneView view_;
-  mutable std::once_flag chance_found_;
-  mutable double chance_ = 1;
+  mutable std::once_flag caustic_chance_found_;
+  mutable double caustic_chance_ = 1;
 };
 
 /// Compiles a scene and finds out all that is needed to render it: a pure function of the scene. before: another scene

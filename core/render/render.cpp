@@ -198,7 +198,7 @@ FinishedPicture finished_picture(const PreparedScene& scene, const RenderResult&
   picture.hash = image_hash(picture.image.width, picture.image.height, picture.image.rgb);
   if (result.clean) picture.clean_hash = image_hash(result.clean->width, result.clean->height, result.clean->rgb);
   const std::uint32_t least = picture.totals.least_taken;
-  picture.rare_bright_paths = has_rare_bright_paths(picture.estimate, least, scene.chance_of_caustics()) ||
+  picture.rare_bright_paths = has_rare_bright_paths(picture.estimate, least, scene.caustic_chance()) ||
                               (result.clean && is_doubtful(*result.clean, least));
   return picture;
 }

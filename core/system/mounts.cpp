@@ -50,8 +50,8 @@ std::vector<Mount> mounts(const fs::path& root) {
 bool is_mount_point(const fs::path& file) {
 #ifdef STATX_ATTR_MOUNT_ROOT
   struct statx status {};
-  const bool asked = statx(AT_FDCWD, file.c_str(), 0, 0, &status) == 0;
-  if (asked && (status.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0)
+  const bool known = statx(AT_FDCWD, file.c_str(), 0, 0, &status) == 0;
+  if (known && (status.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0)
     return (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
 #endif
   std::error_code error;  // an older system, which does not say it of a file

@@ -68,8 +68,8 @@ std::optional<int> processor_quota(const fs::path& root) {
   return least;
 }
 
-ThreadCount thread_count(int asked, const fs::path& root) {
-  if (asked > 0) return {asked, "option"};
+ThreadCount thread_count(int requested, const fs::path& root) {
+  if (requested > 0) return {requested, "option"};
   const int machine = processors_of_machine(), bound = std::min(processors_of_affinity(), machine);
   const int quota = processor_quota(root).value_or(bound);
   if (quota < bound) return {quota, "quota"};

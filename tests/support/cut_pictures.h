@@ -4,7 +4,10 @@
 #include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
 
+#include <doctest/doctest.h>
+
 #include <random>
+#include <string>
 
 /// Whether parts of pictures of random scenes have the bits of the whole: regions, shards and continued films.
 namespace tyndall::test {
@@ -51,6 +54,20 @@ inline void compare_cuts(unsigned seed, const Kernels& kernels, CutPictures& fou
   count(merged({{"first", first}, {"second", render(scene, options).film}}) == whole);
   options.spp = 8, options.first_sample = 0;
   count(render(scene, options, {}, first).film == whole);
+}
+
+/// Checks that the parts of `count` scenes, from seed `first` on, have the bits of the whole, with every instruction
+/// set.
+inline void check_cuts(unsigned first, int count) {
+  for (const Kernels& kernels : available_kernels()) {
+    CAPTURE(std::string(kernels.isa));
+    CutPictures found;
+    for (int i = 0; i < count; ++i) compare_cuts(first + static_cast<unsigned>(i), kernels, found);
+    CAPTURE(found.last);
+    CHECK(found.pairs == 4 * count);
+    CHECK(found.differ == 0);
+    CHECK(found.chained >= 3 * count / 4);
+  }
 }
 
 }  // namespace tyndall::test

@@ -1,17 +1,17 @@
 #pragma once
 #include "core/scene/scene.h"
+#include "tests/support/random_draws.h"
 
 #include <cmath>
-#include <random>
 
 /// Random rooms, for statements that must hold for every picture and not only for the built-in scenes.
 namespace tyndall::test {
 
 /// A floor with 3 to 9 balls and boxes of all materials, one to three lamps, sometimes walls, a sky or fog. A pure
 /// function of the seed.
-class RandomRoom {
+class RandomRoom : RandomDraws {
  public:
-  explicit RandomRoom(unsigned seed) : engine_(seed) {}
+  explicit RandomRoom(unsigned seed) : RandomDraws(seed) {}
 
   Scene scene() {
     scene_.width = 192, scene_.height = 108;
@@ -30,19 +30,11 @@ class RandomRoom {
   }
 
  private:
-  std::mt19937 engine_;
   Scene scene_;
 
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) * 0x1p-32; }
-  bool chance(double share) { return between(0, 1) < share; }
-  int below(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
   Vec3d grey(double low, double high) {
     const double level = between(low, high);
     return {level, level, level};
-  }
-  Vec3d colour() {
-    const double red = between(0.1, 0.95), green = between(0.1, 0.95);
-    return {red, green, between(0.1, 0.95)};
   }
   Material matt() { return {"", colour(), Lambertian<>{}}; }
   Material any_material() {

@@ -94,10 +94,10 @@ Keeping KeptEdits::State::remove() {
 void KeptEdits::State::work(const StopToken& stop) {
   std::unique_lock lock(mutex);
   for (;;) {
-    const auto asked = [&] { return waits; };
+    const auto has_news = [&] { return waits; };
     if (!keeping.failed())
-      news.wait(lock, stop, asked);
-    else if (!news.wait_for(lock, stop, retry_interval, asked) && !stop.stop_requested())
+      news.wait(lock, stop, has_news);
+    else if (!news.wait_for(lock, stop, retry_interval, has_news) && !stop.stop_requested())
       waits = true;      // a disk may have room again
     if (!waits) return;  // asked to stop, and nothing is left to do
     waits = false;

@@ -131,10 +131,10 @@ bool is_volume(const Scene&, const Object& object) { return volume_of(object) !=
 bool is_matt_or_metal(const Scene& scene, const Object& object) {
   return is_of<Lambertian<>>(scene, object) || is_of<Metal<>>(scene, object);
 }
-bool is_plain_lamp(const Scene& scene, const Object& object) {
+bool is_plain_light(const Scene& scene, const Object& object) {
   return is_of<Light<>>(scene, object) && !texture_of(scene, object);
 }
-bool is_textured_lamp(const Scene& scene, const Object& object) {
+bool is_textured_light(const Scene& scene, const Object& object) {
   return is_of<Light<>>(scene, object) && texture_of(scene, object);
 }
 bool is_metal_ball(const Scene& scene, const Object& object) {
@@ -162,8 +162,8 @@ const std::vector<ObjectRows>& object_rows() {
         {"an object of metal", names<Metal<>>(), is_of<Metal<>>, true},
         {"an object of glass", names<Dielectric<>>(), is_of<Dielectric<>>, true},
         {"an object with a colour", {"albedo"}, is_matt_or_metal, true},
-        {"a lamp with a texture", {"radiance"}, is_textured_lamp, true},
-        {"a lamp", {"color", "power", "stops"}, is_plain_lamp, true},
+        {"a lamp with a texture", {"radiance"}, is_textured_light, true},
+        {"a lamp", {"color", "power", "stops"}, is_plain_light, true},
         {"an object with a checker texture", names<Checker<>>(), is_textured<Checker<>>, true},
         {"an object with a noise texture", names<Noise<>>(), is_textured<Noise<>>, true},
         {"an object with a texture of one colour", names<Solid<>>(), is_textured<Solid<>>, true},
