@@ -44,12 +44,12 @@ struct PnmText {
     while (at < bytes.size() && next() != '\n' && next() != '\r') ++at;
   }
 
-  /// A whole number; beyond 10^9 on either side, that. what: "the width", ...
+  /// A whole number; beyond 10^17 on either side, that. what: "the width", ...
   std::int64_t take_number(const char* what) {
     skip_gap();
     if (at == bytes.size()) cannot_read(file, std::string("damaged: the file ends where ") + what + " is expected");
     const std::size_t start = at;
-    constexpr std::int64_t largest = 1'000'000'000;
+    constexpr std::int64_t largest = 100'000'000'000'000'000;
     const bool negative = next() == '-';
     if (negative || next() == '+') ++at;
     const std::size_t digits = at;
@@ -79,6 +79,14 @@ struct PnmHeader {
   std::size_t number_size() const { return largest > 255 ? 2 : 1; }
 };
 
+/// A number of the header, which nobody means to be this far from 0.
+std::int64_t take_small_number(PnmText& text, const char* what) {
+  constexpr std::int64_t largest = std::int64_t{1} << 28;
+  const std::int64_t number = text.take_number(what);
+  if (number <= largest && number >= -largest) return number;
+  cannot_read(text.file, std::string("found a number beyond 2^28 as ") + what + ", expected a smaller one");
+}
+
 /// Reads the header and believes its size only where the file is long enough for it.
 PnmHeader take_header(PnmText& text) {
   const std::string_view mark(reinterpret_cast<const char*>(text.bytes.data()), 2);
@@ -87,10 +95,10 @@ PnmHeader take_header(PnmText& text) {
                                ", expected P3 or P6 (colours), or P2 or P5 (greys)");
   PnmHeader header;
   header.kind = mark[1];
-  header.width = text.take_number("the width");
-  header.height = text.take_number("the height");
+  header.width = take_small_number(text, "the width");
+  header.height = take_small_number(text, "the height");
   check_readable(text.file, header.width, header.height);
-  const std::int64_t largest = text.take_number("the largest number of a colour");
+  const std::int64_t largest = take_small_number(text, "the largest number of a colour");
   if (largest < 1 || largest > 65535)
     cannot_read(text.file,
                 "found " + std::to_string(largest) + " as the largest number of a colour, expected 1 to 65535");

@@ -61,6 +61,9 @@ TEST_CASE("ppm: numbers outside of the range are read as the nearest and counted
   REQUIRE(picture.remarks.size() == 1);
   CHECK(picture.remarks[0] == file.string() + ": 4 of 6 numbers are outside of 0 to 255 and are read as the nearest " +
                                   "that is within; the first one, 256, is at x 0, y 0");
+  const PictureFile garbage = picture_of("P3 1 1 255 -2147483648 0 0");
+  REQUIRE(garbage.remarks.size() == 1);
+  CHECK(garbage.remarks[0].ends_with("the first one, -2147483648, is at x 0, y 0"));
   const PictureFile binary = picture_of("P6 1 2 100\n\x01\x02\x03\x04\xc8\x06");
   CHECK(binary.image.rgb == light({1, 2, 3, 4, 100, 6}, 100));
   REQUIRE(binary.remarks.size() == 1);
@@ -92,6 +95,8 @@ TEST_CASE("ppm: damaged and cut off ones are refused in one clear line") {
   CHECK(message_for("P6 1 1") == "damaged: the file ends where the largest number of a colour is expected");
   CHECK(message_for("P6 1 1 0\n123") == "found 0 as the largest number of a colour, expected 1 to 65535");
   CHECK(message_for("P6 1 1 65536\n123456") == "found 65536 as the largest number of a colour, expected 1 to 65535");
+  CHECK(message_for("P6 99999999999999999999 2 255\n") ==
+        "found a number beyond 2^28 as the width, expected a smaller one");
   CHECK(message_for("P6 0 1 255\n") == "found an image of 0 x 1 pixels, expected 1 to 2^28 in all");
   CHECK(message_for("P6 -1 -1 255\n123") == "found an image of -1 x -1 pixels, expected 1 to 2^28 in all");
   CHECK(message_for("P6 2 1 255\n12345") ==
