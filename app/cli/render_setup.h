@@ -1,9 +1,9 @@
 #pragma once
 #include "app/cli/requests.h"
 #include "app/files/outputs.h"
-#include "core/kernel/kernels.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "core/targets/kernels.h"
 
 #include <filesystem>
 #include <string>

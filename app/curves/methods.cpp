@@ -1,6 +1,6 @@
 #include "app/curves/measure.h"
-#include "core/kernel/kernels.h"
 #include "core/render/prepare.h"
+#include "core/targets/kernels.h"
 
 #include <string_view>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/image/image_io.h"
-#include "core/kernel/kernels.h"
 #include "core/render/prepare.h"
+#include "core/targets/kernels.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/kernel/kernels.h"
 #include "core/render/prepare.h"
+#include "core/targets/kernels.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/compile/render_scene.h"
-#include "core/kernel/replay.h"
 #include "core/scene/scene.h"
+#include "core/targets/replay.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #include "core/compile/flatten.h"
 #include "core/compile/render_scene.h"
 
-/// Which caustics are computed exactly (chains, see core/kernel/chain_light.h), and which are left to chance.
+/// Which caustics are computed exactly (chains, see core/specular/chain_light.h), and which are left to chance.
 namespace tyndall {
 
 /// Pairs of a ball, flat mirror or pane and a lamp. The balls are those that reflect or refract light exactly: metal

@@ -15,7 +15,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
 /// Sampling of Many Lights with Adaptive Tree Splitting, PACMCGIT 1(2), 2018; lights here shine to all sides.
 void build_light_tree(Lights& lights);
 
-/// Lamps in fog, whose bright glow needs a way of sampling of its own (see core/kernel/flight.h): the pairs of a medium
+/// Lamps in fog, whose bright glow needs a way of sampling of its own (see core/trace/flight.h): the pairs of a medium
 /// and a light for which it pays to sample distances along a ray by the angle under which the light sees them. The
 /// conditions were found by measuring: where they hold, the same error takes 1.5 to 16 times less time; where they do
 /// not, it could take twice as long. The medium scatters and its half width is at most 4 mean free paths; the centre of

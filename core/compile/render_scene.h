@@ -156,7 +156,7 @@ struct Lights {
 inline constexpr int most_lights_by_contribution = 16;
 
 /// Pairs of a medium and a small lamp in it or close to it. The light that scatters next to such a lamp has no upper
-/// bound (inverse square), so integrator mis samples distances with regard to the lamp (core/kernel/flight.h).
+/// bound (inverse square), so integrator mis samples distances with regard to the lamp (core/trace/flight.h).
 struct NearLamps {
   std::vector<std::int32_t> medium, light;
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
@@ -233,7 +233,7 @@ struct RenderScene {
   double film_unit = 1;
   Needs needs;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs
-  bool may_share = false;  ///< second vertices may be shared between pixels; whether that pays: kernel/scene_view.h
+  bool may_share = false;  ///< second vertices may be shared between pixels; whether that pays: trace/scene_view.h
   int primitives() const;
   /// The path of the object that an element belongs to.
   std::vector<int> object_of(std::int32_t element) const {

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/base/crew.h"
 #include "core/film/film.h"
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 
 #include <atomic>
 #include <cstdint>

@@ -2,8 +2,8 @@
 #include "core/base/crew.h"
 #include "core/compile/render_scene.h"
 #include "core/film/film.h"
-#include "core/kernel/kernels.h"
 #include "core/render/frame.h"
+#include "core/targets/kernels.h"
 
 #include <atomic>
 #include <memory>

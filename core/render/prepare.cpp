@@ -2,6 +2,8 @@
 
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
+#include "core/specular/find_glints.h"
+#include "core/targets/scalar.h"
 
 #include <utility>
 
@@ -15,7 +17,7 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
   subpixel_lights_ = find_glints(view_);
   view_.glint_count = static_cast<int>(subpixel_lights_.size());
   view_.glints = subpixel_lights_.data();
-  if (columns_.may_share) reuse_gain_ = probe_sharing(view_);
+  if (columns_.may_share) reuse_gain_ = probe_sharing(view_, trace_groups);
   view_.shares = columns_.may_share && is_worthwhile(reuse_gain_);
 }
 

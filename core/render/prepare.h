@@ -1,8 +1,8 @@
 #pragma once
 #include "core/compile/render_scene.h"
-#include "core/kernel/glints.h"
-#include "core/kernel/scene_view.h"
+#include "core/reuse/probe.h"
 #include "core/scene/scene.h"
+#include "core/trace/scene_view.h"
 
 #include <memory>
 #include <mutex>

@@ -4,10 +4,10 @@
 #include "core/clean/clean.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
-#include "core/kernel/kernels.h"
 #include "core/render/prepare.h"
 #include "core/render/single_pixels.h"
 #include "core/scene/scene.h"
+#include "core/targets/kernels.h"
 
 #include <functional>
 #include <limits>

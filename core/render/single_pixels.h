@@ -33,7 +33,7 @@ class PixelLevels {
 /// Asks `levels` for those of a film's pixels. What is returned refers to all four arguments.
 LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels, const std::atomic<bool>& give_up);
 
-/// The pixels of the film with glints (kernel/glints.h), in ascending order of their places. None if there are more
+/// The pixels of the film with glints (trace/glints.h), in ascending order of their places. None if there are more
 /// than 32: then chance evens out between them, and to find their levels would take long.
 std::vector<std::size_t> pixels_with_glints(const SceneView& scene, const Film& film);
 

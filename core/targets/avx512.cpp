@@ -1,7 +1,7 @@
 // The kernels for AVX-512: two groups of 16 lanes. This file is compiled with flags that older CPUs cannot run, so
 // nothing but the kernels may be in it.
 #include "core/base/lanes_twice.h"
-#include "core/kernel/entry.h"
+#include "core/targets/entry.h"
 
 namespace tyndall {
 

@@ -1,5 +1,5 @@
 // One path at a time over double, to show how much rounding changes in the others.
-#include "core/kernel/entry.h"
+#include "core/targets/entry.h"
 
 namespace tyndall {
 

@@ -1,6 +1,6 @@
 // The kernels for NEON, which every 64-bit ARM processor has: 4 lanes.
 #include "core/base/lanes_simd.h"
-#include "core/kernel/entry.h"
+#include "core/targets/entry.h"
 
 namespace tyndall {
 

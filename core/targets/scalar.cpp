@@ -1,8 +1,48 @@
-// One path at a time, for any processor: the readable reference.
-#include "core/kernel/entry.h"
+// One path at a time, for any processor: the readable reference, and the kernel that records paths and probes scenes.
+#include "core/targets/scalar.h"
+#include "core/targets/entry.h"
+#include "core/targets/recorder.h"
 
 namespace tyndall {
+namespace {
 
-Kernels scalar_kernels() { return full_kernel_of<float>("scalar"); }
+/// The sample that a pixel without others holds, in the half that has it.
+Vec3f sample_of(const FilmPixel& pixel, std::uint32_t half) {
+  const float lost = pixel.rejected[half] ? __builtin_nanf("") : 0.0f;
+  const auto value = [&](int c) { return lost + static_cast<float>(pixel.sum[half][c].value()); };
+  return {value(0), value(1), value(2)};
+}
+
+/// Renders a unit of one sample of one pixel, and records the sample's path.
+void record_unit(const SceneView& s, const Unit& unit, const UnitFilm& film, PathRecorder& recorder) {
+  MaybeRecorder maybe{&recorder};
+  if (!s.shares) return render_any_unit<float>(s, unit, film, maybe);
+  render_shared_unit<float>(s, unit, film, [&](GroupSamples& samples) {
+    recorder.shared = &samples.shared();
+    follow_either<float>(s, EitherSamples(samples), film.counts, maybe);
+  });
+}
+
+}  // namespace
+
+Kernels scalar_kernels() { return full_kernel_of<float, MaybeRecorder>("scalar"); }
+
+PathReplay replay(const SceneView& scene, int x, int y, std::uint32_t sample) {
+  FilmPixel pixel{};
+  UnitCounts counts;
+  PathRecorder recorder;
+  record_unit(scene, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, {1, &pixel, nullptr, counts}, recorder);
+  PathReplay path = recorder.path();
+  if (scene.shares) path.radiance = sample_of(pixel, sample & 1u);
+  return path;
+}
+
+void trace_groups(const SceneView& scene, SharedPaths& paths, UnitCounts& counts) {
+  const UnitFilm film{1, nullptr, nullptr, counts};
+  GroupSamples samples(paths, {nullptr, nullptr}, film);
+  MaybeRecorder none;
+  follow_either<float>(scene, EitherSamples(samples), counts, none);
+  add_chains_to_leaving(scene, paths);
+}
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
 // The kernels for SSE4: 4 lanes. This file is compiled with flags that older CPUs cannot run, so nothing but the
 // kernels may be in it.
 #include "core/base/lanes_simd.h"
-#include "core/kernel/entry.h"
+#include "core/targets/entry.h"
 
 namespace tyndall {
 

@@ -35,7 +35,7 @@ done
 echo "$pictures pictures compared"
 [ "$pictures" -gt 100 ] || fail 'too few scenes'
 
-on_arm "$source_root/build/arm64/tests/core_tests" --source-file='*/tests/base/*,*/tests/kernel/kernel_sets_test.cpp,*/tests/clean/*' >tests.log ||
+on_arm "$source_root/build/arm64/tests/core_tests" --source-file='*/tests/base/*,*/tests/targets/kernel_sets_test.cpp,*/tests/clean/*' >tests.log ||
   { cat tests.log; fail 'unit tests'; }
 # Its progress is in neon.progress, because this takes longest by far.
 on_arm "$arm" verify --progress plain --isa neon >verify.log 2>neon.progress || { cat verify.log; fail 'verify, neon'; }

@@ -1,4 +1,4 @@
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 #include "tests/base/lanes_report.h"
 
 #include <doctest/doctest.h>

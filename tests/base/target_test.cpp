@@ -1,6 +1,6 @@
 #include "core/base/target.h"
 
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 
 #include <doctest/doctest.h>
 

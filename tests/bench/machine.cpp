@@ -1,7 +1,7 @@
 #include "tests/bench/machine.h"
 
-#include "core/kernel/kernels.h"
 #include "core/system/processors.h"
+#include "core/targets/kernels.h"
 
 #include <algorithm>
 #include <fstream>

@@ -2,7 +2,7 @@
 #include "core/compile/compile.h"
 #include "core/compile/flatten.h"
 #include "core/image/tonemap.h"
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>

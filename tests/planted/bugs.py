@@ -70,14 +70,14 @@ BUGS = [
     ("scene", "the third component is not checked", "core/scene/check.cpp", "for (std::size_t i = 0; i < 3; ++i) check_value({at, i}, meaning, components[i]);", "for (std::size_t i = 0; i < 2; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
     # compile
     ("compile", "faces of a closed pane are open", "core/compile/panes.cpp", "pane.closed |= 1 << i;", "pane.closed |= 0;", "render/chain_panes"),
-    ("compile", "a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(v);", "const double a = length(u), b = length(u);", "kernel/light_density kernel/lights"),
-    ("compile", "a spherical lamp of twice its radius", "core/compile/lights.cpp", "out.length_u.push_back(static_cast<float>(r));", "out.length_u.push_back(static_cast<float>(2 * r));", "kernel/light_density kernel/lights"),
+    ("compile", "a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(v);", "const double a = length(u), b = length(u);", "trace/light_density trace/lights"),
+    ("compile", "a spherical lamp of twice its radius", "core/compile/lights.cpp", "out.length_u.push_back(static_cast<float>(r));", "out.length_u.push_back(static_cast<float>(2 * r));", "trace/light_density trace/lights"),
     # kernel
-    ("kernel", "the inside of a closed pane is open", "core/kernel/chain_pane.h", "return equal(met & pane.closed, I(0));", "return equal(pane.closed & I(0), I(0));", "kernel/pane_faces"),
-    ("kernel", "a pane's faces in a wrong order", "core/kernel/chain_pane.h", "select(less(F(0.0f), s.near.height), I(2), I(1))", "select(less(F(0.0f), s.near.height), I(1), I(2))", "kernel/pane_faces"),
-    ("kernel", "the lens is a line", "core/kernel/camera.h", "along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v))", "along(lens.x * splat<F>(c.lens_u), lens.x, splat<F>(c.lens_v))", "kernel/camera"),
-    ("kernel", "survivors of the roulette carry too little", "core/kernel/event.h", "select(at_risk, scale * p.throughput, p.throughput)", "p.throughput", "render/depth", "core/targets/scalar.cpp"),
-    ("kernel", "lamps that are found by chance count in full", "core/kernel/event.h", "select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f))", "F(1.0f)", "render/light_sampling", "core/targets/scalar.cpp"),
+    ("kernel", "the inside of a closed pane is open", "core/specular/chain_pane.h", "return equal(met & pane.closed, I(0));", "return equal(pane.closed & I(0), I(0));", "specular/pane_faces"),
+    ("kernel", "a pane's faces in a wrong order", "core/specular/chain_pane.h", "select(less(F(0.0f), s.near.height), I(2), I(1))", "select(less(F(0.0f), s.near.height), I(1), I(2))", "specular/pane_faces"),
+    ("kernel", "the lens is a line", "core/trace/camera.h", "along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v))", "along(lens.x * splat<F>(c.lens_u), lens.x, splat<F>(c.lens_v))", "trace/camera"),
+    ("kernel", "survivors of the roulette carry too little", "core/transport/event.h", "select(at_risk, scale * p.throughput, p.throughput)", "p.throughput", "render/depth", "core/targets/scalar.cpp"),
+    ("kernel", "lamps that are found by chance count in full", "core/transport/event.h", "select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f))", "F(1.0f)", "render/light_sampling", "core/targets/scalar.cpp"),
     # render
     ("render", "a lost column at a tile's edge", "core/render/pass.cpp", "std::min(x + tile_, region_.x1)", "std::min(x + tile_, region_.x1 - 1)", "render/same_picture"),
     ("render", "cells have a say in their own samples", "core/render/plan.cpp", "if (u == column && v == row) continue;", "", "render/plan"),

@@ -23,7 +23,7 @@ import time
 from bugs import BUGS
 
 # Where it is decided which kernels are used. Beside a bug in scalar ones they are compiled anew, so that it is these.
-CHOICE = ["core/base/target.cpp", "core/kernel/choose.cpp", "core/clean/clean.cpp"]
+CHOICE = ["core/base/target.cpp", "core/targets/choose.cpp", "core/clean/clean.cpp"]
 LONGEST_TEST = 600  # seconds; a test that hangs has caught its bug
 JOBS = int(os.environ.get("TYNDALL_PLANTED_JOBS", len(os.sched_getaffinity(0))))
 

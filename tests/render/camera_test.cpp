@@ -1,4 +1,4 @@
-#include "core/kernel/camera.h"
+#include "core/trace/camera.h"
 #include "tests/support/prepared.h"
 
 #include "tests/support/probe.h"

@@ -1,4 +1,4 @@
-#include "core/kernel/path.h"
+#include "core/transport/path.h"
 #include "tests/support/capture.h"
 #include "tests/support/event.h"
 #include "tests/support/prepared.h"

@@ -1,5 +1,5 @@
-#include "core/kernel/flight.h"
 #include "core/scene/load.h"
+#include "core/trace/flight.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-#include "core/kernel/scene_view.h"
 #include "core/render/pass.h"
+#include "core/trace/scene_view.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"
@@ -153,7 +153,7 @@ TEST_CASE("sharing: a scene shares where a probe says that it pays, whatever its
 TEST_CASE("sharing: the probe is near to what sharing changes") {
   const Scene box = small_scene("cornell-box", 256, 256, 1);
   const RenderScene compiled = compile(box);
-  const SharingGain gain = probe_sharing(SceneViewOf(compiled).view());
+  const SharingGain gain = probe_sharing(SceneViewOf(compiled).view(), trace_groups);
   CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4).scale(0));
   CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2).scale(0));
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/compile/compile.h"
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 
 #include <algorithm>

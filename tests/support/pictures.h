@@ -21,7 +21,7 @@ inline Scene small_scene(const std::string& name, int width, int height, int spp
 }
 
 /// One of the Cornell boxes through a long lens, with the upper part of its walls: pixels see places that are so close
-/// together that even a small picture shares second vertices (kernel/scene_view.h).
+/// together that even a small picture shares second vertices (trace/scene_view.h).
 inline Scene close_up(const std::string& name, int width, int height) {
   Scene scene = small_scene(name, width, height, 1);
   scene.camera.look_at = {278, 450, 555};

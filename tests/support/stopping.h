@@ -1,5 +1,5 @@
 #pragma once
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 
 #include <atomic>
 

@@ -3,7 +3,7 @@
 #include "app/files/film_files.h"
 #include "app/text/numbers.h"
 #include "core/image/image_io_file.h"
-#include "core/kernel/kernels.h"
+#include "core/targets/kernels.h"
 
 #include <exception>
 #include <filesystem>

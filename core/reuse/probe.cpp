@@ -1,0 +1,95 @@
+#include "core/reuse/probe.h"
+
+#include "core/reuse/shared_unit.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace tyndall {
+namespace {
+
+constexpr int across = 8;               // groups in each direction of the picture
+constexpr double fewest_seconds = 0.2;  // share of the paths; with fewer second vertices sharing never pays
+constexpr int deepest = 16;             // events of the probe's paths: enough to tell, and quick in white rooms
+
+/// So many samples, one after another, of groups of pixels that are spread evenly over the picture.
+void spread_groups(const SceneView& s, int samples, SharedPaths& paths) {
+  paths.clear();
+  paths.groups = 0;
+  const auto spread = [](int i, int size, int block, int offset) {
+    return std::min(((2 * i + 1) * size / (2 * across)) / block * block + offset % group_spacing, size - 1);
+  };
+  for (int i = 0; i < samples * across * across; ++i) {
+    const int place = i / samples, at = paths.groups++;
+    paths.x[at] = spread(place % across, s.width, block_width, place);
+    paths.y[at] = spread(place / across, s.height, block_height, place / group_spacing);
+    paths.index[at] = static_cast<std::uint32_t>(i % samples);
+    for (int k = 0; k < group_size; ++k) {
+      const bool inside = paths.x[at] + k % group_columns * group_spacing < s.width &&
+                          paths.y[at] + k / group_columns * group_spacing < s.height;
+      paths.pixel[k * SharedPaths::most_groups + at] = inside ? SharedPaths::unwanted : SharedPaths::outside;
+    }
+  }
+}
+
+/// The samples, without what the other paths of their groups give to them.
+void add_own_leaving(const SharedPaths& p, float (&own)[3][SharedPaths::room]) {
+  for (int c = 0; c < 3; ++c)
+    for (int slot = 0; slot < SharedPaths::room; ++slot) {
+      own[c][slot] = p.own[c][slot];
+      if (p.second.even[slot] >= 0) own[c][slot] += p.albedo[c][slot] * p.leaving[c][slot];
+    }
+}
+
+/// Mean squared difference of the two samples of a pixel, relative to the mean over its group.
+double variance(const SharedPaths& p, const float (&own)[3][SharedPaths::room]) {
+  double sum = 0;
+  for (int group = 0; group < p.groups; group += 2)
+    for (int c = 0; c < 3; ++c) {
+      double mean = 0, square = 0;
+      for (int k = 0; k < group_size; ++k) {
+        const int slot = k * SharedPaths::most_groups + group;
+        const double a = static_cast<double>(own[c][slot]), b = static_cast<double>(own[c][slot + 1]);
+        mean += (a + b) / (2 * group_size), square += (a - b) * (a - b);
+      }
+      sum += square / (mean * mean + 0.01);
+    }
+  return sum;
+}
+
+/// Share of the paths whose first two vertices scatter evenly.
+double share_of_seconds(SceneView s, SharedPaths& paths, TraceGroups trace) {
+  s.max_depth = std::min(s.max_depth, 1);
+  spread_groups(s, 1, paths);
+  UnitCounts counts;
+  trace(s, paths, counts);
+  const auto seconds =
+      std::count_if(paths.second.even, paths.second.even + SharedPaths::room, [](float even) { return even >= 0; });
+  return static_cast<double>(seconds) / (across * across * group_size);
+}
+
+}  // namespace
+
+SharingGain probe_sharing(const SceneView& scene, TraceGroups trace) {
+  SceneView s = scene;
+  s.shares = true;
+  s.seed = 0;
+  const auto paths = std::make_unique<SharedPaths>();
+  if (share_of_seconds(s, *paths, trace) < fewest_seconds) return {};
+  s.max_depth = std::min(s.max_depth, deepest);
+  struct Samples {
+    float own[3][SharedPaths::room];
+  };
+  const auto alone = std::make_unique<Samples>();
+  spread_groups(s, 2, *paths);
+  UnitCounts counts;
+  trace(s, *paths, counts);
+  const auto rays_alone = static_cast<double>(counts.rays);
+  add_own_leaving(*paths, alone->own);
+  share_second_vertices<float>(s, *paths, counts);
+  const double without = variance(*paths, alone->own);
+  const double between = static_cast<double>(counts.rays) - rays_alone;
+  return {true, without > 0 ? variance(*paths, paths->own) / without : 1, 1 + between / rays_alone / 2};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,190 @@
+#pragma once
+#include "core/reuse/shared_unit.h"
+#include "core/targets/kernels.h"
+
+/// The kernels' entry points as templates over the number type F. Each instruction set has a small .cpp file, which
+/// chooses F and makes a table of them.
+namespace tyndall {
+
+/// See TraceRays.
+template <class F>
+TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHit* hits, int count, bool brute_force) {
+  constexpr int lanes = lanes_of<F>;
+  for (int first = 0; first < count; first += lanes) {
+    alignas(64) float column[7][lanes] = {};
+    alignas(64) std::int32_t from[lanes] = {};
+    std::uint32_t active = 0;
+    for (int k = 0; k < lanes && first + k < count; ++k) {
+      const TraceRay& r = rays[first + k];
+      const float values[7] = {r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.time};
+      for (int c = 0; c < 7; ++c) column[c][k] = values[c];
+      from[k] = r.from;
+      active |= 1u << k;
+    }
+    const Ray<F> ray{{load<F>(column[0]), load<F>(column[1]), load<F>(column[2])},
+                     {load<F>(column[3]), load<F>(column[4]), load<F>(column[5])},
+                     load<F>(column[6]),
+                     load_int<F>(from)};
+    const auto mask = mask_from_bits<F>(active);
+    const Hit<F> hit = brute_force ? closest_of_all(s, ray, mask) : call_closest(s, ray, mask);
+    store(column[0], hit.t);
+    store(from, hit.element);
+    for (int k = 0; k < lanes && first + k < count; ++k) hits[first + k] = {column[0][k], from[k]};
+  }
+}
+
+/// See FirstHits.
+template <class F>
+TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHit* hits) {
+  constexpr int lanes = lanes_of<F>;
+  const Pair<F> middle_of_lens{F(0.0f), F(0.0f)};
+  const F time = splat<F>(s.camera.shutter_open + 0.5f * s.camera.shutter_length);
+  for (int y = region.y0; y < region.y1; ++y)
+    for (int x = region.x0; x < region.x1; x += lanes) {
+      alignas(64) float column[7][lanes] = {};
+      alignas(64) std::int32_t element[lanes];
+      for (int k = 0; k < lanes; ++k) column[0][k] = static_cast<float>(x + k) + 0.5f;
+      const Ray<F> ray =
+          camera_ray(s.camera, load<F>(column[0]), splat<F>(static_cast<float>(y) + 0.5f), middle_of_lens, time);
+      const auto everywhere = less(F(0.0f), F(1.0f));
+      const Hit<F> hit = call_closest(s, ray, everywhere);
+      const auto met = less_equal(IntOf<F>(0), hit.element);
+      store(element, hit.element);
+      if (any(met)) {
+        const SurfacePoint<F> p = surface_at(s, ray, hit.t, hit.element);
+        const Vec3<F> colour = surface_colour(s, p, met);
+        const F depth = dot(p.point - splat<F>(s.camera.center), splat<F>(s.camera.axis));
+        store(column[0], colour.x), store(column[1], colour.y), store(column[2], colour.z);
+        store(column[3], p.normal.x), store(column[4], p.normal.y), store(column[5], p.normal.z);
+        store(column[6], depth);
+      }
+      for (int k = 0; k < lanes && x + k < region.x1; ++k) {
+        FirstHit& h = *hits++;
+        h = {};
+        h.element = element[k];
+        if (h.element < 0) continue;
+        h.depth = column[6][k];
+        h.albedo = {column[0][k], column[1][k], column[2][k]};
+        h.normal = {column[3][k], column[4][k], column[5][k]};
+      }
+    }
+}
+
+/// Samples of either kind, for kernels that serve scenes with and without shared vertices by one path loop.
+class EitherSamples {
+ public:
+  TYNDALL_INLINE explicit EitherSamples(AloneSamples& alone) : alone_(&alone) {}
+  TYNDALL_INLINE explicit EitherSamples(GroupSamples& groups) : groups_(&groups) {}
+  TYNDALL_INLINE bool empty() const { return groups_ ? groups_->empty() : alone_->empty(); }
+  TYNDALL_INLINE const Glints& glints() const { return groups_ ? groups_->glints() : alone_->glints(); }
+  template <int lanes>
+  TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
+    groups_ ? groups_->take(to) : alone_->take(to);
+  }
+  template <class F>
+  TYNDALL_INLINE void on_event(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> met) {
+    if (groups_) groups_->on_event(s, p, e, met);
+  }
+  template <class F>
+  TYNDALL_INLINE MaskOf<F> on_scatter(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> scattering) {
+    return groups_ ? groups_->on_scatter(s, p, e, scattering) : alone_->on_scatter(s, p, e, scattering);
+  }
+  template <class F>
+  TYNDALL_INLINE IntOf<F> slot_of(const Paths<F>& p) const {
+    return groups_ ? groups_->slot_of(p) : alone_->slot_of(p);
+  }
+  template <class F>
+  TYNDALL_INLINE void on_end(const auto& s, const Paths<F>& p, std::uint32_t ended, std::uint32_t cut) {
+    groups_ ? groups_->on_end(s, p, ended, cut) : alone_->on_end(s, p, ended, cut);
+  }
+  TYNDALL_INLINE void add(std::int32_t slot, Vec3f light) {
+    groups_ ? groups_->add(slot, light) : alone_->add(slot, light);
+  }
+
+ private:
+  AloneSamples* alone_ = nullptr;
+  GroupSamples* groups_ = nullptr;  ///< null: alone_ counts
+};
+
+// The functions below are static, so that each file has its own: of an ordinary template the linker keeps one copy for
+// all files, and one with wide instructions would crash older CPUs.
+
+template <class F>
+[[gnu::noinline]] static void follow_either(const SceneView& s, EitherSamples samples, UnitCounts& counts,
+                                            auto& recorder) {
+  follow_paths<F>(s, samples, counts, recorder);
+}
+
+/// Renders a unit by the kernel with every model. s: says whether second vertices are shared.
+template <class F>
+static void render_any_unit(const SceneView& s, const Unit& unit, const UnitFilm& film, auto& recorder) {
+  if (!s.shares) {
+    AloneSamples samples(s, unit, film);
+    return follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
+  }
+  render_shared_unit<F>(s, unit, film, [&](GroupSamples& samples) {
+    follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
+  });
+}
+
+// The functions that stand in the table of an instruction set.
+template <class F, KernelSet set, bool reuse>
+static void render_unit_entry(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                              EmissionSums* emission, UnitCounts& counts) {
+  const SceneViewFor<set, reuse> s{scene};
+  const UnitFilm film{1 / film_unit, pixels, emission, counts};
+  NoRecorder recorder;
+  if constexpr (reuse) {
+    render_shared_unit<F>(
+        s, unit,
+        film, [&](auto& samples) __attribute__((always_inline)) { follow_paths<F>(s, samples, counts, recorder); });
+  } else {
+    AloneSamples samples(s, unit, film);
+    follow_paths<F>(s, samples, counts, recorder);
+  }
+}
+template <class F, class Recorder, bool reuse>
+static void render_any_entry(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                             EmissionSums* emission, UnitCounts& counts) {
+  SceneView s = scene;
+  s.shares = reuse;
+  Recorder recorder{};
+  render_any_unit<F>(s, unit, {1 / film_unit, pixels, emission, counts}, recorder);
+}
+template <class F>
+static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {
+  trace_rays<F>(s, r, h, n, brute_force);
+}
+template <class F>
+static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
+  first_hits<F>(s, r, h);
+}
+/// A table with kernels of their own for the KernelSets, for the instruction sets that most processors have. Scenes
+/// with chains that share all have one kernel, with fog and textures or without: another would make the build longer.
+template <class F>
+static Kernels kernels_of(const char* isa) {
+  const RenderUnit share = render_unit_entry<F, KernelSet::everything, true>;
+  return {
+      isa,
+      lanes_of<F>,
+      {render_unit_entry<F, KernelSet::everything, false>, render_unit_entry<F, KernelSet::chains_alone, false>,
+       render_unit_entry<F, KernelSet::no_chains, false>, render_unit_entry<F, KernelSet::no_fog_nor_textures, false>},
+      {share, share, render_unit_entry<F, KernelSet::no_chains, true>,
+       render_unit_entry<F, KernelSet::no_fog_nor_textures, true>},
+      trace_entry<F>,
+      first_hits_entry<F>};
+}
+/// A table in which one kernel with every model stands for each KernelSet, with and without shared vertices. It gives
+/// the same pictures, a little slower, and compiles much sooner: for references and for old processors.
+template <class F, class Recorder = NoRecorder>
+static Kernels full_kernel_of(const char* isa) {
+  const RenderUnit render = render_any_entry<F, Recorder, false>, share = render_any_entry<F, Recorder, true>;
+  return {isa,
+          lanes_of<F>,
+          {render, render, render, render},
+          {share, share, share, share},
+          trace_entry<F>,
+          first_hits_entry<F>};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,57 @@
+#pragma once
+#include "core/film/film.h"
+#include "core/trace/work.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+/// The kernels as the rest of the program sees them: a table of functions for each instruction set. All tables are
+/// compiled from the same source.
+namespace tyndall {
+
+using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
+                            EmissionSums* emission, UnitCounts& counts);
+
+/// Finds the closest surface on each of `count` rays, which fill groups of lanes in the given order. brute_force: tests
+/// every primitive, without the tree.
+using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHit* hits, int count, bool brute_force);
+
+/// hits: one for each pixel of the region, row by row.
+using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
+
+struct Kernels {
+  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
+  int lanes;        ///< how many paths run together
+  /// By KernelSet, for scenes that do not share second vertices, and for those that do (share.h). For a set that was
+  /// not compiled the full kernel stands.
+  RenderUnit render_alone[kernel_sets], render_shared[kernel_sets];
+  TraceRays trace;
+  FirstHits first_hits;
+
+  /// Renders a unit of work with the kernel that the scene names (SceneView::kernel). Adds its samples to `pixels` (the
+  /// tile, row by row, empty on entry) and to `counts`. emission: the same for EmissionSums; null: not recorded.
+  void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts,
+                   EmissionSums* emission = nullptr) const;
+
+  /// The set whose kernel really runs for a scene that needs `least`: `least` itself, or `everything` for instruction
+  /// sets that have the full kernel alone.
+  KernelSet set_for(KernelSet least) const;
+};
+
+// Each is in a file of its own, which is compiled with that instruction set's flags. Call only what this CPU can run.
+Kernels scalar_kernels();
+Kernels sse4_kernels();
+Kernels avx2_kernels();
+Kernels avx512_kernels();
+Kernels neon_kernels();
+/// The same source over double, to see what rounding costs the others. It reads the same columns of floats and draws
+/// the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
+Kernels double_kernels();
+
+/// All kernels that this build has and this CPU can run, the narrowest ("scalar", which is always there) first.
+std::vector<Kernels> available_kernels();
+/// The kernels of that name, also "double"; for "" the widest available ones; nothing if there are none.
+std::optional<Kernels> choose_kernels(std::string_view isa);
+
+}  // namespace tyndall

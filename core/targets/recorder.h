@@ -1,0 +1,50 @@
+#pragma once
+#include "core/reuse/share.h"
+#include "core/targets/replay.h"
+#include "core/transport/path.h"
+
+/// Lets the scalar kernel tell how a sample comes about.
+namespace tyndall {
+
+/// Records the path of the one sample that a unit wants, event by event. See NoRecorder.
+class PathRecorder {
+ public:
+  /// The path belongs to one of these, if its scene shares second vertices. Null: it goes alone.
+  const SharedPaths* shared = nullptr;
+
+  void on_weight_against_chains(float weight) { weight_ = weight; }
+  void on_event(const SceneView& s, const Paths<float>& p, const Hit<float>& hit, const MediumEvent<float>& found,
+                const Event<float>& e);
+  void on_chain_light(Vec3f light);
+  void on_end(const Paths<float>& p, bool on, StepResult<float> end);
+  const PathReplay& path() const { return path_; }
+
+ private:
+  bool is_wanted(const Paths<float>& p) const { return !shared || shared->pixel[p.slot] >= 0; }
+
+  PathReplay path_;
+  float weight_ = 1;  ///< of the light of the lamp that this step has hit
+  bool wanted_ = false, at_lamp_ = false;
+};
+
+/// The recorder of the scalar kernel, which most of the time records nothing. What it hands on are copies: a kernel
+/// keeps what is pointed to in memory.
+struct MaybeRecorder {
+  PathRecorder* to = nullptr;
+
+  TYNDALL_INLINE void on_weight_against_chains(float weight) {
+    if (to) to->on_weight_against_chains(weight);
+  }
+  TYNDALL_INLINE void on_event(const SceneView& s, Paths<float> p, Hit<float> hit, MediumEvent<float> found,
+                               Event<float> e) {
+    if (to) to->on_event(s, p, hit, found, e);
+  }
+  TYNDALL_INLINE void on_chain_light(Vec3f light) {
+    if (to) to->on_chain_light(light);
+  }
+  TYNDALL_INLINE void on_end(Paths<float> p, bool on, StepResult<float> end) {
+    if (to) to->on_end(p, on, end);
+  }
+};
+
+}  // namespace tyndall

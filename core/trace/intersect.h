@@ -1,0 +1,150 @@
+#pragma once
+#include "core/trace/lone_ray.h"
+
+/// Finds the closest surface along a ray, and whether anything blocks a way. A lane's result depends on its own ray and
+/// the scene alone, never on the rays in other lanes: of two hits at one distance the lower element wins, and a box may
+/// rule out a primitive only if the primitive's hit could not win. Where there is a tree of boxes (core/compile/bvh.h),
+/// all lanes go through it from node to node together, as long as enough of them meet the same boxes; then each goes on
+/// alone (lone_ray.h).
+namespace tyndall {
+
+/// Nodes that are still to be visited. near: the distance at which each lane enters the node; infinity if it misses it.
+template <class F>
+struct Stack {
+  F near[bvh_stack];
+  std::int32_t node[bvh_stack];
+  int size = 0;
+
+  /// Of the nodes from place `bottom` on, moves the one that any lane enters first to the top, to be visited next.
+  TYNDALL_INLINE void raise_nearest(int bottom) {
+    const int top = size - 1;
+    int nearest = top;
+    float least = least_lane(near[top]);
+    for (int i = bottom; i < top; ++i) {
+      const float key = least_lane(near[i]);
+      nearest = key < least ? i : nearest;
+      least = key < least ? key : least;
+    }
+    const F near_top = near[top];
+    const std::int32_t node_top = node[top];
+    near[top] = near[nearest], node[top] = node[nearest];
+    near[nearest] = near_top, node[nearest] = node_top;
+  }
+};
+
+/// If no more lanes than this have to enter a node, each of them goes on alone (lone_ray.h): a test in all lanes would
+/// be wasted on most of them. By measurement 4 of 32 and 2 of 16 lanes are best for the rays of paths, and twice as
+/// many for rays in random order. Lanes always enter a leaf together: there is too little work in it to go alone.
+template <class F>
+inline constexpr int few_lanes = lanes_of<F> < bvh_width ? 0 : lanes_of<F> / 8;
+
+/// Takes nodes off the stack until there is one in which some lane may find a hit closer than its best, and sets `node`
+/// to it. Returns a bit for each such lane; 0: no node is left.
+template <class F, class Q>
+TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& asked, const Hit<F>& best) {
+  const F infinity = F(__builtin_inff());
+  while (stack.size > 0) {
+    --stack.size;
+    const F near = stack.near[stack.size];
+    asked.near = select(less_equal(near, best.t * F(slab_room)), near, infinity);
+    const std::uint32_t live = bits(less(asked.near, infinity));
+    node = stack.node[stack.size];
+    if (live) return live;
+  }
+  return 0;
+}
+
+/// Puts those children of a node on the stack that some lane meets.
+template <class F>
+TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F limit, Stack<F>& stack) {
+  const int bottom = stack.size;
+  for (int c = 0; c < node.count; ++c) {
+    const Entry<F> child = enter_boxes(
+        [&](int axis) __attribute__((always_inline)) { return splat<F>(node.low[axis][c]); },
+        [&](int axis) __attribute__((always_inline)) { return splat<F>(node.high[axis][c]); }, slopes, limit);
+    stack.near[stack.size] = select(child.meets, child.near, F(__builtin_inff()));
+    stack.node[stack.size] = node.child[c];
+    stack.size += any(child.meets) ? 1 : 0;
+  }
+  if (stack.size > bottom + 1) stack.raise_nearest(bottom);
+}
+
+/// Replaces `best` in lanes that meet something closer. On entry best.t says how far each lane has to look; negative:
+/// the lane takes no part.
+template <class F, class Q>
+TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hit<F>& best) {
+  const Slopes<F> slopes = slopes_of(ray);
+  LoneRays<F> alone;
+  Stack<F> stack;
+  stack.near[0] = F(0.0f);
+  stack.node[0] = 0;
+  stack.size = 1;
+  std::int32_t node = 0;
+  while (const std::uint32_t live = take_node(stack, node, asked, best)) {
+    if (node < 0) {
+      test_leaf(s, s.leaves[~node], ray, asked, best);
+    } else if (__builtin_popcount(live) > few_lanes<F>) {
+      open_node(s.nodes[node], slopes, best.t, stack);
+      continue;
+    } else if constexpr (few_lanes<F> > 0) {
+      alone.remember(ray, slopes, asked);
+      store(alone.near, asked.near);
+      test_lone_rays<F, Q>(s, alone, node, live, best);
+    }
+    if constexpr (Q::shadow) best.t = select(less(best.element, IntOf<F>(0)), best.t, F(-1.0f));
+  }
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
+  test_all(s, ray, Asked<F, false, false>{F(0.0f), IntOf<F>(-1), -1}, best);
+  return best;
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
+  test_tree(s, ray, Asked<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
+  return best;
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+  return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
+}
+
+/// Lanes that would meet anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other
+/// faces do block. common_aim: the element that all lanes aim at, or -1 if they may aim at different ones.
+template <class F>
+TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim,
+                                         std::int32_t common_aim, MaskOf<F> active) {
+  Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
+  if (s.nodes)
+    test_tree(s, ray, Asked<F, true, true>{F(0.0f), aim, common_aim}, best);
+  else
+    test_all(s, ray, Asked<F, true, false>{F(0.0f), aim, common_aim}, best);
+  return less_equal(IntOf<F>(0), best.element);
+}
+
+/// The same for ways to lights. aim: the light's element.
+template <class F>
+TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
+  return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
+}
+
+// The same as real function calls, for code that seldom runs: each inlined copy takes seconds to compile. They take
+// rays by value, because a reference would force the path loop to keep its rays in memory instead of registers.
+
+template <class F>
+[[gnu::noinline]] static Hit<F> call_closest(const SceneView& s, Ray<F> ray, MaskOf<F> active) {
+  return closest(s, ray, active);
+}
+
+template <class F>
+[[gnu::noinline]] static MaskOf<F> call_blocked(const SceneView& s, Ray<F> ray, F distance, IntOf<F> aim,
+                                                MaskOf<F> active) {
+  return blocked_towards(s, ray, distance, aim, -1, active);
+}
+
+}  // namespace tyndall

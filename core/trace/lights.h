@@ -1,0 +1,227 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/base/sampling.h"
+#include "core/shapes/sphere.h"
+#include "core/trace/light_choice.h"
+
+/// Samples lights as seen from a point: which point of a light, and with which density of the direction, per steradian,
+/// the choice of the light (light_choice.h) included. The density depends on the point and the light alone, so that a
+/// ray which meets a light by chance can be weighed against the sample that would have chosen the same direction.
+namespace tyndall {
+
+/// A light's columns for each lane: see Lights. With one light in the scene they are read once for all lanes.
+template <class F>
+struct LightColumns {
+  IntOf<F> kind;
+  Vec3<F> corner, edge_u, edge_v, normal;
+  F length_u, length_v, area;
+};
+
+/// Values of a column of lights, one for each lane.
+template <class F>
+TYNDALL_INLINE F light_value(const LightView& l, const float* column, IntOf<F> k) {
+  return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> light_vector(const LightView& l, const float* const* columns, IntOf<F> k) {
+  return {light_value<F>(l, columns[0], k), light_value<F>(l, columns[1], k), light_value<F>(l, columns[2], k)};
+}
+
+template <class F>
+TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
+  return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count, k),
+          light_vector<F>(l, l.corner, k),
+          light_vector<F>(l, l.edge_u, k),
+          light_vector<F>(l, l.edge_v, k),
+          light_vector<F>(l, l.normal, k),
+          light_value<F>(l, l.length_u, k),
+          light_value<F>(l, l.length_v, k),
+          light_value<F>(l, l.area, k)};
+}
+
+/// A rectangle as seen from a point: its edges in a frame along its sides with the point at the origin, and its solid
+/// angle. After C. Ureña, M. Fajardo, A. King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+/// Each corner (x, y, z) at distance d is written as a complex number, z d + i x y. The angle of their product is the
+/// solid angle (two of the four are conjugated), so that one arc tangent is enough.
+template <class F>
+struct SphericalRectangle {
+  F x0, y0, x1, y1, z;   ///< in units of `scale`; z: distance from the rectangle's plane, >= 0
+  F scale;               ///< the largest of these coordinates, in scene units
+  F solid_angle;         ///< 0: too small, too flat or too wide for these formulas; sample the area instead
+  F turn_cos, turn_sin;  ///< cosine and sine of the angle of conj(c01) c00, the corners (x0, y1) and (x0, y0)
+};
+
+template <class F>
+struct Complex {
+  F re, im;
+};
+template <class F>
+TYNDALL_INLINE Complex<F> times(Complex<F> a, Complex<F> b) {
+  return {a.re * b.re - a.im * b.im, mul_add(a.re, b.im, a.im * b.re)};
+}
+template <class F>
+TYNDALL_INLINE Complex<F> conjugate(Complex<F> a) {
+  return {a.re, -a.im};
+}
+
+/// A corner (x, y) of a rectangle at distance z from the origin, as the complex number z r + i x y: see
+/// SphericalRectangle.
+template <class F>
+TYNDALL_INLINE Complex<F> corner_at(F x, F y, F z) {
+  return {z * sqrt(mul_add(x, x, mul_add(y, y, z * z))), x * y};
+}
+
+template <class F>
+TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light, Vec3<F> point) {
+  const Vec3<F> way = light.corner - point;
+  SphericalRectangle<F> r;
+  const F x = dot(way, light.edge_u), y = dot(way, light.edge_v), z = abs(dot(way, light.normal));
+  const F largest =
+      max(max(max(abs(x), abs(x + light.length_u)), max(abs(y), abs(y + light.length_v))), max(z, F(1e-30f)));
+  r.scale = largest;
+  const F down = F(1.0f) / largest;
+  r.x0 = x * down, r.y0 = y * down, r.z = z * down;
+  r.x1 = (x + light.length_u) * down, r.y1 = (y + light.length_v) * down;
+  const Complex<F> q = times(conjugate(corner_at(r.x0, r.y1, r.z)), corner_at(r.x0, r.y0, r.z));
+  const Complex<F> all = times(times(corner_at(r.x1, r.y1, r.z), conjugate(corner_at(r.x1, r.y0, r.z))), q);
+  const F angle = atan2(all.im, all.re);
+  const F solid_angle = select(less(angle, F(0.0f)), angle + F(static_cast<float>(2 * pi)), angle);
+  const auto good = mask_and(mask_and(less(F(2e-3f), solid_angle), less(solid_angle, F(6.28f))), less(F(1e-4f), r.z));
+  r.solid_angle = select(mask_and(good, equal(light.kind, IntOf<F>(Lights::rectangle))), solid_angle, F(0.0f));
+  const F inverse = F(1.0f) / sqrt(max(mul_add(q.re, q.re, q.im * q.im), F(1e-37f)));
+  r.turn_cos = q.re * inverse, r.turn_sin = q.im * inverse;
+  return r;
+}
+
+/// Point of a rectangle that is uniform in solid angle, as (x, y) in the rectangle's frame, in units of its scale.
+template <class F>
+TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pair<F> u) {
+  const SinCos<F> part = sin_cos_turn(min(u.x * r.solid_angle * F(static_cast<float>(0.5 / pi)), F(0.9999999f)));
+  // The angle is u S + π - arg q.
+  const F sine = mul_add(r.turn_sin, part.cos, -(r.turn_cos * part.sin));
+  const F cosine = -mul_add(r.turn_cos, part.cos, r.turn_sin * part.sin);
+  const F z2 = r.z * r.z;
+  const F b0 = -r.y0 / sqrt(mul_add(r.y0, r.y0, z2)), b1 = r.y1 / sqrt(mul_add(r.y1, r.y1, z2));
+  const F safe = select(less(abs(sine), F(1e-20f)), F(1e-20f), sine);
+  const F f = mul_add(cosine, b0, -b1) / safe;
+  const F c = min(max(copy_sign(F(1.0f), f) / sqrt(mul_add(f, f, b0 * b0)), F(-1.0f)), F(1.0f));
+  const F x = min(max(c * r.z / sqrt(max(neg_mul_add(c, c, F(1.0f)), F(1e-14f))), r.x0), r.x1);
+  const F d2 = mul_add(x, x, z2);
+  const F h0 = r.y0 / sqrt(mul_add(r.y0, r.y0, d2)), h1 = r.y1 / sqrt(mul_add(r.y1, r.y1, d2));
+  const F h = mul_add(u.y, h1 - h0, h0);
+  const F y = h * sqrt(d2) / sqrt(max(neg_mul_add(h, h, F(1.0f)), F(1e-14f)));
+  return {x, min(max(y, r.y0), r.y1)};
+}
+
+/// A sphere as seen from a point: the directions to it fill a cone, in which they are drawn evenly.
+/// P. Shirley, C. Wang, K. Zimmerman, Monte Carlo Techniques for Direct Lighting Calculations, ACM TOG 15(1), 1996.
+template <class F>
+struct SphericalCap {
+  Vec3<F> axis;     ///< unit, towards the centre
+  F one_minus_cos;  ///< 1 - cos of the cone's half angle; 2: the point is inside, and every direction meets the sphere
+  F density;        ///< of each direction, per steradian
+};
+
+template <class F>
+TYNDALL_INLINE SphericalCap<F> cap_from(Vec3<F> to_center, F radius) {
+  const F d2 = dot(to_center, to_center), r2 = radius * radius;
+  const auto inside = less_equal(d2, r2);
+  const F sine2 = min(r2 / max(d2, F(1e-37f)), F(1.0f));
+  // 1 - cos without cancellation: sin² / (1 + cos).
+  const F narrow = sine2 / (F(1.0f) + sqrt(max(F(1.0f) - sine2, F(0.0f))));
+  const F part = select(inside, F(2.0f), narrow);
+  const F scale = F(1.0f) / sqrt(max(d2, F(1e-37f)));
+  const Vec3<F> anywhere{F(0.0f), F(0.0f), F(1.0f)};
+  return {select(less(F(0.0f), d2), scale * to_center, anywhere), part, F(static_cast<float>(0.5 / pi)) / part};
+}
+
+/// A direction in the cone, by u in [0, 1)².
+template <class F>
+TYNDALL_INLINE Vec3<F> in_cap(const SphericalCap<F>& cap, Pair<F> u) {
+  const F x = u.x * cap.one_minus_cos;  // 1 - cos of the angle from the axis
+  const F sine = sqrt(max(x * (F(2.0f) - x), F(0.0f)));
+  const Basis<F> b = basis_around(cap.axis);
+  const SinCos<F> a = sin_cos_turn(u.y);
+  return along(along((F(1.0f) - x) * cap.axis, sine * a.cos, b.s), sine * a.sin, b.t);
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> sphere_light_center(const LightColumns<F>& light, F time) {
+  return along(light.corner, time, light.edge_u);
+}
+
+/// A direction to a light.
+template <class F>
+struct LightSample {
+  Vec3<F> direction;  ///< unit
+  F distance;
+  F density;  ///< per steradian, the choice of the light not included; 0: nothing can come from there
+};
+
+template <class F>
+TYNDALL_INLINE LightSample<F> sample_flat(const LightColumns<F>& light, Vec3<F> point, Pair<F> u) {
+  const SphericalRectangle<F> r = rectangle_from(light, point);
+  const auto by_area = equal(r.solid_angle, F(0.0f));
+  Vec3<F> way =
+      along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
+  if (!all(by_area)) {
+    const Pair<F> at = on_spherical_rectangle(r, u);
+    const F side = copy_sign(F(1.0f), dot(light.corner - point, light.normal));
+    const Vec3<F> local = along(along(at.x * light.edge_u, at.y, light.edge_v), side * r.z, light.normal);
+    way = select(by_area, way, r.scale * local);
+  }
+  const F d2 = max(dot(way, way), F(1e-37f)), inverse = F(1.0f) / sqrt(d2);
+  const Vec3<F> direction = inverse * way;
+  const F cosine = abs(dot(direction, light.normal));
+  const F area_density = select(less(F(0.0f), cosine), d2 / max(cosine * light.area, F(1e-37f)), F(0.0f));
+  return {direction, d2 * inverse, select(by_area, area_density, F(1.0f) / r.solid_angle)};
+}
+
+template <class F>
+TYNDALL_INLINE LightSample<F> sample_sphere_light(const LightColumns<F>& light, Vec3<F> point, F time, Pair<F> u) {
+  const Vec3<F> to_center = sphere_light_center(light, time) - point;
+  const SphericalCap<F> cap = cap_from(to_center, light.length_u);
+  const Vec3<F> direction = in_cap(cap, u);
+  // The direction was drawn within the cone: if it misses the sphere, by rounding, it counts as one that grazes it.
+  const F middle = dot(to_center, direction);
+  const Vec3<F> across = along(to_center, -middle, direction);
+  const F half = sqrt(max(mul_add(light.length_u, light.length_u, -dot(across, across)), F(0.0f)));
+  const F near = middle - half;
+  return {direction, select(less(F(0.0f), near), near, middle + half), cap.density};
+}
+
+template <class F>
+TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Pair<F> u) {
+  const LightColumns<F> columns = load_light<F>(l, light);
+  const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
+  LightSample<F> sample{{F(0.0f), F(0.0f), F(1.0f)}, F(0.0f), F(0.0f)};
+  if (!all(round)) sample = sample_flat(columns, point, u);
+  if (any(round)) {
+    const LightSample<F> ball = sample_sphere_light(columns, point, time, u);
+    sample = {select(round, ball.direction, sample.direction), select(round, ball.distance, sample.distance),
+              select(round, ball.density, sample.density)};
+  }
+  return sample;
+}
+
+/// Density, per steradian, with which sample_light() gives `direction`, which meets `light` at `distance`, times the
+/// probability with which choose_light() takes this light.
+template <class F>
+TYNDALL_INLINE F light_density(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction,
+                               F distance) {
+  const LightColumns<F> columns = load_light<F>(l, light);
+  const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
+  F density = F(0.0f);
+  if (!all(round)) {
+    const SphericalRectangle<F> r = rectangle_from(columns, point);
+    const F cosine = abs(dot(direction, columns.normal));
+    const F by_area = distance * distance / max(cosine * columns.area, F(1e-37f));
+    density = select(less(F(0.0f), r.solid_angle), F(1.0f) / r.solid_angle, by_area);
+  }
+  if (any(round))
+    density = select(round, cap_from(sphere_light_center(columns, time) - point, columns.length_u).density, density);
+  return density * choice_probability(l, point, light);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,236 @@
+#pragma once
+#include "core/base/ray.h"
+#include "core/materials/materials.h"
+#include "core/textures/textures.h"
+#include "core/trace/intersect.h"
+#include "core/trace/scene_view.h"
+
+#include <tuple>
+#include <utility>
+
+/// What a ray finds where it ends: the background, or a surface with its colour and its material's scattering.
+namespace tyndall {
+
+/// Gradient: Ray Tracing in One Weekend, section 4.2 "Sending Rays Into the Scene".
+template <class F>
+TYNDALL_INLINE Vec3<F> background_radiance(const BackgroundColumns& b, Vec3<F> direction) {
+  const Vec3<F> first = splat<F>(b.a);
+  if (b.kind == BackgroundKind::constant) return first;
+  if (b.kind == BackgroundKind::hemispheres) return select(less(F(0.0f), direction.y), first, splat<F>(b.b));
+  return along(first, mul_add(F(0.5f), direction.y, F(0.5f)), splat<F>(b.b) - first);
+}
+
+/// A surface where a ray meets it.
+template <class F>
+struct SurfacePoint {
+  Vec3<F> point;
+  Vec3<F> normal;      ///< unit, the surface's own
+  MaskOf<F> inverted;  ///< the normal points inward, because the sphere's radius is negative
+  IntOf<F> element;    ///< a valid index in all lanes, also in those that met nothing
+  IntOf<F> material;
+};
+
+template <class F>
+TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray, F t, IntOf<F> element) {
+  const F safe_t = select(less(t, F(__builtin_inff())), t, F(0.0f));
+  SurfacePoint<F> p;
+  p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
+  p.point = along(ray.origin, safe_t, ray.direction);
+  p.material = lookup_int<F>(s.material, s.element_count, p.element);
+  Vec3<F> column{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
+                 lookup<F>(s.z, s.element_count, p.element)};
+  p.normal = column;
+  p.inverted = less(F(1.0f), F(0.0f));
+  if (!s.needs.spheres && !s.needs.moving_spheres) return p;
+  const F inverse_radius = lookup<F>(s.inverse_radius, s.element_count, p.element);
+  const auto round = mask_not(equal(inverse_radius, F(0.0f)));
+  if (!any(round)) return p;
+  if (s.needs.moving_spheres) {
+    const Vec3<F> way{lookup<F>(s.move_x, s.element_count, p.element), lookup<F>(s.move_y, s.element_count, p.element),
+                      lookup<F>(s.move_z, s.element_count, p.element)};
+    column = along(column, ray.time, way);
+  }
+  const Vec3<F> arm = p.point - column;
+  const F scale = copy_sign(F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f))), inverse_radius);
+  p.normal = select(round, scale * arm, p.normal);
+  p.inverted = less(inverse_radius, F(0.0f));
+  return p;
+}
+
+/// uv of a point for image textures; see Elements::uv.
+template <class F>
+TYNDALL_INLINE TextureUv<F> surface_uv(const SceneView& s, const SurfacePoint<F>& p) {
+  const IntOf<F> at = p.element * IntOf<F>(8);
+  F column[8];
+  for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.uv + i, at);
+  const F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
+  const F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
+  const auto round = mask_not(equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f)));
+  if (!any(round)) return {u, v, round};
+  const Vec3<F> outward = select(p.inverted, -p.normal, p.normal);
+  const Vec3<F> own{mul_add(column[0], outward.x, -(column[1] * outward.z)), outward.y,
+                    mul_add(column[1], outward.x, column[0] * outward.z)};
+  F round_u, round_v;
+  sphere_uv(own, round_u, round_v);
+  return {select(round, round_u, u), select(round, round_v, v), round};
+}
+
+/// Gives the uv coordinates of a surface to textures that want them.
+template <class F>
+struct SurfaceUv {
+  const SceneView* scene;
+  const SurfacePoint<F>* surface;  ///< null in a medium, whose textures want none
+  TYNDALL_INLINE TextureUv<F> operator()() const { return surface_uv(*scene, *surface); }
+};
+
+// The loops over the kinds of textures and materials below are recursions on purpose. Closures that refer to closures
+// would be simpler to read, but compilers then keep what they refer to, which is all of a path, in memory.
+
+/// Colour of a texture of kind `first` or a later one at a point.
+template <std::size_t first = 0, class F>
+TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F, SurfaceUv<F>>& at) {
+  using Kinds = TextureKinds<F>;
+  if constexpr (first + 1 < std::variant_size_v<Kinds>)
+    if (t.kind != static_cast<std::int32_t>(first)) return colour_of_kind<first + 1>(t, at);
+  return colour_at(static_cast<const std::variant_alternative_t<first, Kinds>*>(nullptr), t, at);
+}
+
+/// Colour of a texture at a point, in the lanes that want it. surface: gives the uv coordinates for image textures;
+/// null in a medium.
+template <class F>
+TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
+                                      const SurfacePoint<F>* surface) {
+  const Vec3<F> scaled = along(splat<F>(t.offset), splat<F>(t.scale), point);
+  return colour_of_kind<0, F>(t, {point, scaled, wanted, s.gradients, {&s, surface}});
+}
+
+/// `colour`, or the texture's colour in lanes whose `index` is not -1.
+template <class F>
+TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, MaskOf<F> lanes, Vec3<F> point,
+                                const SurfacePoint<F>* surface) {
+  for (int k = 0; k < s.texture_count; ++k) {
+    const auto here = mask_and(lanes, equal(index, IntOf<F>(k)));
+    if (any(here)) colour = select(here, texture_colour(s, s.textures[k], point, here, surface), colour);
+  }
+  return colour;
+}
+
+/// Where a texture is looked up for a point of a surface: on flats exactly in Elements::plane, so that the rounding of
+/// the point does not decide between the cells of a checker on either side of the flat.
+template <class F>
+TYNDALL_INLINE Vec3<F> texture_point(const SceneView& s, const SurfacePoint<F>& p) {
+  const auto flat = equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f));
+  if (!any(flat)) return p.point;
+  const Vec3<F> normal{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
+                       lookup<F>(s.z, s.element_count, p.element)};
+  const F gap = lookup<F>(s.plane, s.element_count, p.element) - dot(normal, p.point);
+  return select(flat, along(p.point, gap, normal), p.point);
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
+  const Vec3<F> colour{lookup<F>(s.red, s.material_count, p.material), lookup<F>(s.green, s.material_count, p.material),
+                       lookup<F>(s.blue, s.material_count, p.material)};
+  if (!s.has_textures()) return colour;
+  const IntOf<F> texture = lookup_int<F>(s.texture_of, s.material_count, p.material);
+  if (!any(mask_and(lanes, less_equal(IntOf<F>(0), texture)))) return colour;
+  return textured(s, colour, texture, lanes, texture_point<F>(s, p), &p);
+}
+
+/// Radiance that a light sends from a point on it. element: the light's.
+template <class F>
+TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
+  SurfacePoint<F> p;
+  p.element = element;
+  p.material = lookup_int<F>(s.material, s.element_count, element);
+  p.point = point;
+  p.inverted = less(F(1.0f), F(0.0f));
+  p.normal = zero3<F>();
+  if (s.has_image_textures()) {
+    const Vec3<F> arm =
+        point - Vec3<F>{lookup<F>(s.x, s.element_count, element), lookup<F>(s.y, s.element_count, element),
+                        lookup<F>(s.z, s.element_count, element)};
+    p.normal = (F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f)))) * arm;  // outward; only spheres use it
+  }
+  return surface_colour(s, p, lanes);
+}
+
+template <std::size_t first = 0, class M, class F>
+TYNDALL_INLINE void load_fields(const SceneView& s, IntOf<F> material, M& m) {
+  constexpr auto list = fields(static_cast<const M*>(nullptr));
+  if constexpr (first < std::tuple_size_v<decltype(list)>) {
+    constexpr auto member = std::get<first>(list).value;
+    m.*member = lookup<F>(s.parameter[first], s.material_count, material);
+    load_fields<first + 1, M, F>(s, material, m);
+  }
+}
+
+/// A material of kind M with its fields gathered.
+template <class M, class F>
+TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
+  M m{};
+  load_fields<0, M, F>(s, material, m);
+  return m;
+}
+
+/// Place of a kind in the list of materials.
+template <class M>
+constexpr std::int32_t kind_of() {
+  return place_in<M, MaterialKinds<double>>;
+}
+
+/// Whether the integrator samples lights where a material of kind M scatters.
+template <class M>
+TYNDALL_INLINE bool asks_for_lights(const SceneView& s) {
+  return M::light_sampling == LightSampling::always ||
+         (M::light_sampling == LightSampling::weighted && s.integrator == Integrator::mis);
+}
+
+/// Scatters the lanes that are at a material of kind `first` or a later one.
+template <std::size_t first, class F>
+TYNDALL_INLINE void scatter_kinds(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                  const Incident<F>& in, Scattered<F>& out) {
+  if constexpr (first < std::variant_size_v<MaterialKinds<F>>) {
+    using M = std::variant_alternative_t<first, MaterialKinds<F>>;
+    const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
+    if (any(here)) {
+      const Scattered<F> one = scatter(load_material<M, F>(s, material), in);
+      out.direction = select(here, one.direction, out.direction);
+      out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
+      out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
+      const F density = asks_for_lights<M>(s) ? one.density : F(one_direction);
+      out.density = select(here, density, out.density);
+    }
+    scatter_kinds<first + 1>(s, material, kind, lanes, in, out);
+  }
+}
+
+/// Scattering by the material that each lane is at; lights absorb.
+template <class F>
+TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                        const Incident<F>& in) {
+  const MaskOf<F> none = less(F(1.0f), F(0.0f));
+  Scattered<F> out{in.facing, none, none, F(one_direction)};
+  scatter_kinds<0>(s, material, kind, lanes, in, out);
+  return out;
+}
+
+/// Density, per steradian, with which the material that each lane is at scatters into `direction`. 0 for materials for
+/// which lights are not sampled, and for kinds before `first`.
+template <std::size_t first = 0, class F>
+TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                             const Incident<F>& in, Vec3<F> direction) {
+  F out = F(0.0f);
+  if constexpr (first < std::variant_size_v<MaterialKinds<F>>) {
+    using M = std::variant_alternative_t<first, MaterialKinds<F>>;
+    out = density_any<first + 1>(s, material, kind, lanes, in, direction);
+    if constexpr (M::light_sampling != LightSampling::never) {
+      const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
+      if (asks_for_lights<M>(s) && any(here))
+        out = select(here, density(load_material<M, F>(s, material), in, direction), out);
+    }
+  }
+  return out;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,137 @@
+#pragma once
+#include "core/transport/event.h"
+#include "core/transport/near_lights.h"
+#include "core/transport/path_pool.h"
+#include "core/transport/scatter.h"
+#include "core/transport/specular_light.h"
+
+/// The path tracer. A sample estimates the light that reaches a point of the film,
+///
+///   L = sum over paths x0 x1 ... xk of  We(x0, x1) · product of (f · cos / pdf) at x1 ... x(k-1) · Le(xk -> x(k-1)),
+///
+/// where x0 is on the lens and xk on a light or in the background (M. Pharr, W. Jakob, G. Humphreys, Physically Based
+/// Rendering, 4th edition, section 13.2). Each step makes the paths in all lanes one vertex longer; no lane waits for
+/// the others (path_pool.h). Light that can be found in more than one way is weighed by the power heuristic (E. Veach,
+/// Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2): by sampling the BSDF or the phase
+/// function, by sampling lights, and in scenes that have them, by specular paths (core/specular) and by flights that
+/// end next to small lights in media (near_lights.h).
+namespace tyndall {
+
+/// A recorder that records nothing. One that does is told, in this order, of each step of a path: see core/targets.
+struct NoRecorder {
+  TYNDALL_INLINE void on_event(const auto&...) {}
+  TYNDALL_INLINE void on_weight_against_chains(const auto&) {}
+  TYNDALL_INLINE void on_chain_light(const auto&) {}
+  TYNDALL_INLINE void on_end(const auto&...) {}
+};
+
+/// Which lanes a step has ended.
+template <class F>
+struct StepResult {
+  MaskOf<F> survivors;  ///< these go on
+  MaskOf<F> cut;        ///< max_depth ended these
+};
+
+/// Takes the paths in `active` one step further: to the next surface, the next event in a medium, or out of the scene.
+/// Lanes that end then have their whole sample in p.radiance, but for what waits in `waiting`.
+///
+/// s:        a SceneView, cut down to the models that this kernel has
+/// samples:  what the paths belong to, see AloneSamples
+/// waiting:  requests for the light of specular paths
+/// recorder: see NoRecorder
+template <class F>
+TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, auto& samples,
+                                  SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
+  // ---- intersect: a surface, or before it an event in a medium
+  Hit<F> hit = closest(s, p.ray, active);
+  MediumEvent<F> found = no_event<F>();
+  const F to_surface = hit.t;
+  const Vec3<F> at_start = p.throughput;
+  if (s.has_media()) cross_media(s, p, active, hit.t, found);
+  Event<F> e = event_on(p.ray, p.dice);
+  e.medium = found.happens;
+  e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
+  const auto escaped = mask_and_not(mask_and_not(active, e.surface), e.medium);
+  if (any(e.surface)) meet_surfaces(s, p.ray, hit, e);
+
+  // ---- emission: of the background, and of lights that the paths have hit
+  if (s.needs.background && any(escaped))
+    p.radiance =
+        select(escaped, p.radiance + p.throughput * background_radiance(s.background, p.ray.direction), p.radiance);
+  if (any(e.surface)) add_emission(s, p, hit, e, recorder);
+
+  // ---- the event, and the light of small lights in media that the path has passed
+  const Pair<F> u = p.dice.pair(dimension::direction);
+  const Vec3<F> unit = on_sphere(u);
+  if (any(e.surface)) describe_incidence(s, p, unit, e);
+  if (s.has_media() && any(e.medium)) meet_media(s, found, e);
+  if (s.has_lamps_in_fog()) light_near_lamps(s, p, at_start, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
+  recorder.on_event(s, p, hit, found, e);
+
+  // ---- what ends here: a path that carries nothing any more, or no finite number, or that is as long as max_depth
+  const auto met = mask_or(e.surface, e.medium);
+  samples.on_event(s, p, e, met);
+  Vec3<F> carried = p.throughput * e.colour;
+  const auto useful =
+      mask_and(mask_and_not(met, lose(p, met, carried + e.point)), less(F(0.0f), max_component(carried)));
+  const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
+  const auto cut = mask_and(useful, deep), scattering = mask_and_not(useful, deep);
+  auto spared = samples.on_scatter(s, p, e, scattering);
+
+  // ---- direct light: one light and one shadow ray, and specular paths
+  if (s.light_sampling && any(scattering)) {
+    const LightAsked<F> asked{choose_light(s.lights, e.point, p.dice.one(dimension::light_choice)),
+                              p.dice.pair(dimension::light_point), p.flight, false};
+    p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
+  }
+  if (s.has_chains()) ask_for_chains(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
+
+  // ---- sample the BSDF or the phase function
+  F weight;
+  const auto on = mask_and(scattering, scatter(s, p, e, unit, u, weight));
+  if (s.has_chains()) carried = select(on, weight * carried, carried);
+  if (p.straight) {
+    const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));
+    p.straight &= ~bits(mask_and_not(scattering, mirrored));
+  }
+  const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
+  p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
+  p.depth = p.depth + IntOf<F>(1);
+
+  // ---- Russian roulette
+  if (s.has_chains()) spared = mask_or(spared, seeks_glint(p));
+  const auto survivors = s.has_reuse() || s.has_chains() ? roulette_but(p, lanes, spared) : roulette(p, lanes);
+  p.dice.next_event();
+  recorder.on_end(p, on, StepResult<F>{survivors, cut});
+  return {survivors, cut};
+}
+
+/// Follows paths until all samples are done and all requests for the light of specular paths are answered.
+template <class F>
+TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, UnitCounts& counts, auto& recorder) {
+  PathPool<F> pool{};
+  SpecularQueue<F> waiting{};
+  Paths<F> p{};
+  p.dice.sampler = s.sampler;
+  // One loop for both, because a second one for the last requests would put their code into each kernel twice.
+  for (bool sampling = true; sampling || waiting.count > 0;) {
+    take_paths(s, p, pool, samples);
+    sampling = p.alive != 0;
+    if (sampling) {
+      counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++counts.steps;
+      std::uint32_t shadow_rays = 0;
+      const StepResult<F> end = step(s, p, mask_from_bits<F>(p.alive), samples, waiting, recorder, shadow_rays);
+      const std::uint32_t survivors = bits(end.survivors) & p.alive;
+      counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
+      samples.on_end(s, p, p.alive & ~survivors, bits(end.cut));
+      p.alive = survivors;
+    }
+    if constexpr (SpecularQueue<F>::waits) {
+      const bool full = waiting.count >= lanes_of<F>, rest = !sampling && waiting.count > 0;
+      const auto add = [&](std::int32_t slot, Vec3f light) { samples.add(slot, light); };
+      if (s.has_chains() && (full || rest)) answer_requests(s, waiting, counts, add);
+    }
+  }
+}
+
+}  // namespace tyndall

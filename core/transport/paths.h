@@ -1,0 +1,50 @@
+#pragma once
+#include "core/specular/chain_trail.h"
+#include "core/trace/flight.h"
+#include "core/trace/glints.h"
+
+/// The state of the paths in a group of lanes.
+namespace tyndall {
+
+/// Everything a group of paths carries from event to event.
+template <class F>
+struct Paths {
+  Ray<F> ray;
+  Vec3<F> throughput, radiance;
+  Dice<F> dice;
+  IntOf<F> depth;  ///< scattering events so far
+  F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
+  FogFlight<F> flight;         ///< the flight to where the ray starts; only in scenes with lamps in fog
+  ChainTrail<F> trail;         ///< what it met since it scattered last; only in scenes with chains
+  IntOf<F> slot;               ///< 2 · pixel within the tile + half; place in SharedPaths in kernels that share
+  F weight;                    ///< of the sample, see glints.h; only in scenes with chains
+  GlassRoute<F> route;         ///< what is left of its route to a glint; only in scenes with chains
+  std::uint32_t alive = 0;     ///< bit i: lane i follows a path
+  std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps
+  /// Bit i: its first, its second vertex is one of those that are shared (share.h). 0 in kernels that do not share.
+  std::uint32_t first = 0, second = 0;
+};
+
+/// Lanes on the way to a glint: they were drawn in its box, and have met nothing yet but smooth glass and mirrors.
+template <class F>
+TYNDALL_INLINE MaskOf<F> seeks_glint(const Paths<F>& p) {
+  return mask_and(p.route.is_set(), mask_from_bits<F>(p.straight));
+}
+
+/// What a path has gathered or carries, times the weight of its sample (glints.h).
+template <class F>
+TYNDALL_INLINE Vec3<F> weighed(const auto& s, const Paths<F>& p, Vec3<F> colour) {
+  return s.has_chains() ? p.weight * colour : colour;
+}
+
+/// Finds the lanes in which `part` of the path's state is not finite, and returns them. Their radiance is made not a
+/// number, so that the film rejects and counts the sample.
+template <class F>
+TYNDALL_INLINE MaskOf<F> lose(Paths<F>& p, MaskOf<F> lanes, Vec3<F> part) {
+  const F sum = F(0.0f) * part.x + F(0.0f) * part.y + F(0.0f) * part.z;  // 0, or not a number
+  const auto lost = mask_and_not(lanes, equal(sum, F(0.0f)));
+  if (any(lost)) p.radiance = select(lost, Vec3<F>{sum, sum, sum}, p.radiance);
+  return lost;
+}
+
+}  // namespace tyndall

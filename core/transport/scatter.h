@@ -1,0 +1,100 @@
+#pragma once
+#include "core/transport/event.h"
+
+/// How paths go on from an event: by the BSDF or the phase function, and by Russian roulette.
+namespace tyndall {
+
+/// Whether light that arrives after an event counts as seen by way of a mirror: the event sends it into one direction,
+/// or into a lobe with a density above 8 per steradian, about 20 degrees wide.
+template <class F>
+TYNDALL_INLINE MaskOf<F> is_narrow(F density) {
+  return mask_not(mask_and(less(F(0.0f), density), less(density, F(8.0f))));
+}
+
+/// Steers the lanes that look for a glint through its glass: into it at first and out of it at last, and each order of
+/// the events between is as likely. Returns the weight of each lane: the share of the light that goes its way over the
+/// probability of taking it. Although it seldom runs it is no call, which would keep the paths and their events in
+/// memory.
+template <class F>
+TYNDALL_INLINE F seek_glint(const SceneView& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, Scattered<F>& out) {
+  using I = IntOf<F>;
+  const F zero = F(0.0f), one = F(1.0f);
+  const Boundary<F> b = boundary_at(load_material<Dielectric<F>, F>(s, e.at.material), e.incident);
+  const I reflections = p.route.reflections(), crossings = p.route.crossings();
+  const auto by_choice = mask_and(less(zero, b.reflected), less(b.reflected, one));
+  const auto steered = mask_and(by_choice, less(I(0), reflections));
+  const auto enters = mask_and(equal(p.depth, I(0)), less(I(0), crossings));
+  const F between = max(from_int<F>(crossings) - one, zero), left = max(from_int<F>(reflections) + between, one);
+  const F wanted = select(enters, zero, from_int<F>(reflections) / left);
+  const F probability = mul_add(select(steered, F(glint_steering), zero), wanted - b.reflected, b.reflected);
+  const auto reflects = less(e.incident.dice.one(dimension::lobe), probability);
+  const Scattered<F> scattered = leave_boundary(b, e.incident, reflects);
+  out.direction = select(lanes, scattered.direction, out.direction);
+  out.transmitted = mask_or(mask_and(lanes, scattered.transmitted), mask_and_not(out.transmitted, lanes));
+  p.route.count(lanes, reflects);
+  const F weight = select(reflects, b.reflected / probability, (one - b.reflected) / (one - probability));
+  return select(mask_and(lanes, steered), weight, one);
+}
+
+/// Gives the paths new directions. Returns which lanes go on; the others were absorbed. weight: by which each lane's
+/// throughput is to be multiplied; it is 1 unless it looks for a glint.
+template <class F>
+TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u, F& weight) {
+  const Vec3<F> before = p.ray.direction;
+  const Ray<F> came = p.ray;
+  MaskOf<F> transmitted = less(F(1.0f), F(0.0f));
+  MaskOf<F> goes_on = e.medium;
+  weight = F(1.0f);
+  p.ray.origin = e.point;
+  p.ray.from = e.from;
+  if (any(e.surface)) {
+    Scattered<F> out = scatter_any(s, e.at.material, e.kind, e.surface, e.incident);
+    if (s.has_chains() && s.glint_count > 0) {
+      const auto glass = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Dielectric<double>>())));
+      const auto seeks = mask_and(glass, seeks_glint(p));
+      if (any(seeks)) weight = seek_glint(s, p, e, seeks, out);
+    }
+    p.ray.direction = select(e.surface, out.direction, p.ray.direction);
+    p.density = select(e.surface, out.density, p.density);
+    transmitted = out.transmitted;
+    // Through the surface: on its other side, inside for outside.
+    const auto through = mask_and(e.surface, out.transmitted);
+    const IntOf<F> side = e.from & IntOf<F>(1);
+    p.ray.from = select(through, e.from + IntOf<F>(1) - (side + side), p.ray.from);
+    goes_on = mask_or(goes_on, mask_and_not(e.surface, out.absorbed));
+  }
+  if (s.has_media() && any(e.medium)) {
+    Vec3<F> direction = unit;
+    if (s.needs.phase_functions) direction = scatter_in_medium(e.g, before, unit, u);
+    p.ray.direction = select(e.medium, direction, p.ray.direction);
+    p.density = select(e.medium, phase_density(s, e.g, before, direction), p.density);
+  }
+  if (s.has_chains()) {
+    const auto spreads = is_diffuse(e);
+    extend_trail(s, p.trail, came, mask_and_not(e.surface, spreads), e.at.element, mask_not(transmitted));
+    restart_trail(p.trail, spreads, e.point, p.density, e.asks);
+  }
+  return goes_on;
+}
+
+/// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
+/// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
+/// Only paths whose throughput is below `least_carried` are at risk.
+template <class F>
+TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
+  const F survival = F(1 / least_carried) * max_component(p.throughput);
+  const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
+  if (!any(at_risk)) return lanes;
+  const auto ended = mask_and_not(at_risk, less(p.dice.one(dimension::roulette), survival));
+  const F scale = F(1.0f) / select(at_risk, max(survival, F(1e-37f)), F(1.0f));
+  p.throughput = select(at_risk, scale * p.throughput, p.throughput);
+  return mask_and_not(lanes, ended);
+}
+
+/// Roulette that leaves the lanes in `spared` alone.
+template <class F>
+TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> spared) {
+  return mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,77 @@
+#pragma once
+#include "core/film/film.h"
+#include "core/trace/camera.h"
+#include "core/trace/work.h"
+#include "core/transport/direct_light.h"
+
+/// The samples of a unit of work whose paths go alone, and where their light goes.
+namespace tyndall {
+
+/// Where the samples of a unit go.
+struct UnitFilm {
+  double per_unit;
+  FilmPixel* pixels;
+  EmissionSums* emission;  ///< null: not recorded
+  UnitCounts& counts;
+};
+
+/// The samples of a unit, each of which is a path of its own. It is what the path loop takes samples from and gives
+/// their light to; core/reuse has another one, for paths that share vertices.
+struct AloneSamples {
+  UnitSamples list;
+  UnitFilm film;
+
+  TYNDALL_INLINE AloneSamples(const SceneView& s, const Unit& unit, const UnitFilm& to) : film(to) {
+    list_samples(s, unit, list);
+  }
+  TYNDALL_INLINE bool empty() const { return list.empty(); }
+  TYNDALL_INLINE const Glints& glints() const { return list.glints; }
+  template <int lanes>
+  TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
+    list.take(to);
+  }
+
+  /// Called at each event in the lanes `met`, before it scatters.
+  template <class F>
+  TYNDALL_INLINE void on_event(const auto&, Paths<F>&, const Event<F>&, MaskOf<F>) {}
+  /// Called before light is sought, in lanes whose path goes on. Returns the lanes that roulette is to spare.
+  template <class F>
+  TYNDALL_INLINE MaskOf<F> on_scatter(const auto&, Paths<F>&, const Event<F>&, MaskOf<F>) {
+    return less(F(1.0f), F(0.0f));
+  }
+  /// Where light belongs that is found apart from the path, for add().
+  template <class F>
+  TYNDALL_INLINE IntOf<F> slot_of(const Paths<F>& p) const {
+    return p.slot;
+  }
+
+  /// Adds the samples of the lanes `ended` to the unit's pixels; max_depth ended those in `cut`.
+  template <class F>
+  TYNDALL_INLINE void on_end(const auto& s, const Paths<F>& p, std::uint32_t ended, std::uint32_t cut) {
+    if (!ended) return;
+    alignas(64) float r[lanes_of<F>], g[lanes_of<F>], b[lanes_of<F>], carried[lanes_of<F>];
+    alignas(64) std::int32_t slot[lanes_of<F>];
+    const Vec3<F> sample = weighed(s, p, p.radiance);
+    const F left = max_component(p.throughput);
+    store(r, sample.x), store(g, sample.y), store(b, sample.z), store(slot, p.slot);
+    store(carried, s.has_chains() ? p.weight * left : left);
+    const std::uint32_t straight = film.emission ? p.straight : 0;
+    for (; ended; ended &= ended - 1) {
+      const int lane = __builtin_ctz(ended);
+      FilmPixel& pixel = film.pixels[slot[lane] >> 1];
+      const std::uint32_t half = static_cast<std::uint32_t>(slot[lane]) & 1u;
+      const Vec3f radiance{r[lane], g[lane], b[lane]};
+      add_sample(pixel, half, radiance, film.per_unit);
+      if (straight >> lane & 1u) add_emission(film.emission[slot[lane] >> 1], half, radiance, film.per_unit);
+      ++pixel.taken;
+      if (!(cut >> lane & 1u)) continue;
+      ++pixel.truncated;
+      film.counts.cut_throughput.add(static_cast<double>(carried[lane]));
+    }
+  }
+  TYNDALL_INLINE void add(std::int32_t slot, Vec3f light) {
+    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_unit);
+  }
+};
+
+}  // namespace tyndall

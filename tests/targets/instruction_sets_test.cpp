@@ -1,0 +1,133 @@
+#include "core/compile/compile.h"
+#include "core/scene/load.h"
+#include "core/targets/kernels.h"
+#include "tests/support/prepared.h"
+#include "tests/support/statistics.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr int edge = 48;
+
+RenderScene small(const std::string& name, std::uint32_t seed) {
+  Scene scene = load_scene(name).scene;
+  scene.width = scene.height = edge;
+  scene.render.seed = seed;
+  return compile(scene);
+}
+
+/// Means of the picture from samples first … last - 1.
+std::vector<float> picture(const Kernels& kernels, const RenderScene& scene, std::uint32_t first, std::uint32_t last) {
+  Film film = make_film(edge, edge, {0, 0, edge, edge}, first, scene.film_unit);
+  const SceneViewOf view(scene);
+  UnitCounts counts;
+  kernels.render_unit(view.view(), {film.region, 1, 0, first, last}, film.unit, film.pixels.data(), counts);
+  CHECK(totals(film).rejected == 0);
+  return resolve(film);
+}
+
+/// Mean of a channel over a block of 8 x 8 pixels.
+double block(const std::vector<float>& rgb, int index, std::size_t channel) {
+  double sum = 0;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) {
+      const int pixel = (index / 6 * 8 + y) * edge + index % 6 * 8 + x;
+      sum += static_cast<double>(rgb[static_cast<std::size_t>(pixel) * 3 + channel]) / 64;
+    }
+  return sum;
+}
+
+constexpr const char* scenes[] = {"showroom", "cornell-box", "cornell-smoke", "bouncing-spheres", "perlin-spheres"};
+
+}  // namespace
+
+TEST_CASE("instruction sets: the same samples give the same pixels, except where rounding changes a path's decision") {
+  for (const std::string name : scenes) {
+    const RenderScene scene = small(name, 0);
+    const std::vector<float> plain = picture(scalar_kernels(), scene, 0, 1);
+    for (const Kernels& kernels : available_kernels()) {
+      const std::vector<float> other = picture(kernels, scene, 0, 1);
+      int different = 0;
+      for (std::size_t i = 0; i < plain.size(); ++i)
+        different += std::abs(plain[i] - other[i]) <= 0.03f * (plain[i] + 0.1f) ? 0 : 1;
+      CAPTURE(name);
+      CAPTURE(std::string(kernels.isa));
+      CHECK(different <= 0.02 * static_cast<double>(plain.size()));
+    }
+  }
+}
+
+TEST_CASE("instruction sets: pictures of other seeds differ by their noise alone, block by block") {
+  constexpr std::uint32_t batches = 16, samples = 4;
+  for (const std::string name : scenes) {
+    const RenderScene scene = small(name, 1), other_scene = small(name, 2);
+    std::vector<std::vector<float>> plain;
+    for (std::uint32_t b = 0; b < batches; ++b)
+      plain.push_back(picture(scalar_kernels(), scene, b * samples, (b + 1) * samples));
+    for (const Kernels& kernels : available_kernels()) {
+      std::vector<std::vector<float>> other;
+      for (std::uint32_t b = 0; b < batches; ++b)
+        other.push_back(picture(kernels, other_scene, b * samples, (b + 1) * samples));
+      double squares = 0, sum = 0, worst = 0;
+      int count = 0;
+      for (int index = 0; index < 36; ++index) {
+        std::vector<double> differences;
+        for (std::size_t b = 0; b < batches; ++b)
+          differences.push_back(block(plain[b], index, 1) - block(other[b], index, 1));
+        const test::Estimate e = test::estimate(differences);
+        if (e.error == 0) continue;  // the block has no noise, because all its samples are equal
+        const double z = e.mean / e.error;
+        squares += z * z, sum += z, worst = std::max(worst, std::abs(z));
+        ++count;
+      }
+      CAPTURE(name);
+      CAPTURE(std::string(kernels.isa));
+      CHECK(count > 20);
+      // Student's t with 15 degrees of freedom: variance 15/13, and 1 in 50,000 beyond 6.1.
+      CHECK(std::abs(sum) < 4 * std::sqrt(count * 15.0 / 13));
+      CHECK(std::abs(squares / count - 15.0 / 13) < 4 * std::sqrt(2.8 / count));
+      CHECK(worst < 6.1);
+    }
+  }
+}
+
+TEST_CASE("instruction sets: pixels see the same elements first") {
+  for (const std::string name : scenes) {
+    const RenderScene scene = small(name, 0);
+    const SceneViewOf view(scene);
+    std::vector<FirstHit> plain(edge * edge), other(edge * edge);
+    scalar_kernels().first_hits(view.view(), {0, 0, edge, edge}, plain.data());
+    for (const Kernels& kernels : available_kernels()) {
+      kernels.first_hits(view.view(), {0, 0, edge, edge}, other.data());
+      int different = 0, colours = 0;
+      for (std::size_t i = 0; i < plain.size(); ++i) {
+        different += plain[i].element == other[i].element ? 0 : 1;
+        colours += length(plain[i].albedo - other[i].albedo) < 0.03f ? 0 : 1;
+      }
+      CAPTURE(name);
+      CHECK(different <= 1);
+      CHECK(colours <= 2);
+    }
+  }
+}
+
+TEST_CASE("instruction sets: the kernel over double follows the same paths, except where rounding changes a decision") {
+  CHECK(std::string(choose_kernels("double")->isa) == "double");
+  for (const char* name : {"cornell-box", "showroom", "cornell-smoke"}) {
+    const RenderScene scene = small(name, 0);
+    const std::vector<float> a = picture(scalar_kernels(), scene, 0, 4), b = picture(double_kernels(), scene, 0, 4);
+    int different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) > 1e-3f * (0.01f + b[i]) ? 1 : 0;
+    CAPTURE(name);
+    CHECK(different < 0.03 * static_cast<double>(a.size()));
+    CHECK(a != b);  // or the kernel would not compute in double
+  }
+}

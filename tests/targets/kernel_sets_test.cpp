@@ -1,0 +1,77 @@
+#include "core/compile/compile.h"
+#include "core/scene/load.h"
+#include "core/targets/kernels.h"
+#include "tests/support/prepared.h"
+
+#include <doctest/doctest.h>
+
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+/// A kernel that leaves models out gives, bit for bit, the picture of the full one.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+std::vector<float> picture(const Kernels& kernels, const RenderScene& scene) {
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_unit);
+  const SceneViewOf view(scene);
+  UnitCounts counts;
+  kernels.render_unit(view.view(), {film.region, 1, 0, 0, 4}, film.unit, film.pixels.data(), counts);
+  return resolve(film);
+}
+
+}  // namespace
+
+TEST_CASE("kernel sets: each built-in scene's own gives bit for bit what the full one gives") {
+  int scenes_of[kernel_sets] = {};
+  for (const BuiltIn& scene : built_in_scenes()) {
+    Scene loaded = load_scene(scene.name).scene;
+    loaded.width = loaded.height = 32;
+    const RenderScene own = compile(loaded);
+    ++scenes_of[static_cast<int>(own.kernel)];
+    RenderScene full = own;
+    full.kernel = KernelSet::everything;
+    CAPTURE(scene.name);
+    for (const Kernels& kernels : available_kernels()) {
+      CAPTURE(std::string(kernels.isa));
+      CHECK(picture(kernels, own) == picture(kernels, full));
+    }
+  }
+  for (const int count : scenes_of) CHECK(count > 0);
+}
+
+TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others the full one alone, and say so") {
+  for (const Kernels& kernels : available_kernels()) {
+    const std::string isa = kernels.isa;
+    CAPTURE(isa);
+    const bool wide = isa == "avx2" || isa == "avx512";
+    for (int i = 0; i < kernel_sets; ++i) {
+      const KernelSet least = static_cast<KernelSet>(i);
+      CHECK(kernels.set_for(least) == (wide ? least : KernelSet::everything));
+      for (int k = 0; k < i; ++k) CHECK((kernels.render_alone[k] == kernels.render_alone[i]) != wide);
+    }
+  }
+  CHECK(double_kernels().set_for(KernelSet::no_fog_nor_textures) == KernelSet::everything);
+}
+
+TEST_CASE("kernel sets: wide instruction sets have three kernels that share, the others one") {
+  for (const Kernels& kernels : available_kernels()) {
+    const std::string isa = kernels.isa;
+    CAPTURE(isa);
+    const bool wide = isa == "avx2" || isa == "avx512";
+    CHECK(std::set(std::begin(kernels.render_shared), std::end(kernels.render_shared)).size() == (wide ? 3 : 1));
+  }
+}
+
+TEST_CASE("kernel sets: a scene gets the least that holds its models") {
+  CHECK(compile(load_scene("cornell-box").scene).kernel == KernelSet::no_fog_nor_textures);
+  CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_chains);
+  CHECK(compile(load_scene("earth").scene).kernel == KernelSet::no_chains);
+  CHECK(compile(load_scene("stress-light-in-fog").scene).kernel == KernelSet::no_chains);
+  CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::chains_alone);
+  CHECK(compile(load_scene("stress-caustic-shell").scene).kernel == KernelSet::everything);
+}

@@ -1,0 +1,157 @@
+#include "core/targets/replay.h"
+
+#include "core/targets/kernels.h"
+#include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <map>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// What the scalar kernel puts into the film for one sample.
+FilmPixel film_pixel(const RenderScene& scene, const SceneView& view, int x, int y, std::uint32_t sample) {
+  FilmPixel pixel{};
+  UnitCounts counts;
+  scalar_kernels().render_unit(view, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, scene.film_unit, &pixel, counts);
+  return pixel;
+}
+
+/// What a replayed sample would put there.
+FilmPixel replayed_pixel(const RenderScene& scene, const PathReplay& path, std::uint32_t sample) {
+  FilmPixel pixel{};
+  add_sample(pixel, sample & 1u, path.radiance, 1 / scene.film_unit);
+  pixel.taken = 1;
+  pixel.truncated = path.vertices.back().fate == Fate::cut ? 1 : 0;
+  return pixel;
+}
+
+}  // namespace
+
+TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
+  std::map<Fate, int> fates;
+  std::map<Met, int> met;
+  for (const char* name :
+       {"showroom", "next-week", "close up", "caustic close up", "cornell-smoke", "bouncing-spheres", "hollow-glass",
+        "earth", "stress-caustic-mirror", "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
+    const std::string chosen = name;
+    const bool shares = chosen == "close up" || chosen == "caustic close up";
+    Scene settings = chosen == "close up" ? close_up("cornell-smoke", 24, 18)
+                     : shares             ? caustic_close_up(24, 18)
+                                          : small_scene(chosen, 24, 18, 1);
+    settings.render.max_depth = 12;
+    const RenderScene scene = compile(settings);
+    const SceneViewOf view(scene);
+    CHECK(view.view().shares == shares);
+    int wrong = 0;
+    for (int y = 0; y < 18; ++y)
+      for (int x = 0; x < 24; ++x)
+        for (const std::uint32_t sample : {0u, 1u, 1000003u}) {
+          const PathReplay path = replay(view.view(), x, y, sample);
+          wrong += replayed_pixel(scene, path, sample) == film_pixel(scene, view.view(), x, y, sample) ? 0 : 1;
+          for (const PathVertex& v : path.vertices) ++fates[v.fate], ++met[v.met];
+          const auto events = static_cast<std::uint32_t>(path.vertices.size()) - 1;
+          wrong += path.vertices.back().first_dimension == 8 + 16 * events ? 0 : 1;
+          for (std::size_t k = 1; k < path.vertices.size(); ++k)
+            wrong += path.vertices[k - 1].fate == Fate::goes_on ? 0 : 1;
+        }
+    CAPTURE(name);
+    CHECK(wrong == 0);
+  }
+  for (const Fate fate : {Fate::goes_on, Fate::ends_at_light, Fate::escapes, Fate::absorbed, Fate::roulette, Fate::cut})
+    CHECK(fates[fate] > 10);
+  CHECK(met[Met::medium] > 100);
+}
+
+TEST_CASE("replay: names the surfaces in order, with the way between them and what is carried") {
+  // Through a ball of matched glass to a grey wall, and from there to the white sky or a second time to the wall.
+  Scene scene = white_room();
+  add(scene, sphere({0, 0, 0}, 1), glass(1));
+  add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
+  aim(scene, {0, 0, 5}, {0, 0, 0});
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  const PathReplay path = replay(view.view(), 3, 4, 5);
+  REQUIRE(path.vertices.size() == 4);
+  CHECK(path.vertices[0].element == 0);
+  CHECK(path.vertices[0].inside);
+  CHECK(path.vertices[0].distance == doctest::Approx(4));
+  CHECK(path.vertices[1].element == 0);
+  CHECK_FALSE(path.vertices[1].inside);
+  CHECK(path.vertices[1].distance == doctest::Approx(2));
+  CHECK(path.vertices[2].element == 1);
+  CHECK(path.vertices[2].distance == doctest::Approx(2));
+  CHECK(path.vertices[2].throughput == Vec3f{1, 1, 1});
+  CHECK(path.vertices[3].met == Met::nothing);
+  CHECK(path.vertices[3].throughput == Vec3f{0.5f, 0.5f, 0.5f});
+  CHECK(path.radiance == Vec3f{0.5f, 0.5f, 0.5f});
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double z[] = {1, -1, -3};
+    CHECK(static_cast<double>(path.vertices[k].point.z) + compiled.origin.z == doctest::Approx(z[k]));
+  }
+}
+
+TEST_CASE("replay: says what smoke has left of a path's light") {
+  for (const double density : {0.5, 1e6}) {
+    Scene scene = white_room();
+    scene.render.integrator = Integrator::mis;
+    add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
+    add_medium(scene, sphere({0, 0, 0}, 1), {density, 0}, 0);
+    aim(scene, {0, 0, 5}, {0, 0, 0});
+    const RenderScene compiled = compile(scene);
+    const SceneViewOf view(compiled);
+    const PathReplay path = replay(view.view(), 3, 4, 5);
+    const double left = density < 1 ? std::exp(-1) : 0;
+    CHECK(static_cast<double>(path.vertices[0].kept) == doctest::Approx(left));
+    CHECK(static_cast<double>(path.vertices[0].throughput.x) == doctest::Approx(left));
+    CHECK(path.vertices[0].met == Met::surface);
+    CHECK(path.vertices[0].fate == (left > 0 ? Fate::goes_on : Fate::absorbed));
+    CHECK(static_cast<double>(path.radiance.x) == doctest::Approx(0.5 * left));
+  }
+}
+
+TEST_CASE("replay: shows where a number was lost") {
+  Scene scene = white_room();
+  add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
+  aim(scene, {0, 0, 5}, {0, 0, 0});
+  RenderScene compiled = compile(scene);
+  compiled.materials.green[0] = std::numeric_limits<float>::quiet_NaN();
+  const SceneViewOf view(compiled);
+  const PathReplay path = replay(view.view(), 0, 0, 0);
+  CHECK(path.vertices.size() == 1);
+  CHECK(path.vertices[0].fate == Fate::lost);
+  CHECK(std::isnan(path.radiance.x));
+}
+
+TEST_CASE("replay: says what chains add, and how much a lamp counts that they find too") {
+  Scene scene = dark_room();
+  scene.render.integrator = Integrator::mis;
+  add(scene, Quad<>{{-6, 0, -6}, {0, 0, 12}, {12, 0, 0}}, lambertian(0.7));
+  add(scene, sphere({0, 5.2, 0}, 0.59), lamp(12));
+  add(scene, sphere({0, 1.2, 0}, 1), glass(1.5));
+  aim(scene, {0, 0.1, 5}, {0, 0, 0.1});
+  const auto tell = [](const Scene& told) {
+    const RenderScene compiled = compile(told);
+    const SceneViewOf view(compiled);
+    int by_chains = 0, shared = 0;
+    for (std::uint32_t sample = 0; sample < 400; ++sample) {
+      const PathReplay path = replay(view.view(), 1, 2, sample);
+      for (const PathVertex& v : path.vertices) {
+        by_chains += v.by_chains.x > 0 && v.by_chains.x <= v.radiance.x ? 1 : 0;
+        shared += v.chance < 1 && v.fate == Fate::ends_at_light ? 1 : 0;
+      }
+    }
+    return std::pair{by_chains, shared};
+  };
+  const auto [by_chains, shared] = tell(scene);
+  CHECK(by_chains > 50);
+  CHECK(shared > 5);
+  scene.render.caustics = Caustics::scatter;
+  CHECK(tell(scene) == std::pair{0, 0});
+}

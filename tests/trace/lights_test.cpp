@@ -1,0 +1,147 @@
+#include "core/trace/lights.h"
+
+#include "core/trace/scene_view.h"
+#include "tests/support/mixed_scene.h"
+#include "tests/support/prepared.h"
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+Dice<float> dice_of(std::uint32_t i) { return Dice<float>::of(1, i, i >> 12, i * 7u); }
+
+/// Solid angle of a rectangle by quadrature over its area, and the mean direction over the solid angle.
+struct Seen {
+  double solid_angle = 0;
+  Vec3d mean;
+};
+Seen quadrature(const Quad<>& q, Vec3d point) {
+  Seen seen;
+  const int n = 400;
+  const Vec3d normal = normalize(cross(q.u, q.v));
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vec3d way = q.corner + ((i + 0.5) / n) * q.u + ((j + 0.5) / n) * q.v - point;
+      const double d2 = dot(way, way);
+      const Vec3d direction = (1 / std::sqrt(d2)) * way;
+      const double part = std::abs(dot(direction, normal)) * length(cross(q.u, q.v)) / (d2 * n * n);
+      seen.solid_angle += part;
+      seen.mean = seen.mean + part * direction;
+    }
+  seen.mean = (1 / seen.solid_angle) * seen.mean;
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or slanting one by area") {
+  Engine engine(5);
+  for (int k = 0; k < 40; ++k) {
+    const double size = std::pow(10.0, uniform(engine, -2, 2));
+    const Vec3d u = size * direction(engine), helper = direction(engine);
+    const Vec3d v = (k % 4 == 3 ? 1.0 : uniform(engine, 0.2, 3)) * (k % 4 == 3 ? size * helper : cross(u, helper));
+    const Quad<> quad{size * in_cube(engine, 2), u, v};
+    const RenderScene scene = lit({lamp_object(quad)});
+    const SceneViewOf view(scene);
+    const Vec3d from = size * in_cube(engine, k % 2 ? 2 : 20);
+    if (std::abs(dot(normalize(cross(u, v)), from - quad.corner)) < 0.2 * size) continue;
+    const Seen seen = quadrature(quad, from);
+    const Vec3f point = rounded(from - scene.origin);
+    Moments inverse, x, y, z;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, dice_of(i).pair(2));
+      REQUIRE(s.density > 0);
+      const double weight = 1 / static_cast<double>(s.density);
+      inverse.add(weight);
+      x.add(weight * static_cast<double>(s.direction.x));
+      y.add(weight * static_cast<double>(s.direction.y));
+      z.add(weight * static_cast<double>(s.direction.z));
+      // The same density is found for the direction by itself.
+      const float again = light_density<float>(view.view().lights, 0, point, 0.0f, s.direction, s.distance);
+      REQUIRE(again == doctest::Approx(s.density).epsilon(1e-3).scale(0));
+    }
+    CAPTURE(k);
+    CHECK(std::abs(inverse.estimate().mean - seen.solid_angle) <
+          4 * inverse.estimate().error + 1e-3 * seen.solid_angle);
+    const Moments* sums[] = {&x, &y, &z};
+    const double expected[] = {seen.mean.x, seen.mean.y, seen.mean.z};
+    for (int c = 0; c < 3; ++c)
+      CHECK(std::abs(sums[c]->estimate().mean - expected[c] * seen.solid_angle) <
+            4 * sums[c]->estimate().error + 1e-3 * seen.solid_angle);
+  }
+}
+
+TEST_CASE("lights: a sphere is sampled over its cap, from touching to ten thousand radii away, and from inside") {
+  for (const double distance : {0.0, 0.5, 0.999, 1.001, 1.01, 2.0, 100.0, 1e4}) {
+    const RenderScene scene = lit({lamp_object(sphere({0, 0, 0}, 1))});
+    const SceneViewOf view(scene);
+    const Vec3f point = rounded(Vec3d{0, 0, -distance} - scene.origin);
+    const double cosine = distance <= 1 ? -1 : std::sqrt(1 - 1 / (distance * distance));
+    const double part = distance <= 1 ? 2 : 1 / (distance * distance) / (1 + cosine);  // 1 - cos
+    Moments angle;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, dice_of(i).pair(2));
+      CHECK(static_cast<double>(s.density) == doctest::Approx(0.5 / pi / part).epsilon(1e-5).scale(0));
+      CHECK(s.distance > 0);
+      CHECK(static_cast<double>(length(along(point, s.distance, s.direction))) ==
+            doctest::Approx(1).epsilon(1e-6 + 4e-7 * distance).scale(0));
+      const double across2 = static_cast<double>(s.direction.x * s.direction.x + s.direction.y * s.direction.y);
+      const double c = static_cast<double>(s.direction.z);
+      angle.add((c > 0 ? across2 / (1 + c) : 1 - c) / part);  // uniform in [0, 1]
+    }
+    CAPTURE(distance);
+    CHECK(std::abs(angle.estimate().mean - 0.5) < 4 * angle.estimate().error + 1e-5);
+  }
+}
+
+TEST_CASE("lights: the choice has the probability it says, for one, a few and a thousand") {
+  Engine engine(2);
+  for (const int count : {1, 2, 16, 17, 1000}) {
+    std::vector<Object> lamps;
+    for (int i = 0; i < count; ++i) lamps.push_back(lamp_object(sphere(in_cube(engine, 5), uniform(engine, 0.1, 1))));
+    const RenderScene scene = lit(lamps);
+    const SceneViewOf view(scene);
+    const LightView& lights = view.view().lights;
+    const Vec3f point = rounded(in_cube(engine, 5));
+    std::vector<int> taken(static_cast<std::size_t>(count));
+    const int draws = 200000;
+    double sum = 0;
+    for (std::uint32_t i = 0; i < draws; ++i) {
+      const LightChoice<float> choice = choose_light<float>(lights, point, dice_of(i).one(5));
+      REQUIRE(choice.probability ==
+              doctest::Approx(choice_probability<float>(lights, point, choice.light)).epsilon(1e-5).scale(0));
+      ++taken[static_cast<std::size_t>(choice.light)];
+    }
+    double chi2 = 0;
+    for (int k = 0; k < count; ++k) {
+      const double p = static_cast<double>(choice_probability<float>(lights, point, k));
+      sum += p;
+      chi2 += std::pow(taken[static_cast<std::size_t>(k)] - draws * p, 2) / (draws * p);
+    }
+    CAPTURE(count);
+    CHECK(sum == doctest::Approx(1).epsilon(1e-4).scale(0));
+    CHECK(chi2 < count - 1 + 4.5 * std::sqrt(2.0 * count) + 1);
+  }
+}
+
+TEST_CASE("lights: of a thousand alike, the one beside the point is asked most often") {
+  std::vector<Object> lamps;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = i % 10, y = i / 10 % 10, z = i / 100;
+    lamps.push_back(lamp_object(sphere({2 * x, 2 * y, 2 * z}, 0.1)));
+  }
+  const RenderScene scene = lit(lamps);
+  const SceneViewOf view(scene);
+  const LightView& lights = view.view().lights;
+  const int beside = 555;
+  const Vec3f point = rounded(Vec3d{10, 10, 10.3} - scene.origin);
+  const float probability = choice_probability<float>(lights, point, beside);
+  // By power alone it would be 0.001, in exact proportion to what each contributes 0.4. The tree, which guesses from
+  // groups, gives 0.045; with groups that count as spread over the whole of their boxes' diagonals, 0.024.
+  CHECK(probability > 0.03f);
+  CHECK(probability < 0.4f);
+}
