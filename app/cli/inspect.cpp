@@ -43,7 +43,7 @@ Report examine(const InspectCommand& command) {
     report.chain_gain = measure_chain_gain(scene, kernels.isa);
     report.sharing_gain = measure_sharing_gain(scene, kernels.isa);
   }
-  report.film_bytes = bytes_per_pixel(has_material<Light<double>>(report.prepared->columns().needs)) *
+  report.film_bytes = bytes_per_pixel(needs_trait<&BsdfTraits::emits>(report.prepared->columns().needs)) *
                       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
 }

@@ -231,7 +231,8 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
     return result;
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
-    const auto bytes = static_cast<double>(bytes_per_pixel(has_material<Light<double>>(job.prepared->columns().needs)));
+    const auto bytes =
+        static_cast<double>(bytes_per_pixel(needs_trait<&BsdfTraits::emits>(job.prepared->columns().needs)));
     throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
                               1e-9 * bytes * r.width() * r.height(), memory_limit_text()));
   }

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/base/random.h"
 
-/// Rays, and the structs in which shapes, materials and media are asked about a ray and give their answers.
+/// Rays, and the structs in which shapes and media are asked about a ray and give their answers.
 namespace tyndall {
 
 /// How a ray starts on or in a shape. Each ray knows which shape it leaves and on which side, so that it cannot meet
@@ -53,35 +53,5 @@ TYNDALL_INLINE Start<F> start_on(IntOf<F> from, IntOf<F> element) {
   const auto here = equal(as_int(shift_right<2>(as_uint(from))), element);
   return {here, mask_and(here, equal(from & I(3), I(0)))};
 }
-
-/// A ray that meets a surface: what a material is told in order to scatter it.
-template <class F>
-struct Incident {
-  Vec3<F> direction;  ///< unit, towards the surface
-  Vec3<F> normal;     ///< unit, the surface's own (reversed for a negative radius)
-  Vec3<F> facing;     ///< the normal, turned against the direction
-  F cosine;           ///< between facing and the reversed direction, in [0, 1]
-  MaskOf<F> along;    ///< the direction is on the normal's side: the ray leaves what the surface encloses
-  Vec3<F> unit;       ///< uniform on the unit sphere, from the event's direction dimensions
-  bool schlick;       ///< use the books' approximation of Fresnel's equations
-  Dice<F> dice;       ///< a copy, because compilers keep a path in memory whose members are pointed to
-};
-
-/// Whether shadow rays are sent to lights from where a material scatters. never: it sends light into single directions
-/// only, like mirrors and glass. always. weighted: only with integrator mis, because the lobe may be so narrow that
-/// directions to lights almost never fall into it, and without weights the few that do would be bright dots.
-enum class LightSampling { never, weighted, always };
-
-/// What leaves a surface after a scattering event.
-template <class F>
-struct Scattered {
-  Vec3<F> direction;      ///< unit
-  MaskOf<F> absorbed;     ///< nothing leaves
-  MaskOf<F> transmitted;  ///< the direction is on the other side of the surface
-  F density;  ///< of the direction, per steradian; one_direction: it was the only possible one, or one of two
-};
-
-/// Marks a direction that light sampling cannot choose: a mirror's, glass's, the camera's.
-inline constexpr float one_direction = -1.0f;
 
 }  // namespace tyndall

@@ -50,10 +50,9 @@ std::vector<Candidate> list_candidates(const Flattened& flat, const Scene& scene
     const auto* sphere = std::get_if<Sphere<>>(&flat.shapes[i].shape);
     if (!sphere) continue;
     const Material& material = scene.materials[static_cast<std::size_t>(flat.shapes[i].material)];
-    const auto* metal = std::get_if<Metal<>>(&material.kind);
-    const auto* glass = std::get_if<Dielectric<>>(&material.kind);
-    if (!glass && !(metal && metal->fuzz == 0)) continue;
-    const double index = metal ? 0 : sphere->radius > 0 ? glass->refractive_index : 1 / glass->refractive_index;
+    const double own_index = boundary_index(material.kind);
+    if (own_index == 0 && !is_mirror(material.kind)) continue;
+    const double index = sphere->radius > 0 || own_index == 0 ? own_index : 1 / own_index;
     const RoundBody body = round_body(*sphere, flat.shapes[i].placement);
     if (!is_doubled(flat, i, body)) list.push_back({body, index, i});
   }
@@ -247,7 +246,7 @@ class Filler {
 }  // namespace
 
 Chains find_chains(const Flattened& flat, const Scene& scene, const RenderScene& compiled) {
-  if (!has_material<Lambertian<>>(compiled.needs) && !compiled.needs.media) return {};
+  if (!needs_trait<&BsdfTraits::diffuse>(compiled.needs) && !compiled.needs.media) return {};
   const Found found = look_for_all(flat, scene);
   std::vector<BallAndLight> pairs = list_pairs(found, compiled);
   if (pairs.empty()) return {};

@@ -188,7 +188,7 @@ double brightest(const Scene& scene) {
                             [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); }},
                  scene.background);
   for (const Material& m : scene.materials)
-    if (std::holds_alternative<Light<>>(m.kind)) {
+    if (traits_of(m.kind).emits) {
       const auto* colour = std::get_if<Vec3d>(&m.colour);
       most = std::max(most, colour ? largest(*colour) : 1.0);
     }

@@ -70,7 +70,7 @@ struct Collector {
 };
 
 double brightness_of(const Material& m) {
-  if (!std::holds_alternative<Light<>>(m.kind)) return 0;
+  if (!traits_of(m.kind).emits) return 0;
   const auto* colour = std::get_if<Vec3d>(&m.colour);
   return colour ? std::max({colour->x, colour->y, colour->z}) : 1.0;
 }

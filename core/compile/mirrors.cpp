@@ -59,8 +59,7 @@ std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vect
   std::vector<FlatMirror> list;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
-    const auto* metal = std::get_if<Metal<>>(&scene.materials[static_cast<std::size_t>(shape.material)].kind);
-    if (!metal || metal->fuzz != 0) continue;
+    if (!is_mirror(scene.materials[static_cast<std::size_t>(shape.material)].kind)) continue;
     if (const auto* quad = std::get_if<Quad<>>(&shape.shape))
       list.push_back(mirror_of(i, shape.placement, {cross(quad->u, quad->v), quad->corner, quad->u, quad->v}));
     const auto* box = std::get_if<Box<>>(&shape.shape);
@@ -80,7 +79,7 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
   std::vector<Receiver> list;
   for (const PlacedShape& shape : flat.shapes) {
     const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
-    if (!std::holds_alternative<Lambertian<>>(material.kind)) continue;
+    if (!traits_of(material.kind).diffuse) continue;
     Receiver receiver{extent_of(shape, scene.camera), false, {}};
     if (const auto* quad = std::get_if<Quad<>>(&shape.shape)) {
       receiver.is_quad = true;

@@ -113,12 +113,12 @@ std::vector<Pane> list_panes(const Flattened& flat, const std::vector<Flat>& fla
   std::vector<Pane> list;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
-    const auto* glass = std::get_if<Dielectric<>>(&scene.materials[static_cast<std::size_t>(shape.material)].kind);
+    const double index = boundary_index(scene.materials[static_cast<std::size_t>(shape.material)].kind);
     const auto* box = std::get_if<Box<>>(&shape.shape);
-    if (!glass || !box || glass->refractive_index < least_pane_index) continue;
+    if (!box || index < least_pane_index) continue;
     const Block block = block_of(*box, shape.placement);
     Pane pane;
-    pane.shape = i, pane.middle = block.middle, pane.index = glass->refractive_index;
+    pane.shape = i, pane.middle = block.middle, pane.index = index;
     for (std::size_t k = 0; k < 3; ++k) {
       pane.half[k] = length(block.edge[k]);
       pane.edge[k] = normalize(block.edge[k]);

@@ -33,6 +33,15 @@ template <class Kind>
 constexpr bool has_material(const Needs& needs) {
   return needs.materials[place_in<Kind, MaterialKinds<double>>];
 }
+/// Whether some shape is of a material with a trait: needs_trait<&BsdfTraits::emits>(needs).
+template <bool BsdfTraits::*trait>
+constexpr bool needs_trait(const Needs& needs) {
+  constexpr auto list = static_cast<const MaterialKinds<double>*>(nullptr);
+  bool some = false;
+  for (std::size_t k = next_with<trait>(list, 0); k < std::size(needs.materials); k = next_with<trait>(list, k + 1))
+    some = some || needs.materials[k];
+  return some;
+}
 /// Names of the needs that are set, in the order above.
 std::vector<std::string> names_of(const Needs& needs);
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/fields.h"
-#include "core/base/ray.h"
+#include "core/materials/bsdf.h"
 
 #include <tuple>
 
@@ -13,7 +13,8 @@ struct Dielectric {
   static constexpr const char* type = "dielectric";
   static constexpr const char* about = "Smooth, clear glass or water: reflects or refracts, never absorbs.";
   static constexpr const char* colour_name = nullptr;
-  static constexpr LightSampling light_sampling = LightSampling::never;
+  static constexpr BsdfTraits traits{
+      .specular = true, .transmissive = true, .smooth_boundary = true, .constant_weight = true};
   F refractive_index = F(1.5);
   bool operator==(const Dielectric&) const = default;
 };
@@ -83,16 +84,18 @@ TYNDALL_INLINE Boundary<F> boundary_at(const Dielectric<F>& glass, const Inciden
 /// What leaves a boundary that reflects in some lanes and refracts in the others.
 /// The direction by Snell's law in vector form: (d + (cos_in - n cos_out) n) / eta.
 template <class F>
-TYNDALL_INLINE Scattered<F> leave_boundary(const Boundary<F>& b, const Incident<F>& in, MaskOf<F> reflects) {
+TYNDALL_INLINE BsdfSample<F> leave_boundary(const Boundary<F>& b, const Incident<F>& in, MaskOf<F> reflects) {
   const Vec3<F> bent = along(in.direction, in.cosine - b.scaled_cos_out, in.facing);
   const F scale = select(equal(b.eta, F(1.0f)), F(1.0f), F(1.0f) / sqrt(max(dot(bent, bent), F(1e-30f))));
-  return {select(reflects, reflect(in.direction, in.normal), scale * bent), less(F(1.0f), F(0.0f)), mask_not(reflects),
-          F(one_direction)};
+  return {select(reflects, reflect(in.direction, in.normal), scale * bent),
+          F(1.0f),
+          F(one_direction),
+          {less(F(1.0f), F(0.0f)), mask_not(reflects)}};
 }
 
 /// Reflects with the probability of the reflected share, else refracts.
 template <class F>
-TYNDALL_INLINE Scattered<F> scatter(const Dielectric<F>& glass, const Incident<F>& in) {
+TYNDALL_INLINE BsdfSample<F> sample(const Dielectric<F>& glass, const Incident<F>& in) {
   const Boundary<F> b = boundary_at(glass, in);
   return leave_boundary(b, in, less(in.dice.one(dimension::lobe), b.reflected));
 }

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/base/fields.h"
-#include "core/base/math.h"
-#include "core/base/ray.h"
+#include "core/materials/bsdf.h"
 
 #include <tuple>
 
@@ -14,7 +13,7 @@ struct Lambertian {
   static constexpr const char* type = "lambertian";
   static constexpr const char* about = "Matt: scatters with the cosine, the same in all directions of view.";
   static constexpr const char* colour_name = "albedo";
-  static constexpr LightSampling light_sampling = LightSampling::always;
+  static constexpr BsdfTraits traits{.diffuse = true, .constant_weight = true, .light_sampling = LightSampling::always};
   bool operator==(const Lambertian&) const = default;
 };
 
@@ -23,25 +22,23 @@ constexpr auto fields(const Lambertian<F>*) {
   return std::tuple{};
 }
 
-/// Probability density per steradian of scattering into a unit direction: cos θ / π, 0 below the surface. Times the
-/// albedo it is the reflected share (the BRDF times the cosine).
 template <class F>
 TYNDALL_INLINE F density(const Lambertian<F>&, const Incident<F>& in, Vec3<F> direction) {
-  return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));
+  return diffuse_pdf(in, direction);
 }
 
 /// The direction of the normal plus a random unit vector, which has density cos θ / π. Where they nearly cancel, to a
 /// length below 1e-3 (once in four million times), rounding could lead below the surface: then the normal is taken.
 /// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".
 template <class F>
-TYNDALL_INLINE Scattered<F> scatter(const Lambertian<F>&, const Incident<F>& in) {
+TYNDALL_INLINE BsdfSample<F> sample(const Lambertian<F>&, const Incident<F>& in) {
   const Vec3<F> sum = in.facing + in.unit;
   const F squared = dot(sum, sum);
   const auto cancelled = less(squared, F(1e-6f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
   const MaskOf<F> none = less(F(1.0f), F(0.0f));
   const Vec3<F> out = select(cancelled, in.facing, scale * sum);
-  return {out, none, none, density(Lambertian<F>{}, in, out)};
+  return {out, F(1.0f), diffuse_pdf(in, out), {none, none}};
 }
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/fields.h"
-#include "core/base/ray.h"
+#include "core/materials/bsdf.h"
 
 #include <tuple>
 
@@ -15,7 +15,7 @@ struct Light {
   static constexpr const char* about = "Shines on both sides, reflects nothing.";
   static constexpr const char* need = "lights";  ///< its name among the needs of a scene
   static constexpr const char* colour_name = "radiance";
-  static constexpr LightSampling light_sampling = LightSampling::never;
+  static constexpr BsdfTraits traits{.emits = true, .constant_weight = true};
   bool operator==(const Light&) const = default;
 };
 
@@ -26,8 +26,8 @@ constexpr auto fields(const Light<F>*) {
 
 /// Absorbs every path: a lamp reflects nothing.
 template <class F>
-TYNDALL_INLINE Scattered<F> scatter(const Light<F>&, const Incident<F>& in) {
-  return {in.facing, less(F(0.0f), F(1.0f)), less(F(1.0f), F(0.0f)), F(one_direction)};
+TYNDALL_INLINE BsdfSample<F> sample(const Light<F>&, const Incident<F>& in) {
+  return {in.facing, F(1.0f), F(one_direction), {less(F(0.0f), F(1.0f)), less(F(1.0f), F(0.0f))}};
 }
 
 }  // namespace tyndall

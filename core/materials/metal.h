@@ -1,7 +1,6 @@
 #pragma once
 #include "core/base/fields.h"
-#include "core/base/math.h"
-#include "core/base/ray.h"
+#include "core/materials/bsdf.h"
 
 #include <tuple>
 
@@ -14,7 +13,8 @@ struct Metal {
   static constexpr const char* type = "metal";
   static constexpr const char* about = "A mirror, blurred by fuzz.";
   static constexpr const char* colour_name = "albedo";
-  static constexpr LightSampling light_sampling = LightSampling::weighted;
+  static constexpr BsdfTraits traits{
+      .glossy = true, .constant_weight = true, .light_sampling = LightSampling::weighted};
   F fuzz = F(0);
   bool operator==(const Metal&) const = default;
 };
@@ -23,6 +23,11 @@ template <class F>
 constexpr auto fields(const Metal<F>*) {
   return std::tuple{Field{"fuzz", &Metal<F>::fuzz, between(0, 1), Slider{0, 1}, "",
                           "radius of the blur around the mirror direction; 0 is a mirror"}};
+}
+
+template <class F>
+constexpr double lobe_width(const Metal<F>& metal) {
+  return static_cast<double>(metal.fuzz);
 }
 
 /// Up to this fuzz a metal counts as a mirror, and lights are not sampled on it: directions in float are too coarse for
@@ -35,7 +40,7 @@ inline constexpr float least_sampled_fuzz = 1e-3f;
 /// from s- to s+, which are cos β ± h with h² = fuzz² - sin² β. The density of the direction is the integral over r² dr
 /// there.
 template <class F>
-TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direction) {
+TYNDALL_INLINE F pdf(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direction) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
   const F cosine = dot(mirror, direction);
   const Vec3<F> across = along(direction, -cosine, mirror);
@@ -55,7 +60,7 @@ TYNDALL_INLINE F density(const Metal<F>& metal, const Incident<F>& in, Vec3<F> d
 /// Ray Tracing in One Weekend, section 10.6 "Fuzzy Reflection", takes points on the sphere; with points in the ball the
 /// density of directions stays bounded.
 template <class F>
-TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in) {
+TYNDALL_INLINE BsdfSample<F> sample(const Metal<F>& metal, const Incident<F>& in) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
   const F radius = metal.fuzz * cube_root(in.dice.one(dimension::radius));
   const Vec3<F> sum = along(mirror, radius, in.unit);
@@ -63,8 +68,10 @@ TYNDALL_INLINE Scattered<F> scatter(const Metal<F>& metal, const Incident<F>& in
   const auto cancelled = less(squared, F(1e-12f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
   const Vec3<F> out = select(cancelled, in.facing, scale * sum);
-  return {out, less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f)),
-          select(less(F(least_sampled_fuzz), metal.fuzz), density(metal, in, out), F(one_direction))};
+  return {out,
+          F(1.0f),
+          select(less(F(least_sampled_fuzz), metal.fuzz), pdf(metal, in, out), F(one_direction)),
+          {less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f))}};
 }
 
 /// Share of the light that is not absorbed, at a cosine of incidence in [0, 1]: the share of the ball of random points

@@ -39,13 +39,10 @@ const Material& material_of(const Scene& scene, const PlacedShape& shape) {
   return scene.materials[static_cast<std::size_t>(shape.material)];
 }
 
-bool is_lamp(const Material& material) { return std::holds_alternative<Light<>>(material.kind); }
+bool is_lamp(const Material& material) { return traits_of(material.kind).emits; }
 
 /// Whether it throws light elsewhere, rather than spread it.
-bool is_smooth(const Material& material) {
-  const auto* metal = std::get_if<Metal<>>(&material.kind);
-  return std::holds_alternative<Dielectric<>>(material.kind) || (metal && metal->fuzz < most_fuzz);
-}
+bool is_smooth(const Material& material) { return lobe_width(material.kind) < most_fuzz; }
 
 /// A lamp, or a smooth shape that throws a lamp's light elsewhere.
 struct Thing {
@@ -64,9 +61,9 @@ Things list_things(const Scene& scene, const Flattened& flat) {
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const Material& material = material_of(scene, flat.shapes[i]);
     if (!is_lamp(material) && !is_smooth(material)) continue;
-    const auto* metal = std::get_if<Metal<>>(&material.kind);
-    const bool glass = std::holds_alternative<Dielectric<>>(material.kind);
-    const Thing thing{i, ball_around(extent_of(flat.shapes[i], scene.camera)), metal ? metal->fuzz : 0, glass};
+    const bool smooth = is_smooth(material), glass = boundary_index(material.kind) > 0;
+    const double fuzz = smooth ? lobe_width(material.kind) : 0;
+    const Thing thing{i, ball_around(extent_of(flat.shapes[i], scene.camera)), fuzz, glass};
     (is_lamp(material) ? things.lamps : things.smooth).push_back(thing);
   }
   return things;
@@ -91,7 +88,7 @@ std::vector<Receiver> list_receivers(const Scene& scene, const Flattened& flat) 
   std::vector<Receiver> receivers;
   for (const PlacedVolume& volume : flat.volumes) receivers.push_back(receiver_around(extent_of(volume, scene.camera)));
   for (const PlacedShape& shape : flat.shapes)
-    if (std::holds_alternative<Lambertian<>>(material_of(scene, shape).kind))
+    if (traits_of(material_of(scene, shape).kind).diffuse)
       receivers.push_back(receiver_around(extent_of(shape, scene.camera)));
   return receivers;
 }

@@ -1,6 +1,6 @@
 #include "core/render/clean_film.h"
 
-#include "core/materials/materials.h"
+#include "core/kernel/shade.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 /// Whether a ray that meets the surface goes on, if at all, as one that a mirror reflects.
 bool is_sharp(const SceneView& scene, std::int32_t element) {
   const std::int32_t material = scene.material[element], kind = scene.kind[material];
-  if (kind == place_in<Dielectric<double>, MaterialKinds<double>>) return false;
-  return kind != place_in<Metal<double>, MaterialKinds<double>> || scene.parameter[0][material] <= least_sampled_fuzz;
+  if (has_trait<&BsdfTraits::transmissive>(kind)) return false;
+  return !has_trait<&BsdfTraits::glossy>(kind) || lobe_width_of(scene, material) <= least_sampled_fuzz;
 }
 
 constexpr int planes = 8;  // of input.seen: albedo, normal, nearness, sharpness

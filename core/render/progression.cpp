@@ -121,7 +121,7 @@ void PassSchedule::finish() {
 void Progression::start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
                         const ProgressionOptions& options) {
   const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
-  const bool emission = has_material<Light<double>>(scene.needs);
+  const bool emission = needs_trait<&BsdfTraits::emits>(scene.needs);
   if (film_.pixels.size() != pixels) {
     film_ = make_film(scene.width, scene.height, region, first_sample, scene.film_unit, emission);
   } else {  // the first pass replaces what the pixels hold

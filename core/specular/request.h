@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/random.h"
-#include "core/materials/lambertian.h"
+#include "core/materials/bsdf.h"
 #include "core/trace/flight.h"
 
 namespace tyndall {
@@ -40,7 +40,7 @@ template <class F>
 TYNDALL_INLINE F scattered_density(const auto& s, const SpecularRequest<F>& q, Vec3<F> direction) {
   Incident<F> in{};
   in.facing = q.facing;
-  const F diffuse = density(Lambertian<F>{}, in, direction);
+  const F diffuse = diffuse_pdf(in, direction);
   if (!s.has_media() || !any(q.in_medium)) return diffuse;
   return select(q.in_medium, phase_density(s, q.g, q.facing, direction), diffuse);
 }

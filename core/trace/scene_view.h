@@ -55,6 +55,10 @@ struct ChainView {
 };
 
 struct SceneView {
+  /// The materials that kernels know; `kind` holds places in this list.
+  template <class F>
+  using MaterialList = MaterialKinds<F>;
+
   int width, height;
   CameraColumns camera;
   BackgroundColumns background;

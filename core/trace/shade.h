@@ -6,6 +6,7 @@
 #include "core/trace/scene_view.h"
 
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 /// What a ray finds where it ends: the background, or a surface with its colour and its material's scattering.
@@ -156,7 +157,7 @@ TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> p
 }
 
 template <std::size_t first = 0, class M, class F>
-TYNDALL_INLINE void load_fields(const SceneView& s, IntOf<F> material, M& m) {
+TYNDALL_INLINE void load_fields(const auto& s, IntOf<F> material, M& m) {
   constexpr auto list = fields(static_cast<const M*>(nullptr));
   if constexpr (first < std::tuple_size_v<decltype(list)>) {
     constexpr auto member = std::get<first>(list).value;
@@ -167,70 +168,138 @@ TYNDALL_INLINE void load_fields(const SceneView& s, IntOf<F> material, M& m) {
 
 /// A material of kind M with its fields gathered.
 template <class M, class F>
-TYNDALL_INLINE M load_material(const SceneView& s, IntOf<F> material) {
+TYNDALL_INLINE M load_material(const auto& s, IntOf<F> material) {
   M m{};
   load_fields<0, M, F>(s, material, m);
   return m;
+}
+
+// Kernels know a list of materials by the type of the scene's view: SceneView::MaterialList. A test can give a view of
+// its own with a longer list, and follow its paths by the same loop.
+
+/// The materials that kernels with this view know, over F.
+template <class View, class F>
+using MaterialsOf = typename std::remove_cvref_t<View>::template MaterialList<F>;
+
+/// has_trait() for the list of a view.
+template <bool BsdfTraits::*trait, class View, class I>
+TYNDALL_INLINE auto has_trait(const View&, I kind) {
+  return has_trait<trait, MaterialsOf<View, double>>(kind);
+}
+
+/// Whether no material that a view knows changes what a path carries but by its colour.
+template <class View>
+inline constexpr bool has_constant_weights =
+    all_have<&BsdfTraits::constant_weight>(static_cast<const MaterialsOf<View, double>*>(nullptr));
+
+/// Whether the integrator samples lights where a material of kind M scatters.
+template <class M>
+TYNDALL_INLINE bool asks_for_lights(const auto& s) {
+  constexpr LightSampling rule = M::traits.light_sampling;
+  return rule == LightSampling::always || (rule == LightSampling::weighted && s.integrator == Integrator::mis);
+}
+
+/// Samples the lanes that are at a material of kind `first` or a later one.
+template <std::size_t first, class F>
+TYNDALL_INLINE void sample_kinds(const auto& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                 const Incident<F>& in, BsdfSample<F>& out) {
+  using List = MaterialsOf<decltype(s), F>;
+  if constexpr (first < std::variant_size_v<List>) {
+    using M = std::variant_alternative_t<first, List>;
+    const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
+    if (any(here)) {
+      const BsdfSample<F> one = sample(load_material<M, F>(s, material), in);
+      out.direction = select(here, one.direction, out.direction);
+      if constexpr (!M::traits.constant_weight) out.weight = select(here, one.weight, out.weight);
+      out.flags.absorbed = mask_or(out.flags.absorbed, mask_and(here, one.flags.absorbed));
+      out.flags.transmitted = mask_or(out.flags.transmitted, mask_and(here, one.flags.transmitted));
+      const F density = asks_for_lights<M>(s) ? one.pdf : F(one_direction);
+      out.pdf = select(here, density, out.pdf);
+    }
+    sample_kinds<first + 1>(s, material, kind, lanes, in, out);
+  }
+}
+
+/// Samples the BSDF of the material that each lane is at. weight: 1 in other lanes.
+template <class F>
+TYNDALL_INLINE BsdfSample<F> sample_any(const auto& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                        const Incident<F>& in) {
+  const MaskOf<F> none = less(F(1.0f), F(0.0f));
+  BsdfSample<F> out{in.facing, F(1.0f), F(one_direction), {none, none}};
+  sample_kinds<0>(s, material, kind, lanes, in, out);
+  return out;
+}
+
+/// eval() and pdf() of one direction.
+template <class F>
+struct BsdfValue {
+  F value, pdf;
+};
+
+/// eval() and pdf() of the material that each lane is at. 0 for materials for which lights are not sampled, and for
+/// kinds before `first`.
+template <std::size_t first = 0, class F>
+TYNDALL_INLINE BsdfValue<F> eval_any(const auto& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
+                                     const Incident<F>& in, Vec3<F> direction) {
+  using List = MaterialsOf<decltype(s), F>;
+  BsdfValue<F> out{F(0.0f), F(0.0f)};
+  if constexpr (first < std::variant_size_v<List>) {
+    using M = std::variant_alternative_t<first, List>;
+    out = eval_any<first + 1>(s, material, kind, lanes, in, direction);
+    if constexpr (M::traits.light_sampling != LightSampling::never) {
+      const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
+      if (asks_for_lights<M>(s) && any(here)) {
+        const M m = load_material<M, F>(s, material);
+        out.pdf = select(here, pdf(m, in, direction), out.pdf);
+        if constexpr (!has_constant_weights<decltype(s)>) out.value = select(here, eval(m, in, direction), out.value);
+      }
+    }
+  }
+  if constexpr (has_constant_weights<decltype(s)>) out.value = out.pdf;
+  return out;
+}
+
+/// lobe_width() of a material of the scene.
+template <std::size_t first = 0, class View>
+TYNDALL_INLINE double lobe_width_of(const View& s, std::int32_t material) {
+  using List = MaterialsOf<View, float>;
+  if constexpr (first == std::variant_size_v<List>)
+    return 1;
+  else if (s.kind[material] != static_cast<std::int32_t>(first))
+    return lobe_width_of<first + 1>(s, material);
+  else
+    return lobe_width(load_material<std::variant_alternative_t<first, List>, float>(s, material));
+}
+
+/// Whether light that comes from behind a surface may be sampled: some material that samples lights lets it through.
+template <class View>
+inline constexpr bool samples_lights_behind = []<class... Kinds>(const std::variant<Kinds...>*) {
+  return ((Kinds::traits.transmissive && Kinds::traits.light_sampling != LightSampling::never) || ...);
+}(static_cast<const MaterialsOf<View, double>*>(nullptr));
+
+/// The smooth boundary that each lane is at, in lanes whose material has one.
+template <class F>
+TYNDALL_INLINE Boundary<F> boundary_any(const auto& s, IntOf<F> material, const Incident<F>& in) {
+  using List = MaterialsOf<decltype(s), F>;
+  constexpr auto list = static_cast<const List*>(nullptr);
+  constexpr std::size_t place = next_with<&BsdfTraits::smooth_boundary>(list, 0);
+  static_assert(next_with<&BsdfTraits::smooth_boundary>(list, place + 1) == std::variant_size_v<List>,
+                "a second material with smooth boundaries: select between them here, as eval_any() does");
+  return boundary_at(load_material<std::variant_alternative_t<place, List>, F>(s, material), in);
+}
+
+/// Ray::from of rays that go on through the surface that the rays of `from` leave on the side from which they came:
+/// inside for outside.
+template <class F>
+TYNDALL_INLINE IntOf<F> through_surface(IntOf<F> from) {
+  const IntOf<F> side = from & IntOf<F>(1);
+  return from + IntOf<F>(1) - (side + side);
 }
 
 /// Place of a kind in the list of materials.
 template <class M>
 constexpr std::int32_t kind_of() {
   return place_in<M, MaterialKinds<double>>;
-}
-
-/// Whether the integrator samples lights where a material of kind M scatters.
-template <class M>
-TYNDALL_INLINE bool asks_for_lights(const SceneView& s) {
-  return M::light_sampling == LightSampling::always ||
-         (M::light_sampling == LightSampling::weighted && s.integrator == Integrator::mis);
-}
-
-/// Scatters the lanes that are at a material of kind `first` or a later one.
-template <std::size_t first, class F>
-TYNDALL_INLINE void scatter_kinds(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
-                                  const Incident<F>& in, Scattered<F>& out) {
-  if constexpr (first < std::variant_size_v<MaterialKinds<F>>) {
-    using M = std::variant_alternative_t<first, MaterialKinds<F>>;
-    const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
-    if (any(here)) {
-      const Scattered<F> one = scatter(load_material<M, F>(s, material), in);
-      out.direction = select(here, one.direction, out.direction);
-      out.absorbed = mask_or(out.absorbed, mask_and(here, one.absorbed));
-      out.transmitted = mask_or(out.transmitted, mask_and(here, one.transmitted));
-      const F density = asks_for_lights<M>(s) ? one.density : F(one_direction);
-      out.density = select(here, density, out.density);
-    }
-    scatter_kinds<first + 1>(s, material, kind, lanes, in, out);
-  }
-}
-
-/// Scattering by the material that each lane is at; lights absorb.
-template <class F>
-TYNDALL_INLINE Scattered<F> scatter_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
-                                        const Incident<F>& in) {
-  const MaskOf<F> none = less(F(1.0f), F(0.0f));
-  Scattered<F> out{in.facing, none, none, F(one_direction)};
-  scatter_kinds<0>(s, material, kind, lanes, in, out);
-  return out;
-}
-
-/// Density, per steradian, with which the material that each lane is at scatters into `direction`. 0 for materials for
-/// which lights are not sampled, and for kinds before `first`.
-template <std::size_t first = 0, class F>
-TYNDALL_INLINE F density_any(const SceneView& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
-                             const Incident<F>& in, Vec3<F> direction) {
-  F out = F(0.0f);
-  if constexpr (first < std::variant_size_v<MaterialKinds<F>>) {
-    using M = std::variant_alternative_t<first, MaterialKinds<F>>;
-    out = density_any<first + 1>(s, material, kind, lanes, in, direction);
-    if constexpr (M::light_sampling != LightSampling::never) {
-      const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
-      if (asks_for_lights<M>(s) && any(here))
-        out = select(here, density(load_material<M, F>(s, material), in, direction), out);
-    }
-  }
-  return out;
 }
 
 }  // namespace tyndall

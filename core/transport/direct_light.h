@@ -14,7 +14,7 @@ struct Event {
   IntOf<F> from;   ///< Ray::from of rays that leave to the side from which the ray came, or that start in the medium
   Incident<F> incident;  ///< only set if any lane is at a surface
   SurfacePoint<F> at;    ///< likewise
-  IntOf<F> kind;         ///< of the material: its place in MaterialKinds
+  IntOf<F> kind;         ///< of the material: its place in SceneView::MaterialList
   F asks;                ///< probability of asking for a chain; only in scenes with chains
   F g;                   ///< of the medium
 };
@@ -34,15 +34,15 @@ TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Dice<F>& dice) {
 
 /// Lanes whose event is at a diffuse surface or in a medium: those that specular paths lead to.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_diffuse(const Event<F>& e) {
-  return mask_or(e.medium, mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>()))));
+TYNDALL_INLINE MaskOf<F> is_diffuse(const auto& s, const Event<F>& e) {
+  return mask_or(e.medium, mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind)));
 }
 
 /// Lanes whose event scatters a light that does not depend on the direction in which it leaves: at a diffuse surface,
 /// or in a medium without a preferred direction.
 template <class F>
 TYNDALL_INLINE MaskOf<F> scatters_evenly(const auto& s, const Event<F>& e) {
-  const auto surface = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Lambertian<double>>())));
+  const auto surface = mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind));
   if (!s.has_media()) return surface;
   return mask_or(surface, mask_and(e.medium, equal(e.g, F(0.0f))));
 }
@@ -56,6 +56,17 @@ struct LightAsked {
   bool by_angle;          ///< that flight was ended by angle for this very light
 };
 
+/// Ray::from of a shadow ray.
+template <class F>
+TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F> direction) {
+  if constexpr (samples_lights_behind<decltype(s)>) {
+    const auto behind = mask_and(e.surface, less(dot(direction, e.incident.facing), F(0.0f)));
+    return select(behind, through_surface<F>(e.from), e.from);
+  } else {
+    return e.from;
+  }
+}
+
 /// Light that arrives at an event straight from a lamp, estimated by one shadow ray to one light. With integrator mis
 /// it is weighed by the power heuristic (E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
 /// section 9.2) against two other ways to sample the same path. All densities are divided by that of free flight and
@@ -67,21 +78,23 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
                                     const LightAsked<F>& asked, std::uint32_t& shadow_rays) {
   const LightChoice<F>& choice = asked.choice;
   const LightSample<F> sample = sample_light(s.lights, choice.light, e.point, p.ray.time, asked.u);
-  F scattered = F(0.0f);
-  if (any(e.surface)) scattered = density_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
-  if (s.has_media() && any(e.medium))
-    scattered = select(e.medium, phase_density(s, e.g, p.ray.direction, sample.direction), scattered);
+  BsdfValue<F> scattered{F(0.0f), F(0.0f)};
+  if (any(e.surface)) scattered = eval_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
+  if (s.has_media() && any(e.medium)) {
+    const F phase = phase_density(s, e.g, p.ray.direction, sample.direction);
+    scattered = {select(e.medium, phase, scattered.value), select(e.medium, phase, scattered.pdf)};
+  }
   const F chosen = sample.density * choice.probability;
-  const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered), less(F(0.0f), chosen)));
+  const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered.value), less(F(0.0f), chosen)));
   if (!any(useful)) return zero3<F>();
   shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(useful)));
-  const Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
+  const Ray<F> ray{e.point, sample.direction, p.ray.time, shadow_ray_from(s, e, sample.direction)};
   const IntOf<F> element = s.lights.count == 1 ? IntOf<F>(s.lights.element[0])
                                                : lookup_int<F>(s.lights.element, s.lights.count, choice.light);
   const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();
-  const F ratio = scattered / select(useful, chosen, F(1.0f));
-  F weight = ratio;
+  const F safe = select(useful, chosen, F(1.0f)), ratio = scattered.pdf / safe;
+  F weight = scattered.value / safe;
   if (s.integrator == Integrator::mis) {
     const F odds = s.has_lamps_in_fog() ? by_angle_odds(s, asked.flight, choice.light, choice.probability) : F(0.0f);
     weight = weight / mul_add(ratio, ratio, F(1.0f) + odds);

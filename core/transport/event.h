@@ -17,7 +17,7 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, const Ray<F>& ray, const Hit<F>
 /// reflect nothing.
 template <class F>
 TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, Event<F>& e, auto& recorder) {
-  const auto lit = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Light<double>>())));
+  const auto lit = mask_and(e.surface, has_trait<&BsdfTraits::emits>(s, e.kind));
   if (any(lit)) {
     F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
     if (s.has_chains()) {

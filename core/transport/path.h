@@ -89,7 +89,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   // ---- sample the BSDF or the phase function
   F weight;
   const auto on = mask_and(scattering, scatter(s, p, e, unit, u, weight));
-  if (s.has_chains()) carried = select(on, weight * carried, carried);
+  if (s.has_chains() || !has_constant_weights<decltype(s)>) carried = select(on, weight * carried, carried);
   if (p.straight) {
     const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));
     p.straight &= ~bits(mask_and_not(scattering, mirrored));

@@ -16,10 +16,10 @@ TYNDALL_INLINE MaskOf<F> is_narrow(F density) {
 /// probability of taking it. Although it seldom runs it is no call, which would keep the paths and their events in
 /// memory.
 template <class F>
-TYNDALL_INLINE F seek_glint(const SceneView& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, Scattered<F>& out) {
+TYNDALL_INLINE F seek_glint(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, BsdfSample<F>& out) {
   using I = IntOf<F>;
   const F zero = F(0.0f), one = F(1.0f);
-  const Boundary<F> b = boundary_at(load_material<Dielectric<F>, F>(s, e.at.material), e.incident);
+  const Boundary<F> b = boundary_any(s, e.at.material, e.incident);
   const I reflections = p.route.reflections(), crossings = p.route.crossings();
   const auto by_choice = mask_and(less(zero, b.reflected), less(b.reflected, one));
   const auto steered = mask_and(by_choice, less(I(0), reflections));
@@ -28,16 +28,17 @@ TYNDALL_INLINE F seek_glint(const SceneView& s, Paths<F>& p, const Event<F>& e, 
   const F wanted = select(enters, zero, from_int<F>(reflections) / left);
   const F probability = mul_add(select(steered, F(glint_steering), zero), wanted - b.reflected, b.reflected);
   const auto reflects = less(e.incident.dice.one(dimension::lobe), probability);
-  const Scattered<F> scattered = leave_boundary(b, e.incident, reflects);
-  out.direction = select(lanes, scattered.direction, out.direction);
-  out.transmitted = mask_or(mask_and(lanes, scattered.transmitted), mask_and_not(out.transmitted, lanes));
+  const BsdfSample<F> steered_out = leave_boundary(b, e.incident, reflects);
+  out.direction = select(lanes, steered_out.direction, out.direction);
+  MaskOf<F>& transmitted = out.flags.transmitted;
+  transmitted = mask_or(mask_and(lanes, steered_out.flags.transmitted), mask_and_not(transmitted, lanes));
   p.route.count(lanes, reflects);
   const F weight = select(reflects, b.reflected / probability, (one - b.reflected) / (one - probability));
   return select(mask_and(lanes, steered), weight, one);
 }
 
 /// Gives the paths new directions. Returns which lanes go on; the others were absorbed. weight: by which each lane's
-/// throughput is to be multiplied; it is 1 unless it looks for a glint.
+/// throughput is to be multiplied; it is 1 unless it looks for a glint or its material has samples of other weights.
 template <class F>
 TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u, F& weight) {
   const Vec3<F> before = p.ray.direction;
@@ -48,20 +49,18 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
   p.ray.origin = e.point;
   p.ray.from = e.from;
   if (any(e.surface)) {
-    Scattered<F> out = scatter_any(s, e.at.material, e.kind, e.surface, e.incident);
+    BsdfSample<F> out = sample_any(s, e.at.material, e.kind, e.surface, e.incident);
+    weight = out.weight;
     if (s.has_chains() && s.glint_count > 0) {
-      const auto glass = mask_and(e.surface, equal(e.kind, IntOf<F>(kind_of<Dielectric<double>>())));
+      const auto glass = mask_and(e.surface, has_trait<&BsdfTraits::smooth_boundary>(s, e.kind));
       const auto seeks = mask_and(glass, seeks_glint(p));
-      if (any(seeks)) weight = seek_glint(s, p, e, seeks, out);
+      if (any(seeks)) weight = weight * seek_glint(s, p, e, seeks, out);
     }
     p.ray.direction = select(e.surface, out.direction, p.ray.direction);
-    p.density = select(e.surface, out.density, p.density);
-    transmitted = out.transmitted;
-    // Through the surface: on its other side, inside for outside.
-    const auto through = mask_and(e.surface, out.transmitted);
-    const IntOf<F> side = e.from & IntOf<F>(1);
-    p.ray.from = select(through, e.from + IntOf<F>(1) - (side + side), p.ray.from);
-    goes_on = mask_or(goes_on, mask_and_not(e.surface, out.absorbed));
+    p.density = select(e.surface, out.pdf, p.density);
+    transmitted = out.flags.transmitted;
+    p.ray.from = select(mask_and(e.surface, transmitted), through_surface<F>(e.from), p.ray.from);
+    goes_on = mask_or(goes_on, mask_and_not(e.surface, out.flags.absorbed));
   }
   if (s.has_media() && any(e.medium)) {
     Vec3<F> direction = unit;
@@ -70,7 +69,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
     p.density = select(e.medium, phase_density(s, e.g, before, direction), p.density);
   }
   if (s.has_chains()) {
-    const auto spreads = is_diffuse(e);
+    const auto spreads = is_diffuse(s, e);
     extend_trail(s, p.trail, came, mask_and_not(e.surface, spreads), e.at.element, mask_not(transmitted));
     restart_trail(p.trail, spreads, e.point, p.density, e.asks);
   }

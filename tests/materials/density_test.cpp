@@ -18,14 +18,14 @@ void check(const M& material, double angle, Vec3d axis, double width, double lea
   constexpr int drawn = 200000;
   for (std::uint32_t i = 0; i < drawn; ++i) {
     const Dice<double> d = dice<double>(i);
-    const Scattered<double> out = scatter(material, event(d, down, up<double>));
-    if (out.absorbed) continue;
-    REQUIRE(out.density == doctest::Approx(density(material, event(d, down, up<double>), out.direction)));
+    const BsdfSample<double> out = sample(material, event(d, down, up<double>));
+    if (out.flags.absorbed) continue;
+    REQUIRE(out.pdf == doctest::Approx(pdf(material, event(d, down, up<double>), out.direction)));
     cap.count(out.direction);
   }
   const Dice<double> any = dice<double>(0);
   const Incident<double> in = event(any, down, up<double>);
-  const auto share = cap.integrate([&](Vec3d direction) { return density(material, in, direction); }, 60);
+  const auto share = cap.integrate([&](Vec3d direction) { return pdf(material, in, direction); }, 60);
   CHECK(cap.outside() == 0);
   CHECK(sum(share) == doctest::Approx(leaving).epsilon(1e-3).scale(0));
   std::vector<double> of_all = share;

@@ -39,13 +39,13 @@ TEST_CASE("dielectric: refracts by Snell's law, reflects by the mirror's, in the
         Moments reflected;
         for (int i = 0; i < 40000; ++i) {
           const Dice<double> d = dice<double>(event_number++);
-          const Scattered<double> out = scatter(Dielectric<double>{index}, event(d, down, normal));
-          REQUIRE_FALSE(out.absorbed);
-          reflected.add(out.transmitted ? 0 : 1);
-          const double sine = out.transmitted ? std::sin(snell(angle * degrees, eta)) : std::sin(angle * degrees);
+          const BsdfSample<double> out = sample(Dielectric<double>{index}, event(d, down, normal));
+          REQUIRE_FALSE(out.flags.absorbed);
+          reflected.add(out.flags.transmitted ? 0 : 1);
+          const double sine = out.flags.transmitted ? std::sin(snell(angle * degrees, eta)) : std::sin(angle * degrees);
           REQUIRE(out.direction.x == doctest::Approx(sine).epsilon(1e-12));
           REQUIRE(std::abs(out.direction.y) < 1e-15);
-          REQUIRE((out.direction.z < 0) == out.transmitted);
+          REQUIRE((out.direction.z < 0) == out.flags.transmitted);
           REQUIRE(length(out.direction) == doctest::Approx(1).epsilon(1e-14).scale(0));
         }
         scores.add("reflected share", reflected.estimate(), fresnel(cosine, eta), 0.2);
@@ -62,10 +62,10 @@ TEST_CASE("dielectric: near critical angles and at normal incidence every direct
         const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, critical + off);
         const Dice<float> d = dice<float>(i);
         naive += root_of_negative(way, normal, index) ? 1 : 0;
-        const Scattered<float> out = scatter(Dielectric<float>{index}, event(d, way, normal));
+        const BsdfSample<float> out = sample(Dielectric<float>{index}, event(d, way, normal));
         REQUIRE(length_error(out.direction) < 4e-7);  // also fails for what is not a number
-        if (out.transmitted) REQUIRE(dot(out.direction, normal) >= 0.0f);
-        if (off > 1e-6 && index > 1.001f) REQUIRE_FALSE(out.transmitted);
+        if (out.flags.transmitted) REQUIRE(dot(out.direction, normal) >= 0.0f);
+        if (off > 1e-6 && index > 1.001f) REQUIRE_FALSE(out.flags.transmitted);
       }
   }
   CHECK(rays == 1000000);
@@ -78,8 +78,8 @@ TEST_CASE("dielectric: matched to its surroundings it is not there, to the last 
     for (std::uint32_t i = 0; i < 20000; ++i) {
       const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, i % 2 ? angle : pi - angle);
       const Dice<float> d = dice<float>(i);
-      const Scattered<float> out = scatter(Dielectric<float>{1.0f}, event(d, way, normal));
-      REQUIRE(out.transmitted);
+      const BsdfSample<float> out = sample(Dielectric<float>{1.0f}, event(d, way, normal));
+      REQUIRE(out.flags.transmitted);
       REQUIRE(out.direction == way);
     }
 }
@@ -89,9 +89,9 @@ TEST_CASE("dielectric: a bubble is glass seen from the other side") {
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const Vec3f normal = directions.next<float>(), way = directions.next<float>();
     const Dice<float> d = dice<float>(i);
-    const Scattered<float> inward = scatter(Dielectric<float>{1.5f}, event(d, way, -normal));
-    const Scattered<float> relative = scatter(Dielectric<float>{1 / 1.5f}, event(d, way, normal));
-    REQUIRE(inward.transmitted == relative.transmitted);
+    const BsdfSample<float> inward = sample(Dielectric<float>{1.5f}, event(d, way, -normal));
+    const BsdfSample<float> relative = sample(Dielectric<float>{1 / 1.5f}, event(d, way, normal));
+    REQUIRE(inward.flags.transmitted == relative.flags.transmitted);
     REQUIRE(inward.direction == relative.direction);
   }
 }
@@ -100,9 +100,9 @@ TEST_CASE("dielectric: an enormous index is a mirror, a tiny one reflects all bu
   for (std::uint32_t i = 0; i < 2000; ++i) {
     const Dice<float> d = dice<float>(i);
     const Vec3f slanted = down_at<float>(0.6);
-    const Scattered<float> mirror = scatter(Dielectric<float>{1e15f}, event(d, slanted, up<float>));
+    const BsdfSample<float> mirror = sample(Dielectric<float>{1e15f}, event(d, slanted, up<float>));
     CHECK(mirror.direction.z == doctest::Approx(-slanted.z));
-    CHECK_FALSE(scatter(Dielectric<float>{1e-6f}, event(d, slanted, up<float>)).transmitted);
+    CHECK_FALSE(sample(Dielectric<float>{1e-6f}, event(d, slanted, up<float>)).flags.transmitted);
   }
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("dielectric: the books' rule is used where it is asked for") {
     const Dice<double> d = dice<double>(i);
     Incident<double> in = event(d, down, up<double>);
     in.schlick = true;
-    reflected.add(scatter(Dielectric<double>{1.5}, in).transmitted ? 0 : 1);
+    reflected.add(sample(Dielectric<double>{1.5}, in).flags.transmitted ? 0 : 1);
   }
   ZScores scores;
   scores.add("schlick", reflected.estimate(), schlick(std::cos(80 * degrees), 1.5));

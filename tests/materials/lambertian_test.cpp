@@ -21,9 +21,9 @@ void check_cosine_law(std::uint32_t count) {
     const Basis<F> basis = basis_around(facing);
     for (std::uint32_t i = 0; i < count; ++i) {
       const Dice<F> d = dice<F>(i + (from_behind ? count : 0));
-      const Scattered<F> out = scatter(Lambertian<F>{}, event(d, way, normal));
-      REQUIRE_FALSE(out.absorbed);
-      REQUIRE_FALSE(out.transmitted);
+      const BsdfSample<F> out = sample(Lambertian<F>{}, event(d, way, normal));
+      REQUIRE_FALSE(out.flags.absorbed);
+      REQUIRE_FALSE(out.flags.transmitted);
       const auto c = static_cast<double>(dot(out.direction, facing));
       REQUIRE(c >= -1e-6);
       REQUIRE(std::abs(static_cast<double>(length(out.direction)) - 1) < 4e-7);
@@ -56,7 +56,7 @@ TEST_CASE("lambertian: from one disc to a smaller one above it") {
   for (std::uint32_t i = 0; i < 1000000; ++i) {
     const Dice<float> d = dice<float>(i);
     const Pair<float> from = in_disc(d.pair(dimension::light_point));
-    const Vec3f way = scatter(Lambertian<float>{}, event(d, down_at<float>(0.3), up<float>)).direction;
+    const Vec3f way = sample(Lambertian<float>{}, event(d, down_at<float>(0.3), up<float>)).direction;
     const float t = 2 / way.z, x = from.x + t * way.x, y = from.y + t * way.y;
     reached.add(x * x + y * y < 0.25f ? 1 : 0);
   }
@@ -68,9 +68,9 @@ TEST_CASE("lambertian: where the unit vector cancels the normal, the direction i
   const Dice<float> d = dice<float>(1);
   Incident<float> in = event(d, down_at<float>(0.3), up<float>);
   in.unit = {0, 0, -1};
-  CHECK(scatter(Lambertian<float>{}, in).direction == up<float>);
+  CHECK(sample(Lambertian<float>{}, in).direction == up<float>);
   in.unit = {1e-8f, 0, -1};
-  CHECK(scatter(Lambertian<float>{}, in).direction == up<float>);
+  CHECK(sample(Lambertian<float>{}, in).direction == up<float>);
 }
 
 TEST_CASE(
@@ -81,9 +81,9 @@ TEST_CASE(
     const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, 2.5);
     const Dice<float> d = dice<float>(i);
     Incident<float> in = event(d, way, normal);
-    fallbacks += scatter(Lambertian<float>{}, in).direction == in.facing ? 1 : 0;
+    fallbacks += sample(Lambertian<float>{}, in).direction == in.facing ? 1 : 0;
     in.unit = directions.at_angle(-in.facing, std::pow(10.0, -static_cast<int>(i % 10)));
-    const Vec3f out = scatter(Lambertian<float>{}, in).direction, sum = in.facing + in.unit;
+    const Vec3f out = sample(Lambertian<float>{}, in).direction, sum = in.facing + in.unit;
     REQUIRE(std::abs(length(out) - 1) < 4e-7f);
     REQUIRE(dot(out, in.facing) >= 0.0f);
     naive += std::isfinite(normalize(sum).x) && dot(normalize(sum), in.facing) >= 0.0f ? 0 : 1;

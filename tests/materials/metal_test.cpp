@@ -48,10 +48,10 @@ TEST_CASE("metal: the share that leaves, for a blur within the ball") {
       const Vec3f down = down_at<float>(angle);
       for (std::uint32_t i = 0; i < 250000; ++i) {
         const Dice<float> d = dice<float>(i + 250000u * static_cast<std::uint32_t>(k));
-        const Scattered<float> out = scatter(Metal<float>{static_cast<float>(row.fuzz)}, event(d, down, up<float>));
-        REQUIRE_FALSE(out.transmitted);
-        REQUIRE(out.absorbed == (out.direction.z <= 0));
-        survived.add(out.absorbed ? 0 : 1);
+        const BsdfSample<float> out = sample(Metal<float>{static_cast<float>(row.fuzz)}, event(d, down, up<float>));
+        REQUIRE_FALSE(out.flags.transmitted);
+        REQUIRE(out.flags.absorbed == (out.direction.z <= 0));
+        survived.add(out.flags.absorbed ? 0 : 1);
       }
       scores.add("survival", survived.estimate(), row.survive[k], 2e-3);
     }
@@ -71,7 +71,7 @@ TEST_CASE("metal: directions about the mirror's are as dense as the ball they en
     const Basis<double> basis = basis_around(mirror);
     for (std::uint32_t i = 0; i < 200000; ++i) {
       const Dice<double> d = dice<double>(i);
-      const Vec3d out = scatter(Metal<double>{fuzz}, event(d, down, up<double>)).direction;
+      const Vec3d out = sample(Metal<double>{fuzz}, event(d, down, up<double>)).direction;
       REQUIRE(length(out) == doctest::Approx(1).epsilon(1e-14).scale(0));
       cosines.push_back(dot(out, mirror));
       turns.push_back(std::atan2(dot(out, basis.t), dot(out, basis.s)) / (2 * pi) + 0.5);
@@ -96,8 +96,8 @@ TEST_CASE("metal: without fuzz a mirror, from both sides") {
   for (std::uint32_t i = 0; i < 100000; ++i) {
     const Vec3f normal = directions.next<float>(), way = directions.next<float>();
     const Dice<float> d = dice<float>(i);
-    const Scattered<float> out = scatter(Metal<float>{0.0f}, event(d, way, normal));
-    REQUIRE_FALSE(out.absorbed);
+    const BsdfSample<float> out = sample(Metal<float>{0.0f}, event(d, way, normal));
+    REQUIRE_FALSE(out.flags.absorbed);
     REQUIRE(dot(out.direction, normal) == doctest::Approx(-dot(way, normal)).epsilon(1e-5));
     const Vec3f along_surface = cross(normal, out.direction) - cross(normal, way);
     REQUIRE(length(along_surface) < 1e-6f);
@@ -106,5 +106,5 @@ TEST_CASE("metal: without fuzz a mirror, from both sides") {
 
 TEST_CASE("light: a path ends at a lamp") {
   const Dice<float> d = dice<float>(1);
-  CHECK(scatter(Light<float>{}, event(d, down_at<float>(0.3), up<float>)).absorbed);
+  CHECK(sample(Light<float>{}, event(d, down_at<float>(0.3), up<float>)).flags.absorbed);
 }

@@ -25,7 +25,7 @@ BUGS = [
     ("shapes", "swapped faces of a box", "core/shapes/box.h", "select(is_y, I(2), I(4))", "select(is_y, I(4), I(2))", "shapes/box"),
     ("shapes", "a box that is endless along z", "core/shapes/box.h", "max(near.x, max(near.y, near.z)), t1", "max(near.x, near.y), t1", "shapes/box"),
     # materials
-    ("materials", "a lost cosine", "core/materials/lambertian.h", "return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));",
+    ("materials", "a lost cosine", "core/materials/bsdf.h", "return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));",
      "return F(static_cast<float>(1 / pi));", "materials/lambertian materials/density"),
     ("materials", "fuzz that crowds in the middle", "core/materials/metal.h", "cube_root(in.dice.one(dimension::radius))", "in.dice.one(dimension::radius)", "materials/metal materials/density"),
     ("materials", "a wrong factor in the density of fuzz", "core/materials/metal.h", "mul_add(F(3.0f) * middle, middle, h * h)", "mul_add(F(2.0f) * middle, middle, h * h)", "materials/density"),
