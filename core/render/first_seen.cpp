@@ -1,6 +1,6 @@
 #include "core/render/clean_film.h"
 
-#include "core/kernel/shade.h"
+#include "core/trace/shade.h"
 
 #include <algorithm>
 #include <cmath>
