@@ -22,11 +22,6 @@ constexpr auto fields(const Lambertian<F>*) {
   return std::tuple{};
 }
 
-template <class F>
-TYNDALL_INLINE F density(const Lambertian<F>&, const Incident<F>& in, Vec3<F> direction) {
-  return diffuse_pdf(in, direction);
-}
-
 /// The direction of the normal plus a random unit vector, which has density cos θ / π. Where they nearly cancel, to a
 /// length below 1e-3 (once in four million times), rounding could lead below the surface: then the normal is taken.
 /// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".

@@ -296,10 +296,4 @@ TYNDALL_INLINE IntOf<F> through_surface(IntOf<F> from) {
   return from + IntOf<F>(1) - (side + side);
 }
 
-/// Place of a kind in the list of materials.
-template <class M>
-constexpr std::int32_t kind_of() {
-  return place_in<M, MaterialKinds<double>>;
-}
-
 }  // namespace tyndall
