@@ -76,8 +76,8 @@ BUGS = [
     ("kernel", "the inside of a closed pane is open", "core/specular/chain_pane.h", "return equal(met & pane.closed, I(0));", "return equal(pane.closed & I(0), I(0));", "specular/pane_faces"),
     ("kernel", "a pane's faces in a wrong order", "core/specular/chain_pane.h", "select(less(F(0.0f), s.near.height), I(2), I(1))", "select(less(F(0.0f), s.near.height), I(1), I(2))", "specular/pane_faces"),
     ("kernel", "the lens is a line", "core/trace/camera.h", "along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v))", "along(lens.x * splat<F>(c.lens_u), lens.x, splat<F>(c.lens_v))", "trace/camera"),
-    ("kernel", "survivors of the roulette carry too little", "core/transport/event.h", "select(at_risk, scale * p.throughput, p.throughput)", "p.throughput", "render/depth", "core/targets/scalar.cpp"),
-    ("kernel", "lamps that are found by chance count in full", "core/transport/event.h", "select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f))", "F(1.0f)", "render/light_sampling", "core/targets/scalar.cpp"),
+    ("kernel", "survivors of the roulette carry too little", "core/transport/scatter.h", "select(at_risk, scale * p.throughput, p.throughput)", "p.throughput", "render/depth", "core/targets/scalar.cpp"),
+    ("kernel", "lamps that are found by chance count in full", "core/transport/direct_light.h", "select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f))", "F(1.0f)", "render/light_sampling", "core/targets/scalar.cpp"),
     # render
     ("render", "a lost column at a tile's edge", "core/render/pass.cpp", "std::min(x + tile_, region_.x1)", "std::min(x + tile_, region_.x1 - 1)", "render/same_picture"),
     ("render", "cells have a say in their own samples", "core/render/plan.cpp", "if (u == column && v == row) continue;", "", "render/plan"),
