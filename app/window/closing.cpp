@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 
@@ -49,8 +50,7 @@ void Closing::finish() {
   step_ = session_.writes_files() ? Step::writes : Step::done;
   since_ = clock_seconds();
   errors_before_ = session_.messages().errors();
-  paused_before_ = session_.renderers().paused();
-  session_.pause(true);
+  paused_before_ = std::exchange(session_.wanted().paused, true);
   if (step_ == Step::done) leave();
 }
 
@@ -84,7 +84,7 @@ void Closing::draw_progress(Ui& ui, const Rect& area) {
 bool Closing::cancel() {
   if (step_ != Step::writes) return false;
   step_ = Step::none;
-  session_.pause(paused_before_);
+  session_.wanted().paused = paused_before_;
   return true;
 }
 

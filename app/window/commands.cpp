@@ -38,10 +38,10 @@ void Commands::act(const KeyCommand& command) {
       escape();
       break;
     case Action::pause:
-      session_.pause(!session_.renderers().paused());
+      session_.wanted().paused = !session_.wanted().paused;
       break;
     case Action::restart:
-      session_.restart();
+      ++session_.wanted().restarts;
       pacing_.on_new_start(clock_seconds());
       break;
     case Action::view:
@@ -119,7 +119,7 @@ void Commands::act_on_document(Action action) {
     case Action::snapshot:
       return session_.snapshot();
     case Action::split:
-      session_.renderers().split() ? end_split() : session_.set_split(true);
+      session_.split() ? end_split() : session_.set_split(true);
       return pacing_.on_new_start(clock_seconds());
     case Action::reference:
       ask_reference(dialog_);
@@ -254,7 +254,7 @@ void Commands::draw(Ui& ui, const Rect& area) {
   if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true, 0};
   const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
   if (take) later_ = [this, take = *take] { session_.editor().answer_about_file(take); };
-  if (dialog_.kind == Dialog::Kind::halves && !session_.renderers().split()) dialog_.kind = Dialog::Kind::none;
+  if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   const auto half = draw_halves_dialog(ui, area, dialog_, session_.method(Half::kept), session_.method(Half::current));
   if (half) later_ = [this, half = *half] { session_.keep_half(half); };
   if (closing_.draw(ui, area, dialog_))

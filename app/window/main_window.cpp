@@ -36,7 +36,7 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       platform_(options.scene.scene.width, options.scene.scene.height),
       session_(
           options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
-      picture_(session_),
+      picture_(session_.renderers(), session_.accuracy()),
       appearance_(platform_, session_, ui_),
       objects_(session_, panels_, tools_.gestures, pacing_),
       looks_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
@@ -52,9 +52,9 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   if (reference) session_.references().set(std::move(reference));
 }
 
-/// Hands the newest scene to the renderer if its time has come. Returns whether that is a new edit.
-bool MainWindow::send(double now) {
-  session_.send(now);
+/// Asks the renderers for what is wanted now, see Session. Returns whether that is a new edit.
+bool MainWindow::send(double now, bool scene_too) {
+  session_.send(now, scene_too);
   const std::uint64_t edit = session_.renderers().edit(Half::current);
   if (edit == paced_edit_) return false;
   pacing_.on_edit(paced_edit_ = edit, now);
@@ -128,7 +128,8 @@ void MainWindow::draw(double now) {
   ui_.problem.clear();
   ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
-  if (fresh) picture_.take();
+  for (const Half half : {Half::current, Half::kept})
+    if (const auto frame = fresh ? picture_.take(half) : nullptr) session_.shown(half, frame);
   // The old picture keeps its shape until the new one is there.
   const Scene& scene = session_.editor().scene();
   const Frame* shown = picture_.shown().get();
@@ -137,19 +138,21 @@ void MainWindow::draw(double now) {
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   follow_window_size(size, dots);
   looks_.place(layout, dots);
-  session_.renderers().set_shown_pixels(std::llround(layout.image.width() * layout.image.height() * dots * dots));
+  session_.wanted().shown_pixels = std::llround(layout.image.width() * layout.image.height() * dots * dots);
   session_.set_input_time(std::exchange(input_since_, 0));
   fill_panels();
   draw_interface(layout);
   use_mouse_and_keys(layout, now);
   apply_panels(now);
   session_.set_input_time(0);
+  session_.wanted().watched_pixel = looks_.watched_pixel();
   if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
-  if (!fresh && send(now)) {
+  if (send(now, !fresh) && !fresh) {
     awaits_until_ = now + longest_await;
     return platform_.drop_frame();
   }
-  picture_.show(platform_, layout, view_entry(panels_.view).stops, looks_.shows_pixels());
+  const std::string problem = picture_.show(platform_, layout, shown_state());
+  if (!problem.empty()) session_.messages().say(problem, true);
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
   takes_in_again_ = fresh && std::isfinite(session_.send_time());
@@ -173,6 +176,13 @@ void MainWindow::follow_window_size(const WindowSize& size, float dots) {
   session_.set_picture_size(at_window_ && seen ? std::optional(shown) : std::nullopt);
 }
 
+ShownState MainWindow::shown_state() const {
+  ShownState state{session_.editor().scene().display, view_entry(panels_.view).stops, looks_.shows_pixels(),
+                   session_.split(), session_.clean_beside_raw()};
+  if (state.split) state.method = session_.method(Half::current), state.kept_method = session_.method(Half::kept);
+  return state;
+}
+
 void MainWindow::fill_panels() {
   panels_.scene = session_.editor().scene();
   panels_.facts.frame = picture_.shown();
@@ -182,8 +192,8 @@ void MainWindow::fill_panels() {
   panels_.facts.title = title;
   panels_.facts.what = what_of(*session_.editor().document().origin);
   panels_.facts.recent = gallery_.recent();
-  panels_.facts.threads = session_.renderers().threads();
-  panels_.facts.kept_method = session_.renderers().split() ? session_.method(Half::kept) : "";
+  panels_.facts.threads = session_.wanted().threads;
+  panels_.facts.kept_method = session_.split() ? session_.method(Half::kept) : "";
   panels_.facts.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
   panels_.facts.at_window = at_window_;
   panels_.facts.can_show_errors = session_.can_show_errors();
@@ -195,14 +205,13 @@ void MainWindow::fill_panels() {
 void MainWindow::draw_interface(const Layout& layout) {
   draw_column(ui_, panels_, layout.column);
   objects_.draw(ui_, layout);
-  picture_.draw_halves(ui_, overlap(layout.image, layout.area));
+  picture_.draw_halves(ui_, overlap(layout.image, layout.area), shown_state());
   looks_.draw(ui_, layout);
-  const RendererPair& renderers = session_.renderers();
   const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(
       ui_, layout.status,
       status_cells(panels_.facts.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
-                   {renderers.paused(), accuracy.is_true(), renderers.split(),
+                   {session_.wanted().paused, accuracy.is_true(), session_.split(),
                     &accuracy.curves(Half::current, Kind::clean).current()}));
   draw_message(ui_, layout.area, session_.messages().current());
   commands_.draw(ui_, layout.area);
@@ -222,7 +231,7 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.asks();
   const bool looks = !objects_.active() && looks_.use_mouse(mouse, layout, free);
   const Rect visible = overlap(layout.image, layout.area);
-  const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free);
+  const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free, shown_state());
   if (!looks && !divides && !objects_.use_mouse(mouse, layout, ui_.scale, free)) {
     const bool opens = !commands_.asks() && !objects_.shows_menu();
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
@@ -258,7 +267,7 @@ void MainWindow::apply_panels(double now) {
   gallery_.want(wishes.pictures);
   use_preferences();
   if (wishes.action) commands_.act({static_cast<Action>(*wishes.action)});
-  if (wishes.threads) session_.set_threads(*wishes.threads);
+  if (wishes.threads) session_.wanted().threads = *wishes.threads;
   commands_.select_view(shows_errors(panels_.view) && !session_.can_show_errors() ? 0 : panels_.view);
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);

@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/appearance.h"
 #include "app/window/commands.h"
-#include "app/window/picture_view.h"
+#include "app/window/rendering/picture_view.h"
 #include "app/window/system/end_signals.h"
 #include "app/window/tools/flight.h"
 #include "app/window/tools/pointer.h"
@@ -44,10 +44,11 @@ class MainWindow {
   bool picture_due(double now) const;
   void draw(double now);
   void fill_panels();
+  ShownState shown_state() const;
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
   void apply_panels(double now);
-  bool send(double now);
+  bool send(double now, bool scene_too = true);
   bool awaits_picture(double now) const;
   void keep_message(double now);
   int end_of_signal();

@@ -17,11 +17,11 @@ bool PictureTools::act(Action action) {
       zoom_.toggle(mouse_.x, mouse_.y);
       break;
     case Action::inspect:
-      inspector_.set_on(!inspector_.on(), session_.renderers());
+      inspector_.set_on(!inspector_.on());
       break;
     case Action::replay:
-      inspector_.set_on(true, session_.renderers());
-      inspector_.find_path(session_.renderers(), session_.sent());
+      inspector_.set_on(true);
+      inspector_.find_path(session_.renderers(), session_.wanted().scene);
       break;
     case Action::refine_first:
       refine();
@@ -51,10 +51,10 @@ void PictureTools::look_through_next() {
 
 /// Begins to draw a rectangle, or gives one up.
 void PictureTools::refine() {
-  const Region now = session_.renderers().refined_first();
+  Region& part = session_.wanted().refine_first;
   if (rectangle_.cancel()) return session_.messages().dismiss();
-  if (now.width() > 0) {
-    session_.renderers().refine_first({});
+  if (part.width() > 0) {
+    part = {};
     return session_.messages().say("the whole picture is refined again");
   }
   if (session_.editor().scene().render.adaptive)
@@ -68,7 +68,7 @@ bool PictureTools::escape() {
   if (rectangle_.cancel()) return session_.messages().dismiss(), true;
   if (inspector_.drop_path()) return true;
   if (!inspector_.on()) return false;
-  inspector_.set_on(false, session_.renderers());
+  inspector_.set_on(false);
   return true;
 }
 
@@ -95,9 +95,8 @@ bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free
   mouse_ = mouse;
   const Frame* frame = panels_.facts.frame.get();
   const bool over = frame && !mouse.taken && overlap(layout.image, layout.area).contains(mouse.x, mouse.y);
-  inspector_.point_at(
-      over ? std::optional(click_at(layout.image, mouse.x, mouse.y, frame->width, frame->height)) : std::nullopt,
-      session_.renderers());
+  inspector_.point_at(over ? std::optional(click_at(layout.image, mouse.x, mouse.y, frame->width, frame->height))
+                           : std::nullopt);
   if (drag_picture(mouse, layout, free)) {
     if (mouse.any_down() || mouse.wheel != 0) pacing_.on_event();
     return true;
@@ -105,7 +104,7 @@ bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free
   if (!frame || !rectangle_.active()) return false;
   const auto drawn = rectangle_.update(mouse, layout.image, free, frame->width, frame->height);
   if (drawn) {
-    session_.renderers().refine_first(*drawn);
+    session_.wanted().refine_first = *drawn;
     pacing_.on_event();
   }
   return true;
@@ -137,12 +136,13 @@ void PictureTools::draw(Ui& ui, const Layout& layout) {
   const Rect visible = overlap(layout.image, layout.area);
   const Frame* frame = panels_.facts.frame.get();
   if (visible.width() <= 0 || visible.height() <= 0 || !frame) return;
-  rectangle_.draw(ui, layout.image, visible, session_.renderers().refined_first(), frame->width, frame->height,
+  rectangle_.draw(ui, layout.image, visible, session_.wanted().refine_first, frame->width, frame->height,
                   said_of_rectangle());
   const bool as_chosen = frame->view == view_entry(panels_.view).view;
   if (as_chosen) draw_legend(ui, visible, legend_of(panels_.view, frame->white));
   draw_zoom(ui, visible);
-  inspector_.draw(ui, {frame, panels_.scene, session_.sent().get(), layout.image, visible}, session_.renderers());
+  inspector_.draw(ui, {frame, panels_.scene, session_.wanted().scene.get(), layout.image, visible},
+                  session_.renderers());
 }
 
 }  // namespace tyndall

@@ -34,6 +34,8 @@ class PictureTools {
   bool use_mouse(const Mouse& mouse, const Layout& layout, bool free);
   /// Takes what was found in the background. Whether there was anything.
   bool collect() { return inspector_.collect(session_.renderers()); }
+  /// The pixel of which reports are wanted, see RenderRequest.
+  std::optional<std::pair<int, int>> watched_pixel() const { return inspector_.watched_pixel(); }
   bool at_rest() const { return !inspector_.busy(); }
 
   /// Draws what is known over the picture.

@@ -67,8 +67,8 @@ int MainWindow::run() {
 /// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
   const int signal = signals_.received();
-  session_.pause(true);
-  session_.keep_edits();
+  session_.wanted().paused = true;
+  session_.send(clock_seconds(), false);
   const std::string edits = session_.flush_edits();
   if (!edits.empty()) complain(printable(edits, 2000));
   const std::string files = session_.finish_files();

@@ -4,7 +4,7 @@
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
 #include "core/base/error.h"
-#include "core/render/mailbox.h"
+#include "core/scene/change.h"
 #include "core/system/processors.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       charts_({".csv", ".svg"}, saving_, messages_, log),
       loading_(wake),
       saving_(wake) {
-  accuracy_.set_threads(renderers_.threads());
+  wanted_.threads = thread_count(options.threads).count;
   read_preferences_file();
   restore_edits(options);
   timer_.on_change(clock_seconds());
@@ -64,7 +64,7 @@ std::shared_ptr<const Scene> Session::rendered_scene() {
 void Session::set_picture_size(std::optional<PictureSize> size) {
   if (size == picture_size_) return;
   picture_size_ = size;
-  renderers_.refine_first({});  // its pixels are others now
+  wanted_.refine_first = {};  // its pixels are others now
   timer_.on_change(clock_seconds());
 }
 
@@ -83,43 +83,70 @@ std::string Session::finish_files() {
   return messages_.errors() > errors ? problems : "";
 }
 
-bool Session::send(double now) {
+bool Session::send(double now, bool scene_too) {
   keep_edits();
   const std::uint64_t edit = renderers_.edit(Half::current);
   const auto frame = renderers_.latest(Half::current);
   const bool seen = edit == 0 || (frame && frame->edit >= edit);
-  if (!timer_.due(seen, now)) return false;
-  submit(now);
-  return true;
+  const bool due = scene_too && timer_.due(seen, now);
+  due ? submit(now) : static_cast<void>(ask());
+  return due;
 }
 
+/// The edited scene is wanted from now on.
 void Session::submit(double now) {
-  if (std::exchange(limited_edit_, 0) > 0) renderers_.pause(false);
-  const std::shared_ptr<const Scene> scene = rendered_scene();
-  std::shared_ptr<Film> film = std::exchange(opened_film_, nullptr);
-  if (film && !same_picture(*scene, editor_.document().origin->saved)) film = nullptr;  // it was edited meanwhile
-  const RendererPair::Begun begun = renderers_.submit(scene, std::move(film));
-  if (begun.current) accuracy_.set_scene(Half::current, scene);
-  if (begun.kept) accuracy_.set_scene(Half::kept, renderers_.kept_scene(*scene));
-  const bool camera_only = sent_ && !change_between(*sent_, *scene).others;
-  sent_ = scene;
-  if (log_ && begun.current) log_->submitted(renderers_.edit(Half::current), timer_.changed_at(), camera_only);
+  if (std::exchange(limited_edit_, 0) > 0) wanted_.paused = false;
+  const auto before = std::exchange(wanted_.scene, rendered_scene());
+  wanted_.film = std::exchange(opened_film_, nullptr);
+  if (wanted_.film && !same_picture(*wanted_.scene, editor_.document().origin->saved))
+    wanted_.film = nullptr;  // it was edited meanwhile
+  if (split()) kept_scene_ = with_kept_settings(*wanted_.scene);
+  const double changed_at = timer_.changed_at();
   timer_.on_send(now);
+  if (!ask() || !log_) return;
+  const bool camera_only = before && !change_between(*before, *wanted_.scene).others;
+  log_->submitted(renderers_.edit(Half::current), changed_at, camera_only);
+}
+
+/// The one place where the renderers are asked for anything. Returns whether the current half begins another picture.
+bool Session::ask() {
+  wanted_.clean = preferences_.clean;
+  RenderRequest kept = wanted_;
+  kept.scene = kept_scene_;
+  kept.film = nullptr;
+  RendererPair::Begun begun = renderers_.request(wanted_, kept);
+  if (begun.current) accuracy_.set_scene(Half::current, wanted_.scene);
+  if (begun.kept) accuracy_.set_scene(Half::kept, kept_scene_);
+  if (begun.ended)
+    saving_.run([second = std::move(begun.ended)]() mutable -> JobQueue::Result {
+      second.reset();
+      return {};
+    });
+  accuracy_.set_threads(wanted_.threads);
+  accuracy_.set_resting(renderers_.resting());
+  return begun.current;
+}
+
+/// A scene as the left half of the split view renders it.
+std::shared_ptr<const Scene> Session::with_kept_settings(const Scene& scene) const {
+  auto kept = std::make_shared<Scene>(scene);
+  kept->render = kept_scene_->render;
+  kept->render.spp = scene.render.spp;
+  return kept;
 }
 
 void Session::shown(Half half, const std::shared_ptr<const Frame>& frame) {
   accuracy_.shown(half, frame, method(half), frame->edit == renderers_.edit(half));
   if (half == Half::current) pause_at_limits(*frame);
-  accuracy_.set_resting(renderers_.resting());
 }
 
 /// Pauses a picture once where the command line said so; another edit, or Space, goes on.
 void Session::pause_at_limits(const Frame& frame) {
   const bool good = limits_.error > 0 && frame.relative_error <= limits_.error;
   const bool reached = frame.seconds >= limits_.seconds || good;
-  if (!reached || frame.spp == 0 || frame.finished || frame.edit == limited_edit_ || renderers_.paused()) return;
+  if (!reached || frame.spp == 0 || frame.finished || frame.edit == limited_edit_ || wanted_.paused) return;
   limited_edit_ = frame.edit;
-  renderers_.pause(true);
+  wanted_.paused = true;
   messages_.say(frame.seconds >= limits_.seconds ? "paused at the time limit; Space goes on"
                                                  : "paused at the error that was asked for; Space goes on");
 }
@@ -143,19 +170,8 @@ bool Session::at_rest() const {
          !accuracy_.busy();
 }
 
-void Session::pause(bool paused) {
-  renderers_.pause(paused);
-  accuracy_.set_resting(renderers_.resting());
-}
-
-void Session::set_threads(int threads) {
-  if (threads == renderers_.threads()) return;
-  renderers_.set_threads(threads);
-  accuracy_.set_threads(threads);
-}
-
 void Session::set_view(View view, ErrorView error) {
-  renderers_.set_view(view);
+  wanted_.view = view;
   accuracy_.set_view(error);
 }
 
@@ -177,13 +193,11 @@ void Session::read_preferences_file() {
     preferences_ = *read;
   else
     messages_.say(file.string() + " is damaged; the window begins with its defaults" + fate_of(set_aside(file)));
-  renderers_.set_clean(preferences_.clean);
 }
 
 void Session::set_preferences(const Preferences& preferences) {
   if (preferences == preferences_) return;
   preferences_ = preferences;
-  renderers_.set_clean(preferences.clean);
   saving_.run([preferences]() -> JobQueue::Result {
     write_preferences(preferences_file(), preferences);
     return {};
@@ -202,27 +216,20 @@ void Session::set_clean_beside_raw(bool beside) {
 }
 
 void Session::set_split(bool split) {
-  if (split == renderers_.split()) return;
+  if (split == this->split()) return;
   accuracy_.set_split(split);
-  if (split) {
-    renderers_.begin_split(*rendered_scene());
-    accuracy_.set_scene(Half::kept, renderers_.kept_scene(*rendered_scene()));
-  } else {
-    saving_.run([second = renderers_.end_split()]() mutable -> JobQueue::Result {
-      second.reset();
-      return {};
-    });
-  }
+  kept_scene_ = split ? std::make_shared<const Scene>(*rendered_scene()) : nullptr;
+  if (split) ++wanted_.restarts;
 }
 
 void Session::keep_half(Half half) {
-  Scene scene = half == Half::kept ? renderers_.kept_scene(editor_.scene()) : editor_.scene();
+  Scene scene = half == Half::kept ? *with_kept_settings(editor_.scene()) : editor_.scene();
   set_split(false);
   editor_.edit(std::move(scene), 0);
 }
 
 std::string Session::method(Half half) const {
-  const RenderSettings& settings = half == Half::kept ? renderers_.kept_settings() : editor_.scene().render;
+  const RenderSettings& settings = half == Half::kept && split() ? kept_scene_->render : editor_.scene().render;
   return method_of(settings, editor_.document().origin->saved.render);
 }
 
@@ -235,14 +242,14 @@ void Session::render_reference() {
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
   constexpr std::uint32_t least = 64;
-  references_.render({*rendered_scene(), std::max(least, frame->spp), renderers_.threads(), isa_});
+  references_.render({*rendered_scene(), std::max(least, frame->spp), wanted_.threads, isa_});
 }
 
 void Session::snapshot() {
   if (timer_.waits()) submit(clock_seconds());  // so that the snapshot shows the newest edit
   Document document = editor_.document();
   document.scene = *rendered_scene();
-  Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), isa_, renderers_.threads()};
+  Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), isa_, wanted_.threads};
   messages_.say_until_done("saving " + snapshot.base.filename().string() + " …");
   const std::filesystem::path base = snapshot.base;
   const std::uint64_t edit = renderers_.edit(Half::current);
@@ -264,7 +271,7 @@ void Session::export_chart() {
   chart.curves = copies_of(accuracy_.named_curves());
   if (chart.curves.empty()) return messages_.say("there is no curve yet");
   chart.title = stem + (against ? ": true error against " + accuracy_.reference()->about : ": estimated error");
-  const int threads = renderers_.threads();
+  const int threads = wanted_.threads;
   chart.subtitle = std::to_string(scene->width) + "x" + std::to_string(scene->height) + ", " + std::to_string(threads) +
                    (threads == 1 ? " thread" : " threads") +
                    (against ? "" : "; estimated from two halves of each pixel");

@@ -1,9 +1,9 @@
 #pragma once
 #include "app/window/accuracy/references.h"
-#include "app/window/accuracy/renderer_pair.h"
 #include "app/window/document/kept_edits.h"
 #include "app/window/document/numbered_files.h"
 #include "app/window/document/send_timer.h"
+#include "app/window/rendering/renderer_pair.h"
 #include "app/window/system/preferences.h"
 #include "app/window/window.h"
 
@@ -40,12 +40,17 @@ class Session {
   References& references() { return references_; }
   MessageLine& messages() { return messages_; }
   const MessageLine& messages() const { return messages_; }
-  const RendererPair& renderers() const { return renderers_; }
   RendererPair& renderers() { return renderers_; }
+  const RendererPair& renderers() const { return renderers_; }
   const LiveAccuracy& accuracy() const { return accuracy_; }
 
-  /// Hands the newest scene to the renderers when its time has come, see SendTimer. Returns whether it did.
-  bool send(double now);
+  /// What the renderers are asked for, in a split view of the right half. Goes to them with the next send(); all parts
+  /// but the scene, its film and `clean` can be changed here.
+  RenderRequest& wanted() { return wanted_; }
+  const RenderRequest& wanted() const { return wanted_; }
+  /// Asks the renderers for what is wanted now, in each drawing. The edited scene becomes part of that when its time
+  /// has come, see SendTimer, if scene_too. Returns whether it did.
+  bool send(double now, bool scene_too = true);
   /// When send() will not wait any longer for a picture; infinite: nothing is to be sent.
   double send_time() const { return timer_.latest(); }
   /// When the input came that the next edits are due to, in clock seconds; latencies are counted from then on. 0: they
@@ -79,17 +84,11 @@ class Session {
   bool writes_files() const { return !saving_.idle(); }
   std::size_t jobs_of_writing() const { return saving_.open(); }
 
-  /// The scene that the renderers have got last; null: none yet.
-  const std::shared_ptr<const Scene>& sent() const { return sent_; }
   /// Pixels of the picture, in place of those that the scene's file asks for; nothing: as the file asks. What is saved
   /// keeps the file's.
   void set_picture_size(std::optional<PictureSize> size);
   const std::optional<PictureSize>& picture_size() const { return picture_size_; }
 
-  void pause(bool paused);
-  void restart() { renderers_.restart(); }
-  /// Of all renderers together.
-  void set_threads(int threads);
   /// error: a picture of differences instead of the view.
   void set_view(View view, ErrorView error);
   /// What is remembered from one start to the next. Changes are written in the background.
@@ -97,14 +96,15 @@ class Session {
   void set_preferences(const Preferences& preferences);
   /// Shows pictures filtered, or as they are: one of the preferences.
   void set_clean(bool clean);
-  bool clean() const { return renderers_.clean(); }
+  bool clean() const { return preferences_.clean; }
   /// The picture as it is on the left, the clean view on the right, while the clean view is on and nothing else is
   /// compared.
   void set_clean_beside_raw(bool beside);
-  bool clean_beside_raw() const { return beside_ && clean() && !renderers_.split(); }
+  bool clean_beside_raw() const { return beside_ && clean() && !split(); }
   /// Side by side: on the left the settings that the scene has now, on the right those that it will have, each for as
   /// many core-seconds. Both start anew.
   void set_split(bool split);
+  bool split() const { return kept_scene_ != nullptr; }
   /// Ends the split view and goes on with the settings of that half; those of the left one are an edit.
   void keep_half(Half half);
 
@@ -122,6 +122,8 @@ class Session {
 
  private:
   void submit(double now);
+  bool ask();
+  std::shared_ptr<const Scene> with_kept_settings(const Scene& scene) const;
   const std::shared_ptr<const Scene>& shared_scene();
   std::shared_ptr<const Scene> rendered_scene();
   bool tell_of_keeping();
@@ -131,7 +133,8 @@ class Session {
 
   double input_time_ = 0;
   std::shared_ptr<Film> opened_film_;  ///< of the scene that was opened, until it goes to the renderer
-  std::shared_ptr<const Scene> sent_;  ///< to the renderers, last
+  RenderRequest wanted_;
+  std::shared_ptr<const Scene> kept_scene_;  ///< of the left half of a split view; null: there is none
   UiLog* log_;
   std::string isa_;  ///< "": the best
   MessageLine messages_;

@@ -68,7 +68,7 @@ struct PixelReport {
 
 /// One finished pass, ready to be shown. Never changes after it was published.
 struct Frame {
-  std::uint64_t edit = 0;  ///< number of the edit (Renderer::submit) that it shows
+  std::uint64_t edit = 0;  ///< number of the edit (Renderer::request) that it shows
   std::uint64_t pass = 0;  ///< counts up with every frame
   int width = 0, height = 0;
   /// 4 floats a pixel, linear, top row first: of every pixel or, of a coarse pass, of fewer.
@@ -90,7 +90,7 @@ struct Frame {
   bool rare_bright_paths = false;  ///< an estimate cannot be trusted: see has_rare_bright_paths, is_doubtful
   double seconds = 0;              ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;          ///< of the last pass
-  double first_picture_ms = 0;     ///< from submit() or restart() to the first frame after it
+  double first_picture_ms = 0;     ///< from the edit or restart to the first frame after it
   std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< see PassTally
   double cut_throughput = 0;                               ///< see FilmTotals
   std::uint32_t most_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none

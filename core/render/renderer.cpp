@@ -1,6 +1,6 @@
 #include "core/render/renderer.h"
 
-#include "core/render/director.h"
+#include "core/render/render_loop.h"
 
 #include <stdexcept>
 #include <utility>
@@ -18,12 +18,12 @@ Kernels kernels_or_throw(const std::string& isa) {
 
 struct Renderer::State {
   Mailbox mail;
-  Director director;
+  RenderLoop loop;
   StoppableThread thread;  // declared last, so that it has ended before what it uses goes
 
   State(const Options& options, std::function<void()> on_frame)
-      : director(mail, kernels_or_throw(options.isa), options.threads, std::move(on_frame)),
-        thread([this](const StopToken& stop) { director.run(stop); }) {}
+      : loop(mail, kernels_or_throw(options.isa), options.threads, std::move(on_frame)),
+        thread([this](const StopToken& stop) { loop.run(stop); }) {}
 };
 
 Renderer::Renderer(const Options& options, std::function<void()> on_frame)
@@ -36,35 +36,13 @@ Renderer::~Renderer() {
   for (auto& request : state_->mail.take_film_requests()) request.set_value({});  // nobody may wait forever
 }
 
-std::uint64_t Renderer::submit(Scene scene) { return submit(std::make_shared<const Scene>(std::move(scene))); }
-
-std::uint64_t Renderer::submit(std::shared_ptr<const Scene> scene, std::shared_ptr<Film> film) {
-  return state_->mail.submit(std::move(scene), std::move(film));
-}
+std::uint64_t Renderer::request(RenderRequest request) { return state_->mail.request(std::move(request)); }
 
 std::shared_ptr<const Frame> Renderer::latest() const { return state_->mail.latest(); }
 
 std::shared_ptr<const RenderProblem> Renderer::problem() const { return state_->mail.problem(); }
 
-void Renderer::pause(bool paused) { state_->mail.pause(paused); }
-
-bool Renderer::paused() const { return state_->mail.paused(); }
-
-void Renderer::restart() { state_->mail.restart(); }
-
-void Renderer::set_view(View view) { state_->mail.set_view(view); }
-
-void Renderer::set_clean(bool clean) { state_->mail.set_clean(clean); }
-
-void Renderer::set_threads(int threads) { state_->mail.set_threads(threads); }
-
-void Renderer::set_shown_pixels(std::int64_t pixels) { state_->mail.set_shown_pixels(pixels); }
-
 void Renderer::note_shown(std::uint64_t pass) { state_->mail.note_shown(pass); }
-
-void Renderer::refine_first(const Region& part) { state_->mail.refine_first(part); }
-
-void Renderer::watch_pixel(std::optional<std::pair<int, int>> pixel) { state_->mail.watch_pixel(pixel); }
 
 std::shared_ptr<const PixelReport> Renderer::pixel() const { return state_->mail.pixel(); }
 

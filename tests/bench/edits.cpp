@@ -19,7 +19,7 @@ constexpr auto patience = std::chrono::seconds(30);
 
 /// When the pictures of an edit came.
 struct Arrivals {
-  double first_ms = 0;  ///< from submit() to the first frame
+  double first_ms = 0;  ///< from request() to the first frame
   double full_ms = 0;   ///< to the first with a sample in every pixel
   int step = 0;         ///< of the first frame
 };
@@ -35,7 +35,7 @@ class Viewer {
     first_ = full_ = std::nullopt;
     lock.unlock();
     const Clock::time_point start = Clock::now();
-    renderer_.submit(scene);
+    renderer_.request({.scene = std::make_shared<const Scene>(scene)});
     lock.lock();
     if (!arrived_.wait_for(lock, patience, [&] { return full_.has_value(); }))
       throw WrongResult("an edit was not shown within 30 s");
@@ -127,7 +127,7 @@ Json row_of(const NamedScene& named, const char* what, Series series, int count)
 Json measure_edits(const Settings& settings) {
   const int count = settings.quick ? 15 : 60;
   Table table("Edits: interactive renderer, 1280x720, all cores, " + std::to_string(count) +
-                  " of each kind; ms from submit to the first and to the first full frame",
+                  " of each kind; ms from request to the first and to the first full frame",
               {{"scene", "scene", -1, 13},
                {"edit", "edit", -1, 8},
                {"first_p50_ms", "first p50", 1},

@@ -110,14 +110,14 @@ TEST_CASE("adaptive: the window has the headless render's film") {
   Scene scene = small_scene("showroom", width, height, 70);
   scene.render.adaptive = true;
   WatchedRenderer renderer;
-  const FramePointer frame = renderer.wait_finished(renderer->submit(scene));
+  const FramePointer frame = renderer.wait_finished(renderer.submit(scene));
   CHECK(frame->spp == 70);
   const Film film = render(compile(scene), options_of(70)).film;
   CHECK(rgb_of(*frame) == resolve(film));
   CHECK(renderer->film() == film);
   scene.render.adaptive = false;
   const std::size_t so_far = renderer.frames().size();
-  const FramePointer even = renderer.wait_finished(renderer->submit(scene), so_far);
+  const FramePointer even = renderer.wait_finished(renderer.submit(scene), so_far);
   CHECK(rgb_of(*even) == reference_picture(scene));
 }
 

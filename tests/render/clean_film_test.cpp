@@ -165,10 +165,10 @@ TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any
 
 TEST_CASE("coarse clean view: the first one after an edit where a whole one takes long, until that is there") {
   WatchedRenderer renderer;
-  renderer->set_clean(true);
+  renderer.set(&RenderRequest::clean, true);
   Scene scene = small("cornell-box", 1000, 1000);
   scene.render.spp = 2;
-  const FramePointer whole = renderer.wait_finished(renderer->submit(scene));
+  const FramePointer whole = renderer.wait_finished(renderer.submit(scene));
   REQUIRE(whole->clean);
   CHECK(whole->clean->spp == 2);
   CHECK(whole->clean->grid.columns == 1000);
@@ -196,8 +196,8 @@ TEST_CASE("clean view: comes with frames when it is wanted, of the newest scene,
   WatchedRenderer renderer;
   Scene scene = small("cornell-box", 64, 64);
   scene.render.spp = 8;
-  CHECK_FALSE(renderer.wait_finished(renderer->submit(scene))->clean);
-  renderer->set_clean(true);
+  CHECK_FALSE(renderer.wait_finished(renderer.submit(scene))->clean);
+  renderer.set(&RenderRequest::clean, true);
   const FramePointer clean = renderer.wait_for([](const Frame& f) { return f.clean && f.finished; });
   CHECK(clean->clean->spp == 8);
   CHECK(clean->clean->rgba.size() == clean->rgba.size());
@@ -208,12 +208,12 @@ TEST_CASE("clean view: comes with frames when it is wanted, of the newest scene,
 
   scene.camera.vfov = 30;
   const std::size_t before = renderer.frames().size();
-  const FramePointer next = renderer.wait_finished(renderer->submit(scene), before);
+  const FramePointer next = renderer.wait_finished(renderer.submit(scene), before);
   REQUIRE(next->clean);
   CHECK(next->clean->spp == 8);
   for (const FramePointer& frame : renderer.frames())
     if (frame->edit == next->edit && frame->clean) CHECK(frame->clean->rgba != clean->clean->rgba);
-  renderer->set_clean(false);
+  renderer.set(&RenderRequest::clean, false);
   renderer.catch_up();
   CHECK_FALSE(renderer->latest()->clean);
   CHECK(renderer->latest()->spp == 8);

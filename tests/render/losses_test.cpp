@@ -181,10 +181,10 @@ TEST_CASE("cut paths: an edit starts the sum anew; frames tell its share") {
   Scene room = small_scene("cornell-smoke", 61, 43, 8);
   room.render.max_depth = 4;
   WatchedRenderer renderer;
-  renderer->submit(room);
+  renderer.submit(room);
   renderer.wait_for([](const Frame& frame) { return frame.spp >= 1; });
   room.camera.look_from.x += 1;
-  const FramePointer last = renderer.wait_finished(renderer->submit(room));
+  const FramePointer last = renderer.wait_finished(renderer.submit(room));
   const Film film = result_of(compile(room), "", 1, 0, 0, 8).film;
   CHECK(renderer->film() == film);
   CHECK(last->cut_throughput == doctest::Approx(totals(film).cut_throughput));

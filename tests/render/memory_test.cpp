@@ -74,13 +74,13 @@ TEST_CASE("memory: a renderer that cannot publish its picture says so, and goes 
   {
     // The frame's 4 floats a pixel. The film takes another size.
     const AllocationRefusal refusal = AllocationRefusal::of_size(200 * 100 * 16);
-    edit = renderer->submit(scene);
+    edit = renderer.submit(scene);
     renderer.wait_until([&] { return renderer->problem() != nullptr; });
     CHECK(refusal.refused() > 0);
   }
   CHECK(renderer->problem()->what.starts_with("not enough memory"));
   scene.camera.vfov = 30;
-  edit = renderer->submit(scene);
+  edit = renderer.submit(scene);
   CHECK(renderer.wait_for([&](const Frame& f) { return f.edit == edit; })->width == 200);
   CHECK(renderer->problem() == nullptr);
 }
@@ -99,14 +99,14 @@ TEST_CASE("memory: whichever request is refused while a renderer follows an edit
       const AllocationRefusal refusal = AllocationRefusal::of_number(number);
       std::uint64_t edit = 0;
       try {
-        edit = renderer->submit(scene);
+        edit = renderer.submit(scene);
       } catch (const std::bad_alloc&) {
       }
       while (refusal.refused() == 0 && !shows(edit, 8)) std::this_thread::sleep_for(std::chrono::microseconds(100));
       refused += refusal.refused();
     }
     scene.camera.vfov += 0.01;
-    const std::uint64_t edit = renderer->submit(scene);
+    const std::uint64_t edit = renderer.submit(scene);
     renderer.wait_for([&](const Frame& f) { return f.edit == edit; });
   }
   CHECK(refused > 100);
@@ -123,22 +123,22 @@ TEST_CASE("memory: whichever request is refused while a renderer takes over a fi
   int refused = 0;
   for (int number = 1; number <= 150; ++number) {
     WatchedRenderer renderer(1, "scalar");
-    const std::uint64_t before = renderer->submit(small);
+    const std::uint64_t before = renderer.submit(small);
     renderer.wait_for([&](const Frame& f) { return f.edit == before; });
-    renderer->pause(true);
+    renderer.pause(true);
     renderer.catch_up();
     const auto scene = std::make_shared<const Scene>(large);
     const auto film = std::make_shared<Film>(taken);
     {
       const AllocationRefusal refusal = AllocationRefusal::of_number(number);
       try {
-        renderer->submit(scene, film);
+        renderer.submit(scene, film);
         renderer.catch_up();
       } catch (const std::bad_alloc&) {
       }
       refused += refusal.refused();
     }
-    renderer->pause(false);
+    renderer.pause(false);
     for (const FramePointer& frame : renderer.frames())
       if (frame->width != (frame->edit == before ? small.width : large.width)) FAIL("request " << number);
   }

@@ -92,9 +92,9 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
   scene.width = 160, scene.height = 100;
   scene.render.spp = 64;
   WatchedRenderer renderer;
-  renderer->refine_first({40, 40, 60, 60});
-  renderer->watch_pixel(std::pair{50, 50});
-  const std::uint64_t edit = renderer->submit(scene);
+  renderer.set(&RenderRequest::refine_first, {40, 40, 60, 60});
+  renderer.set(&RenderRequest::watched_pixel, std::pair{50, 50});
+  const std::uint64_t edit = renderer.submit(scene);
   const FramePointer refined =
       renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.most_spp == 64 && f.spp == 1; }, 0);
   CHECK_FALSE(refined->finished);
@@ -108,7 +108,7 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
   CHECK(report->edit == edit);
   const float* shown = last->rgba.data() + 4 * (50 * 160 + 50);
   CHECK(report->mean == Vec3f{shown[0], shown[1], shown[2]});
-  renderer->watch_pixel(std::pair{7, 9});
+  renderer.set(&RenderRequest::watched_pixel, std::pair{7, 9});
   const auto other = [&] { return renderer->pixel()->x == 7; };
   while (!other()) std::this_thread::yield();
   CHECK(renderer->pixel()->samples == 64);

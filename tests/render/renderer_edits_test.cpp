@@ -1,6 +1,6 @@
 #include "core/render/renderer.h"
 
-#include "core/render/mailbox.h"
+#include "core/scene/change.h"
 #include "tests/support/allocations.h"
 #include "tests/support/watched_renderer.h"
 
@@ -33,7 +33,7 @@ TEST_CASE("edits: of 300 quick ones the newest is shown, each frame whole and of
   WatchedRenderer renderer;
   std::uint64_t edit = 0;
   for (int i = 1; i <= 300; ++i) {
-    edit = renderer->submit(plain(i));
+    edit = renderer.submit(plain(i));
     CHECK(edit == static_cast<std::uint64_t>(i));
     if (i % 20 == 0) let_it_work(std::chrono::milliseconds(3));
   }
@@ -53,7 +53,7 @@ TEST_CASE("edits: of 1000 cameras in the middle of passes nothing is left in the
   std::uint64_t edit = 0;
   for (int i = 0; i < 1000; ++i) {
     scene.camera.look_from.x += 0.01 * (i % 7 - 3);
-    edit = renderer->submit(scene);
+    edit = renderer.submit(scene);
     if (i % 9 == 0) let_it_work(std::chrono::milliseconds(i % 4));
   }
   renderer.wait_finished(edit);
@@ -63,7 +63,7 @@ TEST_CASE("edits: of 1000 cameras in the middle of passes nothing is left in the
 TEST_CASE("edits: a coarse first picture has samples of the final one, and what lies between them") {
   Scene scene = small_scene("showroom", 200, 150, 1);
   WatchedRenderer renderer(1);
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   renderer.wait_finished(edit);
   const FramePointer first = renderer.frames().front(), last = renderer->latest();
   CHECK(first->step == 8);  // nothing is known about the machine's speed yet
@@ -94,24 +94,24 @@ TEST_CASE("edits: a coarse first picture has samples of the final one, and what 
 TEST_CASE("edits: a camera without a lens can be focused anywhere without starting over, one with a lens cannot") {
   WatchedRenderer renderer;
   Scene scene = plain(2);
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   scene.camera.focus_distance = 3;
-  CHECK(renderer->submit(scene) == edit);
+  CHECK(renderer.submit(scene) == edit);
   renderer.wait_finished(edit);
   CHECK(rgb_of(*renderer->latest()) == reference_picture(scene));
   scene.camera.defocus_angle = 1;
-  CHECK(renderer->submit(scene) == edit + 1);
+  CHECK(renderer.submit(scene) == edit + 1);
   scene.camera.focus_distance = 4;
-  CHECK(renderer->submit(scene) == edit + 2);
+  CHECK(renderer.submit(scene) == edit + 2);
 }
 
 TEST_CASE("edits: first pictures sample no more pixels than are shown") {
   Scene scene = small_scene("showroom", 64, 64, 2);
   WatchedRenderer renderer;
-  renderer->set_shown_pixels(16 * 16);
+  renderer.set(&RenderRequest::shown_pixels, 16 * 16);
   for (int i = 0; i < 4; ++i) {
     scene.camera.look_from.x += 0.01;
-    const std::uint64_t edit = renderer->submit(scene);
+    const std::uint64_t edit = renderer.submit(scene);
     renderer.wait_finished(edit);
     CHECK(renderer.wait_for([&](const Frame& f) { return f.edit == edit; })->step >= 4);
   }
@@ -120,43 +120,35 @@ TEST_CASE("edits: first pictures sample no more pixels than are shown") {
 TEST_CASE("edits: what is equal, or differs in name and display only, restarts nothing") {
   WatchedRenderer renderer;
   Scene scene = plain(2);
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   renderer.wait_finished(edit);
   const std::uint64_t pass = renderer->latest()->pass;
-  CHECK(renderer->submit(scene) == edit);
+  CHECK(renderer.submit(scene) == edit);
   scene.name = "another name";
-  CHECK(renderer->submit(scene) == edit);
+  CHECK(renderer.submit(scene) == edit);
   scene.display.exposure = 2;
   scene.display.tone_map = ToneMap::aces;
-  CHECK(renderer->submit(scene) == edit);
-  renderer->set_view(View::beauty);
-  renderer->set_threads(2);
+  CHECK(renderer.submit(scene) == edit);
+  renderer.set_view(View::beauty);
+  renderer.set(&RenderRequest::threads, 2);
   renderer.catch_up();
   CHECK(renderer->latest()->pass == pass);
   scene.render.seed = 1;
-  CHECK(renderer->submit(scene) == edit + 1);
+  CHECK(renderer.submit(scene) == edit + 1);
   renderer.wait_finished(edit + 1);
 }
 
-TEST_CASE("edits: on its way to compile a scene is copied where it is handed over by value, and nowhere else") {
+TEST_CASE("edits: on its way to compile a scene is copied nowhere") {
   constexpr std::size_t many = 997;
   Scene scene = plain(2);
   scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
   scene.objects.resize(many, Object{"", Solid3d{Sphere<>{{0, 0, 9}, 1, {}}, 0}, {}});
   WatchedRenderer renderer;
-  renderer.wait_finished(renderer->submit(scene));
-  for (const bool moved : {true, false}) {
-    scene.camera.vfov -= 1;
-    Scene edited = scene;
-    const AllocationCount copies(many * sizeof(Object));
-    const std::uint64_t edit = moved ? renderer->submit(std::move(edited)) : renderer->submit(scene);
-    renderer.wait_finished(edit);
-    CHECK(copies.count() == (moved ? 0 : 1));
-  }
-  auto shared = std::make_shared<Scene>(scene);
-  shared->camera.vfov -= 1;
+  renderer.wait_finished(renderer.submit(scene));
+  scene.camera.vfov -= 1;
+  const auto shared = std::make_shared<const Scene>(scene);
   const AllocationCount copies(many * sizeof(Object));
-  renderer.wait_finished(renderer->submit(std::shared_ptr<const Scene>(shared)));
+  renderer.wait_finished(renderer.submit(shared));
   CHECK(copies.count() == 0);
 }
 
@@ -189,10 +181,10 @@ TEST_CASE("edits: what has changed is the camera, something else, or nothing tha
 TEST_CASE("edits: a restart throws the samples away and renders the same again") {
   WatchedRenderer renderer;
   const Scene scene = small_scene("cornell-box", 80, 80, 6);
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   const FramePointer once = renderer.wait_finished(edit);
   const std::size_t before = renderer.frames().size();
-  renderer->restart();
+  renderer.restart();
   const FramePointer again = renderer.wait_finished(edit, before);
   CHECK(again->rgba == once->rgba);
   CHECK(renderer.frames()[before]->spp <= 1);
@@ -201,18 +193,16 @@ TEST_CASE("edits: a restart throws the samples away and renders the same again")
 TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene") {
   WatchedRenderer renderer;
   Scene scene = small_scene("cornell-box", 80, 80, 1000000);
-  renderer->submit(scene);
+  renderer.submit(scene);
   renderer.wait_for([](const Frame& f) { return f.spp >= 2; });
-  CHECK_FALSE(renderer->paused());
-  renderer->pause(true);
-  CHECK(renderer->paused());
+  renderer.pause(true);
   renderer.catch_up();  // lets the pass that is under way end
   const std::uint64_t pass = renderer->latest()->pass;
   renderer.catch_up();
   CHECK(renderer->latest()->pass == pass);
   scene.camera.look_from.x += 50;
   const double submitted = wall_seconds();
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   const FramePointer shown = renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.spp == 1; });
   CHECK_FALSE(shown->finished);
   const double until_shown = wall_seconds() - submitted;
@@ -221,7 +211,7 @@ TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene
   std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the length of the pause does not matter
   const std::size_t before = renderer.frames().size();
   const double resumed = wall_seconds();
-  renderer->pause(false);
+  renderer.pause(false);
   const FramePointer next = renderer.wait_for([](const Frame& f) { return f.spp > 1; }, before);
   CHECK(next->seconds <= until_shown + wall_seconds() - resumed);  // pauses are no rendering time
 }
@@ -229,27 +219,27 @@ TEST_CASE("edits: a paused renderer takes no more samples, but shows a new scene
 TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and says what is wrong") {
   WatchedRenderer renderer;
   const Scene good = plain(2);
-  const std::uint64_t first = renderer->submit(good);
+  const std::uint64_t first = renderer.submit(good);
   const FramePointer last = renderer.wait_finished(first);
   Scene gigantic = good;
   gigantic.width = gigantic.height = 2000000000;  // no machine has the memory
   for (int round = 0; round < 2; ++round) {
-    const std::uint64_t bad = renderer->submit(gigantic);
+    const std::uint64_t bad = renderer.submit(gigantic);
     renderer.wait_until([&] { return renderer->problem() && renderer->problem()->edit == bad; });
     CHECK(renderer->problem()->edit == bad);
     CHECK(renderer->problem()->what.size() > 0);
     CHECK(is_plain(*renderer->latest(), 2));
     CHECK(renderer->latest()->edit < bad);
     CHECK(renderer->latest()->width == 120);
-    renderer->set_view(round == 0 ? View::albedo : View::beauty);
+    renderer.set_view(round == 0 ? View::albedo : View::beauty);
     CHECK(renderer->pick(5, 5).object.empty());
     CHECK(renderer->film().pixels.size() == 120 * 90);
     const std::size_t so_far = renderer.frames().size();
-    renderer->restart();  // of the scene that is still shown
+    renderer.restart();  // of the scene that is still shown
     CHECK(renderer.wait_for([](const Frame& f) { return f.finished; }, so_far)->edit < bad);
     const std::size_t before = renderer.frames().size();
-    renderer->set_view(View::beauty);
-    const std::uint64_t undone = renderer->submit(good);
+    renderer.set_view(View::beauty);
+    const std::uint64_t undone = renderer.submit(good);
     CHECK(undone == bad + 1);
     CHECK(is_plain(*renderer.wait_finished(undone, before), 2));
     CHECK(renderer->problem() == nullptr);
@@ -261,7 +251,7 @@ TEST_CASE("edits: a renderer that is destroyed while it renders ends at once") {
   double going = 0;  // seconds of processor time
   for (int round = 0; round < 20; ++round) {
     auto renderer = std::make_unique<WatchedRenderer>();
-    (*renderer)->submit(small_scene(round % 2 ? "next-week" : "showroom", 300, 200, 100000));
+    renderer->submit(small_scene(round % 2 ? "next-week" : "showroom", 300, 200, 100000));
     renderer->wait_for([&](const Frame& f) { return f.pass > static_cast<std::uint64_t>(round % 8); });
     let_it_work(std::chrono::milliseconds(round));
     const double before = cpu_seconds();

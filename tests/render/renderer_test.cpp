@@ -26,7 +26,7 @@ TEST_CASE("renderer: the last frame is the blocking render's picture, bit for bi
       Scene scene = scene_of(name);
       scene.render.spp = 9;
       WatchedRenderer renderer(2, kernels.isa);
-      const std::uint64_t edit = renderer->submit(scene);
+      const std::uint64_t edit = renderer.submit(scene);
       const FramePointer last = renderer.wait_finished(edit);
       CHECK(last->spp == 9);
       CHECK(last->isa == kernels.isa);
@@ -45,28 +45,28 @@ TEST_CASE("renderer: pauses, views, threads and restarts on the way change no bi
   std::mt19937 engine(1);
   for (int round = 0; round < 6; ++round) {
     WatchedRenderer renderer(1 + round % 3);
-    const std::uint64_t edit = renderer->submit(scene);
+    const std::uint64_t edit = renderer.submit(scene);
     for (int i = 0; i < 12; ++i) {
       switch (engine() % 5) {
         case 0:
-          renderer->pause(true);
+          renderer.pause(true);
           break;
         case 1:
-          renderer->set_view(static_cast<View>(engine() % 6));
+          renderer.set_view(static_cast<View>(engine() % 6));
           break;
         case 2:
-          renderer->set_threads(1 + static_cast<int>(engine() % 7));
+          renderer.set(&RenderRequest::threads, 1 + static_cast<int>(engine() % 7));
           break;
         case 3:
-          renderer->restart();
+          renderer.restart();
           break;
         default:
-          renderer->pause(false);
+          renderer.pause(false);
       }
       let_it_work(std::chrono::microseconds(engine() % 8000));
     }
-    renderer->set_view(View::beauty);
-    renderer->pause(false);
+    renderer.set_view(View::beauty);
+    renderer.pause(false);
     const FramePointer last =
         renderer.wait_for([&](const Frame& f) { return f.finished && f.edit == edit && f.view == View::beauty; });
     CHECK(last->spp == spp);
@@ -78,7 +78,7 @@ TEST_CASE("renderer: an edit and its undo lead back to the same picture") {
   const Scene scene = scene_of("showroom");
   const std::vector<float> expected = reference_picture(scene);
   WatchedRenderer renderer;
-  renderer->submit(scene);
+  renderer.submit(scene);
   std::mt19937 engine(2);
   for (int i = 0; i < 10; ++i) {
     Scene edited = scene;
@@ -98,10 +98,10 @@ TEST_CASE("renderer: an edit and its undo lead back to the same picture") {
       default:
         edited.background = Vec3d{900, 900, 900};  // another unit of the film
     }
-    renderer->submit(edited);
+    renderer.submit(edited);
     let_it_work(std::chrono::microseconds(engine() % 20000));
   }
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   CHECK(rgb_of(*renderer.wait_finished(edit)) == expected);
   for (const FramePointer& frame : renderer.frames())
     CHECK(frame->rgba.size() == 4u * static_cast<std::size_t>(frame->grid.columns * frame->grid.rows));
@@ -111,12 +111,12 @@ TEST_CASE("renderer: the finished flag stands until the limit is raised; then it
   Scene scene = scene_of("cornell-smoke");
   scene.render.spp = 4;
   WatchedRenderer renderer;
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   const FramePointer early = renderer.wait_finished(edit);
   CHECK(early->spp == 4);
   const std::size_t before = renderer.frames().size();
   scene.render.spp = 11;
-  CHECK(renderer->submit(scene) == edit);
+  CHECK(renderer.submit(scene) == edit);
   const FramePointer late = renderer.wait_for([](const Frame& f) { return f.finished && f.spp == 11; }, before);
   CHECK(rgb_of(*late) == reference_picture(scene));
   for (const FramePointer& frame : renderer.frames()) CHECK((frame->pass <= early->pass || frame->spp >= 4));
@@ -126,15 +126,15 @@ TEST_CASE("renderer: a limit below what is there finishes the picture as it is")
   Scene scene = scene_of("cornell-box");
   scene.render.spp = 100000;
   WatchedRenderer renderer;
-  renderer->submit(scene);
+  renderer.submit(scene);
   renderer.wait_for([](const Frame& f) { return f.spp >= 2; });
-  renderer->pause(true);
+  renderer.pause(true);
   renderer.catch_up();
   const FramePointer paused = renderer->latest();
   CHECK_FALSE(paused->finished);
   const std::size_t before = renderer.frames().size();
   scene.render.spp = 1;
-  renderer->submit(scene);
+  renderer.submit(scene);
   const FramePointer finished = renderer.wait_for([](const Frame& f) { return f.finished; }, before);
   CHECK(finished->spp == paused->spp);
   CHECK(finished->rgba == paused->rgba);
@@ -144,7 +144,7 @@ TEST_CASE("renderer: single pixels, rows and columns") {
   for (const auto& [w, h] : {std::pair{1, 1}, {1, 40}, {40, 1}, {7, 9}}) {
     Scene scene = small_scene("showroom", w, h, 12);
     WatchedRenderer renderer;
-    const std::uint64_t edit = renderer->submit(scene);
+    const std::uint64_t edit = renderer.submit(scene);
     CHECK(rgb_of(*renderer.wait_finished(edit)) == reference_picture(scene));
   }
 }
@@ -152,7 +152,7 @@ TEST_CASE("renderer: single pixels, rows and columns") {
 TEST_CASE("renderer: frames tell of error, time and memory") {
   const Scene scene = scene_of("showroom");
   WatchedRenderer renderer;
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   renderer.wait_finished(edit);
   std::uint64_t pass = 0;
   double seconds = 0, first = -1;
@@ -175,11 +175,11 @@ TEST_CASE("renderer: the first picture's time counts from a restart, not from th
   Scene scene = scene_of("cornell-box");
   scene.render.spp = 1;
   const double start = wall_seconds();
-  const std::uint64_t edit = renderer->submit(scene);
+  const std::uint64_t edit = renderer.submit(scene);
   double sum = renderer.wait_finished(edit)->first_picture_ms;
   for (int round = 0; round < 20; ++round) {
     const std::size_t before = renderer.frames().size();
-    renderer->restart();
+    renderer.restart();
     sum += renderer.wait_finished(edit, before)->first_picture_ms;
   }
   CHECK(sum <= 1000 * (wall_seconds() - start));  // they ran one after the other, so not longer than the whole test

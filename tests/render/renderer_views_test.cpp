@@ -41,11 +41,11 @@ Vec3f pixel(const Frame& frame, int x, int y) {
 
 TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; they restart nothing") {
   WatchedRenderer renderer;
-  const std::uint64_t edit = renderer->submit(wall_and_ball());
+  const std::uint64_t edit = renderer.submit(wall_and_ball());
   const FramePointer beauty = renderer.wait_finished(edit);
   const auto shown = [&](View view) {
     const std::size_t before = renderer.frames().size();
-    renderer->set_view(view);
+    renderer.set_view(view);
     return renderer.wait_for([&](const Frame& f) { return f.view == view; }, before);
   };
   const FramePointer albedo = shown(View::albedo), normal = shown(View::normal), depth = shown(View::depth);
@@ -88,8 +88,8 @@ TEST_CASE("views: the costs of the last scene stay until those of the new one ar
   Scene scene = wall_and_ball();
   scene.width = 900, scene.height = 600;
   WatchedRenderer renderer;
-  renderer->set_view(View::cost);
-  std::uint64_t edit = renderer->submit(scene);
+  renderer.set_view(View::cost);
+  std::uint64_t edit = renderer.submit(scene);
   const auto is_there = [](const Frame& f) {
     return std::any_of(f.rgba.begin(), f.rgba.end(), [i = 0](float v) mutable { return i++ % 4 == 0 && v == 1; });
   };
@@ -97,7 +97,7 @@ TEST_CASE("views: the costs of the last scene stay until those of the new one ar
   const std::size_t before = renderer.frames().size();
   for (int i = 0; i < 30; ++i) {
     scene.camera.look_at.x += 0.01;
-    edit = renderer->submit(scene);
+    edit = renderer.submit(scene);
     let_it_work(std::chrono::milliseconds(5));
   }
   renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.finished; }, before);
@@ -107,12 +107,12 @@ TEST_CASE("views: the costs of the last scene stay until those of the new one ar
 
 TEST_CASE("pick: the object's path, how deep it is, and where") {
   WatchedRenderer watched(1);
-  Renderer& renderer = *watched;
+  const Renderer& renderer = *watched;
   Scene scene = wall_and_ball();
   scene.objects[1].transform = {Translate{{-1 + 1e5, 0, -3}}};  // far from the origin the point keeps its digits
   scene.objects[2].transform = {Translate{{1e5, 0, 0}}};
   scene.camera.look_from.x = scene.camera.look_at.x = 1e5;
-  renderer.submit(scene);
+  watched.submit(scene);
   watched.wait_for([](const Frame&) { return true; });
   const Renderer::Pick ball = renderer.pick(27, 30), wall = renderer.pick(50, 10), sky = renderer.pick(88, 30);
   CHECK(ball.object == std::vector<int>{1, 0});
@@ -131,8 +131,8 @@ TEST_CASE("pick: the object's path, how deep it is, and where") {
 TEST_CASE("film: a copy of what was gathered, the same number of samples everywhere") {
   Scene scene = small_scene("showroom", 120, 90, 1000000);
   WatchedRenderer watched;
-  Renderer& renderer = *watched;
-  renderer.submit(scene);
+  const Renderer& renderer = *watched;
+  watched.submit(scene);
   watched.wait_for([](const Frame& f) { return f.spp >= 1; });
   for (int i = 0; i < 5; ++i) {
     const Film film = renderer.film();
@@ -142,19 +142,19 @@ TEST_CASE("film: a copy of what was gathered, the same number of samples everywh
     RenderOptions options;
     options.spp = t.least_taken;
     CHECK(film == render(compile(scene), options).film);
-    if (i == 3) renderer.pause(true);
+    if (i == 3) watched.pause(true);
   }
 }
 
 TEST_CASE("idle: a renderer that is finished, paused or unused takes no processor time") {
   const Scene scene = small_scene("showroom", 200, 150, 2);
   WatchedRenderer unused, finished, paused;
-  finished.wait_finished(finished->submit(scene));
+  finished.wait_finished(finished.submit(scene));
   Scene endless = scene;
   endless.render.spp = 1000000;
-  paused->submit(endless);
+  paused.submit(endless);
   paused.wait_for([](const Frame& f) { return f.spp >= 2; });
-  paused->pause(true);
+  paused.pause(true);
   for (WatchedRenderer* renderer : {&unused, &finished, &paused}) renderer->catch_up();
   const std::size_t calls = unused.calls() + finished.calls() + paused.calls();
   const double before = cpu_seconds();

@@ -9,6 +9,8 @@
 #include <ctime>
 #include <mutex>
 #include <thread>
+#include <type_traits>
+#include <utility>
 
 /// A Renderer that remembers every frame it has published. Tests wait for frames, never for a time.
 namespace tyndall::test {
@@ -22,6 +24,22 @@ class WatchedRenderer {
 
   Renderer& operator*() { return renderer_; }
   Renderer* operator->() { return &renderer_; }
+
+  /// What was asked for last. These change a part of it and ask again; each returns the number of the edit.
+  const RenderRequest& wanted() const { return wanted_; }
+  template <class T>
+  std::uint64_t set(T RenderRequest::*part, std::type_identity_t<T> value) {
+    wanted_.*part = std::move(value);
+    return renderer_.request(wanted_);
+  }
+  std::uint64_t submit(std::shared_ptr<const Scene> scene, std::shared_ptr<Film> film = nullptr) {
+    wanted_.film = std::move(film);
+    return set(&RenderRequest::scene, std::move(scene));
+  }
+  std::uint64_t submit(Scene scene) { return submit(std::make_shared<const Scene>(std::move(scene))); }
+  std::uint64_t pause(bool paused) { return set(&RenderRequest::paused, paused); }
+  std::uint64_t set_view(View view) { return set(&RenderRequest::view, view); }
+  std::uint64_t restart() { return set(&RenderRequest::restarts, wanted_.restarts + 1); }
 
   /// The first frame, from the `skip`-th on, that the condition holds for; waits for it. Fails after 60 s, which only
   /// ends a test that hangs.
@@ -47,8 +65,8 @@ class WatchedRenderer {
     if (!news_.wait_for(lock, std::chrono::seconds(60), condition)) FAIL("it did not come true within a minute");
   }
   /// Waits until the renderer has done all that it was told before. A finished or paused renderer then stands still;
-  /// another one has made a whole pass meanwhile. It works by asking for two films: the first comes after orders were
-  /// taken, but perhaps before their frame is shown; the second comes after that.
+  /// another one has made a whole pass meanwhile. It works by asking for two films: the first comes after a request was
+  /// taken, but perhaps before its frame is shown; the second comes after that.
   void catch_up() {
     renderer_.film();
     renderer_.film();
@@ -72,6 +90,7 @@ class WatchedRenderer {
     news_.notify_all();
   }
 
+  RenderRequest wanted_;
   mutable std::mutex mutex_;
   std::condition_variable news_;
   std::vector<FramePointer> frames_;

@@ -58,8 +58,7 @@ void LiveAccuracy::forget_results() {
 }
 
 void LiveAccuracy::set_resting(bool resting) {
-  resting_ = resting;
-  consider();
+  if (std::exchange(resting_, resting) != resting) consider();
 }
 
 void LiveAccuracy::shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest) {

@@ -7,8 +7,8 @@
 #include "core/accuracy/estimate.h"
 #include "core/compile/compile.h"
 #include "core/image/image_io_file.h"
-#include "core/render/mailbox.h"
 #include "core/render/render.h"
+#include "core/scene/change.h"
 #include "core/scene/load.h"
 
 #include <cmath>

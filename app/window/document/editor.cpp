@@ -1,7 +1,7 @@
 #include "app/window/document/editor.h"
 
 #include "app/window/document/open_document.h"
-#include "core/render/mailbox.h"
+#include "core/scene/change.h"
 #include "core/scene/check.h"
 
 #include <cmath>

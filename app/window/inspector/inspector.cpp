@@ -4,7 +4,8 @@
 #include "app/window/system/clock.h"
 #include "app/window/tools/selection.h"
 #include "core/compile/compile.h"
-#include "core/render/mailbox.h"
+#include "core/render/prepare.h"
+#include "core/scene/change.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +18,14 @@ constexpr double longest_search = 0.5;         // seconds
 
 }  // namespace
 
-void Inspector::set_on(bool on, RendererPair& renderers) {
+void Inspector::set_on(bool on) {
   on_ = on;
-  if (!on) renderers.watch_pixel({}), drop_path();
+  if (!on) drop_path();
 }
 
 bool Inspector::drop_path() {
   ++wanted_;
   return std::exchange(path_, nullptr) != nullptr;
-}
-
-void Inspector::point_at(std::optional<PictureClick> click, RendererPair& renderers) {
-  at_ = click;
-  if (!on_) return;
-  renderers.watch_pixel(click ? std::optional(std::pair{click->x, click->y}) : std::nullopt);
 }
 
 std::shared_ptr<Inspector::Shown> Inspector::noisy_path(const std::shared_ptr<const Scene>& scene,

@@ -1,9 +1,9 @@
 #pragma once
 #include "app/report/noisy_path.h"
-#include "app/window/accuracy/renderer_pair.h"
 #include "app/window/document/job_queue.h"
 #include "app/window/inspector/pixel_facts.h"
 #include "app/window/panels/widgets.h"
+#include "app/window/rendering/renderer_pair.h"
 #include "app/window/tools/pointer.h"
 
 #include <functional>
@@ -22,14 +22,18 @@ class Inspector {
   explicit Inspector(std::function<void()> wake) : jobs_(std::move(wake)) {}
 
   bool on() const { return on_; }
-  void set_on(bool on, RendererPair& renderers);
+  void set_on(bool on);
   /// Finds the path of the pixel under the cursor in the background. scene: what is rendered.
   void find_path(const RendererPair& renderers, const std::shared_ptr<const Scene>& scene);
   /// Takes the path off the picture. Returns whether there was one.
   bool drop_path();
 
-  /// The cursor is there; click: in the picture, nothing where it is beside. Watches that pixel while it is on.
-  void point_at(std::optional<PictureClick> click, RendererPair& renderers);
+  /// The cursor is there; click: in the picture, nothing where it is beside.
+  void point_at(std::optional<PictureClick> click) { at_ = click; }
+  /// That pixel, while it is on: reports on it are wanted.
+  std::optional<std::pair<int, int>> watched_pixel() const {
+    return on_ && at_ ? std::optional(std::pair{at_->x, at_->y}) : std::nullopt;
+  }
   /// Takes what was found in the background and the newest report. Whether there was anything.
   bool collect(const RendererPair& renderers);
   /// Whether something is being found.

@@ -33,7 +33,7 @@ class RandomEdits {
     else if (what == 1)
       editor.redo();
     else if (what == 2)
-      session_.pause(!session_.renderers().paused());
+      session_.wanted().paused = !session_.wanted().paused;
     else
       editor.edit(edited(editor.scene()), static_cast<std::uint64_t>(++edits_ / 3 + 1));  // three are one gesture
     session_.collect();
@@ -116,11 +116,11 @@ void check_random_edits(const std::string& name, int edits, unsigned seed, After
     random.step();
     after(k);
     if (k % 97 == 0) {  // now and then the picture is waited for
-      opened.session->pause(false);
+      opened.session->wanted().paused = false;
       REQUIRE(opened.finishes());
     }
   }
-  opened.session->pause(false);
+  opened.session->wanted().paused = false;
   REQUIRE(opened.finishes());
   opened.session->editor().save("saved.json");
   const Scene saved = load_scene("saved.json").scene;

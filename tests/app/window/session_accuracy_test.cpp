@@ -90,7 +90,7 @@ TEST_CASE("a split view keeps the settings on its left, and follows edits of the
   OpenedSession::write(0.125, "other.json");
   session.editor().open(fs::absolute("other.json").string());
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
-  CHECK_FALSE(session.renderers().split());
+  CHECK_FALSE(session.split());
 }
 
 TEST_CASE("a reference that is being rendered is given up when the scene changes") {

@@ -61,7 +61,8 @@ TEST_CASE("while a picture is awaited only the newest scene waits, and those bet
   {
     const std::lock_guard hold(opened.gate);
     const int before = opened.frames;
-    opened.session->restart();
+    ++opened.session->wanted().restarts;
+    opened.session->send(0);
     REQUIRE(opened.news.wait_until([&] { return opened.frames != before; }));
     // The renderer has shown the first edit and stands still.
     opened.set_fuzz(0.3, 7);

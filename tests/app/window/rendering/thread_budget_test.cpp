@@ -1,4 +1,4 @@
-#include "app/window/accuracy/fair_share.h"
+#include "app/window/rendering/thread_budget.h"
 
 #include "tests/support/news.h"
 #include "tests/support/pictures.h"
@@ -34,17 +34,17 @@ class Sharing {
  public:
   explicit Sharing(int threads) {
     second_ = std::make_unique<Renderer>(Renderer::Options{threads, ""}, [this] { on_frame(true); });
-    share_.set_threads(threads);
-    share_.share_with(second_.get());
-    first_.submit(test::small_scene("cornell-box", 60, 60, 1000000));
-    second_->submit(test::small_scene("cornell-box", 60, 60, 1000000));
+    budget_.share_with(second_.get());
+    const auto scene = std::make_shared<const Scene>(test::small_scene("cornell-box", 60, 60, 1000000));
+    const RenderRequest wanted{.scene = scene, .threads = threads};
+    budget_.request(wanted, wanted);
   }
   ~Sharing() {
     {
       const std::lock_guard lock(mutex_);
       ended_ = true;  // the two are destroyed one after the other: neither must wait for the other any more
     }
-    share_.share_with(nullptr);
+    budget_.share_with(nullptr);
   }
   Sharing(const Sharing&) = delete;
   Sharing& operator=(const Sharing&) = delete;
@@ -74,7 +74,7 @@ class Sharing {
       if (mine) before = mine->seconds;
       ++passes_[second];
     }
-    share_.on_frame();
+    budget_.on_frame();
     news_.tell();
   }
 
@@ -83,7 +83,7 @@ class Sharing {
   int passes_[2] = {0, 0};
   bool ended_ = false;
   test::News news_;
-  FairShare share_{first_};
+  ThreadBudget budget_{first_};
   Renderer first_{{1, ""}, [this] { on_frame(false); }};
   std::unique_ptr<Renderer> second_;  // declared last, so that it stops first
 };

@@ -9,15 +9,14 @@
 #include <memory>
 #include <optional>
 
-/// The inside of Renderer: the thread that takes scenes from the mailbox, renders them pass by pass and hands out
-/// frames.
+/// The inside of Renderer: the thread that takes requests from the mailbox, renders pass by pass and hands out frames.
 namespace tyndall {
 
 /// The scene that is rendered.
 struct ShownScene {
   std::shared_ptr<const PreparedScene> prepared;  ///< null: none came yet
   std::uint64_t edit = 0;
-  Clock::time_point submitted;  ///< when the edit or the newest restart was asked for
+  Clock::time_point submitted;  ///< when the edit or its newest restart was asked for
 };
 
 /// Finds out, now and then, whether the estimated error is too small because of light that only rare paths carry.
@@ -32,10 +31,10 @@ class RarePathWatch {
   bool found_ = false;
 };
 
-class Director {
+class RenderLoop {
  public:
   /// on_frame: see Renderer.
-  Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame);
+  RenderLoop(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame);
 
   /// Renders until a stop is requested.
   void run(const StopToken& stop);
@@ -44,8 +43,8 @@ class Director {
   void go_on();
   void tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step);
   void tell(std::uint64_t edit, const std::exception& error);
-  void follow(const Orders& orders);
-  void take_scene(const Orders& orders);
+  void follow(const ReceivedRequest& next);
+  bool take_scene();
   bool go_on_from(Film* film);
   void start_over(double budget);
   void answer_films();
@@ -55,7 +54,7 @@ class Director {
   void publish();
   void make_clean();
   void make_coarse_clean();
-  bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(limit_)); }
+  bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(request_.limit())); }
   bool unfinished(std::uint32_t limit) const { return shown_.prepared && picture_.taken() < limit; }
   RenderEngine engine() const { return {*crew_, kernels_, shown_.prepared->view()}; }
 
@@ -72,13 +71,9 @@ class Director {
   LiveClean clean_;
   FrameMemory frame_memory_;
 
-  View view_ = View::beauty;
-  std::uint32_t limit_ = 0;                   ///< samples a pixel at which to stop
-  std::int64_t shown_pixels_ = 0;             ///< see Renderer::set_shown_pixels
-  Region first_;                              ///< see Renderer::refine_first
-  std::optional<std::pair<int, int>> pixel_;  ///< that is reported on after each pass
-  bool stalled_ = false;                      ///< a step failed; nothing is done until something is asked for
-  double budget_ = 0;                         ///< seconds for the first picture of the newest edit
+  ReceivedRequest request_;  ///< that is followed
+  bool stalled_ = false;     ///< a step failed; nothing is done until something is asked for
+  double budget_ = 0;        ///< seconds for the first picture of the newest edit
   std::uint64_t frames_ = 0;
   std::optional<double> first_picture_ms_;  ///< absent until the newest edit or restart has its first picture
 };

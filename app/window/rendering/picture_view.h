@@ -1,7 +1,8 @@
 #pragma once
-#include "app/window/panels/split_view.h"
+#include "app/window/accuracy/live_accuracy.h"
 #include "app/window/picture/display.h"
-#include "app/window/session.h"
+#include "app/window/rendering/renderer_pair.h"
+#include "app/window/rendering/split_view.h"
 #include "app/window/system/mouse.h"
 #include "app/window/system/platform.h"
 
@@ -10,29 +11,39 @@
 /// What is drawn behind the interface: the picture, or the two pictures of a split view.
 namespace tyndall {
 
+/// What is shown in a drawing, besides the frames.
+struct ShownState {
+  Display display;
+  bool stops = false;    ///< as Look says
+  bool squares = false;  ///< enlarged pixels are squares
+  bool split = false;
+  bool clean_beside_raw = false;        ///< the picture as it is on the left, the clean view on the right
+  std::string method{}, kept_method{};  ///< how the halves of a split view are rendered
+};
+
 /// The picture in the window: which frames are on the screen, how they are shown, and the divider of a split view.
 class PictureView {
  public:
   /// Lives within the window's OpenGL context. Throws IoError if the shaders do not compile.
-  explicit PictureView(Session& session);
+  PictureView(RendererPair& renderers, const LiveAccuracy& accuracy);
 
   /// A frame that is not on the screen yet. If both halves have one: the right half's if it is finished, else the left
   /// half's. Null: there is none.
   std::shared_ptr<const Frame> unseen() const;
-  /// Puts the newest frames on the screen, with the next drawing, and tells the session.
-  void take();
+  /// Puts the newest frame of a half on the screen, with the next drawing. Returns it; null: there is no new one.
+  std::shared_ptr<const Frame> take(Half half);
   /// The drawing is on the screen: tells the renderers.
   void note_shown();
   /// The frame that is on the screen, of the right half in a split view; null: there is none.
   const std::shared_ptr<const Frame>& shown() const { return right_.frame; }
 
   /// The divider of a split view and what is said of its halves.
-  void draw_halves(Ui& ui, const Rect& image) const;
+  void draw_halves(Ui& ui, const Rect& image, const ShownState& state) const;
   /// Moves the divider with the mouse. free: nothing else has the mouse. Returns whether the divider has it.
-  bool drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free);
-  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing. stops: as Look says;
-  /// squares: enlarged pixels are squares.
-  void show(Platform& platform, const Layout& layout, bool stops, bool squares);
+  bool drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free, const ShownState& state);
+  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing. Returns what the display
+  /// could not take, a sentence; "": it took all.
+  std::string show(Platform& platform, const Layout& layout, const ShownState& state);
 
  private:
   /// A half, and what its display holds: its frame or a map of errors, and how that looks.
@@ -42,18 +53,18 @@ class PictureView {
     Look look;
     std::unique_ptr<FrameDisplay> display;
   };
-  bool shows_halves() const;
-  bool shows_raw_beside() const;
-  SplitLabels labels() const;
+  bool shows_halves(const ShownState& state) const;
+  bool shows_raw_beside(const ShownState& state) const;
+  SplitLabels labels(const ShownState& state) const;
   static std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame);
-  Look look_of(const Frame& frame, bool stops) const;
   static void upload(Side& side, const std::shared_ptr<const void>& what, const ShownPicture& picture,
                      const Look& look);
-  void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops);
-  void upload_all(bool stops);
-  std::string text_of(Half half) const;
+  static void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, const ShownState& state);
+  void upload_all(const ShownState& state);
+  std::string text_of(Half half, std::string method) const;
 
-  Session& session_;
+  RendererPair& renderers_;
+  const LiveAccuracy& accuracy_;
   Side left_, right_;  ///< without a split view all is in right_
   Divider divider_;
 };

@@ -1,4 +1,4 @@
-#include "app/window/picture_view.h"
+#include "app/window/rendering/picture_view.h"
 
 #include "app/window/picture/zoom.h"
 #include "core/base/error.h"
@@ -10,36 +10,36 @@
 
 namespace tyndall {
 
-PictureView::PictureView(Session& session) : session_(session) { right_.display = std::make_unique<FrameDisplay>(); }
+PictureView::PictureView(RendererPair& renderers, const LiveAccuracy& accuracy)
+    : renderers_(renderers), accuracy_(accuracy) {
+  right_.display = std::make_unique<FrameDisplay>();
+}
 
 std::shared_ptr<const Frame> PictureView::unseen() const {
-  auto latest = session_.renderers().latest(Half::current), kept = session_.renderers().latest(Half::kept);
+  auto latest = renderers_.latest(Half::current), kept = renderers_.latest(Half::kept);
   const bool new_kept = kept && kept != left_.frame;
   if (latest && latest != right_.frame && (latest->finished || !new_kept)) return latest;
   return new_kept ? kept : nullptr;
 }
 
-void PictureView::take() {
-  const auto take_half = [this](Half half, Side& side) {
-    const auto latest = session_.renderers().latest(half);
-    if (latest && latest != side.frame) session_.shown(half, side.frame = latest);
-  };
-  take_half(Half::current, right_);
-  take_half(Half::kept, left_);
+std::shared_ptr<const Frame> PictureView::take(Half half) {
+  Side& side = half == Half::current ? right_ : left_;
+  const auto latest = renderers_.latest(half);
+  return latest && latest != side.frame ? side.frame = latest : nullptr;
 }
 
 void PictureView::note_shown() {
-  if (right_.frame) session_.renderers().note_shown(Half::current, right_.frame->pass);
-  if (left_.frame) session_.renderers().note_shown(Half::kept, left_.frame->pass);
+  if (right_.frame) renderers_.note_shown(Half::current, right_.frame->pass);
+  if (left_.frame) renderers_.note_shown(Half::kept, left_.frame->pass);
 }
 
-bool PictureView::shows_halves() const {
-  return (session_.renderers().split() && !session_.accuracy().map()) || shows_raw_beside();
+bool PictureView::shows_halves(const ShownState& state) const {
+  return (state.split && !accuracy_.map()) || shows_raw_beside(state);
 }
 
 /// The left side is then the right one's picture as it is.
-bool PictureView::shows_raw_beside() const {
-  return session_.clean_beside_raw() && !session_.accuracy().map() && clean_of(right_.frame);
+bool PictureView::shows_raw_beside(const ShownState& state) const {
+  return state.clean_beside_raw && !accuracy_.map() && clean_of(right_.frame);
 }
 
 /// The clean view that a frame shows; null: it shows something else.
@@ -48,21 +48,20 @@ std::shared_ptr<const CleanFrame> PictureView::clean_of(const std::shared_ptr<co
 }
 
 /// "mis · sobol   1,024 spp   est. error 1.2 %".
-std::string PictureView::text_of(Half half) const {
+std::string PictureView::text_of(Half half, std::string method) const {
   const Frame* frame = (half == Half::kept ? left_ : right_).frame.get();
-  std::string method = session_.method(half);
   if (frame && frame->clean) method += " · clean";
   if (!frame || frame->spp == 0) return method;
   std::string text = method + "   " + format_count(frame->spp) + " spp";
   const Kind kind_of_picture = frame->clean ? Kind::clean : Kind::raw;
-  const ErrorCurve& curve = session_.accuracy().curves(half, kind_of_picture).current();
+  const ErrorCurve& curve = accuracy_.curves(half, kind_of_picture).current();
   if (curve.edit != frame->edit || curve.points.empty()) return text;
-  const char* kind = session_.accuracy().is_true() ? "true" : "est.";
+  const char* kind = accuracy_.is_true() ? "true" : "est.";
   return text + fmt::format("   {} error {:.2g} %", kind, 100 * std::sqrt(curve.points.back().rel_mse));
 }
 
-SplitLabels PictureView::labels() const {
-  if (!shows_raw_beside()) return {text_of(Half::kept), text_of(Half::current)};
+SplitLabels PictureView::labels(const ShownState& state) const {
+  if (!shows_raw_beside(state)) return {text_of(Half::kept, state.kept_method), text_of(Half::current, state.method)};
   const Frame& frame = *right_.frame;
   const auto text = [](const char* name, std::uint32_t spp, double error) {
     if (spp == 0) return std::string(name) + "   coarse at first";
@@ -71,21 +70,21 @@ SplitLabels PictureView::labels() const {
   return {text("raw", frame.spp, frame.relative_error), text("clean", frame.clean->spp, frame.clean->relative_error)};
 }
 
-void PictureView::draw_halves(Ui& ui, const Rect& image) const {
+void PictureView::draw_halves(Ui& ui, const Rect& image, const ShownState& state) const {
   if (ui.log && right_.frame) {
     const Frame& frame = *right_.frame;
     ui.log->changed("pictures", fmt::format("{} of {} x {}{}", left_.frame || left_.display ? 2 : 1, frame.width,
                                             frame.height, frame.clean ? " clean" : ""));
   }
-  if (!shows_halves()) return;
+  if (!shows_halves(state)) return;
   if (ui.log && left_.frame && right_.frame)
     ui.log->changed("halves", fmt::format("A {:.2f} B {:.2f}", left_.frame->seconds, right_.frame->seconds));
-  draw_split(ui, image, divider_, labels());
+  draw_split(ui, image, divider_, labels(state));
 }
 
-bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free) {
+bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free, const ShownState& state) {
   bool has_it = false;
-  if (shows_halves())
+  if (shows_halves(state))
     has_it = divider_.follow(mouse, image, free, 6 * ui.scale);
   else
     divider_.hovered = divider_.dragged = false;
@@ -93,13 +92,6 @@ bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bo
   if (shown) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ui.log) ui.log->changed("cursor", shown ? "divider" : "plain");
   return has_it;
-}
-
-/// How a frame looks: views that are not the picture are shown as they are.
-Look PictureView::look_of(const Frame& frame, bool stops) const {
-  if (frame.view != View::beauty) return {};
-  const Display& display = session_.editor().scene().display;
-  return {display.exposure, display.tone_map, display.dither, stops};
 }
 
 /// Puts a picture on a side's display, unless it is there.
@@ -112,48 +104,54 @@ void PictureView::upload(Side& side, const std::shared_ptr<const void>& what, co
   side.look = look;
 }
 
-/// Puts what a frame shows on a side's display. clean: its clean view, if it has one.
-void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, bool stops) {
-  const Look look = look_of(*frame, stops);
+/// Puts what a frame shows on a side's display. clean: its clean view, if it has one. Views that are not the picture
+/// are shown as they are.
+void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean,
+                               const ShownState& state) {
+  const Display& display = state.display;
+  const Look of_picture{display.exposure, display.tone_map, display.dither, state.stops};
+  const Look look = frame->view == View::beauty ? of_picture : Look{};
   if (const auto filtered = clean ? clean_of(frame) : nullptr)
     upload(side, filtered, {filtered->rgba, filtered->grid, frame->width, frame->height}, look);
   else
     upload(side, frame, {frame->rgba, frame->grid, frame->width, frame->height}, look);
 }
 
-void PictureView::upload_all(bool stops) {
-  if (!session_.renderers().split() && !shows_raw_beside()) left_ = {};
-  if (const auto map = session_.accuracy().map())
+void PictureView::upload_all(const ShownState& state) {
+  if (!state.split && !shows_raw_beside(state)) left_ = {};
+  if (const auto map = accuracy_.map())
     upload(right_, map, {map->rgba, {map->width, map->height}, map->width, map->height}, {});
   else if (right_.frame)
-    upload_frame(right_, right_.frame, true, stops);
-  if (!shows_halves()) return;
-  const bool beside = shows_raw_beside();
+    upload_frame(right_, right_.frame, true, state);
+  if (!shows_halves(state)) return;
+  const bool beside = shows_raw_beside(state);
   const auto& left = beside ? right_.frame : left_.frame;
-  if (left) upload_frame(left_, left, !beside, stops);
+  if (left) upload_frame(left_, left, !beside, state);
 }
 
-void PictureView::show(Platform& platform, const Layout& layout, bool stops, bool squares) {
+std::string PictureView::show(Platform& platform, const Layout& layout, const ShownState& state) {
+  std::string problem;
   try {
-    upload_all(stops);
+    upload_all(state);
   } catch (const IoError& error) {
-    session_.messages().say(error.what(), true);
+    problem = error.what();
   }
   const WindowSize window = platform.size();
   const float dots = static_cast<float>(window.framebuffer_width) / static_cast<float>(std::max(1, window.width));
   const auto in_dots = [dots](const Rect& r) { return Rect{r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}; };
   const Rect whole = in_dots(layout.image), visible = overlap(layout.image, layout.area), clip = in_dots(visible);
   const auto draw = [&](const FrameDisplay& display, const Rect& within) {
-    display.draw(whole, window.framebuffer_width, window.framebuffer_height, within, squares);
+    display.draw(whole, window.framebuffer_width, window.framebuffer_height, within, state.squares);
   };
   platform.clear();
   draw(*right_.display, clip);
-  if (shows_halves() && left_.display) {
+  if (shows_halves(state) && left_.display) {
     Rect left = clip;
     left.x1 = std::round(divider_.x(visible)) * dots;
     draw(*left_.display, left);
   }
   platform.end_frame();
+  return problem;
 }
 
 }  // namespace tyndall

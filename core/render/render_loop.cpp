@@ -1,8 +1,9 @@
-#include "core/render/director.h"
+#include "core/render/render_loop.h"
 
 #include "core/accuracy/rare.h"
 #include "core/base/limits.h"
 #include "core/base/seconds.h"
+#include "core/scene/change.h"
 
 #include <exception>
 #include <new>
@@ -30,19 +31,19 @@ void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
   found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), shown.prepared->caustic_chance());
 }
 
-Director::Director(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
+RenderLoop::RenderLoop(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
     : mail_(mail),
       kernels_(kernels),
       on_frame_(std::move(on_frame)),
       crew_(std::make_unique<Crew>(threads)),
       clean_(kernels) {}
 
-void Director::run(const StopToken& stop) {
+void RenderLoop::run(const StopToken& stop) {
   while (mail_.wait(stop, [this](std::uint32_t limit) { return !stalled_ && (unfinished(limit) || clean_is_due()); })) {
     stalled_ = false;
     try {
-      const Orders orders = mail_.take();
-      tell_if_it_fails(orders.edit, [&] { follow(orders); });
+      const ReceivedRequest next = mail_.take();
+      tell_if_it_fails(next.edit, [&] { follow(next); });
       if (stop.stop_requested()) return;
       tell_if_it_fails(shown_.edit, [this] { go_on(); });
     } catch (...) {  // not even the message fits into memory: what is asked for next is tried again
@@ -51,15 +52,16 @@ void Director::run(const StopToken& stop) {
   }
 }
 
-void Director::go_on() {
+void RenderLoop::go_on() {
   if (stalled_) return;
-  if (unfinished(limit_) && picture_.run_pass(engine(), {.spp = limit_}, mail_.give_up())) finish_pass();
+  const std::uint32_t limit = request_.limit();
+  if (unfinished(limit) && picture_.run_pass(engine(), {.spp = limit}, mail_.give_up())) finish_pass();
   if (clean_is_due() && !mail_.give_up()) make_clean();
 }
 
 /// Memory can run out at any step. Then the callers are told, the pictures so far stay, and nothing is tried again
 /// until something is asked for.
-void Director::tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step) {
+void RenderLoop::tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step) {
   try {
     step();
   } catch (const std::exception& error) {
@@ -69,46 +71,46 @@ void Director::tell_if_it_fails(std::uint64_t edit, const std::function<void()>&
   }
 }
 
-void Director::tell(std::uint64_t edit, const std::exception& error) {
+void RenderLoop::tell(std::uint64_t edit, const std::exception& error) {
   const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   mail_.post(RenderProblem{edit, memory ? "not enough memory" + memory_limit_text() : error.what()});
   if (on_frame_) on_frame_();
 }
 
-void Director::follow(const Orders& orders) {
-  view_ = orders.view;
-  clean_.set_wanted(orders.clean);
-  limit_ = orders.limit;
-  shown_pixels_ = orders.shown_pixels;
-  picture_.set_first(first_ = orders.first);
-  const bool other_pixel = pixel_ != orders.pixel;
-  pixel_ = orders.pixel;
-  if (orders.threads > 0 && orders.threads != crew_->size())
-    tell_if_it_fails(orders.edit, [&] { crew_ = std::make_unique<Crew>(orders.threads); });
-  if (orders.scene) {
-    take_scene(orders);
-  } else if (orders.restart && shown_.prepared) {
-    shown_.submitted = Clock::now();
+/// The one place where what is wanted now is compared with what was wanted before.
+void RenderLoop::follow(const ReceivedRequest& next) {
+  const RequestChange change = change_between(request_, next);
+  request_ = next;
+  const RenderRequest& wanted = request_.wanted;
+  clean_.set_wanted(wanted.clean);
+  picture_.set_first(wanted.refine_first);
+  if (change.threads && wanted.threads > 0 && wanted.threads != crew_->size())
+    tell_if_it_fails(next.edit, [&] { crew_ = std::make_unique<Crew>(wanted.threads); });
+  bool goes_on = false;
+  if (change.scene) {
+    goes_on = take_scene();
+  } else if (change.restart && shown_.prepared) {
+    shown_.submitted = next.since;
     start_over(budget_);
   }
   answer_films();
-  const bool taken_over = orders.scene && orders.film && !first_picture_ms_;
-  if ((orders.redraw || taken_over) && shown_.prepared && picture_.has_picture()) publish();
-  if (other_pixel) report_pixel();
+  const bool redraws = change.drawing || change.limit || goes_on;
+  if (redraws && shown_.prepared && picture_.has_picture()) publish();
+  if (change.pixel) report_pixel();
 }
 
-/// Makes the ordered scene the one that is rendered. If it cannot be compiled, everything stays as it was, and the
-/// mailbox gets a RenderProblem.
-void Director::take_scene(const Orders& orders) {
+/// Makes the scene that is wanted the one that is rendered. If it cannot be compiled, everything stays as it was, and
+/// the mailbox gets a RenderProblem. Returns whether the picture goes on from a film.
+bool RenderLoop::take_scene() {
+  bool goes_on = false;
   try {
-    ShownScene next{prepare(orders.scene, shown_.prepared.get()), orders.edit, orders.submitted};
+    ShownScene next{prepare(request_.wanted.scene, shown_.prepared.get()), request_.edit, request_.since};
     const bool camera_only =
         shown_.prepared && !change_between(shown_.prepared->scene(), next.prepared->scene()).others;
     const double budget = picture_budget(camera_only, seconds_between(shown_.submitted, next.submitted));
     std::swap(shown_, next);
-    bool goes_on = false;
     try {
-      goes_on = go_on_from(orders.film.get());
+      goes_on = go_on_from(request_.wanted.film.get());
       if (!goes_on) start_over(budget);
     } catch (...) {
       std::swap(shown_, next);
@@ -120,36 +122,37 @@ void Director::take_scene(const Orders& orders) {
     mail_.post(shown_.prepared);
     if (goes_on) picture_.estimate_now(engine(), mail_.give_up());
   } catch (const std::exception& e) {
-    tell(orders.edit, e);
+    tell(request_.edit, e);
   }
+  return goes_on;
 }
 
 /// Takes over the samples of a film of the scene. False if there are none, or they are of another size.
-bool Director::go_on_from(Film* film) {
+bool RenderLoop::go_on_from(Film* film) {
   const RenderScene& scene = shown_.prepared->columns();
   const Region whole{0, 0, scene.width, scene.height};
   if (!film || film->width != scene.width || film->height != scene.height || !(film->region == whole) ||
       film->first_sample != 0 || film->unit != scene.film_unit)
     return false;
-  picture_.go_on(std::move(*film), progression_options(shown_.prepared->scene(), 1, first_));
+  picture_.go_on(std::move(*film), progression_options(shown_.prepared->scene(), 1, request_.wanted.refine_first));
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();
   return true;
 }
 
-void Director::start_over(double budget) {
+void RenderLoop::start_over(double budget) {
   const RenderScene& scene = shown_.prepared->columns();
   const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
-  const int step = first_pictures_.step_for(pixels, budget, shown_pixels_);
+  const int step = first_pictures_.step_for(pixels, budget, request_.wanted.shown_pixels);
   picture_.start(scene, {0, 0, scene.width, scene.height}, 0,
-                 progression_options(shown_.prepared->scene(), step, first_));
+                 progression_options(shown_.prepared->scene(), step, request_.wanted.refine_first));
   rare_paths_.start_over();
   clean_.start_over();
   first_picture_ms_.reset();
 }
 
-void Director::finish_pass() {
+void RenderLoop::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
   rare_paths_.look(shown_, picture_);
   const bool first = !first_picture_ms_;
@@ -161,38 +164,40 @@ void Director::finish_pass() {
 }
 
 /// Tells what is known of the pixel that is watched.
-void Director::report_pixel() {
-  if (!pixel_ || !shown_.prepared) return;
-  PixelReport report{.x = pixel_->first, .y = pixel_->second, .edit = shown_.edit};
+void RenderLoop::report_pixel() {
+  const auto& pixel = request_.wanted.watched_pixel;
+  if (!pixel || !shown_.prepared) return;
+  PixelReport report{.x = pixel->first, .y = pixel->second, .edit = shown_.edit};
   if (picture_.taken() > 0) look_at_pixel(picture_.film(), report);
   mail_.post(report);
   if (on_frame_) on_frame_();
 }
 
 /// The first picture of an edit is on its way to the screen: until it is there, the processors are for that.
-void Director::give_way() {
+void RenderLoop::give_way() {
   if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
 }
 
-/// Shows what the picture will look like once it has samples to filter. An order that cannot wait interrupts this.
-void Director::make_coarse_clean() {
-  if (limit_ < least_clean_spp || picture_.taken() >= least_clean_spp) return;
+/// Shows what the picture will look like once it has samples to filter. A request that cannot wait interrupts this.
+void RenderLoop::make_coarse_clean() {
+  if (request_.limit() < least_clean_spp || picture_.taken() >= least_clean_spp) return;
   if (!clean_.make_coarse(picture_.film(), first_pictures_.paths_per_second(), engine(), mail_.give_up())) return;
   publish();
   mail_.wait_until_shown(frames_);
 }
 
-/// Filters the picture as it is now. An edit or another order interrupts this; then it is tried again later.
-void Director::make_clean() {
+/// Filters the picture as it is now. An urgent request interrupts this; then it is tried again later.
+void RenderLoop::make_clean() {
   if (clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
 
-void Director::publish() {
+void RenderLoop::publish() {
   const std::shared_ptr<Frame> frame = frame_memory_.take(picture_.film().pixels.size());
   const Clock::time_point start = Clock::now();
+  const View view = request_.wanted.view;
   frame->clean = clean_.latest();
-  frame->grid = views_.draw(view_, picture_, frame->clean.get(), engine(), mail_.give_up(), frame->rgba);
-  if (view_ != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *crew_, frame->beauty);
+  frame->grid = views_.draw(view, picture_, frame->clean.get(), engine(), mail_.give_up(), frame->rgba);
+  if (view != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *crew_, frame->beauty);
   const Clock::time_point drawn = Clock::now();
   first_pictures_.note_drawing(seconds_between(start, drawn));
   if (!first_picture_ms_) first_picture_ms_ = 1000 * seconds_between(shown_.submitted, drawn);
@@ -201,7 +206,7 @@ void Director::publish() {
   frame->edit = shown_.edit;
   frame->pass = ++frames_;
   frame->width = film.width, frame->height = film.height;
-  frame->view = view_;
+  frame->view = view;
   frame->white = views_.white();
   frame->awaits_clean = clean_is_due();
   frame->step = picture_.step();
@@ -225,8 +230,8 @@ void Director::publish() {
 /// Gives a copy of the film to callers who wait for one. Within a pass some pixels lack samples that others have, so a
 /// pass that was interrupted is finished first. If the renderer is paused, has reached its limit or has failed,
 /// nothing would finish the pass: then the film is given as it is.
-void Director::answer_films() {
-  if (picture_.within_pass() && unfinished(limit_) && !stalled_) return;
+void RenderLoop::answer_films() {
+  if (picture_.within_pass() && unfinished(request_.limit()) && !stalled_) return;
   for (auto& request : mail_.take_film_requests()) {
     try {
       request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});

@@ -1,4 +1,6 @@
-#include "app/window/accuracy/fair_share.h"
+#include "app/window/rendering/thread_budget.h"
+
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -25,44 +27,41 @@ Turn next_turn(Turn now, RenderingTime first, RenderingTime second, bool togethe
   return lead < -slice ? Turn::first : Turn::second;
 }
 
-void FairShare::share_with(Renderer* second) {
+void ThreadBudget::share_with(Renderer* second) {
   const std::lock_guard lock(mutex_);
   second_ = second;
-  set_up();
+  turn_ = first_turn();
 }
 
-void FairShare::set_threads(int threads) {
+ThreadBudget::Edits ThreadBudget::request(RenderRequest first, RenderRequest second) {
   const std::lock_guard lock(mutex_);
-  threads_ = threads;
-  set_up();
+  const bool other_threads = first.threads != first_wanted_.threads;
+  first_wanted_ = std::move(first);
+  second_wanted_ = std::move(second);
+  if (other_threads) turn_ = first_turn();
+  return ask();
 }
 
-void FairShare::pause(bool paused) {
-  const std::lock_guard lock(mutex_);
-  paused_ = paused;
-  apply();
-}
-
-void FairShare::on_frame() {
+void ThreadBudget::on_frame() {
   const std::lock_guard lock(mutex_);
   if (!second_) return;
   const Turn turn = next_turn(turn_, time_of(first_), time_of(*second_), together());
-  if (turn == turn_) return;
-  turn_ = turn;
-  apply();
+  if (std::exchange(turn_, turn) != turn) ask();
 }
 
-void FairShare::set_up() {
-  const int each = second_ && together() ? threads_ / 2 : threads_;
-  first_.set_threads(each);
-  if (second_) second_->set_threads(each);
-  turn_ = second_ && !together() ? Turn::first : Turn::both;
-  apply();
+/// waits: it is the other one's turn.
+RenderRequest ThreadBudget::part_of(const RenderRequest& wanted, bool waits) const {
+  RenderRequest part = wanted;
+  if (second_ && together()) part.threads /= 2;
+  part.paused |= waits;
+  return part;
 }
 
-void FairShare::apply() {
-  first_.pause(paused_ || turn_ == Turn::second);
-  if (second_) second_->pause(paused_ || turn_ == Turn::first);
+ThreadBudget::Edits ThreadBudget::ask() {
+  Edits edits;
+  edits.first = first_.request(part_of(first_wanted_, turn_ == Turn::second));
+  if (second_) edits.second = second_->request(part_of(second_wanted_, turn_ == Turn::first));
+  return edits;
 }
 
 }  // namespace tyndall

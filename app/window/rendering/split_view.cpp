@@ -1,4 +1,4 @@
-#include "app/window/panels/split_view.h"
+#include "app/window/rendering/split_view.h"
 
 #include "app/window/system/imgui_compat.h"
 

@@ -1,0 +1,64 @@
+#pragma once
+#include "app/window/accuracy/half.h"
+#include "app/window/rendering/thread_budget.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+
+/// This room makes the pictures and shows them: the renderers behind the window, one or two while the view is split,
+/// and their frames on the screen.
+namespace tyndall {
+
+/// The window's renderer and, in a split view, a second one for the left half. Both get the same processor time. For
+/// the main thread unless it says otherwise; nothing here waits for rendering.
+class RendererPair {
+ public:
+  /// threads: of both together, > 0. on_frame: called from a thread of a renderer after each frame.
+  RendererPair(int threads, std::string isa, std::function<void()> on_frame);
+  ~RendererPair();
+  RendererPair(const RendererPair&) = delete;
+  RendererPair& operator=(const RendererPair&) = delete;
+
+  /// What a request has led to.
+  struct Begun {
+    bool current = false, kept = false;  ///< these halves have begun another picture
+    /// The second renderer when the split view ends. Destroying it can take as long as a unit of its work, so the
+    /// caller should do that where nobody waits.
+    std::shared_ptr<Renderer> ended;
+  };
+  /// Asks for these pictures; the same ones again cost nothing. threads: of both together. kept: of the left half of a
+  /// split view; without a scene there is none.
+  Begun request(const RenderRequest& current, const RenderRequest& kept = {});
+  /// A half's frame of that pass is on the screen, see Renderer.
+  void note_shown(Half half, std::uint64_t pass);
+
+  /// The newest frame; null: there is none.
+  std::shared_ptr<const Frame> latest(Half half) const;
+  /// Number of the newest edit that a half was asked for. That of the current half from any thread.
+  std::uint64_t edit(Half half) const { return half == Half::kept ? kept_edit_ : edit_.load(); }
+  /// Nothing renders: paused, or all pictures are finished.
+  bool resting() const;
+  /// Whether the newest pictures of all halves are finished, in the view that was asked for: no other frame comes by
+  /// itself. A paused picture is not finished.
+  bool finished() const;
+  /// Of the current half, see Renderer; the film from any thread.
+  Film film() const { return renderer_.film(); }
+  Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
+  std::shared_ptr<const PixelReport> pixel() const { return renderer_.pixel(); }
+  std::shared_ptr<const RenderProblem> problem() const { return renderer_.problem(); }
+
+ private:
+  std::string isa_;
+  std::function<void()> on_frame_;
+  RenderRequest current_, kept_;  ///< the newest ones
+  std::atomic<std::uint64_t> edit_ = 0;
+  std::uint64_t kept_edit_ = 0;
+  std::uint64_t restarted_after_ = 0;  ///< the newest pass of the current half when it was last started over
+  ThreadBudget budget_{renderer_};
+  Renderer renderer_;
+  std::shared_ptr<Renderer> second_;  ///< of the left half; null: there is no split view
+};
+
+}  // namespace tyndall
