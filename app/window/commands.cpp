@@ -11,121 +11,150 @@ namespace tyndall {
 
 void Commands::take(const InputEvents& events) {
   for (const KeyPress& press : events.keys) {
-    const auto command = command_of_key(press.key, press.modifiers);
-    const bool answers = command && command->action == Action::deselect;
+    const auto request = request_of_key(press.key, press.modifiers);
+    const bool answers = request && request->action == Action::deselect;
     if (palette_.take_key(press.key)) {
       pacing_.on_event();
       continue;
     }
     if (!press.typing && !asks() && objects_.has_keys() && objects_.take_press(press)) continue;
     if (objects_.active() && !answers) continue;
-    if (!command || (press.typing && !asks()) || (asks() && !answers)) continue;
-    act(*command);
+    if (!request || (press.typing && !asks()) || (asks() && !answers)) continue;
+    panels_.leave_row = true;
+    act(*request);
   }
   for (const std::filesystem::path& file : events.dropped)
     session_.references().open_dropped(std::filesystem::absolute(file));
 }
 
-void Commands::act(const KeyCommand& command) {
-  const ActionEntry* entry = find_action(command.action);
+void Commands::act(const Request& request) {
+  const ActionEntry* entry = find_action(request.action);
   if (log_ && entry) log_->line("did " + std::string(entry->name));
-  panels_.leave_row = command.action != Action::deselect;
-  switch (command.action) {
+  if (entry) panels_.leave_row = request.action != Action::deselect;
+  if (request.action == Action::rename) shows_panels_ = true;
+  pacing_.on_event();
+  if (picture_.act(request.action) || objects_.act(request.action)) return;
+  act_on_window(request);
+  act_on_rendering(request);
+  act_on_document(request);
+}
+
+void Commands::act_on_window(const Request& request) {
+  Preferences& look = panels_.look;
+  switch (request.action) {
     case Action::help:
       shows_help_ = !shows_help_;
-      break;
+      return;
     case Action::deselect:
-      escape();
-      break;
+      return escape();
+    case Action::panels:
+      shows_panels_ = !shows_panels_;
+      return;
+    case Action::full_screen:
+      return platform_.toggle_full_screen();
+    case Action::section:
+      panels_.tabs.jump = request.number;
+      shows_panels_ = true;
+      return;
+    case Action::row:
+      return go_to_row(row_entries()[static_cast<std::size_t>(request.number)]);
+    case Action::palette:
+      return open_palette();
+    case Action::quit:
+      return ask_to_close();
+    case Action::larger_text:
+      look.text_size = stepped_text_size(look.text_size, 1);
+      return;
+    case Action::smaller_text:
+      look.text_size = stepped_text_size(look.text_size, -1);
+      return;
+    case Action::usual_text:
+      look.text_size = 1;
+      return;
+    case Action::other_theme:
+      look.theme = look.theme == Theme::dark ? Theme::light : Theme::dark;
+      return;
+    default:
+      return;
+  }
+}
+
+void Commands::act_on_rendering(const Request& request) {
+  RenderRequest& wanted = session_.wanted();
+  switch (request.action) {
     case Action::pause:
-      session_.wanted().paused = !session_.wanted().paused;
-      break;
+      wanted.paused = !wanted.paused;
+      return;
+    case Action::threads:
+      wanted.threads = request.number;
+      return;
+    case Action::reference:
+      return ask_reference(dialog_);
+    case Action::open_reference:
+      return session_.references().open(request.text);
+    case Action::render_reference:
+      return session_.render_reference();
+    case Action::drop_reference:
+      return session_.references().drop();
+    case Action::export_chart:
+      return session_.export_chart();
+    case Action::snapshot:
+      return session_.snapshot();
     case Action::restart:
-      ++session_.wanted().restarts;
-      pacing_.on_new_start(clock_seconds());
+      ++wanted.restarts;
       break;
     case Action::view:
-      select_view(command.which);
+      select_view(request.number);
       break;
     case Action::clean:
       session_.set_clean(!session_.clean());
-      pacing_.on_new_start(clock_seconds());
       break;
     case Action::clean_beside_raw:
       session_.set_clean_beside_raw(!session_.clean_beside_raw());
-      pacing_.on_event();
       break;
-    case Action::panels:
-      shows_panels_ = !shows_panels_;
+    case Action::clean_as:
+      session_.set_clean(request.number > 0);
+      session_.set_clean_beside_raw(request.number > 1);
       break;
-    case Action::full_screen:
-      platform_.toggle_full_screen();
+    case Action::render_at:
+      panels_.model.at_window = request.number == 1;
       break;
-    case Action::section:
-      panels_.tabs.jump = command.which;
-      shows_panels_ = true;
-      pacing_.on_event();
+    case Action::split:
+      session_.split() ? end_split() : session_.set_split(true);
       break;
-    case Action::row:
-      go_to_row(row_entries()[static_cast<std::size_t>(command.which)]);
-      break;
-    case Action::scene:
-      session_.editor().open(listed_scenes().at(static_cast<std::size_t>(command.which)));
-      break;
-    case Action::palette:
-      open_palette();
-      break;
-    case Action::quit:
-      ask_to_close();
+    case Action::keep_half:
+      session_.keep_half(static_cast<Half>(request.number));
       break;
     default:
-      act_on_look(command.action);
-      act_on_document(command.action);
+      return;
   }
+  pacing_.on_new_start(clock_seconds());
 }
 
-void Commands::act_on_look(Action action) {
-  Preferences& look = panels_.look;
-  if (action == Action::larger_text) look.text_size = stepped_text_size(look.text_size, 1);
-  if (action == Action::smaller_text) look.text_size = stepped_text_size(look.text_size, -1);
-  if (action == Action::usual_text) look.text_size = 1;
-  if (action == Action::other_theme) look.theme = look.theme == Theme::dark ? Theme::light : Theme::dark;
-}
-
-void Commands::act_on_document(Action action) {
-  if (picture_.act(action)) return;
-  if (objects_.act(action)) {
-    if (action == Action::rename) shows_panels_ = true;
-    return;
-  }
-  switch (action) {
+void Commands::act_on_document(const Request& request) {
+  switch (request.action) {
     case Action::frame:
       return frame_selection();
     case Action::reset_camera:
       return reset_camera();
     case Action::undo:
-      session_.editor().undo();
-      return pacing_.on_event();
+      return session_.editor().undo();
     case Action::redo:
-      session_.editor().redo();
-      return pacing_.on_event();
+      return session_.editor().redo();
     case Action::open:
       dialog_ = {Dialog::Kind::open, {}, true, 0};
-      return pacing_.on_event();
+      return;
+    case Action::scene:
+      return session_.editor().open(request.text);
     case Action::save:
       return save();
     case Action::save_as:
       return save_as();
-    case Action::snapshot:
-      return session_.snapshot();
-    case Action::split:
-      session_.split() ? end_split() : session_.set_split(true);
-      return pacing_.on_new_start(clock_seconds());
-    case Action::reference:
-      ask_reference(dialog_);
-      return pacing_.on_event();
-    case Action::export_chart:
-      return session_.export_chart();
+    case Action::take_file:
+      return session_.editor().answer_about_file(request.number == 1);
+    case Action::save_unsaved:
+      session_.editor().go_to_unsaved();
+      return save();
     default:
       return;
   }
@@ -133,13 +162,12 @@ void Commands::act_on_document(Action action) {
 
 void Commands::open_palette() {
   std::vector<PaletteItem> items;
-  palette_commands_.clear();
+  palette_requests_.clear();
   for (PaletteLine& line : palette_lines(session_.editor().scene(), panels_.selected, listed_scenes())) {
     items.push_back(std::move(line.item));
-    palette_commands_.push_back(line.command);
+    palette_requests_.push_back(std::move(line.request));
   }
   palette_.open(std::move(items));
-  pacing_.on_event();
 }
 
 void Commands::go_to_row(const RowEntry& row) {
@@ -147,13 +175,12 @@ void Commands::go_to_row(const RowEntry& row) {
     return session_.messages().say(row.label + ": " + row.missing);
   panels_.seek = RowPlace{row.part, row.label};
   shows_panels_ = true;
-  pacing_.on_event();
 }
 
 std::vector<std::string> Commands::listed_scenes() const {
   std::vector<std::string> all;
-  for (const BuiltIn& scene : panels_.facts.scenes) all.push_back(scene.name);
-  for (const std::filesystem::path& file : panels_.facts.recent) all.push_back(file.string());
+  for (const BuiltIn& scene : panels_.model.scenes) all.push_back(scene.name);
+  for (const std::filesystem::path& file : panels_.model.recent) all.push_back(file.string());
   return all;
 }
 
@@ -188,14 +215,12 @@ void Commands::save() {
     session_.editor().save(origin.file);
 }
 
+/// A view of errors needs something to measure against; without it the view stays and a message says why.
 void Commands::select_view(int index) {
   if (shows_errors(index) && !session_.can_show_errors())
     return session_.messages().say("load a reference first: see Speed and accuracy");
-  panels_.view = index;
-  if (index == shown_view_) return;
-  shown_view_ = index;
+  panels_.model.view = index;
   session_.set_view(view_entry(index).view, view_entry(index).error);
-  pacing_.on_new_start(clock_seconds());
 }
 
 void Commands::end_split() {
@@ -213,7 +238,7 @@ void Commands::ask_to_close() {
 void Commands::escape() {
   if (panels_.drags) {
     panels_.cancel_drag = true;
-    return pacing_.on_event();
+    return;
   }
   if (dialog_.kind == Dialog::Kind::changed_file) session_.editor().answer_about_file(false);
   if (closing_.cancel()) return;
@@ -224,7 +249,7 @@ void Commands::escape() {
   if (palette_.is_open()) return palette_.close();
   if (panels_.row_has_keys) {
     panels_.leave_row = true;
-    return pacing_.on_event();
+    return;
   }
   if (objects_.escape()) return;
   const bool covered = asks() || shows_help_ || session_.messages().current().error;
@@ -240,34 +265,27 @@ void Commands::escape() {
 }
 
 void Commands::draw(Ui& ui, const Rect& area) {
+  std::vector<Request>& requests = panels_.requests;
   const int chosen = palette_.draw(ui, area);
-  if (chosen >= 0) later_ = [this, command = palette_commands_[static_cast<std::size_t>(chosen)]] { act(command); };
+  if (chosen >= 0) requests.push_back(palette_requests_[static_cast<std::size_t>(chosen)]);
   if (shows_help_) draw_help(ui, shows_help_);
-  const ReferenceWish wish = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
-  if (wish.file) session_.references().open(*wish.file);
-  if (wish.render) session_.render_reference();
-  if (wish.drop) session_.references().drop();
+  const auto about_reference = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
+  if (about_reference) requests.push_back(*about_reference);
   const auto file = draw_dialog(ui, area, dialog_, session_.editor().document());
   if (file && !session_.editor().save(*file)) ask_name(dialog_, *file);  // what was typed is not lost
   const auto opened = draw_open_dialog(ui, area, dialog_);
   if (opened) session_.references().open_dropped(std::filesystem::absolute(*opened));
   if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true, 0};
   const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
-  if (take) later_ = [this, take = *take] { session_.editor().answer_about_file(take); };
+  if (take) requests.push_back({Action::take_file, *take ? 1 : 0});
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   const auto half = draw_halves_dialog(ui, area, dialog_, session_.method(Half::kept), session_.method(Half::current));
-  if (half) later_ = [this, half = *half] { session_.keep_half(half); };
-  if (closing_.draw(ui, area, dialog_))
-    later_ = [this] {
-      session_.editor().go_to_unsaved();
-      save();
-    };
+  if (half) requests.push_back({Action::keep_half, static_cast<int>(*half)});
+  if (closing_.draw(ui, area, dialog_)) requests.push_back({Action::save_unsaved});
 }
 
 void Commands::carry_out() {
-  if (!later_) return;
-  std::exchange(later_, nullptr)();
-  pacing_.on_event();
+  for (const Request& request : std::exchange(panels_.requests, {})) act(request);
 }
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/actions.h"
+#include "app/window/actions/actions.h"
 #include "app/window/closing.h"
 #include "app/window/menus/palette.h"
 #include "app/window/menus/row_list.h"
@@ -12,13 +12,13 @@
 #include "app/window/system/platform.h"
 #include "app/window/tools/gestures.h"
 
-#include <functional>
 #include <vector>
 
 /// What happens when the user presses a key, drops a file or answers a question.
 namespace tyndall {
 
-/// Carries out what keys, dropped files and dialogs ask for.
+/// Carries out all that the window is asked for: by keys and dropped files at once, by panels, menus, the palette and
+/// dialogs at the end of the drawing.
 class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
@@ -36,20 +36,17 @@ class Commands {
 
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
-  /// Carries out an action.
-  void act(const KeyCommand& command);
-  /// Shows a view (index: see views.h). A view of errors needs something to measure against; without it the view stays
-  /// and a message says why.
-  void select_view(int index);
+  /// Carries out one request.
+  void act(const Request& request);
   /// The user wants to close the window: asks about what is not saved.
   void ask_to_close();
   /// The window may go.
   bool closed() const { return closing_.done(); }
-  /// Draws the help table and the question that waits for an answer, and does what was answered.
+  /// Draws the help table and the question that waits for an answer.
   void draw(Ui& ui, const Rect& area);
 
-  /// To be called at the end of each drawing, when the panels' scene was handed to the editor: does what was answered
-  /// and changes the scene.
+  /// To be called at the end of each drawing, when the panels' scene was handed to the editor: carries out what was
+  /// asked for in it.
   void carry_out();
 
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
@@ -59,8 +56,10 @@ class Commands {
   bool shows_panels() const { return shows_panels_; }
 
  private:
-  void act_on_look(Action action);
-  void act_on_document(Action action);
+  void act_on_window(const Request& request);
+  void act_on_rendering(const Request& request);
+  void act_on_document(const Request& request);
+  void select_view(int index);
   void reset_camera();
   void frame_selection();
   void open_palette();
@@ -83,11 +82,9 @@ class Commands {
   PictureTools& picture_;
   Dialog dialog_;
   Palette palette_;
-  std::vector<KeyCommand> palette_commands_;  ///< what its lines do
+  std::vector<Request> palette_requests_;  ///< of its lines
   Closing closing_;
-  UiLog* log_;                   ///< may be null
-  std::function<void()> later_;  ///< what carry_out() does; empty: nothing
-  int shown_view_ = 0;
+  UiLog* log_;  ///< may be null
   bool shows_help_ = false, shows_panels_ = true;
 };
 

@@ -42,9 +42,9 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       looks_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
       commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, looks_, log_.get()) {
   ui_.log = log_.get();
-  panels_.facts.scenes = built_in_scenes();
-  panels_.facts.accuracy = &session_.accuracy();
-  panels_.facts.pictures = &gallery_.pictures();
+  panels_.model.scenes = built_in_scenes();
+  panels_.model.accuracy = &session_.accuracy();
+  panels_.model.pictures = &gallery_.pictures();
   panels_.look = session_.preferences();
   ui_.folded = panels_.look.folded;
   ui_.folded.insert("Histogram");  // it takes time with each picture
@@ -173,11 +173,11 @@ void MainWindow::follow_window_size(const WindowSize& size, float dots) {
   const PictureSize shown{static_cast<int>(std::lround(image.width() * dots)),
                           static_cast<int>(std::lround(image.height() * dots))};
   const bool seen = shown.width > 0 && shown.height > 0;
-  session_.set_picture_size(at_window_ && seen ? std::optional(shown) : std::nullopt);
+  session_.set_picture_size(panels_.model.at_window && seen ? std::optional(shown) : std::nullopt);
 }
 
 ShownState MainWindow::shown_state() const {
-  ShownState state{session_.editor().scene().display, view_entry(panels_.view).stops, looks_.shows_pixels(),
+  ShownState state{session_.editor().scene().display, view_entry(panels_.model.view).stops, looks_.shows_pixels(),
                    session_.split(), session_.clean_beside_raw()};
   if (state.split) state.method = session_.method(Half::current), state.kept_method = session_.method(Half::kept);
   return state;
@@ -185,19 +185,18 @@ ShownState MainWindow::shown_state() const {
 
 void MainWindow::fill_panels() {
   panels_.scene = session_.editor().scene();
-  panels_.facts.frame = picture_.shown();
-  panels_.facts.saved = &session_.editor().document().origin->saved;
+  panels_.model.frame = picture_.shown();
+  panels_.model.saved = &session_.editor().document().origin->saved;
   const std::string& title = session_.editor().document().origin->title;
-  if (panels_.facts.title != title) forget_scene(panels_);
-  panels_.facts.title = title;
-  panels_.facts.what = what_of(*session_.editor().document().origin);
-  panels_.facts.recent = gallery_.recent();
-  panels_.facts.threads = session_.wanted().threads;
-  panels_.facts.kept_method = session_.split() ? session_.method(Half::kept) : "";
-  panels_.facts.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
-  panels_.facts.at_window = at_window_;
-  panels_.facts.can_show_errors = session_.can_show_errors();
-  panels_.wishes = {};
+  if (panels_.model.title != title) forget_scene(panels_);
+  panels_.model.title = title;
+  panels_.model.what = what_of(*session_.editor().document().origin);
+  panels_.model.recent = gallery_.recent();
+  panels_.model.threads = session_.wanted().threads;
+  panels_.model.kept_method = session_.split() ? session_.method(Half::kept) : "";
+  panels_.model.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
+  panels_.model.can_show_errors = session_.can_show_errors();
+  panels_.wanted_pictures.clear();
   ui_.size = target_distance(panels_.scene.camera);
   set_selected(panels_, session_.editor().selection());
 }
@@ -210,7 +209,7 @@ void MainWindow::draw_interface(const Layout& layout) {
   const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(
       ui_, layout.status,
-      status_cells(panels_.facts.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
+      status_cells(panels_.model.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
                    {session_.wanted().paused, accuracy.is_true(), session_.split(),
                     &accuracy.curves(Half::current, Kind::clean).current()}));
   draw_message(ui_, layout.area, session_.messages().current());
@@ -244,31 +243,14 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
 }
 
 void MainWindow::apply_panels(double now) {
-  const Wishes& wishes = panels_.wishes;
   objects_.finish_edit();
   session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
   session_.editor().select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   commands_.carry_out();
-  if (wishes.open) session_.editor().open(*wishes.open);
-  if (wishes.export_chart) commands_.act({Action::export_chart});
-  if (wishes.split) commands_.act({Action::split});
-  if (wishes.clean) {
-    session_.set_clean(*wishes.clean > 0);
-    session_.set_clean_beside_raw(*wishes.clean > 1);
-    pacing_.on_new_start(now);
-  }
-  if (wishes.at_window) {
-    at_window_ = *wishes.at_window;
-    pacing_.on_new_start(now);
-  }
-  if (wishes.reference) commands_.act({Action::reference});
-  if (wishes.palette) commands_.act({Action::palette});
-  gallery_.want(wishes.pictures);
+  gallery_.want(panels_.wanted_pictures);
   use_preferences();
-  if (wishes.action) commands_.act({static_cast<Action>(*wishes.action)});
-  if (wishes.threads) session_.wanted().threads = *wishes.threads;
-  commands_.select_view(shows_errors(panels_.view) && !session_.can_show_errors() ? 0 : panels_.view);
+  if (shows_errors(panels_.model.view) && !session_.can_show_errors()) commands_.act({Action::view});
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();

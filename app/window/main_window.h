@@ -75,7 +75,6 @@ class MainWindow {
   Commands commands_;
   std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
   std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of
-  bool at_window_ = false;               ///< the picture has as many pixels as the window shows
   double input_since_ = 0;               ///< when the oldest input came that no drawing has seen; 0: there is none
   bool takes_in_again_ = false;          ///< an edit waits for what came while the picture was put on the screen
   double awaits_until_ = 0;              ///< until then nothing is drawn but the picture of an edit that was just sent

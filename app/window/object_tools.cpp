@@ -217,7 +217,7 @@ void ObjectTools::draw(Ui& ui, const Layout& layout) {
   }
   shows_menu_ = menu_.is_open();
   const int chosen = menu_.draw(ui, layout.area);
-  if (chosen >= 0) panels_.wishes.action = static_cast<int>(menu_actions_[static_cast<std::size_t>(chosen)]);
+  if (chosen >= 0) panels_.requests.push_back({menu_actions_[static_cast<std::size_t>(chosen)]});
 }
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/actions.h"
+#include "app/window/actions/actions.h"
 #include "app/window/edit/add_object.h"
 #include "app/window/edit/gesture_start.h"
 #include "app/window/handles/handle_tool.h"

@@ -1,6 +1,6 @@
 #include "app/window/overlays.h"
 
-#include "app/window/actions.h"
+#include "app/window/actions/actions.h"
 #include "app/window/system/imgui_compat.h"
 
 #include <algorithm>

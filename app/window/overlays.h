@@ -1,6 +1,7 @@
 #pragma once
 #include "app/curves/curve.h"
 #include "app/window/accuracy/half.h"
+#include "app/window/actions/actions.h"
 #include "app/window/document/document.h"
 #include "app/window/document/message.h"
 #include "app/window/panels/widgets.h"
@@ -85,15 +86,9 @@ std::optional<bool> draw_changed_file_dialog(Ui& ui, const Rect& area, Dialog& d
 std::optional<Half> draw_halves_dialog(Ui& ui, const Rect& area, Dialog& dialog, const std::string& method_a,
                                        const std::string& method_b);
 
-/// What the user chose when asked for a reference; at most one of these.
-struct ReferenceWish {
-  std::optional<std::filesystem::path> file;  ///< read this one
-  bool render = false;                        ///< render one
-  bool drop = false;                          ///< measure against nothing
-};
-
+/// Asks what errors are measured against.
 void ask_reference(Dialog& dialog);
-ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bool has_reference);
+std::optional<Request> draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bool has_reference);
 
 /// A box with round corners in the middle of the area, for a question.
 void begin_dialog(Ui& ui, const Rect& area);

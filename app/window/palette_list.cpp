@@ -62,8 +62,7 @@ std::vector<PaletteLine> palette_lines(const Scene& scene, const ObjectPath& sel
   std::vector<PaletteLine> lines;
   for (const ActionEntry& entry : actions())
     if (entry.action != Action::palette)
-      lines.push_back(
-          {{entry.name, entry.key.code != 0 ? text_of(entry.key) : "", other_words_for(entry.action)}, {entry.action}});
+      lines.push_back({{entry.name, entry.key.code != 0 ? text_of(entry.key) : "", entry.other_words}, {entry.action}});
   add_rows(lines, scene, selected);
   for (int k = 0; k < view_count; ++k)
     lines.push_back({{std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : "",
@@ -71,8 +70,7 @@ std::vector<PaletteLine> palette_lines(const Scene& scene, const ObjectPath& sel
                      {Action::view, k}});
   for (int k = 0; const Tab& tab : column_tabs())
     lines.push_back({{std::string("go to: ") + tab.name, "", words_for(tab.name)}, {Action::section, k++}});
-  for (int k = 0; const std::string& what : scenes)
-    lines.push_back({{"open: " + what, "", "scene"}, {Action::scene, k++}});
+  for (const std::string& what : scenes) lines.push_back({{"open: " + what, "", "scene"}, {Action::scene, 0, what}});
   return lines;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/actions.h"
+#include "app/window/actions/actions.h"
 #include "app/window/document/object_path.h"
 #include "app/window/menus/palette.h"
 
@@ -9,10 +9,10 @@
 /// All that the palette offers.
 namespace tyndall {
 
-/// A line of the palette, and what it does.
+/// A line of the palette, and what it asks for.
 struct PaletteLine {
   PaletteItem item;
-  KeyCommand command;
+  Request request;
 };
 
 /// Actions, rows of the column, views, parts of the column and scenes. Rows that the column does not show while this

@@ -27,7 +27,7 @@ bool PictureTools::act(Action action) {
       refine();
       break;
     case Action::store_camera:
-      store_camera(panels_.cameras[panels_.facts.title], session_.editor().scene().camera, panels_.facts.frame.get(),
+      store_camera(panels_.cameras[panels_.model.title], session_.editor().scene().camera, panels_.model.frame.get(),
                    session_.editor().scene().display);
       break;
     case Action::next_camera:
@@ -36,12 +36,11 @@ bool PictureTools::act(Action action) {
     default:
       return false;
   }
-  pacing_.on_event();
   return true;
 }
 
 void PictureTools::look_through_next() {
-  const CameraSlots& slots = panels_.cameras[panels_.facts.title];
+  const CameraSlots& slots = panels_.cameras[panels_.model.title];
   Scene scene = session_.editor().scene();
   const auto next = next_slot(slots, scene.camera);
   if (!next) return session_.messages().say("no camera is stored yet");
@@ -73,7 +72,7 @@ bool PictureTools::escape() {
 }
 
 void PictureTools::place(Layout& layout, float dots) {
-  const Frame* frame = panels_.facts.frame.get();
+  const Frame* frame = panels_.model.frame.get();
   const Scene& scene = session_.editor().scene();
   layout.image = zoom_.place(layout.area, layout.image, frame ? frame->width : scene.width,
                              frame ? frame->height : scene.height, dots);
@@ -93,7 +92,7 @@ bool PictureTools::drag_picture(const Mouse& mouse, const Layout& layout, bool f
 
 bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free) {
   mouse_ = mouse;
-  const Frame* frame = panels_.facts.frame.get();
+  const Frame* frame = panels_.model.frame.get();
   const bool over = frame && !mouse.taken && overlap(layout.image, layout.area).contains(mouse.x, mouse.y);
   inspector_.point_at(over ? std::optional(click_at(layout.image, mouse.x, mouse.y, frame->width, frame->height))
                            : std::nullopt);
@@ -111,7 +110,7 @@ bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free
 }
 
 std::string PictureTools::said_of_rectangle() const {
-  const Frame* frame = panels_.facts.frame.get();
+  const Frame* frame = panels_.model.frame.get();
   if (session_.editor().scene().render.adaptive) return "not refined first: adaptive sampling is on";
   if (!frame || frame->most_spp <= frame->spp) return "refined first";
   return fmt::format("refined first: {} spp", format_count(frame->most_spp));
@@ -134,12 +133,12 @@ void PictureTools::draw_zoom(Ui& ui, const Rect& visible) const {
 
 void PictureTools::draw(Ui& ui, const Layout& layout) {
   const Rect visible = overlap(layout.image, layout.area);
-  const Frame* frame = panels_.facts.frame.get();
+  const Frame* frame = panels_.model.frame.get();
   if (visible.width() <= 0 || visible.height() <= 0 || !frame) return;
   rectangle_.draw(ui, layout.image, visible, session_.wanted().refine_first, frame->width, frame->height,
                   said_of_rectangle());
-  const bool as_chosen = frame->view == view_entry(panels_.view).view;
-  if (as_chosen) draw_legend(ui, visible, legend_of(panels_.view, frame->white));
+  const bool as_chosen = frame->view == view_entry(panels_.model.view).view;
+  if (as_chosen) draw_legend(ui, visible, legend_of(panels_.model.view, frame->white));
   draw_zoom(ui, visible);
   inspector_.draw(ui, {frame, panels_.scene, session_.wanted().scene.get(), layout.image, visible},
                   session_.renderers());

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/actions.h"
+#include "app/window/actions/actions.h"
 #include "app/window/inspector/inspector.h"
 #include "app/window/inspector/rectangle_tool.h"
 #include "app/window/panels/panels.h"

@@ -6,7 +6,7 @@ namespace tyndall {
 
 void ask_reference(Dialog& dialog) { dialog = {Dialog::Kind::reference, {}, true, 0}; }
 
-ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bool has_reference) {
+std::optional<Request> draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bool has_reference) {
   if (dialog.kind != Dialog::Kind::reference) return {};
   begin_dialog(ui, area);
   ImGui::TextUnformatted("Measure the error against");
@@ -19,13 +19,15 @@ ReferenceWish draw_reference_dialog(Ui& ui, const Rect& area, Dialog& dialog, bo
   if (has_reference) answers.push_back({"dialog.drop", "No reference"});
   answers.push_back({"dialog.cancel", "Cancel"});
   const int answer = draw_answers(ui, dialog, answers);
-  ReferenceWish wish;
-  wish.render = answer == 1, wish.drop = has_reference && answer == 2;
-  if ((enter || answer == 0) && dialog.name[0] != '\0') wish.file = typed_file(dialog);
+  std::optional<Request> request;
+  if (answer == 1) request = {Action::render_reference};
+  if (answer == 2 && has_reference) request = {Action::drop_reference};
+  if ((enter || answer == 0) && dialog.name[0] != '\0')
+    request = {Action::open_reference, 0, typed_file(dialog).string()};
   dialog.fresh = false;
-  if (answer > 0 || wish.file) dialog.kind = Dialog::Kind::none;
+  if (answer > 0 || request) dialog.kind = Dialog::Kind::none;
   end_dialog();
-  return wish;
+  return request;
 }
 
 }  // namespace tyndall

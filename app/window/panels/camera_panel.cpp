@@ -40,17 +40,17 @@ void camera_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Camera", "Home: reset")) return;
   ui.scope = "camera.";
   Camera& camera = state.scene.camera;
-  const Camera* saved = &state.facts.saved->camera;
+  const Camera* saved = &state.model.saved->camera;
   field_rows(ui, camera, saved, [](const auto& value, auto name) { return is_any_of<double>(value, name); });
   focus_row(ui, state.scene, *saved);
   const bool plain_up = camera.vup == Vec3d{0, 1, 0} && !is_sought(ui, label_of("vup"));
   field_rows(ui, camera, saved, [&](const auto& value, std::string_view name) {
     return is_any_of<Vec3d>(value, name) && !(plain_up && name == "vup");
   });
-  CameraSlots& slots = state.cameras[state.facts.title];
+  CameraSlots& slots = state.cameras[state.model.title];
   const SlotWish wish = camera_slots_row(ui, slots, camera);
   if (wish.recall) camera = slots[*wish.recall].camera;
-  if (wish.store) store_camera(slots, camera, state.facts.frame.get(), state.scene.display);
+  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene.display);
   ui.scope.clear();
 }
 
@@ -58,7 +58,7 @@ void background_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Background", "seen beyond all objects")) return;
   ui.scope = "background.";
   Background& background = state.scene.background;
-  const Background& saved = state.facts.saved->background;
+  const Background& saved = state.model.saved->background;
   int kind = static_cast<int>(background.index());
   if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background), kind))
     set_background_kind(background, kind, state.backgrounds);

@@ -51,7 +51,7 @@ void draw_tabs(Ui& ui, PanelState& state) {
     ImGui::SameLine();
   }
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) state.wishes.palette = true;
+  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) state.requests.push_back({Action::palette});
   ImGui::PopStyleColor();
   log_item(ui, "tab.actions", "button");
   ImGui::PopStyleVar(2);
@@ -82,7 +82,7 @@ struct Part {
 };
 
 void histogram_part(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.facts.frame.get(), state.scene.display);
+  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene.display);
 }
 
 /// Draws the parts; scrolls to the one that the column is sent to, and finds out which one is at its head.
@@ -130,7 +130,7 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (column.width() <= 0 || column.height() <= 0) return;
   const float s = ui.scale, chart = chart_height * s, head = 34 * s;
   const bool has_tabs = column.height() > 8 * head;
-  const auto lines = static_cast<float>(accuracy_lines(*state.facts.accuracy).size());
+  const auto lines = static_cast<float>(accuracy_lines(*state.model.accuracy).size());
   const bool folded = ui.folded.contains(tabs[4].section);
   const float foot = folded ? 40 * s : chart + 80 * s + lines * line_of_note_height(ui);
   const bool fixed_chart = column.height() > 2.2f * (chart + 80 * s + lines * line_of_note_height(ui));

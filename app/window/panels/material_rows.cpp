@@ -63,7 +63,7 @@ void lamp_rows(Ui& ui, Vec3d& radiance, const ColourOrTexture* saved) {
 
 void texture_rows(Ui& ui, PanelState& state, Texture& texture) {
   const Scope scope(ui, texture.name);
-  const Texture* saved = saved_of(state.facts.saved->textures, texture.name);
+  const Texture* saved = saved_of(state.model.saved->textures, texture.name);
   std::visit(Overloaded{[&](Image& image) {
                           text_row(ui, {"file", "Picture", {}, {}, "", image.file, ""}, image.file);
                         },
@@ -109,7 +109,7 @@ void colour_rows(Ui& ui, PanelState& state, ColourOrTexture& colour, const Colou
 
 void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
   Material& material = state.scene.materials[static_cast<std::size_t>(index)];
-  const Material* saved = saved_of(state.facts.saved->materials, material.name);
+  const Material* saved = saved_of(state.model.saved->materials, material.name);
   const Scope scope(ui, material.name);
   std::visit([&](auto& kind) { field_rows(ui, kind, same_kind(kind, saved ? &saved->kind : nullptr)); }, material.kind);
   const char* name = colour_name(material.kind);

@@ -10,7 +10,7 @@ namespace {
 
 /// The object's counterpart in the scene's file; null: it has none at that path.
 const Object* saved_object(const PanelState& state, const ObjectPath& path) {
-  const Object *now = find_object(state.scene, path), *saved = find_object(*state.facts.saved, path);
+  const Object *now = find_object(state.scene, path), *saved = find_object(*state.model.saved, path);
   return saved && saved->name == now->name && saved->kind.index() == now->kind.index() ? saved : nullptr;
 }
 

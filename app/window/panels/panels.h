@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
+#include "app/window/actions/actions.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/gallery/gallery.h"
 #include "app/window/panels/camera_slots.h"
@@ -16,25 +17,11 @@
 #include <string>
 #include <vector>
 
-/// The column of panels. Panels change the scene that they are given (a copy) and leave wishes; they start nothing.
+/// The column of panels. Panels change the scene that they are given (a copy) and leave requests; they start nothing.
 namespace tyndall {
 
-/// What panels ask the window to do.
-struct Wishes {
-  std::optional<std::string> open;  ///< a scene by what load_scene takes
-  std::optional<int> threads;
-  bool export_chart = false;  ///< write the chart's curves into files
-  bool reference = false;     ///< ask which picture errors are measured against
-  std::optional<bool> split;
-  std::optional<int> action;          ///< carry out that one of the list of actions
-  std::optional<int> clean;           ///< 0: off, 1: on, 2: beside the raw picture
-  std::optional<bool> at_window;      ///< the picture has as many pixels as the window shows; else as the file says
-  bool palette = false;               ///< show all actions
-  std::vector<std::string> pictures;  ///< of these scenes: they are to be seen
-};
-
-/// What panels tell about the window, besides the scene.
-struct PanelFacts {
+/// What panels show of the window, besides the scene.
+struct PanelModel {
   std::shared_ptr<const Frame> frame;  ///< on the screen; null before the first
   const LiveAccuracy* accuracy = nullptr;
   std::string kept_method;       ///< of the left half of a split view; "": there is no split view
@@ -45,9 +32,10 @@ struct PanelFacts {
   const SmallPictures* pictures = nullptr;    ///< of scenes; null: there are none
   std::string what;                           ///< the open scene, by what load_scene takes
   std::string title;                          ///< of the open scene
-  int clean = 0;                              ///< see Wishes
+  int clean = 0;                              ///< see Action::clean_as
   int threads = 1;
-  bool at_window = false;  ///< see Wishes
+  bool at_window = false;  ///< the picture has as many pixels as the window shows; else as the file says
+  int view = 0;            ///< see view_entry()
 };
 
 /// How the list of objects is shown.
@@ -77,7 +65,7 @@ struct ColumnTabs {
 
 /// What goes into the panels and comes out of them in each drawing.
 struct PanelState {
-  PanelFacts facts;
+  PanelModel model;
   // Panels change these in place.
   Scene scene;
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
@@ -94,11 +82,11 @@ struct PanelState {
   ObjectPath shown;  ///< the selected object that the column has jumped to
   Preferences look;  ///< theme, size of texts, width of the column; `clean` and `folded` are the window's
   ColumnTabs tabs;
-  std::optional<RowPlace> seek;  ///< the column goes to that row in the next drawings, see SoughtRow
-  bool row_has_keys = false;     ///< the arrow keys go through the choices of a row
-  bool leave_row = false;        ///< they do not from the next drawing on
-  int view = 0;                  ///< see view_entry()
-  Wishes wishes;
+  std::optional<RowPlace> seek;              ///< the column goes to that row in the next drawings, see SoughtRow
+  bool row_has_keys = false;                 ///< the arrow keys go through the choices of a row
+  bool leave_row = false;                    ///< they do not from the next drawing on
+  std::vector<Request> requests;             ///< of panels, menus, palette and dialogs, until they are carried out
+  std::vector<std::string> wanted_pictures;  ///< of these scenes, that are to be seen
 };
 
 /// All selected objects, the one whose values are shown first.

@@ -24,8 +24,8 @@ std::string share_cut_off(const Frame* frame) {
 }
 
 const char* view_meaning(const PanelState& state) {
-  if (shows_errors(state.view) && !state.facts.accuracy->map()) return "is being computed";
-  return view_entry(state.view).meaning;
+  if (shows_errors(state.model.view) && !state.model.accuracy->map()) return "is being computed";
+  return view_entry(state.model.view).meaning;
 }
 
 std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
@@ -38,19 +38,19 @@ std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
 std::string setting_meaning(const PanelState& state, std::string_view name) {
   const RenderSettings& render = state.scene.render;
   if (name == "integrator") return word(render.integrator).help;
-  if (name == "sharing") return sharing_meaning(render, state.facts.frame.get());
+  if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
   if (name == "adaptive")
     return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";
-  if (name == "max_depth") return share_cut_off(state.facts.frame.get());
+  if (name == "max_depth") return share_cut_off(state.model.frame.get());
   if (name == "spp") return render.spp ? "samples a pixel at which it stops" : "0: goes on for ever";
   return "";
 }
 
 void threads_row(Ui& ui, PanelState& state) {
-  int threads = state.facts.threads;
+  int threads = state.model.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
   const Row row{"threads", "Threads", between(1, most_threads), {1, cores}, "", "never changes the picture", ""};
-  if (value_row(ui, row, threads)) state.wishes.threads = threads;
+  if (value_row(ui, row, threads)) state.requests.push_back({Action::threads, threads});
 }
 
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
@@ -61,17 +61,17 @@ void pixels_row(Ui& ui, PanelState& state) {
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
   const float space = 4 * ui.scale, box = (value_width(ui) - space) / 2;
-  row.original = Vec3d{static_cast<double>(state.facts.saved->width), 0, 0};
+  row.original = Vec3d{static_cast<double>(state.model.saved->width), 0, 0};
   bool changed = value_box(ui, "width", row, width, box, false);
   ImGui::SameLine(0, space);
-  row.original = Vec3d{static_cast<double>(state.facts.saved->height), 0, 0};
+  row.original = Vec3d{static_cast<double>(state.model.saved->height), 0, 0};
   changed = value_box(ui, "height", row, height, box, false) || changed;
   end_row(ui, row);
   if (!changed) return;
   const int old_width = scene.width, old_height = scene.height;
   scene.width = static_cast<int>(width), scene.height = static_cast<int>(height);
   try {
-    const bool clean = state.facts.clean > 0;
+    const bool clean = state.model.clean > 0;
     check_memory(WindowPlan{scene.width, scene.height, has_lamps(scene), clean}, free_memory(),
                  "switch the clean view off");
   } catch (const UsageError& error) {
@@ -82,18 +82,18 @@ void pixels_row(Ui& ui, PanelState& state) {
 
 void size_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"file"}, {"window"}};
-  int chosen = state.facts.at_window ? 1 : 0;
-  const Frame* frame = state.facts.frame.get();
+  int chosen = state.model.at_window ? 1 : 0;
+  const Frame* frame = state.model.frame.get();
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
   if (choice_row(ui, {"at", "Render at", {}, {}, "", help, meaning}, choices, chosen))
-    state.wishes.at_window = chosen == 1;
+    state.requests.push_back({Action::render_at, chosen});
 }
 
 void split_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}};
-  int chosen = state.facts.kept_method.empty() ? 0 : 1;
-  const std::string meaning = chosen == 0 ? "" : "A keeps " + state.facts.kept_method + "; above: B";
+  int chosen = state.model.kept_method.empty() ? 0 : 1;
+  const std::string meaning = chosen == 0 ? "" : "A keeps " + state.model.kept_method + "; above: B";
   if (choice_row(ui,
                  {"split",
                   "Split",
@@ -103,12 +103,12 @@ void split_row(Ui& ui, PanelState& state) {
                   "A keeps these settings, B takes what you change; both get the same processor time",
                   meaning},
                  choices, chosen))
-    state.wishes.split = chosen == 1;
+    state.requests.push_back({Action::split});
 }
 
 std::string clean_meaning(const PanelState& state) {
-  if (state.facts.clean == 0) return "as it is in files";
-  const CleanFrame* clean = state.facts.frame ? state.facts.frame->clean.get() : nullptr;
+  if (state.model.clean == 0) return "as it is in files";
+  const CleanFrame* clean = state.model.frame ? state.model.frame->clean.get() : nullptr;
   if (!clean) return "from 2 samples a pixel on";
   if (clean->spp == 0) return "coarse at first, then filtered from 2 spp on";
   return fmt::format("filtered at {} spp; files are not", format_count(clean->spp));
@@ -116,10 +116,10 @@ std::string clean_meaning(const PanelState& state) {
 
 void clean_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
-  int chosen = state.facts.clean;
+  int chosen = state.model.clean;
   const char* help = "filters noise away where the samples show that it is noise: key N";
   if (choice_row(ui, {"clean", "Clean", {}, {}, "", help, clean_meaning(state)}, choices, chosen))
-    state.wishes.clean = chosen;
+    state.requests.push_back({Action::clean_as, chosen});
 }
 
 /// "7 spheres, 1 quad, 1 medium, 1 light".
@@ -144,24 +144,26 @@ std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × "
 void image_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Image", "rendering goes on")) return;
   ui.scope = "image.";
-  field_rows(ui, state.scene.display, &state.facts.saved->display);
+  field_rows(ui, state.scene.display, &state.model.saved->display);
   clean_row(ui, state);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) {
-    const bool missing = shows_errors(k) && !state.facts.can_show_errors;
+    const bool missing = shows_errors(k) && !state.model.can_show_errors;
     choices[k] = {view_entry(k).name, missing ? "needs a reference: see Speed and accuracy" : nullptr};
   }
-  choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, choices, state.view, 3);
+  int view = state.model.view;
+  if (choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, choices, view, 3))
+    state.requests.push_back({Action::view, view});
   ui.scope.clear();
 }
 
 void render_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Render", kernel_note(state.facts.frame.get()))) return;
+  if (!section(ui, "Render", kernel_note(state.model.frame.get()))) return;
   ui.scope = "render.";
   RenderSettings& render = state.scene.render;
   const auto said = [&state](std::string_view name) { return setting_meaning(state, name); };
   const auto is_choice = []<class T>(const T&, std::string_view) { return NamedEnum<T> || std::is_same_v<T, bool>; };
-  const RenderSettings* saved = &state.facts.saved->render;
+  const RenderSettings* saved = &state.model.saved->render;
   field_rows(ui, render, saved, is_choice, said);
   split_row(ui, state);
   field_rows(

@@ -38,9 +38,9 @@ void draw_picture(const Ui& ui, const PanelState& state, const std::string& what
   const ImVec2 place{picture_width * ui.scale, picture_height * ui.scale};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(at, {at.x + place.x, at.y + place.y}, shade(palette::field), 3 * ui.scale);
-  if (!state.facts.pictures) return;
-  const auto found = state.facts.pictures->find(what);
-  if (found == state.facts.pictures->end() || !found->second) return;
+  if (!state.model.pictures) return;
+  const auto found = state.model.pictures->find(what);
+  if (found == state.model.pictures->end() || !found->second) return;
   const PictureTexture& picture = *found->second;
   const float fit = std::min(place.x / picture.width(), place.y / picture.height());
   const ImVec2 size{fit * picture.width(), fit * picture.height()};
@@ -54,13 +54,13 @@ void draw_picture(const Ui& ui, const PanelState& state, const std::string& what
 bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float s = ui.scale, right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  const bool on = row.what == state.facts.what;
+  const bool on = row.what == state.model.what;
   const ImVec2 size{0, row_height * s - ImGui::GetStyle().ItemSpacing.y};
   const bool pressed = ImGui::Selectable(("##" + row.name).c_str(), on, 0, size);
   log_item(ui, row.name, on ? "on" : "off");
   tooltip(ui, row.details);
   draw_picture(ui, state, row.what, at);
-  state.wishes.pictures.push_back(row.what);
+  state.wanted_pictures.push_back(row.what);
   const float left = at.x + (picture_width + 10) * s;
   clipped_text_at(row.label, {left, at.y + 2 * s}, right - left, palette::text);
   compat::push_font(ui.fonts.small);
@@ -96,7 +96,7 @@ void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<S
     while (clipper.Step())
       for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
         const SceneRow& row = rows[static_cast<std::size_t>(k)];
-        if (scene_row(ui, state, row)) state.wishes.open = row.what;
+        if (scene_row(ui, state, row)) state.requests.push_back({Action::scene, 0, row.what});
       }
   }
   end_list();
@@ -107,8 +107,8 @@ void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<S
 void scenes_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Scenes", "or drop a file")) return;
   ui.scope = "scenes.";
-  scene_list(ui, state, "scenes", rows_of(state.facts.scenes), 6);
-  const std::vector<SceneRow> recent = rows_of(state.facts.recent);
+  scene_list(ui, state, "scenes", rows_of(state.model.scenes), 6);
+  const std::vector<SceneRow> recent = rows_of(state.model.recent);
   if (!recent.empty()) {
     note(ui, "Opened before", false);
     scene_list(ui, state, "recent", recent, 3);

@@ -6,7 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// The column of panels for tests, without a window.
@@ -24,11 +26,11 @@ class Column {
                            {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
     state.scene.camera.look_from = {0, 1, 6};
     saved = state.scene;
-    state.facts.saved = &saved;
-    state.facts.accuracy = &accuracy_;
-    state.facts.scenes = {{"showroom", "Showroom", "", "showroom.json"},
+    state.model.saved = &saved;
+    state.model.accuracy = &accuracy_;
+    state.model.scenes = {{"showroom", "Showroom", "", "showroom.json"},
                           {"cover", "Cover", "Stress: many balls. Fails: slow trees. Right: a cover.", "cover.json"}};
-    state.facts.title = "showroom";
+    state.model.title = "showroom";
     draw();
     draw();
   }
@@ -36,17 +38,18 @@ class Column {
   void draw() {
     imgui_.frame([&] {
       ui.problem.clear();
-      state.wishes = {};
+      state.wanted_pictures.clear();
       draw_column(ui, state, {0, 0, 372, height});
       log_.end_of_widgets();
       if (!ui.problem.empty()) problem = ui.problem;
-      if (state.wishes.open) opened = *state.wishes.open;
-      if (state.wishes.split) split = *state.wishes.split;
-      exported = exported || state.wishes.export_chart;
-      asked = asked || state.wishes.reference;
-      asked_for_actions = asked_for_actions || state.wishes.palette;
-      wanted = state.wishes.pictures;
+      for (const Request& request : std::exchange(state.requests, {})) {
+        if (request.action == Action::view) state.model.view = request.number;
+        asked.push_back(request);
+      }
     });
+  }
+  bool has_asked_for(const Request& request) const {
+    return std::find(asked.begin(), asked.end(), request) != asked.end();
   }
   bool has(const std::string& name) const { return log_.find(name).has_value(); }
   Rect rect(const std::string& name) const { return *log_.find(name); }
@@ -96,9 +99,8 @@ class Column {
   PanelState state;
   Scene saved;  ///< what the file holds
   float height = 2400;
-  std::string problem, opened;
-  std::vector<std::string> wanted;
-  bool split = false, exported = false, asked = false, asked_for_actions = false;
+  std::string problem;
+  std::vector<Request> asked;  ///< all that it has asked for
 
  private:
   NullImGui imgui_{372, 2400};

@@ -116,39 +116,46 @@ TEST_CASE("choices change what they say, and only that") {
   column.click("image.tone_map.aces");
   CHECK(column.state.scene.display.tone_map == ToneMap::aces);
   column.click("image.view.normal");
-  CHECK(column.state.view == 2);
+  CHECK(column.state.model.view == 2);
   column.click("image.view.cost");
-  CHECK(column.state.view == view_named("cost"));
+  CHECK(column.state.model.view == view_named("cost"));
   column.click("image.view.FLIP");
-  CHECK(column.state.view == view_named("cost"));
+  CHECK(column.state.model.view == view_named("cost"));
   CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
   column.click("scenes.cover");
-  CHECK(column.opened == "cover");
+  CHECK(column.has_asked_for({Action::scene, 0, "cover"}));
 }
 
 TEST_CASE("the controls of the section Accuracy ask for what they say") {
   Column column;
   column.click("chart.export");
   column.click("chart.reference");
-  CHECK(column.exported);
-  CHECK(column.asked);
+  CHECK(column.has_asked_for({Action::export_chart}));
+  CHECK(column.has_asked_for({Action::reference}));
+  column.asked.clear();
   column.click("render.split.on");
-  CHECK(column.split);
-  column.state.facts.kept_method = "path";
+  CHECK(column.asked == std::vector<Request>{{Action::split}});
+  column.state.model.kept_method = "path";
+  column.click("render.split.on");  // it is on
+  CHECK(column.asked.size() == 1);
   column.click("render.split.off");
-  CHECK_FALSE(column.split);
+  CHECK(column.asked.size() == 2);
+  column.click("image.clean.beside raw");
+  CHECK(column.asked.back() == Request{Action::clean_as, 2});
+  column.click("render.at.window");
+  CHECK(column.asked.back() == Request{Action::render_at, 1});
 }
 
 TEST_CASE("errors are seen only where there is something to measure against") {
   Column column;
   column.click("image.view.error");
-  CHECK(column.state.view == 0);
+  CHECK(column.state.model.view == 0);
   CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
-  column.state.facts.can_show_errors = true;
+  column.state.model.can_show_errors = true;
   column.click("image.view.FLIP");
-  CHECK(column.state.view == view_named("FLIP"));
+  CHECK(column.state.model.view == view_named("FLIP"));
   column.click("image.view.error");
-  CHECK(column.state.view == view_named("error"));
+  CHECK(column.state.model.view == view_named("error"));
 }
 
 TEST_CASE("a click in the list of objects selects one and shows its values, a second click on it selects nothing") {

@@ -1,4 +1,4 @@
-#include "app/window/actions.h"
+#include "app/window/actions/actions.h"
 
 #include "app/window/accuracy/views.h"
 
@@ -19,14 +19,14 @@ std::string effect_of(const std::string& input) {
 }  // namespace
 
 TEST_CASE("each shortcut has one action, with exactly its modifiers") {
-  CHECK(command_of_key('Z', {.control = true}) == KeyCommand{Action::undo});
-  CHECK(command_of_key('Z', {.control = true, .shift = true}) == KeyCommand{Action::redo});
-  CHECK(command_of_key('Y', {.control = true}) == KeyCommand{Action::redo});
-  CHECK(command_of_key('S', {.control = true}) == KeyCommand{Action::save});
-  CHECK_FALSE(command_of_key('S', {}).has_value());
-  CHECK_FALSE(command_of_key('Z', {}).has_value());
-  CHECK_FALSE(command_of_key('P', {.control = true, .alt = true}).has_value());
-  CHECK_FALSE(command_of_key(0, {}).has_value());
+  CHECK(request_of_key('Z', {.control = true}) == Request{Action::undo});
+  CHECK(request_of_key('Z', {.control = true, .shift = true}) == Request{Action::redo});
+  CHECK(request_of_key('Y', {.control = true}) == Request{Action::redo});
+  CHECK(request_of_key('S', {.control = true}) == Request{Action::save});
+  CHECK_FALSE(request_of_key('S', {}).has_value());
+  CHECK_FALSE(request_of_key('Z', {}).has_value());
+  CHECK_FALSE(request_of_key('P', {.control = true, .alt = true}).has_value());
+  CHECK_FALSE(request_of_key(0, {}).has_value());
 }
 
 TEST_CASE("no two actions of the list have the same key, and the first nine views have a digit") {
@@ -34,11 +34,11 @@ TEST_CASE("no two actions of the list have the same key, and the first nine view
   for (const ActionEntry& entry : actions()) {
     CHECK_MESSAGE(seen.insert(entry.action).second, entry.name);
     for (const Key& key : {entry.key, entry.other_key})
-      if (key.code != 0) CHECK(command_of_key(key.code, {key.control, key.shift, false}) == KeyCommand{entry.action});
+      if (key.code != 0) CHECK(request_of_key(key.code, {key.control, key.shift, false}) == Request{entry.action});
   }
-  CHECK(seen.size() == static_cast<std::size_t>(Action::add_fog) - 3);  // all but Action::view, scene, section and row
-  for (int k = 0; k < keyed_views; ++k) CHECK(command_of_key('1' + k, {}) == KeyCommand{Action::view, k});
-  CHECK_FALSE(command_of_key('1' + keyed_views, {}).has_value());
+  CHECK(seen.size() == static_cast<std::size_t>(Action::add_fog) + 1);  // the others have lists or arguments
+  for (int k = 0; k < keyed_views; ++k) CHECK(request_of_key('1' + k, {}) == Request{Action::view, k});
+  CHECK_FALSE(request_of_key('1' + keyed_views, {}).has_value());
 }
 
 TEST_CASE("the help table tells of every action and every view") {

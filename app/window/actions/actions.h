@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/// One list of all that keys do. Keys, menus and the help table are loops over it.
+/// One list of all that can be asked for. Keys, menus, the palette, panels and the help table are filled from it.
 namespace tyndall {
 
-/// What a key can ask for.
+/// What the window can be asked for.
 enum class Action {
   deselect,
   frame,
@@ -20,11 +20,9 @@ enum class Action {
   undo,
   redo,
   open,
-  scene,  ///< opens one that is listed: which one follows
   save,
   save_as,
   snapshot,
-  view,
   clean,
   clean_beside_raw,
   panels,
@@ -36,8 +34,6 @@ enum class Action {
   smaller_text,
   usual_text,
   other_theme,
-  section,  ///< of the column: which one follows
-  row,      ///< of the column: which one follows
   split,
   reference,
   export_chart,
@@ -58,7 +54,21 @@ enum class Action {
   add_box,
   add_quad,
   add_lamp,
-  add_fog
+  add_fog,
+  // From here on none is in actions(); most have an argument.
+  view,              ///< number: see views.h
+  section,           ///< of the column; number: see column_tabs()
+  row,               ///< of the column; number: see row_entries()
+  scene,             ///< opens what load_scene takes: text
+  clean_as,          ///< number: 0 off, 1 on, 2 beside the raw picture
+  render_at,         ///< number: 0 as many pixels as the file says, 1 as many as the window shows
+  threads,           ///< number: how many render
+  keep_half,         ///< of the split view; number: see Half
+  take_file,         ///< that another program has changed; number: 0 keep the edits, 1 take it
+  save_unsaved,      ///< goes to the edits that no file has, and saves them
+  open_reference,    ///< text: its file
+  render_reference,  ///< in the background
+  drop_reference
 };
 
 /// Whether the action adds an object.
@@ -71,32 +81,30 @@ struct Key {
   bool control = false, shift = false;
 };
 
-/// A line of the list of actions. The keys, the help table and every menu are loops over this list.
+/// A line of the list of actions.
 struct ActionEntry {
   Action action;
   const char* name;
+  const char* other_words;  ///< by which the palette finds it, too, separated by ", "
   Key key, other_key{};
   const char* help = "";             ///< follows the name in the help table; "": the name says enough
   bool on_line_of_previous = false;  ///< the help table shows it in the line of the entry before
 };
 
-/// All actions but views, scenes, sections and rows, which have lists of their own.
 std::span<const ActionEntry> actions();
-/// Words other than an action's name by which the palette finds it, too, separated by ", "; "": none.
-const char* other_words_for(Action action);
-/// The entry of an action; null for those that have lists of their own.
+/// The entry of an action; null for those that are not in actions().
 const ActionEntry* find_action(Action action);
 
-/// An action, and for those that have lists of their own which: the number of the view, see views.h, of the tab, see
-/// column_tabs(), of the row, see row_entries(), or of the scene.
-struct KeyCommand {
+/// What the window is asked for: an action, with its argument where it has one.
+struct Request {
   Action action = Action::help;
-  int which = 0;
-  bool operator==(const KeyCommand&) const = default;
+  int number = 0;
+  std::string text{};
+  bool operator==(const Request&) const = default;
 };
 
 /// What a key asks for; nothing for keys that have no action.
-std::optional<KeyCommand> command_of_key(int key, Modifiers modifiers);
+std::optional<Request> request_of_key(int key, Modifiers modifiers);
 
 /// "Ctrl + Shift + Z".
 std::string text_of(const Key& key);

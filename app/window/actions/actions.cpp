@@ -1,0 +1,226 @@
+#include "app/window/actions/actions.h"
+
+#include "app/window/accuracy/views.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+// GLFW's numbers for keys that do not type a character.
+constexpr int key_escape = 256, key_tab = 258, key_insert = 260, key_delete = 261, key_home = 268, key_f1 = 290,
+              key_f2 = 291, key_f11 = 300, key_space = 32;
+constexpr std::pair<int, const char*> named_keys[] = {
+    {key_escape, "Esc"}, {key_tab, "Tab"}, {key_insert, "Insert"}, {key_delete, "Delete"}, {key_home, "Home"},
+    {key_f1, "F1"},      {key_f2, "F2"},   {key_f11, "F11"},       {key_space, "Space"}};
+
+constexpr ActionEntry entries[] = {
+    {Action::deselect, "deselect", "unselect, select none, clear selection", {key_escape}},
+    {Action::grab,
+     "move the selection",
+     "move, translate the selection, drag",
+     {'G'},
+     {},
+     "then X, Y or Z, the mouse or a number; Enter or Esc"},
+    {Action::add, "add an object", "new object, create, insert", {key_insert}, {}, "at the cursor"},
+    {Action::duplicate, "duplicate", "copy, clone", {'D', true}, {}, "", true},
+    {Action::remove, "delete", "remove, erase", {key_delete}, {}, "", true},
+    {Action::rename, "rename", "name, object name, title", {key_f2}, {}, "", true},
+    {Action::own_material, "make single user", "copy the material, unlink", {}},
+    {Action::add_sphere, "add a sphere", "add a ball, sphere, ball", {}},
+    {Action::add_hollow_ball, "add a hollow ball", "hollow glass, bubble", {}},
+    {Action::add_box, "add a box", "cube, box, add a cube", {}},
+    {Action::add_quad, "add a quad", "plane, quad, add a plane", {}},
+    {Action::add_lamp, "add a lamp", "light, lamp, add light, area light", {}},
+    {Action::add_fog, "add fog", "volume, fog, smoke, mist, add a volume", {}},
+    {Action::frame,
+     "frame the selection",
+     "zoom to, centre, center, frame selected, view selected, zoom selected",
+     {'F'}},
+    {Action::reset_camera, "reset the camera", "home, reset view", {key_home}, {}, "", true},
+    {Action::inspect,
+     "inspect pixels",
+     "pick, probe, pixel value, eyedropper, color picker",
+     {'I'},
+     {},
+     "value, error and object under the cursor"},
+    {Action::replay,
+     "why noisy",
+     "path, fireflies, variance, light paths",
+     {'I', false, true},
+     {},
+     "the path that adds most to that pixel",
+     true},
+    {Action::actual_size,
+     "actual size",
+     "1:1, zoom 1:1, 100 %, pixel for pixel",
+     {'0'},
+     {},
+     "one pixel for each of the screen's; again: all of it"},
+    {Action::refine_first,
+     "refine a rectangle first",
+     "region, crop, render region, render border, border, region of interest",
+     {'B', true},
+     {},
+     "then drag; again: the whole picture"},
+    {Action::store_camera, "store the camera", "bookmark, camera bookmark, save camera", {}},
+    {Action::next_camera, "next stored camera", "switch camera, cycle cameras", {}},
+    {Action::pause, "pause or go on", "stop, resume, continue, play", {key_space}},
+    {Action::restart, "start over", "restart, render again, clear", {'R'}, {}, "", true},
+    {Action::undo, "undo", "back, revert", {'Z', true}},
+    {Action::redo, "redo", "repeat", {'Z', true, true}, {'Y', true}, "", true},
+    {Action::open, "open a file", "load, import, browse", {'O', true}, {}, "a scene, or an image that Tyndall made"},
+    {Action::save, "save the scene", "write", {'S', true}},
+    {Action::save_as, "save as", "save a copy, export the scene", {'S', true, true}, {}, "", true},
+    {Action::snapshot,
+     "snapshot",
+     "screenshot, export, export image, save image, save picture",
+     {'P', true},
+     {},
+     "PNG and EXR, numbered"},
+    {Action::clean,
+     "clean view on or off",
+     "clean, denoise, denoiser, denoising, filter",
+     {'N'},
+     {},
+     "noise filtered away"},
+    {Action::clean_beside_raw,
+     "clean beside raw",
+     "compare clean and raw, denoise beside raw",
+     {'N', false, true},
+     {},
+     "",
+     true},
+    {Action::split, "split view", "split, split screen, A/B, compare, compare settings, side by side", {}},
+    {Action::reference,
+     "reference picture",
+     "reference, reference image, ground truth, compare with an image, true error",
+     {}},
+    {Action::export_chart, "export the chart", "csv, svg, export csv, save the chart", {}},
+    {Action::panels,
+     "hide the panels",
+     "show the panels, show the column, sidebar, toggle sidebar, hide ui",
+     {key_tab}},
+    {Action::full_screen, "full screen", "maximize, maximise", {key_f11}, {}, "", true},
+    {Action::larger_text, "larger text", "font size, larger font, bigger text, preferences, settings", {'+', true}},
+    {Action::smaller_text, "smaller text", "smaller font", {'-', true}, {}, "", true},
+    {Action::usual_text, "usual text", "reset font size", {'0', true}, {}, "", true},
+    {Action::other_theme,
+     "dark or light theme",
+     "dark mode, light mode, colours of the window, colors of the window",
+     {}},
+    {Action::quit, "close the window", "exit, quit", {'Q', true}},
+    {Action::palette, "all actions by name", "", {'K', true}, {}, "and all rows: ior, roughness, fov"},
+    {Action::help, "this table", "help, keys, shortcuts, hotkeys, keymap, manual", {key_f1}, {'H'}},
+};
+
+const HelpLine mouse_lines[] = {{"Left drag", "orbit; on a handle of the selection: move, turn, size it"},
+                                {"Middle drag", "pan"},
+                                {"Right drag, wheel", "nearer, farther"},
+                                {"Ctrl + wheel", "field of view"},
+                                {"Alt + wheel, Alt + drag", "enlarge the picture at the cursor; move it"},
+                                {"W A S D Q E", "fly; with Shift faster"},
+                                {"Click", "select the object under the cursor; again: what lies behind it"},
+                                {"Ctrl + click", "add to the selection"},
+                                {"Right click", "menu: add, duplicate, delete, rename"},
+                                {"Shift + click", "focus on that point"},
+                                {"Ctrl + Shift + click", "focus there, but keep the far blur as it is"},
+                                {"Drop a file", "open a scene or snapshot; other images become the reference"},
+                                {"Numbers, sliders", "drag, or click and type (1/4); Shift: finer, Ctrl: round"},
+                                {"Double click on them", "back to what the scene's file has"}};
+
+bool is_pressed(const Key& key, int code, Modifiers modifiers) {
+  return code != 0 && key.code == code && key.control == modifiers.control && key.shift == modifiers.shift;
+}
+
+/// The help line of the views with a digit that the renderer draws, "1 … 7" and "views: beauty, albedo, …", or of those
+/// that show errors.
+HelpLine views_line(bool of_errors) {
+  int first = 0, last = -1;
+  std::string names;
+  for (int k = 0; k < keyed_views; ++k) {
+    if (shows_errors(k) != of_errors) continue;
+    if (last < 0) first = k;
+    names += (last < 0 ? "" : of_errors ? " and " : ", ") + std::string(view_entry(k).name);
+    last = k;
+  }
+  std::string input = std::to_string(first + 1);
+  if (last > first) input += (last == first + 1 ? ", " : " … ") + std::to_string(last + 1);
+  return {input, of_errors ? names + " against the reference or the other half" : "views: " + names};
+}
+
+/// The views that have no digit.
+HelpLine line_of_other_views() {
+  std::string names;
+  for (int k = keyed_views; k < view_count; ++k) names += (names.empty() ? "" : ", ") + std::string(view_entry(k).name);
+  return {"Buttons, Ctrl + K", "more views: " + names};
+}
+
+/// A new line of the help table, or the end of the last one.
+void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
+  if (entry.key.code == 0) return;  // menus have it
+  const std::string effect = entry.name + (*entry.help ? ": " + std::string(entry.help) : "");
+  if (entry.on_line_of_previous) {
+    lines.back().input += ", " + text_of(entry.key);
+    lines.back().effect += ", " + effect;
+  } else {
+    const bool two = entry.other_key.code != 0;
+    lines.push_back({text_of(entry.key) + (two ? ", " + text_of(entry.other_key) : ""), effect});
+  }
+}
+
+}  // namespace
+
+std::span<const ActionEntry> actions() { return entries; }
+
+const ActionEntry* find_action(Action action) {
+  const auto found = std::find_if(std::begin(entries), std::end(entries),
+                                  [action](const ActionEntry& entry) { return entry.action == action; });
+  return found == std::end(entries) ? nullptr : found;
+}
+
+std::optional<Request> request_of_key(int key, Modifiers modifiers) {
+  if (modifiers.alt) return {};
+  for (const ActionEntry& entry : entries)
+    if (is_pressed(entry.key, key, modifiers) || is_pressed(entry.other_key, key, modifiers))
+      return Request{entry.action};
+  for (int k = 0; k < keyed_views; ++k)
+    if (is_pressed({'1' + k}, key, modifiers)) return Request{Action::view, k};
+  return {};
+}
+
+std::string text_of(const Key& key) {
+  const auto named = std::find_if(std::begin(named_keys), std::end(named_keys),
+                                  [&](const auto& named_key) { return named_key.first == key.code; });
+  const bool has_name = named != std::end(named_keys);
+  return std::string(key.control ? "Ctrl + " : "") + (key.shift ? "Shift + " : "") +
+         (has_name ? named->second : std::string(1, static_cast<char>(key.code)));
+}
+
+void log_actions(UiLog& log) {
+  for (const ActionEntry& entry : entries) {
+    std::string name = entry.name, key = entry.key.code != 0 ? text_of(entry.key) : "none";
+    std::erase(key, ' ');
+    std::replace(name.begin(), name.end(), ' ', '_');
+    log.line(fmt::format("action {} {}", name, key));
+  }
+}
+
+std::vector<HelpLine> help_lines() {
+  std::vector<HelpLine> lines(std::begin(mouse_lines), std::end(mouse_lines));
+  for (const ActionEntry& entry : entries) {
+    if (entry.action == Action::clean) {
+      lines.push_back(views_line(false));
+      lines.push_back(views_line(true));
+      lines.push_back(line_of_other_views());
+    }
+    add_line(lines, entry);
+  }
+  return lines;
+}
+
+}  // namespace tyndall
