@@ -23,10 +23,6 @@ int write(const Film& film, const Scene& scene, const FilmLabel& label, const st
   return problems.empty() ? 0 : output_failed;
 }
 
-}  // namespace
-
-namespace {
-
 /// What merge finds before it reads the films themselves.
 struct Parts {
   std::vector<FilmPart> frames;

@@ -36,34 +36,6 @@ void refuse_adaptive(const char* option, const char* why) {
                    " (it comes from --adaptive, or from /render/adaptive of the scene)");
 }
 
-}  // namespace
-
-Kernels find_kernels(const std::string& isa) {
-  if (const auto kernels = choose_kernels(isa)) return *kernels;
-  std::vector<std::string_view> names;
-  for (const Kernels& kernels : available_kernels()) names.emplace_back(kernels.isa);
-  throw UsageError("--isa: found " + in_quotes(isa) + ", expected " + one_of(names) +
-                   ", which this build has and this CPU can run");
-}
-
-RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded) {
-  const bool adaptive = loaded.scene.render.adaptive;
-  if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
-  if (command.region) check_region(*command.region, loaded.scene);
-  RenderOptions options;
-  options.isa = command.isa;
-  options.region = command.region.value_or(Region{0, 0, loaded.scene.width, loaded.scene.height});
-  options.first_sample = command.samples ? command.samples->first : 0;
-  options.spp = last_sample_count(command, loaded);
-  options.time_limit = command.time_limit;
-  options.target_error = command.target_error;
-  options.adaptive = adaptive;
-  options.clean = command.denoise;
-  return options;
-}
-
-namespace {
-
 /// The first setting that differs, such as "other settings (seed 0), expected seed 9"; "": none does.
 std::string differing_settings(const RenderSettings& film, const RenderSettings& asked) {
   std::string text;
@@ -75,23 +47,6 @@ std::string differing_settings(const RenderSettings& film, const RenderSettings&
   std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<RenderSettings>());
   return text;
 }
-
-}  // namespace
-
-void tell_alpha(const LoadedScene& loaded) {
-  const std::string note = alpha_note(contents_of(loaded.scene).with_alpha);
-  if (!note.empty()) complain(loaded.name + ": " + note);
-}
-
-std::string differing_scene(const Scene& film, const Scene& asked) {
-  if (same_samples(film, asked)) return "";
-  const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
-  if (size(film) != size(asked)) return "a film of another image size, " + size(film) + ", expected " + size(asked);
-  const std::string settings = differing_settings(film.render, asked.render);
-  return settings.empty() ? "a film of another scene, expected the same scene" : settings;
-}
-
-namespace {
 
 std::string differing(const std::string& what, const std::string& film, const std::string& asked) {
   return film == asked ? "" : what + " " + film + ", expected " + asked;
@@ -209,6 +164,43 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
 }
 
 }  // namespace
+
+Kernels find_kernels(const std::string& isa) {
+  if (const auto kernels = choose_kernels(isa)) return *kernels;
+  std::vector<std::string_view> names;
+  for (const Kernels& kernels : available_kernels()) names.emplace_back(kernels.isa);
+  throw UsageError("--isa: found " + in_quotes(isa) + ", expected " + one_of(names) +
+                   ", which this build has and this CPU can run");
+}
+
+RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded) {
+  const bool adaptive = loaded.scene.render.adaptive;
+  if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
+  if (command.region) check_region(*command.region, loaded.scene);
+  RenderOptions options;
+  options.isa = command.isa;
+  options.region = command.region.value_or(Region{0, 0, loaded.scene.width, loaded.scene.height});
+  options.first_sample = command.samples ? command.samples->first : 0;
+  options.spp = last_sample_count(command, loaded);
+  options.time_limit = command.time_limit;
+  options.target_error = command.target_error;
+  options.adaptive = adaptive;
+  options.clean = command.denoise;
+  return options;
+}
+
+void tell_alpha(const LoadedScene& loaded) {
+  const std::string note = alpha_note(contents_of(loaded.scene).with_alpha);
+  if (!note.empty()) complain(loaded.name + ": " + note);
+}
+
+std::string differing_scene(const Scene& film, const Scene& asked) {
+  if (same_samples(film, asked)) return "";
+  const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
+  if (size(film) != size(asked)) return "a film of another image size, " + size(film) + ", expected " + size(asked);
+  const std::string settings = differing_settings(film.render, asked.render);
+  return settings.empty() ? "a film of another scene, expected the same scene" : settings;
+}
 
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels) {

@@ -52,10 +52,6 @@ bool could_share(Scene scene) {
   return prepare(scene)->reuses_paths();
 }
 
-}  // namespace
-
-namespace {
-
 Film found_film(const std::filesystem::path& file, std::optional<Film> film) {
   if (!film) throw UsageError(file.string() + ": found no film, expected an EXR that 'tyndall render' wrote");
   return std::move(*film);
@@ -89,6 +85,28 @@ StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   if (!says(loaded.text, "caustics")) scene.render.caustics = Caustics::scatter;
   if (!says(loaded.text, "sharing")) scene.render.sharing = false;
   return {{file.string(), std::move(film)}, scene, label_of(file)};
+}
+
+constexpr std::string_view several = "several: ";
+
+/// The names in one text of a label, which is a name or what both_of() made of several.
+std::set<std::string> names_in(std::string_view text) {
+  std::set<std::string> names;
+  if (text.starts_with(several)) text.remove_prefix(several.size());
+  for (;;) {
+    const std::size_t comma = text.find(", ");
+    names.emplace(text.empty() ? "unknown" : text.substr(0, comma));
+    if (comma == text.npos) return names;
+    text.remove_prefix(comma + 2);
+  }
+}
+
+std::string both_of(const std::string& a, const std::string& b) {
+  if (a == b) return a;
+  std::set<std::string> names = names_in(a);
+  names.merge(names_in(b));
+  if (names.size() == 1) return *names.begin();
+  return fmt::format("{}{}", several, fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -125,32 +143,6 @@ std::string uneven_text(const Scene& scene, const FilmTotals& totals) {
                      totals.least_taken, totals.most_taken,
                      totals.least_taken > 0 ? "" : "; those with none are black");
 }
-
-namespace {
-
-constexpr std::string_view several = "several: ";
-
-/// The names in one text of a label, which is a name or what both_of() made of several.
-std::set<std::string> names_in(std::string_view text) {
-  std::set<std::string> names;
-  if (text.starts_with(several)) text.remove_prefix(several.size());
-  for (;;) {
-    const std::size_t comma = text.find(", ");
-    names.emplace(text.empty() ? "unknown" : text.substr(0, comma));
-    if (comma == text.npos) return names;
-    text.remove_prefix(comma + 2);
-  }
-}
-
-std::string both_of(const std::string& a, const std::string& b) {
-  if (a == b) return a;
-  std::set<std::string> names = names_in(a);
-  names.merge(names_in(b));
-  if (names.size() == 1) return *names.begin();
-  return fmt::format("{}{}", several, fmt::join(names, ", "));
-}
-
-}  // namespace
 
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
   return {both_of(a.version, b.version), both_of(a.isa, b.isa), a.unfinished || b.unfinished};

@@ -20,36 +20,10 @@ std::string ending(const std::filesystem::path& file) {
   return text;
 }
 
-}  // namespace
-
-bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
-
-std::filesystem::path kept_film(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
-  if (!form.exr_film) return {};
-  const auto keeps = [](const std::filesystem::path& file) {
-    std::error_code error;
-    const auto type = std::filesystem::status(file, error).type();
-    return is_exr(file) && !is_stream(file) &&
-           (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
-  };
-  const auto file = std::find_if(outputs.begin(), outputs.end(), keeps);
-  return file == outputs.end() ? std::filesystem::path() : *file;
-}
-
-namespace {
-
 /// The file's name, or for standard output one that ends in its format.
 std::filesystem::path name_with_ending(const std::filesystem::path& file, const ImageForm& form) {
   return file == "-" ? std::filesystem::path("standard-output." + form.format) : file;
 }
-
-}  // namespace
-
-std::string image_ending(const std::filesystem::path& file, const ImageForm& form) {
-  return ending(name_with_ending(file, form));
-}
-
-namespace {
 
 void check_standard_output(const std::vector<std::filesystem::path>& files, const ImageForm& form,
                            const std::filesystem::path& stats) {
@@ -65,33 +39,6 @@ void check_standard_output(const std::vector<std::filesystem::path>& files, cons
     throw UsageError("--output: found -, which is a terminal, expected a pipe or a file");
 }
 
-}  // namespace
-
-void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                       const std::filesystem::path& stats) {
-  check_standard_output(files, form, stats);
-  for (const std::filesystem::path& file : files) {
-    const std::string name = "--output: found " + in_quotes(file.string());
-    const std::filesystem::path full = name_with_ending(file, form);
-    if (!is_image_output(full))
-      throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm, .hdr or .ppm");
-    if (is_exr(full) && !has_openexr())
-      throw UsageError(name + ", expected .png, .pfm, .hdr or .ppm: this build has no OpenEXR");
-  }
-  const auto is_ppm = [&form](const auto& file) { return image_ending(file, form) == ".ppm"; };
-  if (form.ppm == PpmCurve::gamma2 && std::none_of(files.begin(), files.end(), is_ppm))
-    throw UsageError("--gamma2: found no output that ends in .ppm, expected one: only PPM is written so");
-  check_outputs(outputs_of("--output", files), {});
-}
-
-std::vector<Output> outputs_of(const std::string& option, const std::vector<std::filesystem::path>& files) {
-  std::vector<Output> outputs;
-  for (const std::filesystem::path& file : files) outputs.push_back({option, file});
-  return outputs;
-}
-
-namespace {
-
 /// Whether both names mean one file, which need not exist yet.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
@@ -101,54 +48,6 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   };
   return full(a) == full(b);
 }
-
-}  // namespace
-
-void check_outputs(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs) {
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    const auto is_output = [&](const std::filesystem::path& file) { return is_same_file(file, output->file); };
-    if (output->file.empty() || output->file == "-") continue;
-    const std::string found = output->option + ": found " + in_quotes(output->file.string());
-    const auto input = std::find_if(inputs.begin(), inputs.end(), is_output);
-    if (input != inputs.end())
-      throw UsageError(found + ", which is the input " + in_quotes(input->string()) + "; expected another file");
-    const auto twin = std::find_if(outputs.begin(), output, [&](const Output& o) { return is_output(o.file); });
-    if (twin != output) throw UsageError(found + " twice");
-  }
-}
-
-FilePlace check_can_write(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error))
-    throw IoError(file.string() + ": cannot write: there is no folder " + folder.string());
-  return WholeFile(file).place();  // removed again, as it is not committed
-}
-
-void check_can_write(const std::vector<Output>& outputs) {
-  for (const Output& output : outputs)
-    if (!output.file.empty() && output.file != "-") check_can_write(output.file);
-}
-
-FilmPlace film_place(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
-  FilmPlace film;
-  film.output = kept_film(outputs, form);
-  if (film.output.empty()) return film;
-  const FilePlace place = check_can_write(film.output);
-  film.unfinished = film.output;
-  if (place.way == WriteWay::replace) return film;
-  film.unfinished = beside(place.target, "unfinished");
-  const auto is_that = [&film](const auto& file) { return is_same_file(file, film.unfinished); };
-  try {
-    const bool other = std::any_of(outputs.begin(), outputs.end(), is_that);
-    if (other || check_can_write(film.unfinished).way != WriteWay::replace) film.unfinished.clear();
-  } catch (const std::exception&) {
-    film.unfinished.clear();
-  }
-  return film;
-}
-
-namespace {
 
 /// Layers of an EXR: those of the scene and, if there is one, the clean view with its error.
 std::vector<Layer> all_layers(const Picture& picture) {
@@ -194,6 +93,91 @@ void write_image(const Picture& picture, const std::string& kind, const std::fil
 }
 
 }  // namespace
+
+bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
+
+std::filesystem::path kept_film(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
+  if (!form.exr_film) return {};
+  const auto keeps = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const auto type = std::filesystem::status(file, error).type();
+    return is_exr(file) && !is_stream(file) &&
+           (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
+  };
+  const auto file = std::find_if(outputs.begin(), outputs.end(), keeps);
+  return file == outputs.end() ? std::filesystem::path() : *file;
+}
+
+std::string image_ending(const std::filesystem::path& file, const ImageForm& form) {
+  return ending(name_with_ending(file, form));
+}
+
+void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form,
+                       const std::filesystem::path& stats) {
+  check_standard_output(files, form, stats);
+  for (const std::filesystem::path& file : files) {
+    const std::string name = "--output: found " + in_quotes(file.string());
+    const std::filesystem::path full = name_with_ending(file, form);
+    if (!is_image_output(full))
+      throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm, .hdr or .ppm");
+    if (is_exr(full) && !has_openexr())
+      throw UsageError(name + ", expected .png, .pfm, .hdr or .ppm: this build has no OpenEXR");
+  }
+  const auto is_ppm = [&form](const auto& file) { return image_ending(file, form) == ".ppm"; };
+  if (form.ppm == PpmCurve::gamma2 && std::none_of(files.begin(), files.end(), is_ppm))
+    throw UsageError("--gamma2: found no output that ends in .ppm, expected one: only PPM is written so");
+  check_outputs(outputs_of("--output", files), {});
+}
+
+std::vector<Output> outputs_of(const std::string& option, const std::vector<std::filesystem::path>& files) {
+  std::vector<Output> outputs;
+  for (const std::filesystem::path& file : files) outputs.push_back({option, file});
+  return outputs;
+}
+
+void check_outputs(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    const auto is_output = [&](const std::filesystem::path& file) { return is_same_file(file, output->file); };
+    if (output->file.empty() || output->file == "-") continue;
+    const std::string found = output->option + ": found " + in_quotes(output->file.string());
+    const auto input = std::find_if(inputs.begin(), inputs.end(), is_output);
+    if (input != inputs.end())
+      throw UsageError(found + ", which is the input " + in_quotes(input->string()) + "; expected another file");
+    const auto twin = std::find_if(outputs.begin(), output, [&](const Output& o) { return is_output(o.file); });
+    if (twin != output) throw UsageError(found + " twice");
+  }
+}
+
+FilePlace check_can_write(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    throw IoError(file.string() + ": cannot write: there is no folder " + folder.string());
+  return WholeFile(file).place();  // removed again, as it is not committed
+}
+
+void check_can_write(const std::vector<Output>& outputs) {
+  for (const Output& output : outputs)
+    if (!output.file.empty() && output.file != "-") check_can_write(output.file);
+}
+
+FilmPlace film_place(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
+  FilmPlace film;
+  film.output = kept_film(outputs, form);
+  if (film.output.empty()) return film;
+  const FilePlace place = check_can_write(film.output);
+  film.unfinished = film.output;
+  if (place.way == WriteWay::replace) return film;
+  film.unfinished = beside(place.target, "unfinished");
+  const auto is_that = [&film](const auto& file) { return is_same_file(file, film.unfinished); };
+  try {
+    const bool other = std::any_of(outputs.begin(), outputs.end(), is_that);
+    if (other || check_can_write(film.unfinished).way != WriteWay::replace) film.unfinished.clear();
+  } catch (const std::exception&) {
+    film.unfinished.clear();
+  }
+  return film;
+}
 
 std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> problems;

@@ -32,6 +32,49 @@ void end_box() {
 
 ImVec2 middle(const Rect& area) { return {(area.x0 + area.x1) / 2, (area.y0 + area.y1) / 2}; }
 
+using Decision = std::optional<std::filesystem::path>;
+
+/// Asks before saving destroys something of the document's file.
+Decision loss_question(Ui& ui, Dialog& dialog, const Document& document) {
+  const std::string& title = document.origin->title;
+  const bool comments = dialog.kind == Dialog::Kind::comments;
+  ImGui::TextUnformatted((comments ? "Saving " + title + " loses its comments."
+                                   : "Another program has changed " + title + " since it was read.")
+                             .c_str());
+  note(ui, comments ? "Scenes are written in normal form, which has none." : "Saving replaces what it holds now.",
+       false);
+  const Answer answers[] = {
+      {"dialog.save", "Save anyway"}, {"dialog.save_as", "Save as…"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  if (answer == 0 || answer == 2) dialog.kind = Dialog::Kind::none;
+  if (answer == 1) ask_name(dialog, document.origin->file);
+  return answer == 0 ? Decision(document.origin->file) : Decision();
+}
+
+Decision name_question(Ui& ui, Dialog& dialog) {
+  ImGui::TextUnformatted("Save the scene as");
+  const bool enter = draw_name_field(ui, dialog, "scene.json");
+  const Answer answers[] = {{"dialog.save", "Save"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  if (answer == 1) dialog.kind = Dialog::Kind::none;
+  if ((!enter && answer != 0) || dialog.name[0] == '\0') return {};
+  std::filesystem::path file = typed_file(dialog);
+  if (file.extension() != ".json") ask_name(dialog, file += ".json");  // a scene file, as its name is to say
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(file, ignored);
+  dialog.kind = exists ? Dialog::Kind::replace : Dialog::Kind::none;
+  dialog.fresh = true, dialog.marked = 1;
+  return exists ? Decision() : Decision(file);
+}
+
+Decision replace_question(Ui& ui, Dialog& dialog) {
+  ImGui::TextUnformatted((std::string(dialog.name) + " exists.").c_str());
+  const Answer answers[] = {{"dialog.replace", "Replace it"}, {"dialog.cancel", "Cancel"}};
+  const int answer = draw_answers(ui, dialog, answers);
+  if (answer >= 0) dialog.kind = Dialog::Kind::none;
+  return answer == 0 ? Decision(typed_file(dialog)) : Decision();
+}
+
 }  // namespace
 
 void draw_message(Ui& ui, const Rect& area, const Message& message) {
@@ -104,53 +147,6 @@ void ask_name(Dialog& dialog, const std::filesystem::path& suggestion) {
   dialog = {Dialog::Kind::save_as, {}, true, 0};
   std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
 }
-
-namespace {
-
-using Decision = std::optional<std::filesystem::path>;
-
-/// Asks before saving destroys something of the document's file.
-Decision loss_question(Ui& ui, Dialog& dialog, const Document& document) {
-  const std::string& title = document.origin->title;
-  const bool comments = dialog.kind == Dialog::Kind::comments;
-  ImGui::TextUnformatted((comments ? "Saving " + title + " loses its comments."
-                                   : "Another program has changed " + title + " since it was read.")
-                             .c_str());
-  note(ui, comments ? "Scenes are written in normal form, which has none." : "Saving replaces what it holds now.",
-       false);
-  const Answer answers[] = {
-      {"dialog.save", "Save anyway"}, {"dialog.save_as", "Save as…"}, {"dialog.cancel", "Cancel"}};
-  const int answer = draw_answers(ui, dialog, answers);
-  if (answer == 0 || answer == 2) dialog.kind = Dialog::Kind::none;
-  if (answer == 1) ask_name(dialog, document.origin->file);
-  return answer == 0 ? Decision(document.origin->file) : Decision();
-}
-
-Decision name_question(Ui& ui, Dialog& dialog) {
-  ImGui::TextUnformatted("Save the scene as");
-  const bool enter = draw_name_field(ui, dialog, "scene.json");
-  const Answer answers[] = {{"dialog.save", "Save"}, {"dialog.cancel", "Cancel"}};
-  const int answer = draw_answers(ui, dialog, answers);
-  if (answer == 1) dialog.kind = Dialog::Kind::none;
-  if ((!enter && answer != 0) || dialog.name[0] == '\0') return {};
-  std::filesystem::path file = typed_file(dialog);
-  if (file.extension() != ".json") ask_name(dialog, file += ".json");  // a scene file, as its name is to say
-  std::error_code ignored;
-  const bool exists = std::filesystem::exists(file, ignored);
-  dialog.kind = exists ? Dialog::Kind::replace : Dialog::Kind::none;
-  dialog.fresh = true, dialog.marked = 1;
-  return exists ? Decision() : Decision(file);
-}
-
-Decision replace_question(Ui& ui, Dialog& dialog) {
-  ImGui::TextUnformatted((std::string(dialog.name) + " exists.").c_str());
-  const Answer answers[] = {{"dialog.replace", "Replace it"}, {"dialog.cancel", "Cancel"}};
-  const int answer = draw_answers(ui, dialog, answers);
-  if (answer >= 0) dialog.kind = Dialog::Kind::none;
-  return answer == 0 ? Decision(typed_file(dialog)) : Decision();
-}
-
-}  // namespace
 
 void begin_dialog(Ui& ui, const Rect& area) {
   begin_box(ui, "##dialog", middle(area), {0.5f, 0.5f}, 0);

@@ -19,25 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double square(double x) { return x * x; }
 
-}  // namespace
-
-FilmMean film_mean(const Film& film) {
-  const auto grey = [](Vec3f v) {
-    return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3;
-  };
-  double sum = 0, variance = 0;
-  const auto deviation = [&](const FilmPixel& pixel) {
-    if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
-    return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
-  };
-  for (const FilmPixel& pixel : film.pixels) sum += grey(mean(film, pixel));
-  for (const double group : group_sums(film, film.region, deviation)) variance += square(group);
-  const auto pixels = static_cast<double>(film.pixels.size());
-  return {sum / pixels, std::sqrt(variance) / pixels};
-}
-
-namespace {
-
 struct Sum {
   double value = 0;
   int count = 0;
@@ -57,7 +38,34 @@ void sum_window(Sum* numbers, int count, std::size_t stride, int reach, std::vec
   }
 }
 
+/// (x - ref)² / (ref² + 0.01): relMSE is its mean.
+double squared_error(float image, float reference) {
+  const double x = static_cast<double>(image), ref = static_cast<double>(reference);
+  return square(x - ref) / (square(ref) + floor_of_square);
+}
+
+/// sRGB of a value clipped to [0, 1]; what is not a number stays so.
+double displayed(float linear) {
+  if (linear < 0) return 0;
+  return static_cast<double>(srgb_encode(linear > 1 ? 1.0f : linear));
+}
+
 }  // namespace
+
+FilmMean film_mean(const Film& film) {
+  const auto grey = [](Vec3f v) {
+    return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3;
+  };
+  double sum = 0, variance = 0;
+  const auto deviation = [&](const FilmPixel& pixel) {
+    if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
+    return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
+  };
+  for (const FilmPixel& pixel : film.pixels) sum += grey(mean(film, pixel));
+  for (const double group : group_sums(film, film.region, deviation)) variance += square(group);
+  const auto pixels = static_cast<double>(film.pixels.size());
+  return {sum / pixels, std::sqrt(variance) / pixels};
+}
 
 std::vector<float> root_window_means(const std::vector<double>& squares, int width, int height) {
   constexpr int reach = 3;
@@ -74,16 +82,6 @@ std::vector<float> root_window_means(const std::vector<double>& squares, int wid
   }
   return errors;
 }
-
-namespace {
-
-/// (x - ref)² / (ref² + 0.01): relMSE is its mean.
-double squared_error(float image, float reference) {
-  const double x = static_cast<double>(image), ref = static_cast<double>(reference);
-  return square(x - ref) / (square(ref) + floor_of_square);
-}
-
-}  // namespace
 
 std::vector<float> pixel_relative_error(const std::vector<float>& image, const std::vector<float>& reference, int width,
                                         int height) {
@@ -119,16 +117,6 @@ OutsideError outside_error(const std::vector<float>& image, const std::vector<fl
   if (error.values > 0) error.rel_mse /= static_cast<double>(error.values);
   return error;
 }
-
-namespace {
-
-/// sRGB of a value clipped to [0, 1]; what is not a number stays so.
-double displayed(float linear) {
-  if (linear < 0) return 0;
-  return static_cast<double>(srgb_encode(linear > 1 ? 1.0f : linear));
-}
-
-}  // namespace
 
 ImageError image_error(const std::vector<float>& image, const std::vector<float>& reference) {
   assert(!image.empty() && image.size() == reference.size() && image.size() % 3 == 0);

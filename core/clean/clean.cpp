@@ -62,38 +62,6 @@ std::vector<ColumnPair> column_pairs() {
 
 int cells_in(int pixels) { return (pixels + cell_edge - 1) / cell_edge; }
 
-}  // namespace
-
-struct Cleaner::Memory {
-  FilterSteps steps;
-  std::vector<ColumnPair> pairs = column_pairs();
-  Planes work;  ///< filtered 6, level, gain, distance
-  CleanPicture made;
-  ZeroedFloats sums, coefficients;
-  std::vector<std::uint8_t> shines;
-  std::vector<double> row_noise;  ///< for each row the sum of its pixels' relative variance
-  int cells_x = 0, cells_y = 0;
-  std::ptrdiff_t cell_stride = 0;
-
-  void resize(int width, int height) {
-    work.resize(width, height, outputs + 3);
-    if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
-    row_noise.resize(static_cast<std::size_t>(height));
-    if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
-    cells_x = cells_y = 0;  // should there be no memory for the new size
-    constexpr int lanes = 16;
-    cell_stride = std::ptrdiff_t{(cells_in(width) + 2 + 2 * lanes) / lanes} * lanes;
-    const auto rows = static_cast<std::size_t>(cells_in(height)) + 2, row = static_cast<std::size_t>(cell_stride);
-    sums.resize(rows * all_sums * row + row);
-    shines.assign(rows * row + row, 0);
-    coefficients.resize((rows - 1) * outputs * terms * row);
-    cells_x = cells_in(width), cells_y = cells_in(height);
-  }
-  FilterView view_of(const CleanInput& input);
-};
-
-namespace {
-
 void put_picture(const FilterView& view, float scale, int y, float* rgb) {
   const float *red = view.filtered[0] + y * view.stride, *green = view.filtered[1] + y * view.stride,
               *blue = view.filtered[2] + y * view.stride;
@@ -152,6 +120,34 @@ void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool
 }
 
 }  // namespace
+
+struct Cleaner::Memory {
+  FilterSteps steps;
+  std::vector<ColumnPair> pairs = column_pairs();
+  Planes work;  ///< filtered 6, level, gain, distance
+  CleanPicture made;
+  ZeroedFloats sums, coefficients;
+  std::vector<std::uint8_t> shines;
+  std::vector<double> row_noise;  ///< for each row the sum of its pixels' relative variance
+  int cells_x = 0, cells_y = 0;
+  std::ptrdiff_t cell_stride = 0;
+
+  void resize(int width, int height) {
+    work.resize(width, height, outputs + 3);
+    if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
+    row_noise.resize(static_cast<std::size_t>(height));
+    if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
+    cells_x = cells_y = 0;  // should there be no memory for the new size
+    constexpr int lanes = 16;
+    cell_stride = std::ptrdiff_t{(cells_in(width) + 2 + 2 * lanes) / lanes} * lanes;
+    const auto rows = static_cast<std::size_t>(cells_in(height)) + 2, row = static_cast<std::size_t>(cell_stride);
+    sums.resize(rows * all_sums * row + row);
+    shines.assign(rows * row + row, 0);
+    coefficients.resize((rows - 1) * outputs * terms * row);
+    cells_x = cells_in(width), cells_y = cells_in(height);
+  }
+  FilterView view_of(const CleanInput& input);
+};
 
 Cleaner::Cleaner(Target target) : Cleaner(filters[static_cast<int>(target)]()) {}
 Cleaner::Cleaner(const FilterSteps& steps) : memory_(std::make_unique<Memory>()) { memory_->steps = steps; }

@@ -17,34 +17,6 @@ namespace {
 
 constexpr std::size_t large_page = std::size_t{1} << 21u, group = 64;
 
-}  // namespace
-
-void ZeroedFloats::resize(std::size_t count) {
-  memory_.reset();
-  first_ = nullptr;
-  std::size_t bytes = count * sizeof(float) + group;
-  memory_.reset(static_cast<float*>(std::calloc(bytes, 1)));
-  if (!memory_) throw std::bad_alloc();
-  void* begin = memory_.get();
-  first_ = static_cast<float*>(std::align(group, bytes - group, begin, bytes));
-#if defined(__linux__)
-  if (std::align(large_page, large_page, begin, bytes)) madvise(begin, bytes, MADV_HUGEPAGE);
-#endif
-}
-
-void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
-
-bool Planes::resize(int width, int height, int count) {
-  if (width == width_ && height == height_ && count == count_) return false;
-  width_ = height_ = count_ = 0;  // should there be no memory for the new size
-  stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
-  data_.resize(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin);
-  width_ = width, height_ = height, count_ = count;
-  return true;
-}
-
-namespace {
-
 /// Numbers are divided by this so that their squares, summed over windows, fit into single precision. It is 1 unless a
 /// lamp is brighter than 2^25.
 float scale_of(const Film& film) { return static_cast<float>(std::max(film.unit * 0x1p-25, 1.0)); }
@@ -110,6 +82,30 @@ void read_emission_row(const Film& film, int y, CleanInput& input) {
 }
 
 }  // namespace
+
+void ZeroedFloats::resize(std::size_t count) {
+  memory_.reset();
+  first_ = nullptr;
+  std::size_t bytes = count * sizeof(float) + group;
+  memory_.reset(static_cast<float*>(std::calloc(bytes, 1)));
+  if (!memory_) throw std::bad_alloc();
+  void* begin = memory_.get();
+  first_ = static_cast<float*>(std::align(group, bytes - group, begin, bytes));
+#if defined(__linux__)
+  if (std::align(large_page, large_page, begin, bytes)) madvise(begin, bytes, MADV_HUGEPAGE);
+#endif
+}
+
+void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
+
+bool Planes::resize(int width, int height, int count) {
+  if (width == width_ && height == height_ && count == count_) return false;
+  width_ = height_ = count_ = 0;  // should there be no memory for the new size
+  stride_ = (std::ptrdiff_t{width} + margin - 1) / margin * margin + std::ptrdiff_t{3} * margin;
+  data_.resize(static_cast<std::size_t>(stride_ * height * count) + std::size_t{2} * margin);
+  width_ = width, height_ = height, count_ = count;
+  return true;
+}
 
 bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, CleanInput& input) {
   input.width = film.region.width(), input.height = film.region.height();

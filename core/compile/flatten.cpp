@@ -102,6 +102,29 @@ bool same_shape(const PlacedShape& shape, const PlacedVolume& volume) {
       volume.boundary);
 }
 
+Vec3d own_center(const Sphere<>& s) { return s.center; }
+Vec3d own_center(const Quad<>& q) { return q.corner + 0.5 * (q.u + q.v); }
+Vec3d own_center(const Box<>& b) { return 0.5 * b.min + 0.5 * b.max; }
+
+Extent own_extent(const Sphere<>& s, const Camera& camera) {
+  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
+  return {{s.center + camera.shutter_open * way, s.center + camera.shutter_close * way}, std::abs(s.radius)};
+}
+Extent own_extent(const Quad<>& q, const Camera&) {
+  return {{q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v}};
+}
+Extent own_extent(const Box<>& b, const Camera&) {
+  Extent extent;
+  for (int i = 0; i < 8; ++i)
+    extent.points.push_back({i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z});
+  return extent;
+}
+
+Extent placed(Extent extent, const Placement& placement) {
+  for (Vec3d& p : extent.points) p = place(placement, p);
+  return extent;
+}
+
 }  // namespace
 
 Vec3d turn(const Placement& p, Vec3d v) {
@@ -141,39 +164,12 @@ Flattened flatten(const Scene& scene) {
   return out;
 }
 
-namespace {
-Vec3d own_center(const Sphere<>& s) { return s.center; }
-Vec3d own_center(const Quad<>& q) { return q.corner + 0.5 * (q.u + q.v); }
-Vec3d own_center(const Box<>& b) { return 0.5 * b.min + 0.5 * b.max; }
-}  // namespace
-
 Vec3d center_of(const PlacedShape& shape) {
   return place(shape.placement, std::visit([](const auto& s) { return own_center(s); }, shape.shape));
 }
 Vec3d center_of(const PlacedVolume& volume) {
   return place(volume.placement, std::visit([](const auto& s) { return own_center(s); }, volume.boundary));
 }
-
-namespace {
-Extent own_extent(const Sphere<>& s, const Camera& camera) {
-  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
-  return {{s.center + camera.shutter_open * way, s.center + camera.shutter_close * way}, std::abs(s.radius)};
-}
-Extent own_extent(const Quad<>& q, const Camera&) {
-  return {{q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v}};
-}
-Extent own_extent(const Box<>& b, const Camera&) {
-  Extent extent;
-  for (int i = 0; i < 8; ++i)
-    extent.points.push_back({i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z});
-  return extent;
-}
-
-Extent placed(Extent extent, const Placement& placement) {
-  for (Vec3d& p : extent.points) p = place(placement, p);
-  return extent;
-}
-}  // namespace
 
 Extent extent_of(const PlacedShape& shape, const Camera& camera) {
   return placed(std::visit([&](const auto& s) { return own_extent(s, camera); }, shape.shape), shape.placement);

@@ -43,6 +43,13 @@ float mean_of(const ExactSum& sum, double unit, std::uint64_t count) {
   return static_cast<float>(sum.value() * unit / static_cast<double>(count));
 }
 
+/// Of 4 bytes, lowest first.
+std::uint64_t hash_of(std::uint32_t word, std::uint64_t before) {
+  char bytes[4];
+  for (int k = 0; k < 4; ++k) bytes[k] = static_cast<char>(word >> 8 * k & 0xffu);
+  return fnv1a({bytes, 4}, before);
+}
+
 }  // namespace
 
 Vec3f mean(const Film& film, const FilmPixel& pixel) {
@@ -95,17 +102,6 @@ std::vector<float> resolve(const Film& film) {
   }
   return rgb;
 }
-
-namespace {
-
-/// Of 4 bytes, lowest first.
-std::uint64_t hash_of(std::uint32_t word, std::uint64_t before) {
-  char bytes[4];
-  for (int k = 0; k < 4; ++k) bytes[k] = static_cast<char>(word >> 8 * k & 0xffu);
-  return fnv1a({bytes, 4}, before);
-}
-
-}  // namespace
 
 std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb) {
   std::uint64_t hash = fnv1a("");

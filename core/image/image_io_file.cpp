@@ -16,18 +16,6 @@ namespace {
 
 std::string error_text(int number) { return std::generic_category().message(number); }
 
-}  // namespace
-
-void cannot_read(const std::filesystem::path& file, const std::string& why) {
-  throw ImageFileError(file.string() + ": cannot read: " + printable(why));
-}
-
-void cannot_write(const std::filesystem::path& file, const std::string& why) {
-  throw ImageFileError(file.string() + ": cannot write: " + printable(why));
-}
-
-namespace {
-
 bool is_valid_size(std::int64_t width, std::int64_t height) {
   return width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width;
 }
@@ -37,7 +25,27 @@ std::string size_problem(std::int64_t width, std::int64_t height) {
          " pixels, expected 1 to 2^28 in all";
 }
 
+bool is_line_end(std::string_view text) { return text.starts_with('\n') || text.starts_with("\r\n"); }
+
+/// A TGA has no mark: it is told by values of its header that can hardly be anything else.
+/// Truevision TGA File Format Specification, version 2.0.
+bool is_tga(std::span<const std::uint8_t> start) {
+  if (start.size() < kind_size) return false;
+  const unsigned palette = start[1], type = start[2], bits = start[16];
+  const bool mapped = type == 1 || type == 9, coloured = type == 2 || type == 3 || type == 10 || type == 11;
+  const bool known_bits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
+  return known_bits && ((palette == 1 && (mapped || coloured)) || (palette == 0 && coloured));
+}
+
 }  // namespace
+
+void cannot_read(const std::filesystem::path& file, const std::string& why) {
+  throw ImageFileError(file.string() + ": cannot read: " + printable(why));
+}
+
+void cannot_write(const std::filesystem::path& file, const std::string& why) {
+  throw ImageFileError(file.string() + ": cannot write: " + printable(why));
+}
 
 void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
   if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
@@ -78,22 +86,6 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
   if (bytes.size() > max_file_size) cannot_read(file, "longer than 2 GiB");
   return bytes;
 }
-
-namespace {
-
-bool is_line_end(std::string_view text) { return text.starts_with('\n') || text.starts_with("\r\n"); }
-
-/// A TGA has no mark: it is told by values of its header that can hardly be anything else.
-/// Truevision TGA File Format Specification, version 2.0.
-bool is_tga(std::span<const std::uint8_t> start) {
-  if (start.size() < kind_size) return false;
-  const unsigned palette = start[1], type = start[2], bits = start[16];
-  const bool mapped = type == 1 || type == 9, coloured = type == 2 || type == 3 || type == 10 || type == 11;
-  const bool known_bits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
-  return known_bits && ((palette == 1 && (mapped || coloured)) || (palette == 0 && coloured));
-}
-
-}  // namespace
 
 std::size_t pixels_after(std::span<const std::uint8_t> bytes, std::size_t end, std::size_t pixels) {
   const bool two = end + 1 < bytes.size() && bytes[end] == '\r' && bytes[end + 1] == '\n';

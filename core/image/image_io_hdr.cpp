@@ -28,20 +28,6 @@ void prepare_pixel(float* rgb) {
   for (int i = 0; i < 3; ++i) rgb[i] += std::ldexp(1.0f, exponent - 9);
 }
 
-}  // namespace
-
-void write_hdr(const std::filesystem::path& file, const LinearImage& image) {
-  check_writable(file, image);
-  std::vector<float> rgb = image.rgb;
-  for (std::size_t i = 0; i < rgb.size(); i += 3) prepare_pixel(&rgb[i]);
-  const std::vector<std::uint8_t> bytes = encode_hdr(image.width, image.height, rgb.data());
-  WholeFile out(file);
-  out.write(bytes);
-  out.commit();
-}
-
-namespace {
-
 [[noreturn]] void damaged(const std::filesystem::path& file, const char* what) {
   cannot_read(file, std::string("damaged: ") + what);
 }
@@ -195,6 +181,16 @@ void divide(std::vector<float>& rgb, const std::array<double, 3>& factors) {
 }
 
 }  // namespace
+
+void write_hdr(const std::filesystem::path& file, const LinearImage& image) {
+  check_writable(file, image);
+  std::vector<float> rgb = image.rgb;
+  for (std::size_t i = 0; i < rgb.size(); i += 3) prepare_pixel(&rgb[i]);
+  const std::vector<std::uint8_t> bytes = encode_hdr(image.width, image.height, rgb.data());
+  WholeFile out(file);
+  out.write(bytes);
+  out.commit();
+}
 
 PictureFile read_hdr(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   HdrReader reader{file, bytes};

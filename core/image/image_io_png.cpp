@@ -66,6 +66,22 @@ Bytes checked_png(const std::filesystem::path& file, const LinearImage& image, c
   return png;
 }
 
+/// The text in the data of an iTXt chunk, if the chunk has that keyword.
+std::optional<std::string> text_of(const std::filesystem::path& file, std::string_view data,
+                                   const std::string& keyword) {
+  if (!data.starts_with(keyword + '\0')) return {};
+  data.remove_prefix(keyword.size() + 1);
+  if (data.size() < 2) cannot_read(file, "damaged: the chunk iTXt is cut off");
+  if (data[0] != 0) cannot_read(file, "the text " + keyword + " is compressed: another program has rewritten the file");
+  data.remove_prefix(2);
+  for (int i = 0; i < 2; ++i) {  // skips the language and the translated keyword
+    const std::size_t end = data.find('\0');
+    if (end == data.npos) cannot_read(file, "damaged: the chunk iTXt is cut off");
+    data.remove_prefix(end + 1);
+  }
+  return std::string(data);
+}
+
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
@@ -84,26 +100,6 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
   out.write(std::span(png).subspan(header_end));
   out.commit();
 }
-
-namespace {
-
-/// The text in the data of an iTXt chunk, if the chunk has that keyword.
-std::optional<std::string> text_of(const std::filesystem::path& file, std::string_view data,
-                                   const std::string& keyword) {
-  if (!data.starts_with(keyword + '\0')) return {};
-  data.remove_prefix(keyword.size() + 1);
-  if (data.size() < 2) cannot_read(file, "damaged: the chunk iTXt is cut off");
-  if (data[0] != 0) cannot_read(file, "the text " + keyword + " is compressed: another program has rewritten the file");
-  data.remove_prefix(2);
-  for (int i = 0; i < 2; ++i) {  // skips the language and the translated keyword
-    const std::size_t end = data.find('\0');
-    if (end == data.npos) cannot_read(file, "damaged: the chunk iTXt is cut off");
-    data.remove_prefix(end + 1);
-  }
-  return std::string(data);
-}
-
-}  // namespace
 
 void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
   for (std::size_t at = signature_size; png.size() - at >= 12;) {

@@ -74,7 +74,6 @@ void* take(void* old, std::size_t size) {
 #include <stb_image_write.h>
 
 namespace tyndall {
-
 namespace {
 
 void append(void* to, void* data, int size) {
@@ -95,10 +94,6 @@ std::vector<std::uint8_t> encoded(Encode encode) {
     throw;
   }
 }
-
-}  // namespace
-
-namespace {
 
 struct Release {
   void operator()(void* pixels) const { stbi_image_free(pixels); }

@@ -99,6 +99,24 @@ int sync_error(int descriptor, bool is_folder) {
   return 0;
 }
 
+/// A file that is open in a scope.
+struct Opened {
+  int descriptor;
+  ~Opened() { close(); }
+  int close() { return descriptor > 2 ? ::close(std::exchange(descriptor, -1)) : 0; }
+};
+
+/// Asks the disk for room, so that it is not missed in the middle. 0, or what went wrong. Some file systems do not say.
+int reserve(int descriptor, std::uint64_t size) {
+#ifdef __linux__
+  while (size > 0 && fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL ? 0 : errno;
+  }
+#endif
+  return 0;
+}
+
 }  // namespace
 
 void WholeFile::fail(int number) const { cannot_write(file_, std::generic_category().message(number)); }
@@ -232,28 +250,6 @@ void WholeFile::copy_to(int to) const {
     if (const int problem = write_all(to, bytes.data(), static_cast<std::size_t>(got))) fail(problem);
   }
 }
-
-namespace {
-
-/// A file that is open in a scope.
-struct Opened {
-  int descriptor;
-  ~Opened() { close(); }
-  int close() { return descriptor > 2 ? ::close(std::exchange(descriptor, -1)) : 0; }
-};
-
-/// Asks the disk for room, so that it is not missed in the middle. 0, or what went wrong. Some file systems do not say.
-int reserve(int descriptor, std::uint64_t size) {
-#ifdef __linux__
-  while (size > 0 && fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
-    if (errno == EINTR) continue;
-    return errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL ? 0 : errno;
-  }
-#endif
-  return 0;
-}
-
-}  // namespace
 
 /// Copies what was written to standard output, into a pipe or device, or to the end of a file that is open elsewhere.
 void WholeFile::send() const {

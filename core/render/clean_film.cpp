@@ -39,6 +39,17 @@ SceneView with_larger_pixels(SceneView scene, int step) {
   return scene;
 }
 
+void put_rgba(const CleanPicture& picture, Crew& crew, std::vector<float>& rgba) {
+  const auto width = static_cast<std::size_t>(picture.width);
+  rgba.resize(4 * width * static_cast<std::size_t>(picture.height));
+  crew.for_each(picture.height, [&](int y) {
+    const float* from = picture.rgb.data() + 3 * width * static_cast<std::size_t>(y);
+    float* to = rgba.data() + 4 * width * static_cast<std::size_t>(y);
+    for (std::size_t x = 0; x < width; ++x, from += 3, to += 4)
+      to[0] = from[0], to[1] = from[1], to[2] = from[2], to[3] = 1;
+  });
+}
+
 }  // namespace
 
 bool CoarseCleaner::run(int step, const RenderEngine& engine, double unit, const std::atomic<bool>& give_up,
@@ -65,21 +76,6 @@ CleanPicture clean_film(const Film& film, const PreparedScene& scene, int thread
   FilmCleaner(*kernels).run(film, {crew, *kernels, scene.view()}, &levels, never, picture);
   return picture;
 }
-
-namespace {
-
-void put_rgba(const CleanPicture& picture, Crew& crew, std::vector<float>& rgba) {
-  const auto width = static_cast<std::size_t>(picture.width);
-  rgba.resize(4 * width * static_cast<std::size_t>(picture.height));
-  crew.for_each(picture.height, [&](int y) {
-    const float* from = picture.rgb.data() + 3 * width * static_cast<std::size_t>(y);
-    float* to = rgba.data() + 4 * width * static_cast<std::size_t>(y);
-    for (std::size_t x = 0; x < width; ++x, from += 3, to += 4)
-      to[0] = from[0], to[1] = from[1], to[2] = from[2], to[3] = 1;
-  });
-}
-
-}  // namespace
 
 void LiveClean::set_wanted(bool wanted) {
   if (wanted == wanted_) return;

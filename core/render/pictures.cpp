@@ -57,6 +57,19 @@ std::vector<float> doubled(const std::vector<float>& from, int columns, int rows
   return to;
 }
 
+/// Hues a golden section of the circle apart, so that neighbours in the list differ; every second round is paler.
+Vec3f colour_of_object(const std::vector<int>& path) {
+  std::uint32_t number = 0;
+  for (const int index : path) number = 31 * number + static_cast<std::uint32_t>(index) + 1;
+  const float hue = 6 * std::fmod(0.618034f * static_cast<float>(number % 4096), 1.0f);
+  const float pale = number / 7 % 2 == 0 ? 0.06f : 0.3f, bright = number / 3 % 2 == 0 ? 0.85f : 0.5f;
+  const auto channel = [&](float from) {
+    const float way = std::abs(std::fmod(hue + from, 6.0f) - 3) - 1;
+    return bright * (pale + (1 - pale) * std::clamp(way, 0.0f, 1.0f));
+  };
+  return {channel(0), channel(4), channel(2)};
+}
+
 }  // namespace
 
 void beauty_rgba(const Film& film, Crew& crew, std::vector<float>& rgba) { coarse_rgba(film, 1, crew, rgba); }
@@ -174,23 +187,6 @@ float farthest(const std::vector<FirstHit>& hits) {
   for (const FirstHit& hit : hits) found = std::max(found, hit.depth);
   return found;
 }
-
-namespace {
-
-/// Hues a golden section of the circle apart, so that neighbours in the list differ; every second round is paler.
-Vec3f colour_of_object(const std::vector<int>& path) {
-  std::uint32_t number = 0;
-  for (const int index : path) number = 31 * number + static_cast<std::uint32_t>(index) + 1;
-  const float hue = 6 * std::fmod(0.618034f * static_cast<float>(number % 4096), 1.0f);
-  const float pale = number / 7 % 2 == 0 ? 0.06f : 0.3f, bright = number / 3 % 2 == 0 ? 0.85f : 0.5f;
-  const auto channel = [&](float from) {
-    const float way = std::abs(std::fmod(hue + from, 6.0f) - 3) - 1;
-    return bright * (pale + (1 - pale) * std::clamp(way, 0.0f, 1.0f));
-  };
-  return {channel(0), channel(4), channel(2)};
-}
-
-}  // namespace
 
 std::vector<float> object_rgba(const std::vector<FirstHit>& hits, const RenderScene& scene) {
   std::vector<Vec3f> colours;

@@ -22,6 +22,20 @@ namespace {
 constexpr auto least_interval = std::chrono::milliseconds(250);
 constexpr auto retry_interval = std::chrono::seconds(5);
 
+/// How edits in the file come back: what the last line says of that.
+std::string way_back(const KeepingPlace& place, const fs::path& file, const Origin& of) {
+  std::error_code ignored;
+  const bool gone = of.what.empty() || (fs::path(of.what).is_absolute() && !fs::exists(of.what, ignored));
+  if (gone && place.beside_the_scene) return ", which opens as a scene; the one that was edited is gone";
+  const std::string start = gone ? "start without a scene" : "start with this scene";
+  const std::vector<fs::path> files = kept_files(place);
+  const bool others = std::any_of(files.begin(), files.end(), [&](const fs::path& other) {
+    return other != file && (gone || kept_what(other) == of.what);
+  });
+  if (!others) return " and come back at the next " + start;
+  return ", and so are others; each " + start + " brings back the newest that no window has";
+}
+
 }  // namespace
 
 fs::path state_folder() {
@@ -181,24 +195,6 @@ Keeping KeptEdits::keeping() const {
   const std::lock_guard lock(state_->mutex);
   return state_->keeping;
 }
-
-namespace {
-
-/// How edits in the file come back: what the last line says of that.
-std::string way_back(const KeepingPlace& place, const fs::path& file, const Origin& of) {
-  std::error_code ignored;
-  const bool gone = of.what.empty() || (fs::path(of.what).is_absolute() && !fs::exists(of.what, ignored));
-  if (gone && place.beside_the_scene) return ", which opens as a scene; the one that was edited is gone";
-  const std::string start = gone ? "start without a scene" : "start with this scene";
-  const std::vector<fs::path> files = kept_files(place);
-  const bool others = std::any_of(files.begin(), files.end(), [&](const fs::path& other) {
-    return other != file && (gone || kept_what(other) == of.what);
-  });
-  if (!others) return " and come back at the next " + start;
-  return ", and so are others; each " + start + " brings back the newest that no window has";
-}
-
-}  // namespace
 
 std::string KeptEdits::last_words() const {
   const std::lock_guard lock(state_->mutex);
