@@ -1,5 +1,4 @@
 #include "app/cli/commands.h"
-#include "app/cli/options.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"

@@ -1,5 +1,4 @@
-#include "app/cli/accuracy.h"
-
+#include "app/cli/commands.h"
 #include "app/files/open_scene.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
@@ -13,6 +12,20 @@
 
 namespace tyndall {
 namespace {
+
+/// A relative root mean square difference (as sqrt of relMSE) between two ways to render, and its standard error.
+struct Shift {
+  double rms = 0, error = 0;
+};
+
+/// Shifts of one scene from the exact picture: exact Fresnel terms, paths of up to 1000 events, linear floats.
+struct Accuracy {
+  Shift schlick;                   ///< the books' Fresnel rule
+  Shift depth5, depth10, depth50;  ///< max_depth
+  Shift single;                    ///< lanes of float instead of double, on the same compiled scene
+  Shift bytes;                     ///< 8-bit sRGB instead of floats, in channels within [0, 1]
+  Shift clean;                     ///< the clean view of 16 samples a pixel, without the noise that it leaves
+};
 
 constexpr int picture_pixels = 96 * 72;  // roughly: each scene keeps its ratio of width to height
 constexpr std::uint32_t picture_spp = 256, clean_spp = 16;
@@ -105,6 +118,23 @@ Shift shift_of_depth(Scene scene, const Film& exact, int depth) {
   return shift(exact, film_of(scene));
 }
 
+/// Renders the scene small, each way with the same random numbers: where both ways take the same path, noise cancels.
+/// The noise that is left differs between the two halves, so it averages to 0 in the product of their differences.
+Accuracy measure_accuracy(Scene scene) {
+  const double scale =
+      std::sqrt(static_cast<double>(picture_pixels) / (static_cast<double>(scene.width) * scene.height));
+  scene.width = std::max(static_cast<int>(std::lround(scene.width * scale)), 1);
+  scene.height = std::max(static_cast<int>(std::lround(scene.height * scale)), 1);
+  scene.render.fresnel = FresnelKind::exact;
+  scene.render.max_depth = 1000;
+  const Film exact = film_of(scene);
+  Scene books = scene;
+  books.render.fresnel = FresnelKind::schlick;
+  return {shift(exact, film_of(books)),     shift_of_depth(scene, exact, 5),    shift_of_depth(scene, exact, 10),
+          shift_of_depth(scene, exact, 50), shift(film_of(scene, true), exact), shift_of_bytes(exact),
+          shift_of_clean(scene, exact)};
+}
+
 /// A cell of the table, 16 letters wide: "0.18 ± 0.02", "< 0.01" where nothing is seen above the noise, or "0".
 std::string cell(const Shift& s) {
   if (s.rms == 0 && s.error == 0) return fmt::format("{:>7}{:>9}", "0", "");
@@ -124,21 +154,6 @@ std::string row(const std::string& name, const Accuracy& a) {
 }
 
 }  // namespace
-
-Accuracy measure_accuracy(Scene scene) {
-  const double scale =
-      std::sqrt(static_cast<double>(picture_pixels) / (static_cast<double>(scene.width) * scene.height));
-  scene.width = std::max(static_cast<int>(std::lround(scene.width * scale)), 1);
-  scene.height = std::max(static_cast<int>(std::lround(scene.height * scale)), 1);
-  scene.render.fresnel = FresnelKind::exact;
-  scene.render.max_depth = 1000;
-  const Film exact = film_of(scene);
-  Scene books = scene;
-  books.render.fresnel = FresnelKind::schlick;
-  return {shift(exact, film_of(books)),     shift_of_depth(scene, exact, 5),    shift_of_depth(scene, exact, 10),
-          shift_of_depth(scene, exact, 50), shift(film_of(scene, true), exact), shift_of_bytes(exact),
-          shift_of_clean(scene, exact)};
-}
 
 int print_accuracy(const SceneRequest& request) {
   write_standard_output(heading);

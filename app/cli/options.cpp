@@ -1,5 +1,3 @@
-#include "app/cli/options.h"
-
 #include "app/cli/options_render.h"
 #include "core/base/text.h"
 

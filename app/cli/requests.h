@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-/// What the user asked for: one struct for each command. Only read_command() (options.h) makes them.
+/// What the user asked for: one struct for each command. Only read_command() makes them.
 namespace tyndall {
 
 struct ViewCommand {
@@ -121,5 +121,9 @@ struct PrintCommand {
 
 using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,
                              DenoiseCommand, InspectCommand, ScenesCommand, ConvertCommand, PrintCommand>;
+
+/// The command line as a whole: which command, and its request. arguments[0] is what follows the program's name. Throws
+/// UsageError. Of files only the existence is looked at, to tell a misspelt command from a scene's file.
+Command read_command(const std::vector<std::string>& arguments);
 
 }  // namespace tyndall

@@ -1,4 +1,4 @@
-#include "app/cli/verify_cases.h"
+#include "app/cli/verify.h"
 
 #include "app/text/values.h"
 #include "core/scene/json_values.h"

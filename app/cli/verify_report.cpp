@@ -1,4 +1,4 @@
-#include "app/cli/verify_report.h"
+#include "app/cli/verify.h"
 
 #include "app/text/progress.h"
 

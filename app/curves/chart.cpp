@@ -1,5 +1,6 @@
 #include "app/curves/chart.h"
 
+#include "app/files/outputs.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>
@@ -50,6 +51,22 @@ std::string chart_table(const Chart& chart) {
            (bias ? fmt::format("{:.2g}", *bias) : std::string("none seen")) + "\n";
   }
   return out;
+}
+
+std::filesystem::path csv_beside(std::filesystem::path svg) { return svg.replace_extension(".csv"); }
+
+void write_chart(const Chart& chart, const std::filesystem::path& svg) {
+  std::string problem;
+  const auto write = [&problem](const std::filesystem::path& file, const std::string& text) {
+    try {
+      write_text_or_rescue(file, text);
+    } catch (const ImageFileError& error) {
+      problem += (problem.empty() ? "" : "; ") + std::string(error.what());
+    }
+  };
+  write(csv_beside(svg), chart_csv(chart));
+  write(svg, chart_svg(chart));
+  if (!problem.empty()) throw ImageFileError(problem);
 }
 
 }  // namespace tyndall

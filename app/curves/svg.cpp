@@ -1,5 +1,4 @@
-#include "app/curves/svg.h"
-
+#include "app/curves/chart.h"
 #include "app/curves/decades.h"
 #include "app/text/markup.h"
 

@@ -1,6 +1,6 @@
 #include "app/window/session.h"
 
-#include "app/curves/chart_files.h"
+#include "app/curves/chart.h"
 #include "app/window/document/open_document.h"
 #include "app/window/document/snapshot.h"
 #include "core/base/error.h"

@@ -1,5 +1,5 @@
 // Command lines: each line of the input is an argument.
-#include "app/cli/options.h"
+#include "app/cli/requests.h"
 #include "app/text/values.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -1,6 +1,6 @@
 #include "app/window/accuracy/comparison.h"
 
-#include "app/report/heat.h"
+#include "app/report/heat_map.h"
 #include "app/window/system/clock.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"

@@ -1,6 +1,6 @@
 #include "app/window/inspector/legend.h"
 
-#include "app/report/heat.h"
+#include "app/report/heat_map.h"
 #include "app/window/picture/stops.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/image/tonemap.h"

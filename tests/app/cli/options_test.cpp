@@ -1,4 +1,4 @@
-#include "app/cli/options.h"
+#include "app/cli/requests.h"
 
 #include <doctest/doctest.h>
 

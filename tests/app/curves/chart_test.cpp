@@ -1,7 +1,5 @@
 #include "app/curves/chart.h"
 
-#include "app/curves/chart_files.h"
-#include "app/curves/svg.h"
 #include "core/image/image_io.h"
 #include "tests/support/curves.h"
 #include "tests/support/paths.h"

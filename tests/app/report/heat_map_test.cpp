@@ -1,7 +1,5 @@
 #include "app/report/heat_map.h"
 
-#include "app/report/heat.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>

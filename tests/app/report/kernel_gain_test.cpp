@@ -1,4 +1,4 @@
-#include "app/report/kernel_gain.h"
+#include "app/report/gain.h"
 
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"

@@ -1,4 +1,4 @@
-#include "app/report/method_gain.h"
+#include "app/report/gain.h"
 
 #include "tests/support/pictures.h"
 

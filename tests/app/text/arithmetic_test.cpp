@@ -1,4 +1,4 @@
-#include "app/text/arithmetic.h"
+#include "app/text/numbers.h"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,40 @@
+#pragma once
+#include "core/targets/kernels.h"
+#include "core/render/prepare.h"
+#include "core/scene/scene.h"
+
+#include <string>
+
+/// What is gained in a scene by a kernel that leaves out the models which it does not use, and by methods of integrator
+/// mis.
+namespace tyndall {
+
+/// What a scene's own kernel gains over the one that holds every model.
+struct KernelGain {
+  std::string isa;
+  double gain = 1;             ///< speed over the full kernel's: median of the pairs
+  double least = 1, most = 1;  ///< of the pairs
+  int pairs = 0;               ///< 0: the full kernel is the scene's own, nothing was measured
+  bool same_picture = true;    ///< to the last bit
+};
+
+/// Renders the scene by both in turns, on one thread, for about two seconds. Where `kernels` render the scene with the
+/// full kernel, nothing is rendered and the gain is 1.
+KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernels);
+
+/// What a method of integrator mis costs and gains in a scene, against doing without it.
+struct MethodGain {
+  bool measured = false;  ///< false: the scene does without it anyway
+  double time = 1;        ///< time of a sample over that without the method; median over pairs of renders
+  double error = 1;       ///< estimated squared error at equal time over that without the method
+};
+
+/// Exact chains, against leaving their light to chance. Renders the scene with and without them in turns, as a small
+/// picture on one thread, for about two seconds. Where chance seldom finds the light, the error without chains is
+/// estimated too small, and the true gain is larger.
+MethodGain measure_chain_gain(Scene scene, const std::string& isa);
+
+/// Sharing of second vertices between pixels, likewise.
+MethodGain measure_sharing_gain(Scene scene, const std::string& isa);
+
+}  // namespace tyndall
