@@ -11,24 +11,19 @@
 namespace tyndall {
 namespace {
 
-const std::string& text_of(const JsonObject& object, const Place& at, const char* key, const char* what) {
-  const JsonValue* json = find(object, key);
-  if (!json) fail(at, "no " + in_quotes(key), what);
-  return string_at(*json, {at, key}, what);
+const std::string& text_at(const JsonObject& object, const Place& at, const char* key, const char* what) {
+  return string_at(member_at(object, at, key, what), {at, key}, what);
 }
 
-const JsonArray& list_of(const JsonObject& object, const Place& at, const char* key, const char* what) {
-  const JsonValue* json = find(object, key);
-  if (!json) fail(at, "no " + in_quotes(key), what);
-  return array_at(*json, {at, key}, what);
+const JsonArray& list_at(const JsonObject& object, const Place& at, const char* key, const char* what) {
+  return array_at(member_at(object, at, key, what), {at, key}, what);
 }
 
 /// A switch that is off where it is not given.
 bool flag_of(const JsonObject& object, const Place& at, const char* key, const char* what) {
   const JsonValue* json = find(object, key);
-  if (!json) return false;
-  if (!std::holds_alternative<bool>(json->value)) fail({at, key}, describe(*json), what);
-  return std::get<bool>(json->value);
+  if (json && !std::holds_alternative<bool>(json->value)) fail({at, key}, describe(*json), what);
+  return json && std::get<bool>(json->value);
 }
 
 /// Appends what is under "set".
@@ -48,11 +43,11 @@ VerifyCase read_case(const JsonValue& json, const Place& at, const VerifyCase& g
   const JsonObject& object = object_at(json, at, "a case: { \"name\", \"set\", \"expected\" }");
   allow_keys(object, at, {"name", "set", "expected", "source"});
   VerifyCase out = group;
-  out.name += "/" + text_of(object, at, "name", "the case's name");
+  out.name += "/" + text_at(object, at, "name", "the case's name");
   read_overrides(object, at, out.overrides);
   const Field expected{"expected", &VerifyCase::expected, any_number(), Slider{}, "", "mean radiance", true};
   read_field(object, at, expected, out);
-  if (find(object, "source")) out.source = text_of(object, at, "source", "where the expected number is from");
+  if (find(object, "source")) out.source = text_at(object, at, "source", "where the expected number is from");
   return out;
 }
 
@@ -61,14 +56,14 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
   const JsonObject& object = object_at(json, at, "a group of cases");
   allow_keys(object, at, {"name", "scene", "source", "set", "light_sampling", "chains", "cases"});
   VerifyCase group;
-  group.name = text_of(object, at, "name", "the group's name");
-  group.scene = folder / text_of(object, at, "scene", "the name of a scene file beside this one");
-  group.source = text_of(object, at, "source", "where the expected numbers are from");
+  group.name = text_at(object, at, "name", "the group's name");
+  group.scene = folder / text_at(object, at, "scene", "the name of a scene file beside this one");
+  group.source = text_at(object, at, "source", "where the expected numbers are from");
   group.needs_light_sampling =
       flag_of(object, at, "light_sampling", "true if chance alone does not find the lights, else false");
   group.needs_chains = flag_of(object, at, "chains", "true if exact chains alone find the light, else false");
   read_overrides(object, at, group.overrides);
-  const JsonArray& list = list_of(object, at, "cases", "the group's cases");
+  const JsonArray& list = list_at(object, at, "cases", "the group's cases");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Place cases{at, "cases"};
     out.push_back(read_case(list[i], {cases, i}, group));
@@ -83,7 +78,7 @@ std::vector<VerifyCase> read_table(std::string_view text, const std::filesystem:
   const Place top;
   const JsonObject& object = object_at(json.root, top, "{ \"groups\": [ … ] }");
   allow_keys(object, top, {"groups"});
-  const JsonArray& groups = list_of(object, top, "groups", "the groups of cases");
+  const JsonArray& groups = list_at(object, top, "groups", "the groups of cases");
   std::vector<VerifyCase> cases;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const Place place{top, "groups"};

@@ -36,10 +36,7 @@ constexpr const char *caustics_pointer = "/render/caustics", *sharing_pointer = 
 /// caustics to chance, and shared nothing.
 bool says(const std::string& text, const char* setting) {
   const JsonDocument json = parse_json(text);
-  const auto* root = std::get_if<JsonObject>(&json.root.value);
-  const JsonValue* render = root ? find(*root, "render") : nullptr;
-  const auto* settings = render ? std::get_if<JsonObject>(&render->value) : nullptr;
-  return settings && find(*settings, setting);
+  return find(find(&json.root, "render"), setting) != nullptr;
 }
 
 bool could_have_chains(Scene scene) {
@@ -57,13 +54,6 @@ Film found_film(const std::filesystem::path& file, std::optional<Film> film) {
   return std::move(*film);
 }
 
-/// The text under a key of a film's figures; "": there is none.
-std::string text_in(const JsonObject& figures, const char* key) {
-  const JsonValue* found = find(figures, key);
-  const auto* text = found ? std::get_if<std::string>(&found->value) : nullptr;
-  return text ? *text : "";
-}
-
 FilmLabel label_of(const std::filesystem::path& file) {
   FilmLabel label = read_film_label(file).value_or(FilmLabel{});
   if (!label.version.empty() || !label.isa.empty()) return label;
@@ -71,8 +61,7 @@ FilmLabel label_of(const std::filesystem::path& file) {
   if (stats.empty()) return label;
   try {
     const JsonDocument json = parse_json(stats);
-    if (const auto* figures = std::get_if<JsonObject>(&json.root.value))
-      label.version = text_in(*figures, "version"), label.isa = text_in(*figures, "isa");
+    label.version = text_of(find(&json.root, "version")), label.isa = text_of(find(&json.root, "isa"));
   } catch (const Broken&) {
     return label;  // another program has changed the text
   }

@@ -43,11 +43,9 @@ void check_value(const Place& at, const Meaning& meaning, const std::optional<T>
 
 template <class Fields, class Owner>
 void check_fields(const Place& at, const Fields& list, const Owner& owner) {
-  std::apply(
-      [&](const auto&... field) {
-        (check_value({at, field.name}, meaning_of(field), owner.*field.value), ...);
-      },
-      list);
+  for_each_field(list, [&](const auto& field) {
+    check_value({at, field.name}, meaning_of(field), owner.*field.value);
+  });
 }
 template <class Owner>
 void check_fields(const Place& at, const Owner& owner) {

@@ -78,4 +78,13 @@ std::string print_json(const JsonValue& root) {
   return out + '\n';
 }
 
+std::string print_members(const JsonObject& root) {
+  std::string out;
+  for (const JsonMember& member : root) {
+    out += (out.empty() ? "{\n  " : ",\n  ") + in_quotes(member.key) + ": ";
+    print_line(member.value, out, out.max_size());
+  }
+  return out + "\n}\n";
+}
+
 }  // namespace tyndall

@@ -12,11 +12,10 @@ namespace {
 constexpr int format_version = 1;
 
 void read_version(const JsonObject& root, const Place& at) {
-  const JsonValue* json = find(root, "tyndall");
-  if (!json) fail(at, "no \"tyndall\"", "\"tyndall\": 1 (the version of the scene format)");
-  const auto* version = std::get_if<double>(&json->value);
+  const JsonValue& json = member_at(root, at, "tyndall", "\"tyndall\": 1 (the version of the scene format)");
+  const auto* version = std::get_if<double>(&json.value);
   if (!version || *version != format_version)
-    fail({at, "tyndall"}, describe(*json), "1 (the version of the scene format that this program reads)");
+    fail({at, "tyndall"}, describe(json), "1 (the version of the scene format that this program reads)");
 }
 
 void read_shutter(const JsonObject& object, const Place& at, Camera& camera) {
@@ -33,8 +32,7 @@ void read_shutter(const JsonObject& object, const Place& at, Camera& camera) {
 
 void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
   const JsonObject& object = object_at(json, at, "an object with the camera's values");
-  allow_keys(object, at, fields_of<Camera>(), {"shutter"});
-  read_fields(object, at, fields_of<Camera>(), camera);
+  read_fields(object, at, fields_of<Camera>(), {"shutter"}, camera);
   read_shutter(object, at, camera);
 }
 
@@ -47,10 +45,8 @@ void read_background(const JsonValue& json, const Place& at, Background& backgro
   if (const auto* object = std::get_if<JsonObject>(&json.value)) {
     Sky sky;
     const std::string_view type = type_at(*object, at, type_names<Sky>);
-    const bool known = read_kind(type, sky, [&]<class Kind>(Kind& kind) {
-      allow_keys(*object, at, fields_of<Kind>(), {"type"});
-      read_fields(*object, at, fields_of<Kind>(), kind);
-    });
+    const bool known = read_kind(
+        type, sky, [&]<class Kind>(Kind& kind) { read_fields(*object, at, fields_of<Kind>(), {"type"}, kind); });
     if (!known) fail_type(at, type, type_names<Sky>());
     std::visit([&](const auto& kind) { background = kind; }, sky);
   } else if (std::holds_alternative<JsonArray>(json.value)) {
@@ -59,24 +55,6 @@ void read_background(const JsonValue& json, const Place& at, Background& backgro
     fail(at, describe(json),
          "an array of 3 numbers (radiance, linear RGB) or an object of type \"gradient\" or \"hemispheres\"");
   }
-}
-
-void read_render(const JsonValue& json, const Place& at, RenderSettings& render) {
-  const JsonObject& object = object_at(json, at, "an object with the render settings");
-  allow_keys(object, at, fields_of<RenderSettings>(), {});
-  read_fields(object, at, fields_of<RenderSettings>(), render);
-}
-
-void read_display(const JsonValue& json, const Place& at, Display& display) {
-  const JsonObject& object = object_at(json, at, "an object with the display settings");
-  allow_keys(object, at, fields_of<Display>(), {});
-  read_fields(object, at, fields_of<Display>(), display);
-}
-
-void read_size(const JsonValue& json, const Place& at, Scene& scene) {
-  const JsonObject& object = object_at(json, at, "an object with \"width\" and \"height\"");
-  allow_keys(object, at, image_fields(), {});
-  read_fields(object, at, image_fields(), scene);
 }
 
 /// Loads each picture once, however many textures use it.
@@ -116,9 +94,7 @@ class PictureShelf {
 void read_image(const JsonObject& object, const Place& at, PictureShelf& shelf, Image& image) {
   allow_keys(object, at, {"type", "file"});
   const std::string expected = "the path of an image, relative to the scene file";
-  const JsonValue* json = find(object, "file");
-  if (!json) fail(at, "no \"file\"", expected);
-  image.file = string_at(*json, {at, "file"}, expected);
+  image.file = string_at(member_at(object, at, "file", expected), {at, "file"}, expected);
   if (image.file.empty()) fail({at, "file"}, "\"\"", expected);
   image.pixels = shelf.get(image.file, {at, "file"});
 }
@@ -127,12 +103,10 @@ void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, T
   const JsonObject& object = object_at(json, at, "an object that describes a texture");
   const std::string_view type = type_at(object, at, type_names<TextureKinds<double>>);
   const bool known = read_kind(type, texture.kind, [&]<class T>(T& kind) {
-    if constexpr (std::is_same_v<T, Image>) {
+    if constexpr (std::is_same_v<T, Image>)
       read_image(object, at, shelf, kind);
-    } else {
-      allow_keys(object, at, fields_of<T>(), {"type"});
-      read_fields(object, at, fields_of<T>(), kind);
-    }
+    else
+      read_fields(object, at, fields_of<T>(), {"type"}, kind);
   });
   if (!known) fail_type(at, type, type_names<TextureKinds<double>>());
 }
@@ -181,13 +155,17 @@ Scene scene_from(const JsonValue& json, const std::filesystem::path& folder) {
   const auto section = [&](const char* key, const auto& read, auto& out) {
     if (const JsonValue* value = find(root, key)) read(*value, Place{at, key}, out);
   };
+  const auto part = [&](const char* key, const char* expected, const auto& list, auto& out) {
+    const Place here{at, key};
+    if (const JsonValue* value = find(root, key)) read_fields(object_at(*value, here, expected), here, list, {}, out);
+  };
   if (const JsonValue* name = find(root, "name"))
     scene.name = string_at(*name, {at, "name"}, "a text (the scene's name)");
-  section("image", read_size, scene);
+  part("image", "an object with \"width\" and \"height\"", image_fields(), scene);
   section("camera", read_camera, scene.camera);
   section("background", read_background, scene.background);
-  section("render", read_render, scene.render);
-  section("display", read_display, scene.display);
+  part("render", "an object with the render settings", fields_of<RenderSettings>(), scene.render);
+  part("display", "an object with the display settings", fields_of<Display>(), scene.display);
   References references;
   PictureShelf shelf(folder);
   references.textures = read_named(

@@ -47,30 +47,25 @@ bool read_solid(const JsonObject& json, const Place& at, std::string_view type, 
                 Object& object) {
   Solid3d solid;
   const bool known = read_kind(type, solid.shape, [&]<class T>(T& shape) {
-    allow_keys(json, at, fields_of<T>(), {"name", "type", "material", "transform"});
-    read_fields(json, at, fields_of<T>(), shape);
+    read_fields(json, at, fields_of<T>(), {"name", "type", "material", "transform"}, shape);
   });
   if (!known) return false;
-  const JsonValue* material = find(json, "material");
-  if (!material) fail(at, "no \"material\"", "the name of a material");
-  solid.material = read_reference(*material, {at, "material"}, references.materials, "material");
+  const JsonValue& material = member_at(json, at, "material", "the name of a material");
+  solid.material = read_reference(material, {at, "material"}, references.materials, "material");
   object.kind = solid;
   return true;
 }
 
 void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
   const char* expected = "an object that describes a sphere or a box";
-  const JsonValue* json = find(medium, "boundary");
-  if (!json) fail(at, "no \"boundary\"", expected);
   const Place here{at, "boundary"};
-  const JsonObject& object = object_at(*json, here, expected);
+  const JsonObject& object = object_at(member_at(medium, at, "boundary", expected), here, expected);
   if (find(object, "material"))
     fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
   using Kinds = decltype(volume.boundary);
   const std::string_view type = type_at(object, here, type_names<Kinds>);
   const bool known = read_kind(type, volume.boundary, [&]<class T>(T& shape) {
-    allow_keys(object, here, fields_of<T>(), {"type", "transform"});
-    read_fields(object, here, fields_of<T>(), shape);
+    read_fields(object, here, fields_of<T>(), {"type", "transform"}, shape);
   });
   if (!known) fail_type(here, type, type_names<Kinds>());
   volume.boundary_transform = read_transform(object, here);
@@ -87,9 +82,7 @@ Volume read_volume(const JsonObject& json, const Place& at, const References& re
 
 Group read_group(const JsonObject& json, const Place& at, const References& references) {
   allow_keys(json, at, {"name", "type", "transform", "objects"});
-  const JsonValue* objects = find(json, "objects");
-  if (!objects) fail(at, "no \"objects\"", "a list of objects");
-  return {read_objects(*objects, {at, "objects"}, references)};
+  return {read_objects(member_at(json, at, "objects", "a list of objects"), {at, "objects"}, references)};
 }
 
 std::vector<std::string_view> object_types() {
@@ -131,15 +124,14 @@ ColourOrTexture read_colour(const JsonObject& object, const Place& at, const cha
                             const NameTable& textures) {
   const Meaning meaning = colour_meaning(colour_name);
   const std::string expected = expected_text(meaning, Form::vector) + " or the name of a texture";
-  const JsonValue* json = find(object, colour_name);
-  if (!json) fail(at, "no " + in_quotes(colour_name), expected);
+  const JsonValue& json = member_at(object, at, colour_name, expected);
   const Place here{at, colour_name};
-  if (std::holds_alternative<std::string>(json->value))
-    return TextureIndex{read_reference(*json, here, textures, "texture")};
-  const auto* array = std::get_if<JsonArray>(&json->value);
-  if (!array || array->size() != 3) fail(here, describe(*json), expected);
+  if (std::holds_alternative<std::string>(json.value))
+    return TextureIndex{read_reference(json, here, textures, "texture")};
+  const auto* array = std::get_if<JsonArray>(&json.value);
+  if (!array || array->size() != 3) fail(here, describe(json), expected);
   Vec3d colour;
-  read_value(*json, here, meaning, colour);
+  read_value(json, here, meaning, colour);
   return colour;
 }
 

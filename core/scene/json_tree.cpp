@@ -11,6 +11,16 @@ const JsonValue* find(const JsonObject& object, std::string_view key) {
   return at == object.end() ? nullptr : &at->value;
 }
 
+const JsonValue* find(const JsonValue* holder, std::string_view key) {
+  const auto* object = holder ? std::get_if<JsonObject>(&holder->value) : nullptr;
+  return object ? find(*object, key) : nullptr;
+}
+
+std::string text_of(const JsonValue* value) {
+  const auto* text = value ? std::get_if<std::string>(&value->value) : nullptr;
+  return text ? *text : "";
+}
+
 std::string describe(const JsonValue& json) {
   if (const auto* number = std::get_if<double>(&json.value)) return number_text(*number);
   if (const auto* text = std::get_if<std::string>(&json.value)) return in_quotes(shortened(*text, 80));

@@ -1,9 +1,13 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/scene/json.h"
 
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +29,31 @@ struct JsonMember {
   std::string key;
   JsonValue value;
 };
+
+/// A value of the program as JSON. Numbers that are not finite, and values that are absent, become null.
+inline JsonValue to_json(JsonValue value) { return value; }
+inline JsonValue to_json(double number) { return std::isfinite(number) ? JsonValue{number} : JsonValue{}; }
+inline JsonValue to_json(bool value) { return {value}; }
+inline JsonValue to_json(std::string text) { return {std::move(text)}; }
+inline JsonValue to_json(const char* text) { return {std::string(text)}; }
+inline JsonValue to_json(const Vec3d& v) { return {JsonArray{{v.x}, {v.y}, {v.z}}}; }
+JsonValue to_json(std::integral auto number) { return {static_cast<double>(number)}; }
+JsonValue to_json(NamedEnum auto value) { return to_json(name_of(value)); }
+template <class T>
+JsonValue to_json(const std::optional<T>& value) {
+  return value ? to_json(*value) : JsonValue();
+}
+template <class T>
+JsonValue to_json(const std::vector<T>& list) {
+  JsonArray array;
+  for (const T& value : list) array.push_back(to_json(value));
+  return {std::move(array)};
+}
+
+template <class T>
+void put(JsonObject& out, std::string key, T&& value) {
+  out.push_back({std::move(key), to_json(std::forward<T>(value))});
+}
 
 /// The memory of a tree. Short lists, of which a scene of a million objects has two millions, are cut from large blocks
 /// and given back all together; long ones are on their own. (The library's pools do as much, but those of GCC 12 end
@@ -65,9 +94,15 @@ JsonValue scene_json(const Scene& scene);
 
 /// The document as text: two spaces a level, what is short on one line.
 std::string print_json(const JsonValue& root);
+/// The same with a line for each member, however long it is.
+std::string print_members(const JsonObject& root);
 
 /// The value of a key; null if there is none.
 const JsonValue* find(const JsonObject& object, std::string_view key);
+/// The same in a value, which may be null or no object: then there is none.
+const JsonValue* find(const JsonValue* holder, std::string_view key);
+/// The text that a value is; "" if it is null or no text.
+std::string text_of(const JsonValue* value);
 
 /// "-1", "\"glas\"", "an array of 2 values": for messages.
 std::string describe(const JsonValue& json);

@@ -37,6 +37,11 @@ const std::string& string_at(const JsonValue& json, const Place& at, const std::
   fail(at, describe(json), expected);
 }
 
+const JsonValue& member_at(const JsonObject& object, const Place& at, const char* key, std::string_view expected) {
+  if (const JsonValue* json = find(object, key)) return *json;
+  fail(at, "no " + in_quotes(key), std::string(expected));
+}
+
 void fail_key(const Place& at, std::string_view key, const std::vector<std::string_view>& known) {
   fail({at, key}, "an unknown key", one_of(known) + did_you_mean(key, known));
 }

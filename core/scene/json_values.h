@@ -20,6 +20,9 @@ const JsonObject& object_at(const JsonValue& json, const Place& at, const char* 
 const JsonArray& array_at(const JsonValue& json, const Place& at, const char* expected);
 const std::string& string_at(const JsonValue& json, const Place& at, const std::string& expected);
 
+/// The value of a key that must be there. expected: what the message says of it where it is not.
+const JsonValue& member_at(const JsonObject& object, const Place& at, const char* key, std::string_view expected);
+
 /// Refuses a key, of which these are known.
 [[noreturn]] void fail_key(const Place& at, std::string_view key, const std::vector<std::string_view>& known);
 
@@ -32,7 +35,7 @@ void allow_keys(const JsonObject& object, const Place& at, const Fields& list,
                        std::apply([&](const auto&... field) { return ((member.key == field.name) || ...); }, list);
     if (known) continue;
     std::vector<std::string_view> keys(more);
-    std::apply([&](const auto&... field) { (keys.emplace_back(field.name), ...); }, list);
+    for_each_field(list, [&](const auto& field) { keys.emplace_back(field.name); });
     fail_key(at, member.key, keys);
   }
 }
@@ -81,7 +84,15 @@ void read_field(const JsonObject& object, const Place& at, const Field<Owner, T>
 
 template <class Fields, class Owner>
 void read_fields(const JsonObject& object, const Place& at, const Fields& list, Owner& out) {
-  std::apply([&](const auto&... field) { (read_field(object, at, field, out), ...); }, list);
+  for_each_field(list, [&](const auto& field) { read_field(object, at, field, out); });
+}
+
+/// The same, where keys that are neither of the list nor in `more` are refused.
+template <class Fields, class Owner>
+void read_fields(const JsonObject& object, const Place& at, const Fields& list,
+                 std::initializer_list<std::string_view> more, Owner& out) {
+  allow_keys(object, at, list, more);
+  read_fields(object, at, list, out);
 }
 
 /// The "type" of an object; where it is missing, the message lists those that `types` returns.

@@ -1,4 +1,3 @@
-#include "core/base/choice.h"
 #include "core/base/kinds.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
@@ -8,34 +7,16 @@
 namespace tyndall {
 namespace {
 
-JsonValue to_json(double value) { return {value}; }
-JsonValue to_json(int value) { return {static_cast<double>(value)}; }
-JsonValue to_json(std::uint32_t value) { return {static_cast<double>(value)}; }
-JsonValue to_json(bool value) { return {value}; }
-template <NamedEnum E>
-JsonValue to_json(E value) {
-  return {std::string(name_of(value))};
-}
-JsonValue to_json(const Vec3d& v) { return {JsonArray{{v.x}, {v.y}, {v.z}}}; }
-template <class T>
-JsonValue to_json(const std::optional<T>& value) {
-  return value ? to_json(*value) : JsonValue();
-}
-
-void put(JsonObject& out, const char* key, JsonValue value) { out.push_back({key, std::move(value)}); }
-
 enum class Which { all, required, optional };
 
 /// The fields that are required or differ from their defaults.
 template <class Fields, class Owner>
 void put_fields(JsonObject& out, const Fields& list, const Owner& owner, Which which = Which::all) {
   const Owner defaults{};
-  const auto one = [&](const auto& field) {
+  for_each_field(list, [&](const auto& field) {
     if (which != Which::all && field.required != (which == Which::required)) return;
-    if (field.required || !(owner.*field.value == defaults.*field.value))
-      put(out, field.name, to_json(owner.*field.value));
-  };
-  std::apply([&](const auto&... field) { (one(field), ...); }, list);
+    if (field.required || !(owner.*field.value == defaults.*field.value)) put(out, field.name, owner.*field.value);
+  });
 }
 template <class Owner>
 void put_fields(JsonObject& out, const Owner& owner, Which which = Which::all) {
@@ -44,14 +25,14 @@ void put_fields(JsonObject& out, const Owner& owner, Which which = Which::all) {
 
 /// A part of the scene that is left out where it says nothing.
 void put_part(JsonObject& out, const char* key, JsonObject part) {
-  if (!part.empty()) put(out, key, {std::move(part)});
+  if (!part.empty()) put(out, key, JsonValue{std::move(part)});
 }
 
 JsonObject camera_json(const Camera& camera) {
   JsonObject out;
   put_fields(out, camera);
   if (camera.shutter_open != 0 || camera.shutter_close != 0)
-    put(out, "shutter", {JsonArray{{camera.shutter_open}, {camera.shutter_close}}});
+    put(out, "shutter", std::vector{camera.shutter_open, camera.shutter_close});
   return out;
 }
 
@@ -59,7 +40,7 @@ JsonValue background_json(const Background& background) {
   return std::visit(Overloaded{[](const Vec3d& radiance) { return to_json(radiance); },
                                []<class Sky>(const Sky& sky) {
                                  JsonObject out;
-                                 put(out, "type", {std::string(Sky::type)});
+                                 put(out, "type", Sky::type);
                                  put_fields(out, sky);
                                  return JsonValue{std::move(out)};
                                }},
@@ -77,9 +58,9 @@ JsonValue texture_json(const Texture& texture) {
   JsonObject out;
   std::visit(
       [&]<class T>(const T& kind) {
-        put(out, "type", {std::string(T::type)});
+        put(out, "type", T::type);
         if constexpr (std::is_same_v<T, Image>) {
-          put(out, "file", {kind.file});
+          put(out, "file", kind.file);
         } else {
           put_fields(out, kind);
         }
@@ -99,7 +80,7 @@ JsonValue material_json(const Material& material, const Scene& scene) {
   JsonObject out;
   std::visit(
       [&]<class T>(const T& kind) {
-        put(out, "type", {std::string(T::type)});
+        put(out, "type", T::type);
         if constexpr (T::colour_name != nullptr) put(out, T::colour_name, colour_json(material.colour, scene));
         put_fields(out, kind);
       },
@@ -114,53 +95,52 @@ void put_transform(JsonObject& out, const Transform& transform) {
     std::visit(
         [&](const auto& m) { put_fields(std::get<JsonObject>(steps.emplace_back(JsonValue{JsonObject()}).value), m); },
         move);
-  put(out, "transform", {std::move(steps)});
+  put(out, "transform", JsonValue{std::move(steps)});
 }
 
 template <class Shape>
 void put_shape(JsonObject& out, const Shape& shape) {
-  put(out, "type", {std::string(Shape::type)});
+  put(out, "type", Shape::type);
   put_fields(out, shape);
 }
 
 void put_volume(JsonObject& out, const Volume& volume, const Scene& scene) {
-  put(out, "type", {std::string(Medium<>::type)});
+  put(out, "type", Medium<>::type);
   JsonObject boundary;
   std::visit([&](const auto& shape) { put_shape(boundary, shape); }, volume.boundary);
   put_transform(boundary, volume.boundary_transform);
-  put(out, "boundary", {std::move(boundary)});
+  put(out, "boundary", JsonValue{std::move(boundary)});
   put_fields(out, volume.medium, Which::required);
   put(out, "albedo", colour_json(volume.albedo, scene));
   put_fields(out, volume.medium, Which::optional);
 }
 
-JsonArray objects_json(const std::vector<Object>& objects, const Scene& scene) {
+JsonValue objects_json(const std::vector<Object>& objects, const Scene& scene) {
   JsonArray array;
   array.reserve(objects.size());
   for (const Object& object : objects) {
     JsonObject out;
-    if (!object.name.empty()) put(out, "name", {object.name});
+    if (!object.name.empty()) put(out, "name", object.name);
     std::visit(Overloaded{[&](const Solid3d& solid) {
                             std::visit([&](const auto& shape) { put_shape(out, shape); }, solid.shape);
-                            put(out, "material", {scene.materials[static_cast<std::size_t>(solid.material)].name});
+                            put(out, "material", scene.materials[static_cast<std::size_t>(solid.material)].name);
                           },
                           [&](const Volume& volume) { put_volume(out, volume, scene); },
-                          [&](const Group&) { put(out, "type", {std::string("group")}); }},
+                          [&](const Group&) { put(out, "type", "group"); }},
                object.kind);
     put_transform(out, object.transform);
-    if (const auto* group = std::get_if<Group>(&object.kind))
-      put(out, "objects", {objects_json(group->objects, scene)});
+    if (const auto* group = std::get_if<Group>(&object.kind)) put(out, "objects", objects_json(group->objects, scene));
     array.push_back({std::move(out)});
   }
-  return array;
+  return {std::move(array)};
 }
 
 }  // namespace
 
 JsonValue scene_json(const Scene& scene) {
   JsonObject root, image, textures, materials;
-  put(root, "tyndall", {1.0});
-  if (!scene.name.empty()) put(root, "name", {scene.name});
+  put(root, "tyndall", 1);
+  if (!scene.name.empty()) put(root, "name", scene.name);
   put_fields(image, image_fields(), scene);
   put_part(root, "image", std::move(image));
   put_part(root, "camera", camera_json(scene.camera));
@@ -171,7 +151,7 @@ JsonValue scene_json(const Scene& scene) {
   put_part(root, "textures", std::move(textures));
   for (const Material& material : scene.materials) materials.push_back({material.name, material_json(material, scene)});
   put_part(root, "materials", std::move(materials));
-  put(root, "objects", {objects_json(scene.objects, scene)});
+  put(root, "objects", objects_json(scene.objects, scene));
   return {std::move(root)};
 }
 

@@ -106,12 +106,10 @@ fs::path built_in_file(const std::string& what) {
 std::string name_of(const std::string& text) {
   try {
     const JsonDocument json = parse_json(text);
-    const auto* root = std::get_if<JsonObject>(&json.root.value);
-    const JsonValue* name = root ? find(*root, "name") : nullptr;
-    if (const auto* title = name ? std::get_if<std::string>(&name->value) : nullptr) return printable(*title);
+    return printable(text_of(find(&json.root, "name")));
   } catch (const Broken&) {
+    return "";
   }
-  return "";
 }
 
 BuiltIn built_in(const std::string& name, const fs::path& path) {
@@ -175,16 +173,12 @@ std::vector<fs::path> files_of_scene(const fs::path& file) {
   std::vector<fs::path> files{file};
   try {
     const JsonDocument json = parse_json(read_file(file.string()));
-    const auto* root = std::get_if<JsonObject>(&json.root.value);
-    const JsonValue* named = root ? find(*root, "textures") : nullptr;
+    const JsonValue* named = find(&json.root, "textures");
     const auto* textures = named ? std::get_if<JsonObject>(&named->value) : nullptr;
     if (!textures) return files;
-    for (const JsonMember& texture : *textures) {
-      const auto* kind = std::get_if<JsonObject>(&texture.value.value);
-      const JsonValue* image = kind ? find(*kind, "file") : nullptr;
-      if (const auto* name = image ? std::get_if<std::string>(&image->value) : nullptr)
-        files.push_back(file.parent_path() / *name);
-    }
+    for (const JsonMember& texture : *textures)
+      if (const std::string name = text_of(find(&texture.value, "file")); !name.empty())
+        files.push_back(file.parent_path() / name);
   } catch (const SceneError&) {  // it cannot be read
   } catch (const Broken&) {      // it is not JSON
   }

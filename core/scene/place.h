@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 /// Messages about a scene's values: where a value stands, what it means, what was expected. Reading, checking and the
 /// command line use the same words.
@@ -47,6 +48,12 @@ struct Meaning {
 template <class Owner, class T>
 Meaning meaning_of(const Field<Owner, T>& field) {
   return {field.valid, field.unit, field.help, field.slider};
+}
+
+/// Calls visit(field) for each field of a list.
+template <class Fields, class Visit>
+void for_each_field(const Fields& list, const Visit& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, list);
 }
 
 /// What a material's or a medium's colour means. colour_name: its key, "albedo" or "radiance".

@@ -29,19 +29,6 @@ void add_bounds(JsonObject& out, const Valid& valid) {
   if (valid.nonzero) out.push_back({"not", object({{"const", {0.0}}})});
 }
 
-template <class T>
-requires std::is_arithmetic_v<T> JsonValue json_of(T value) {
-  if constexpr (std::is_same_v<T, bool>)
-    return {value};
-  else
-    return {static_cast<double>(value)};
-}
-JsonValue json_of(const Vec3d& v) { return list({{v.x}, {v.y}, {v.z}}); }
-template <NamedEnum E>
-JsonValue json_of(E value) {
-  return text(name_of(value));
-}
-
 /// The name of the shared definition that describes a vector with this range.
 std::string vector_name(const Valid& valid) {
   if (valid.low == 0) return valid.high == 1 ? "share" : "radiance";
@@ -82,8 +69,8 @@ template <class Owner, class T>
 JsonValue property(const Field<Owner, T>& field) {
   JsonObject out;
   add_type(out, meaning_of(field), static_cast<const T*>(nullptr));
-  if constexpr (requires { json_of(Owner().*field.value); })  // a value that may be absent has no default
-    if (!field.required) out.push_back({"default", json_of(Owner().*field.value)});
+  if constexpr (requires { to_json(Owner().*field.value); })  // a value that may be absent has no default
+    if (!field.required) out.push_back({"default", to_json(Owner().*field.value)});
   out.push_back({"description", sentence(field.help + choices(static_cast<const T*>(nullptr)), field.unit)});
   return object(std::move(out));
 }
