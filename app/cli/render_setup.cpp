@@ -39,12 +39,11 @@ void refuse_adaptive(const char* option, const char* why) {
 /// The first setting that differs, such as "other settings (seed 0), expected seed 9"; "": none does.
 std::string differing_settings(const RenderSettings& film, const RenderSettings& asked) {
   std::string text;
-  const auto one = [&](const auto& field) {
+  for_each_field(fields_of<RenderSettings>(), [&](const auto& field) {
     const std::string a = default_text(film.*field.value), b = default_text(asked.*field.value);
     if (!text.empty() || a == b || std::string_view(field.name) == "spp") return;
     text = std::string("a film of other settings (") + field.name + " " + a + "), expected " + field.name + " " + b;
-  };
-  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<RenderSettings>());
+  });
   return text;
 }
 

@@ -114,10 +114,9 @@ void add_setting(CLI::App& app, Changes<Owner>& changes, const Field<Owner, T>& 
 /// Options for all fields of a struct but some.
 template <class Owner>
 void add_settings(CLI::App& app, Changes<Owner>& changes, std::initializer_list<std::string_view> without = {}) {
-  const auto one = [&](const auto& field) {
+  for_each_field(fields_of<Owner>(), [&](const auto& field) {
     if (std::find(without.begin(), without.end(), field.name) == without.end()) add_setting(app, changes, field);
-  };
-  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
+  });
 }
 
 }  // namespace tyndall

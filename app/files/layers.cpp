@@ -4,7 +4,6 @@
 #include <limits>
 
 namespace tyndall {
-
 namespace {
 
 Layer variance_layer(const Film& film) {

@@ -24,19 +24,17 @@ struct Changes {
 template <class Settings, class T>
 void set(Changes<Settings>& changes, T Settings::*member, std::type_identity_t<T> value) {
   changes.values.*member = std::move(value);
-  const auto one = [&]<class U>(const Field<Settings, U>& field) {
+  for_each_field(fields_of<Settings>(), [&]<class U>(const Field<Settings, U>& field) {
     if constexpr (std::is_same_v<T, U>)
       if (field.value == member) changes.given.insert(field.name);
-  };
-  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Settings>());
+  });
 }
 
 template <class Settings>
 void apply(const Changes<Settings>& changes, Settings& settings) {
-  const auto one = [&](const auto& field) {
+  for_each_field(fields_of<Settings>(), [&](const auto& field) {
     if (changes.given.contains(field.name)) settings.*field.value = changes.values.*field.value;
-  };
-  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Settings>());
+  });
 }
 
 /// A scene, and what options change in it.

@@ -12,7 +12,6 @@
 #include <numeric>
 
 namespace tyndall {
-
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -7,7 +7,6 @@
 #include <cstdio>
 
 namespace tyndall {
-
 namespace {
 
 /// The soft limit of a resource; 0: none.

@@ -4,7 +4,6 @@
 #include <cstring>
 
 namespace tyndall {
-
 namespace {
 
 /// Takes 8 bytes at a time. Each step can be undone, so that what differs in one word stays different. Four sums in

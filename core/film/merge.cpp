@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace tyndall {
-
 namespace {
 
 [[noreturn]] void refuse(const FilmPart& part, const std::string& found, const std::string& expected) {

@@ -17,7 +17,6 @@
 #include <system_error>
 
 namespace tyndall {
-
 namespace {
 
 namespace fs = std::filesystem;

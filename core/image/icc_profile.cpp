@@ -8,7 +8,6 @@
 #include <string_view>
 
 namespace tyndall {
-
 namespace {
 
 using Profile = std::span<const std::uint8_t>;

@@ -6,7 +6,6 @@
 #include <cctype>
 
 namespace tyndall {
-
 namespace {
 
 PictureFile read_by_kind(const std::filesystem::path& file, ImageKind kind, std::span<const std::uint8_t> bytes,

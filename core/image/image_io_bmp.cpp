@@ -8,7 +8,6 @@
 #include <string_view>
 
 namespace tyndall {
-
 namespace {
 
 /// The header of a BMP. Microsoft: Windows GDI, BITMAPFILEHEADER to BITMAPV5HEADER. stb reads most of it by itself;

@@ -9,7 +9,6 @@
 #include <string_view>
 
 namespace tyndall {
-
 namespace {
 
 /// Reads a file's values one after the other; nothing of it is kept.

@@ -11,7 +11,6 @@
 #include <exception>
 
 namespace tyndall {
-
 namespace {
 
 /// Chromaticities are written with four decimals.

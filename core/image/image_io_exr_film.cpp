@@ -18,7 +18,6 @@
 #include <sstream>
 
 namespace tyndall {
-
 namespace {
 
 [[noreturn]] void damaged_film(const std::filesystem::path& file, const std::string& what) {

@@ -15,7 +15,6 @@
 #include <string_view>
 
 namespace tyndall {
-
 namespace {
 
 /// The channels of a part whose names have one prefix.

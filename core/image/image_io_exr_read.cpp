@@ -12,7 +12,6 @@
 #include <cmath>
 
 namespace tyndall {
-
 namespace {
 
 Region region_of(const Imath::Box2i& window) {

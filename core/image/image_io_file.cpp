@@ -11,7 +11,6 @@
 #include <system_error>
 
 namespace tyndall {
-
 namespace {
 
 std::string error_text(int number) { return std::generic_category().message(number); }

@@ -11,7 +11,6 @@
 #include <cstdio>
 
 namespace tyndall {
-
 namespace {
 
 constexpr float largest_rgbe = 0x1.fcp126f;  // the largest that rounding keeps within the exponent byte

@@ -11,7 +11,6 @@
 #include <jerror.h>
 
 namespace tyndall {
-
 namespace {
 
 /// More passes over the picture than any encoder makes: a small file could ask for so many that they take hours.

@@ -14,7 +14,6 @@
 #include <string_view>
 
 namespace tyndall {
-
 namespace {
 
 /// libpng's decoder. Its errors arrive as calls that must not return; they jump to where `stop` was set. Between that

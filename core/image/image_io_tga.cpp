@@ -7,7 +7,6 @@
 #include <string_view>
 
 namespace tyndall {
-
 namespace {
 
 /// The header of a TGA, and what a file of version 2.0 says in its extension area.

@@ -21,7 +21,6 @@
 #include <utility>
 
 namespace tyndall {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -16,10 +16,9 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
 
 namespace fs = std::filesystem;
-
-namespace {
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 

@@ -14,10 +14,9 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
 
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr auto least_interval = std::chrono::milliseconds(250);
 constexpr auto retry_interval = std::chrono::seconds(5);

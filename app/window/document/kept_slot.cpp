@@ -13,10 +13,9 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
 
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr int most_windows = 1000;  // that keep edits at the same time
 

@@ -11,10 +11,9 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
 
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr std::string_view first_line = "// Edits that were not saved, of ";
 constexpr std::string_view second_line = "// The FNV-1a hash of that file's text when they were made: ";

@@ -17,10 +17,9 @@
 #include <iterator>
 
 namespace tyndall {
+namespace {
 
 namespace fs = std::filesystem;
-
-namespace {
 
 constexpr std::uint32_t samples = 64;
 constexpr double longest = 2;  // seconds

@@ -106,14 +106,13 @@ template <class Owner, class Wanted, class Said>
 void field_rows(Ui& ui, Owner& owner, const Owner* saved, const Wanted& wanted, const Said& said) {
   static const Owner defaults{};
   const Owner& original = saved ? *saved : defaults;
-  const auto one = [&](const auto& field) {
+  for_each_field(fields_of<Owner>(), [&](const auto& field) {
     auto& value = owner.*(field.value);
     if (!wanted(value, std::string_view(field.name))) return;
     Row row = row_of(field, said(field.name));
     row.original = original_of(original.*(field.value));
     value_row(ui, row, value);
-  };
-  std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
+  });
 }
 
 /// The same, with the grey lines of meaning(owner, name) where the struct has them.

@@ -17,7 +17,6 @@
 #include <utility>
 
 namespace tyndall {
-
 namespace {
 
 std::string last_glfw_error() {
