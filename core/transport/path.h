@@ -3,7 +3,7 @@
 #include "core/transport/near_lights.h"
 #include "core/transport/path_pool.h"
 #include "core/transport/scatter.h"
-#include "core/transport/specular_light.h"
+#include "core/transport/specular_queue.h"
 
 /// The path tracer. A sample estimates the light that reaches a point of the film,
 ///

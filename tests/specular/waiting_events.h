@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-/// Events that wait for specular light paths (SpecularQueue in transport/specular_light.h), given to the kernels by
+/// Events that wait for specular light paths (SpecularQueue in transport/specular_queue.h), given to the kernels by
 /// hand. Compiled once for each instruction set, with its flags.
 namespace tyndall::test {
 
