@@ -34,7 +34,7 @@ TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Dice<F>& dice) {
 
 /// Lanes whose event is at a diffuse surface or in a medium: those that specular paths lead to.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_diffuse(const auto& s, const Event<F>& e) {
+TYNDALL_INLINE MaskOf<F> accepts_specular_paths(const auto& s, const Event<F>& e) {
   return mask_or(e.medium, mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind)));
 }
 

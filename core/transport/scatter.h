@@ -69,7 +69,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
     p.density = select(e.medium, phase_density(s, e.g, before, direction), p.density);
   }
   if (s.has_chains()) {
-    const auto spreads = is_diffuse(s, e);
+    const auto spreads = accepts_specular_paths(s, e);
     extend_trail(s, p.trail, came, mask_and_not(e.surface, spreads), e.at.element, mask_not(transmitted));
     restart_trail(p.trail, spreads, e.point, p.density, e.asks);
   }

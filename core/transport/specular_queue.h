@@ -19,7 +19,7 @@ using SpecularQueue = LanePool<F, 11, 7>;
 template <class F>
 TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, IntOf<F> slot,
                                    SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
-  const auto spreads = is_diffuse(s, e);
+  const auto spreads = accepts_specular_paths(s, e);
   if (any(spreads)) e.asks = chain_probability(s, e.point);
   const auto drawn = less(p.dice.one_alone(dimension::chain_asked), e.asks);
   const auto asking = mask_and(mask_and(scattering, drawn), spreads);

@@ -101,8 +101,8 @@ TYNDALL_INLINE FacetLink<F> facet_link(const RoughDielectric<F>& m, const Incide
   link.surface_v = in.cosine, link.surface_l = dot(l, in.facing);
   link.transmitted = less(link.surface_l, zero);
   const Vec3<F> between = along(-in.direction, select(link.transmitted, eta, F(1.0f)), l);
-  const Vec3<F> unit = normalize(between);
-  const Vec3<F> h = select(less(dot(unit, in.facing), zero), -unit, unit);
+  const Vec3<F> half = normalize(between);
+  const Vec3<F> h = select(less(dot(half, in.facing), zero), -half, half);
   link.boundary = boundary_at(Dielectric<F>{m.refractive_index}, at_facet(in, h));
   link.cos_v = -dot(in.direction, h), link.cos_l = dot(l, h);
   link.facets = facet_density(m.roughness, dot(h, in.facing));
