@@ -19,8 +19,8 @@
 namespace tyndall {
 namespace {
 
-constexpr double share_of_reference = 0.4;  // of the whole time; the curves get the rest
-constexpr double most_pixels =
+constexpr double fraction_of_reference = 0.4;  // of the whole time; the curves get the rest
+constexpr double max_pixels =
     256 * 256;  // unless --size asks for more: the error of a pixel does not depend on how many there are
 
 /// The scenes of `chart all`: the light, the fog, the sky, the texture, the glass.
@@ -28,8 +28,8 @@ constexpr const char* gallery[] = {"cornell-box", "cornell-smoke", "cover", "sim
 
 void make_small(Scene& scene) {
   const double pixels = static_cast<double>(scene.width) * scene.height;
-  if (pixels <= most_pixels) return;
-  const double scale = std::sqrt(most_pixels / pixels);
+  if (pixels <= max_pixels) return;
+  const double scale = std::sqrt(max_pixels / pixels);
   scene.width = std::max(1, static_cast<int>(scene.width * scale));
   scene.height = std::max(1, static_cast<int>(scene.height * scale));
 }
@@ -62,9 +62,9 @@ class ChartJob {
     const double budget = command_.budget;
     Chart chart;
     const ChartReference reference =
-        command_.reference.empty() ? rendered(scene, share_of_reference * budget) : read(scene);
+        command_.reference.empty() ? rendered(scene, fraction_of_reference * budget) : read(scene);
     chart.reference_noise = reference.noise;
-    const double left = command_.reference.empty() ? (1 - share_of_reference) * budget : budget;
+    const double left = command_.reference.empty() ? (1 - fraction_of_reference) * budget : budget;
     for (std::size_t i = 0; i < methods.size() && !stopped(); ++i)
       chart.curves.push_back(measure_curve(scene, methods[i], reference, left / static_cast<double>(methods.size()),
                                            run(methods[i].name)));

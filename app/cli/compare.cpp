@@ -39,7 +39,7 @@ std::string json_text(const Comparison& c, const std::optional<BlockScores>& blo
     json["blocks"] = {{"count", blocks->blocks},
                       {"mean_square_z", blocks->mean_square},
                       {"worst_z", blocks->worst},
-                      {"limit", blocks->most},
+                      {"limit", blocks->maximum},
                       {"only_noise", blocks->noise()}};
   json["not_finite"] = c.not_finite;
   return json.dump(2) + "\n";
@@ -47,7 +47,7 @@ std::string json_text(const Comparison& c, const std::optional<BlockScores>& blo
 
 std::string blocks_text(const BlockScores& b) {
   return fmt::format("blocks   mean z^2 {:.3g} in {} blocks of 16x16 (up to {:.3g} is noise), worst |z| {:.3g}: {}\n",
-                     b.mean_square, b.blocks, b.most, b.worst, b.noise() ? "only noise" : "more than noise");
+                     b.mean_square, b.blocks, b.maximum, b.worst, b.noise() ? "only noise" : "more than noise");
 }
 
 std::string row(const char* name, double value, const char* note) {

@@ -26,7 +26,7 @@ struct Report {
   KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
-  MethodGain chain_gain, sharing_gain;
+  MethodGain specular_gain, reuse_gain;
 };
 
 Report examine(const InspectCommand& command) {
@@ -38,17 +38,17 @@ Report examine(const InspectCommand& command) {
   report.kernel = kernels.set_for(report.prepared->columns().kernel);
   if (command.measure) {
     report.gain = measure_kernel_gain(*report.prepared, kernels);
-    report.chain_gain = measure_chain_gain(scene, kernels.isa);
-    report.sharing_gain = measure_sharing_gain(scene, kernels.isa);
+    report.specular_gain = measure_specular_gain(scene, kernels.isa);
+    report.reuse_gain = measure_reuse_gain(scene, kernels.isa);
   }
-  report.film_bytes = bytes_per_pixel(needs_trait<&BsdfTraits::emits>(report.prepared->columns().needs)) *
+  report.film_bytes = bytes_per_pixel(needs_trait<&BsdfTraits::emits>(report.prepared->columns().features)) *
                       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   return report;
 }
 
 nlohmann::ordered_json json_of(const KernelGain& gain) {
-  return {{"isa", gain.isa},   {"gain", gain.gain},   {"least", gain.least},
-          {"most", gain.most}, {"pairs", gain.pairs}, {"same_picture", gain.same_picture}};
+  return {{"isa", gain.isa},      {"gain", gain.gain},   {"least", gain.minimum},
+          {"most", gain.maximum}, {"pairs", gain.pairs}, {"same_picture", gain.same_picture}};
 }
 
 std::string json_text(const Report& report) {
@@ -71,17 +71,17 @@ std::string json_text(const Report& report) {
   json["media"] = c.media;
   json["phase_functions"] = c.phase_functions;
   json["lights"] = c.lights;
-  json["chains"] = report.prepared->columns().chains.ball.size();
-  if (report.chain_gain.measured)
-    json["chain_gain"] = {{"time", report.chain_gain.time}, {"squared_error", report.chain_gain.error}};
-  if (report.sharing_gain.measured)
-    json["sharing_gain"] = {{"time", report.sharing_gain.time}, {"squared_error", report.sharing_gain.error}};
+  json["chains"] = report.prepared->columns().specular.sphere.size();
+  if (report.specular_gain.measured)
+    json["chain_gain"] = {{"time", report.specular_gain.time}, {"squared_error", report.specular_gain.error}};
+  if (report.reuse_gain.measured)
+    json["sharing_gain"] = {{"time", report.reuse_gain.time}, {"squared_error", report.reuse_gain.error}};
   json["background"] = c.background;
   json["motion"] = c.motion;
   json["defocus"] = c.defocus;
   json["primitives"] = report.prepared->columns().primitives();
   json["tree"] = report.prepared->columns().bvh != nullptr;
-  json["kernel_features"] = names_of(report.prepared->columns().needs);
+  json["kernel_features"] = names_of(report.prepared->columns().features);
   json["kernel"] = name_of(report.kernel);
   if (report.gain) json["kernel_gain"] = json_of(*report.gain);
   json["scene_bytes"] = bytes_of(report.prepared->columns());
@@ -111,41 +111,41 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// The objects that elements belong to, the first few by name.
 std::string named(const Report& report, const std::vector<std::int32_t>& elements) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t maximum = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(elements.size(), most); ++i) {
+  for (std::size_t i = 0; i < std::min(elements.size(), maximum); ++i) {
     text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.prepared->columns().object_of(elements[i]));
   }
-  return text + (elements.size() > most ? ", ..." : "");
+  return text + (elements.size() > maximum ? ", ..." : "");
 }
 
 /// What exact chains are looked for.
-std::string chains_text(const Report& report) {
-  const Chains& chains = report.prepared->columns().chains;
+std::string specular_paths_text(const Report& report) {
+  const SpecularPairs& specular = report.prepared->columns().specular;
   const RenderSettings& render = report.loaded.scene.render;
   if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
   if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
   if (render.fresnel != FresnelKind::exact) return "none: they need exact Fresnel";
-  if (chains.ball.empty()) return "none: no lamp that is small as seen from a ball of glass, a mirror or a pane";
-  const int flat = chains.first_pane - chains.first_mirror;
-  const int panes = static_cast<int>(chains.index.size()) - chains.first_pane;
+  if (specular.sphere.empty()) return "none: no lamp that is small as seen from a ball of glass, a mirror or a pane";
+  const int flat = specular.first_slab - specular.first_mirror;
+  const int slabs = static_cast<int>(specular.index.size()) - specular.first_slab;
   int mirrors = -flat, shells = 0;
-  for (const float index : chains.index) mirrors += index == 0 ? 1 : 0;
-  for (const float radius : chains.inner_radius) shells += radius > 0 ? 1 : 0;
-  const int solid = chains.first_mirror - mirrors - shells;
-  std::vector<std::int32_t> lamps = chains.light;
-  std::sort(lamps.begin(), lamps.end());
-  lamps.erase(std::unique(lamps.begin(), lamps.end()), lamps.end());
+  for (const float index : specular.index) mirrors += index == 0 ? 1 : 0;
+  for (const float radius : specular.inner_radius) shells += radius > 0 ? 1 : 0;
+  const int solid = specular.first_mirror - mirrors - shells;
+  std::vector<std::int32_t> lights = specular.light;
+  std::sort(lights.begin(), lights.end());
+  lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
   std::string text;
   const auto add = [&](int count, const std::string& noun) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
   };
   add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell"), add(flat, "flat mirror");
-  add(panes, "pane");
-  const std::string count = counted(static_cast<int>(lamps.size()), "lamp");
-  for (std::int32_t& lamp : lamps) lamp = report.prepared->columns().lights.element[static_cast<std::size_t>(lamp)];
-  return text + " (" + named(report, chains.outer) + "), each alone, to " + count + " (" + named(report, lamps) + ")" +
-         "; by chance: ways over two of them, quads of glass, other boxes of glass, and fuzzy metal";
+  add(slabs, "pane");
+  const std::string count = counted(static_cast<int>(lights.size()), "lamp");
+  for (std::int32_t& light : lights) light = report.prepared->columns().lights.element[static_cast<std::size_t>(light)];
+  return text + " (" + named(report, specular.outer) + "), each alone, to " + count + " (" + named(report, lights) +
+         ")" + "; by chance: ways over two of them, quads of glass, other boxes of glass, and fuzzy metal";
 }
 
 /// Whether second vertices are shared between pixels.
@@ -153,8 +153,8 @@ std::string sharing_text(const Report& report) {
   const RenderScene& compiled = report.prepared->columns();
   if (!report.loaded.scene.render.sharing) return "off";
   if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
-  if (compiled.needs.moving_spheres) return "none: spheres move";
-  const SharingGain& gain = report.prepared->reuse_gain();
+  if (compiled.features.moving_spheres) return "none: spheres move";
+  const ReuseGain& gain = report.prepared->reuse_gain();
   if (!gain.probed) return "none: too few paths scatter evenly at their first two vertices";
   const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
                                         gain.variance, gain.time);
@@ -170,7 +170,7 @@ std::string bytes_text(std::size_t bytes) {
 std::string gain_text(const KernelGain& gain) {
   if (gain.pairs == 0) return gain.isa + ": renders this scene by the full kernel itself, so there is nothing to gain";
   return fmt::format("{}: {:.2f} times as fast as the full kernel ({:.2f} to {:.2f} in {} pairs), {}", gain.isa,
-                     gain.gain, gain.least, gain.most, gain.pairs,
+                     gain.gain, gain.minimum, gain.maximum, gain.pairs,
                      gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
 }
 
@@ -198,16 +198,16 @@ std::string table(const Report& report) {
   const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
   row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
   row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
-  row("chains", chains_text(report));
-  if (report.chain_gain.measured) row("", gain_text(report.chain_gain));
+  row("chains", specular_paths_text(report));
+  if (report.specular_gain.measured) row("", gain_text(report.specular_gain));
   row("sharing", sharing_text(report));
-  if (report.sharing_gain.measured) row("", gain_text(report.sharing_gain));
+  if (report.reuse_gain.measured) row("", gain_text(report.reuse_gain));
   row("background", c.background);
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");
   row("primitives", std::to_string(report.prepared->columns().primitives()) +
                         (report.prepared->columns().bvh ? ", in a tree" : ", each tested for every ray"));
-  row("models", listed(names_of(report.prepared->columns().needs)));
+  row("models", listed(names_of(report.prepared->columns().features)));
   row("kernel", name_of(report.kernel));
   if (report.gain) row("", gain_text(*report.gain));
   row("memory",

@@ -61,7 +61,7 @@ MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vect
   MemoryPlan plan;
   plan.width = part.film.region.width(), plan.height = part.film.region.height();
   plan.place = part.name;
-  plan.emission = has_lamps(scene);
+  plan.emission = has_lights(scene);
   plan.files = files;
   plan.form = form;
   return plan;
@@ -101,7 +101,7 @@ int run(const DenoiseCommand& command) {
   const Film film = read_film_alone(command.film);
   const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
   const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);
-  if (is_doubtful(clean.picture, totals(film).least_taken))
+  if (is_doubtful(clean.picture, totals(film).min_taken))
     complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   const std::string stats = clean_stats_text(film, clean.picture, clean.seconds);
   if (command.stats == "-")

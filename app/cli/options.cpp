@@ -8,7 +8,7 @@ namespace tyndall {
 namespace {
 
 using Text = const std::string&;
-using Words = const std::vector<std::string>&;
+using Arguments = const std::vector<std::string>&;
 
 void add_baseline_options(CLI::App& app, CompareCommand& command) {
   app.option_defaults()->group("Baseline (a folder of pictures that renders should go on looking like)");
@@ -51,7 +51,7 @@ void finish_compare(const CLI::App& app, const std::vector<std::string>& images,
   command.reference = images[1];
 }
 
-Command read_compare(Words words) {
+Command read_compare(Arguments arguments) {
   CompareCommand command;
   const auto app = new_command(
       "compare IMAGE REFERENCE | IMAGE... --baseline DIR [options]",
@@ -94,12 +94,12 @@ Command read_compare(Words words) {
   limit("--max-relmse", "fail if relMSE is above X", command.limits.rel_mse);
   limit("--max-flip", "fail if FLIP is above X", command.limits.flip);
   add_baseline_options(*app, command);
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   finish_compare(*app, images, command);
   return command;
 }
 
-Command read_merge(Words words) {
+Command read_merge(Arguments arguments) {
   MergeCommand command;
   const auto app =
       new_command("merge PART... -o FILE [options]",
@@ -114,14 +114,14 @@ Command read_merge(Words words) {
   add_outputs(*app, ".png .exr .pfm .hdr .ppm or -, as for render; repeatable; required", command.outputs,
               command.form);
   app->add_flag("--denoise", command.denoise, "files hold the filtered picture, as with 'tyndall render --denoise'");
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !parts.empty(), "PART");
   require(*app, !command.outputs.empty(), "an output (-o FILE)");
   command.parts.assign(parts.begin(), parts.end());
   return command;
 }
 
-Command read_denoise(Words words) {
+Command read_denoise(Arguments arguments) {
   DenoiseCommand command;
   const auto app = new_command(
       "denoise FILM.exr -o FILE [options]",
@@ -140,14 +140,14 @@ Command read_denoise(Words words) {
   add_value(*app, "--stats", "FILE.json", "write the filtered picture's estimated error, its hash and the time",
             [&](Text t) { command.stats = t; });
   add_machine_options(*app, command.threads, command.isa);
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !film.empty(), "FILM.exr");
   require(*app, !command.outputs.empty(), "an output (-o FILE)");
   command.film = film;
   return command;
 }
 
-Command read_inspect(Words words) {
+Command read_inspect(Arguments arguments) {
   InspectCommand command;
   command.scene.what.clear();
   const auto app =
@@ -165,7 +165,7 @@ Command read_inspect(Words words) {
                 "Fresnel rule, limits of depth, float lanes, 8 bits; without\n"
                 "SCENE: in all built-in scenes");
   add_isa(*app, command.isa);
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, command.accuracy || !command.scene.what.empty(), "SCENE");
   if (!command.isa.empty() && !command.measure) throw UsageError("--isa can only be given with --measure");
   if (command.accuracy && (command.json || command.measure))
@@ -173,14 +173,14 @@ Command read_inspect(Words words) {
   return command;
 }
 
-Command read_scenes(Words words) {
+Command read_scenes(Arguments arguments) {
   const auto app =
       new_command("scenes", "Lists the built-in scenes. Every command takes their names in place of a file.");
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   return ScenesCommand{};
 }
 
-Command read_convert(Words words) {
+Command read_convert(Arguments arguments) {
   ConvertCommand command;
   command.scene.what.clear();
   const auto app =
@@ -191,7 +191,7 @@ Command read_convert(Words words) {
   add_scene(*app, command.scene);
   add_value(*app, "-o,--output", "FILE.json", "file to write, or - for standard output; required",
             [&](Text t) { command.output = t == "-" ? std::filesystem::path(t) : read_file_name(t, ".json"); });
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !command.scene.what.empty(), "SCENE");
   require(*app, !command.output.empty(), "an output (-o FILE.json)");
   return command;
@@ -200,7 +200,7 @@ Command read_convert(Words words) {
 struct Entry {
   const char* name;
   const char* about;
-  Command (*read)(Words words);
+  Command (*read)(Arguments arguments);
 };
 
 constexpr Entry entries[] = {
@@ -232,28 +232,28 @@ std::string overview() {
 }
 
 /// Throws if a word that was not taken for a command must have been meant as one.
-void refuse_misspelt_command(Text word, bool alone) {
+void refuse_misspelt_command(Text argument, bool alone) {
   std::vector<std::string> names;
   for (const Entry& entry : entries) names.emplace_back(entry.name);
-  const std::string hint = suggestion(word, names);
-  if ((hint.empty() && alone) || word[0] == '-' || word.find_first_of("./") != std::string::npos) return;
+  const std::string hint = suggestion(argument, names);
+  if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
-  if (hint.empty() || std::filesystem::exists(word, error)) return;
-  throw UsageError("unknown command " + in_quotes(word) + hint);
+  if (hint.empty() || std::filesystem::exists(argument, error)) return;
+  throw UsageError("unknown command " + in_quotes(argument) + hint);
 }
 
 /// Throws if the first word must have been meant as an option of the program itself.
-void refuse_misspelt_option(Text word) {
-  if (word.size() < 3 || word[0] != '-') return;
-  const std::string hint = suggestion(word, {"--version", "--help"});
-  if (!hint.empty()) throw UsageError("unknown option " + in_quotes(word) + hint + " (see tyndall --help)");
+void refuse_misspelt_option(Text argument) {
+  if (argument.size() < 3 || argument[0] != '-') return;
+  const std::string hint = suggestion(argument, {"--version", "--help"});
+  if (!hint.empty()) throw UsageError("unknown option " + in_quotes(argument) + hint + " (see tyndall --help)");
 }
 
-Command read_help(Words words) {
-  if (words.empty()) return PrintCommand{overview(), {}};
+Command read_help(Arguments arguments) {
+  if (arguments.empty()) return PrintCommand{overview(), {}};
   std::string (*const writers[])(const std::vector<CommandPage>&) = {man_page, bash_completion, zsh_completion,
                                                                      fish_completion};
-  const std::size_t form = read_name(words[0], {"man", "bash", "zsh", "fish"});
+  const std::size_t form = read_name(arguments[0], {"man", "bash", "zsh", "fish"});
   std::vector<CommandPage> pages;
   for (const Entry& entry : entries) {
     pages.push_back(std::get<PrintCommand>(entry.read({"--help"})).page);

@@ -1,6 +1,6 @@
 #include "app/cli/options_render.h"
 
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 
 #include <sstream>
 
@@ -14,18 +14,18 @@ MethodRequest read_method(const std::string& text) {
     throw UsageError("found \"" + text + "\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'");
   MethodRequest method{text.substr(0, equals), {}, ""};
   std::istringstream stream(text.substr(equals + 1));
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
+  std::vector<std::string> arguments;
+  for (std::string argument; stream >> argument;) arguments.push_back(argument);
   const auto app = new_command("--method NAME=FLAGS", "One curve of a chart.");
   add_method_options(*app, method.scene);
   add_isa(*app, method.isa);
-  if (parse(*app, words)) throw UsageError("found a question for help, expected flags of a method");
+  if (parse(*app, arguments)) throw UsageError("found a question for help, expected flags of a method");
   return method;
 }
 
 }  // namespace
 
-Command read_chart(const std::vector<std::string>& words) {
+Command read_chart(const std::vector<std::string>& arguments) {
   ChartCommand command;
   command.scene.what.clear();
   const auto app =
@@ -53,10 +53,10 @@ Command read_chart(const std::vector<std::string>& words) {
             [&](const std::string& t) { command.scene.size = read_size(t); });
   add_value(*app, "-t,--threads", "N",
             "worker threads [the processors that this process may use:\naffinity, and quota rounded up]",
-            [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, most_threads)); });
+            [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, max_threads)); });
   add_progress(*app, command.progress);
   app->add_flag("-q,--quiet", quiet, "no progress");
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !command.scene.what.empty(), "SCENE");
   require(*app, !command.output.empty(), "an output (-o FILE.svg)");
   if (command.scene.what != "all") read_file_name(command.output.string(), ".svg");

@@ -2,8 +2,8 @@
 
 #include "app/cli/render_setup.h"
 #include "app/cli/setting_options.h"
-#include "core/base/crew.h"
 #include "core/base/target.h"
+#include "core/base/thread_pool.h"
 #include "core/render/clean_film.h"
 
 namespace tyndall {
@@ -28,7 +28,7 @@ void add_time_and_error(CLI::App& app, double& time_limit, double& target_error,
 void add_limits(CLI::App& app, RenderCommand& command) {
   app.option_defaults()->group("Limits (the first one reached ends the render)");
   add_value(app, "--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
-            [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, most_samples)); });
+            [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, max_samples)); });
   add_value(app, "--samples", "A:B",
             "exactly the samples A <= i < B of each pixel, for shards that\n"
             "'tyndall merge' adds; not with --spp, --time or --target-error",
@@ -40,7 +40,7 @@ void add_limits(CLI::App& app, RenderCommand& command) {
 void add_view_limits(CLI::App& app, ViewCommand& command) {
   app.option_defaults()->group("Limits (the first one reached pauses the picture; Space goes on)");
   add_value(app, "--spp", "N", "samples per pixel [from the scene, else none]", [&](Text t) {
-    set(command.scene.render, &RenderSettings::spp, static_cast<int>(read_whole(t, 1, most_samples)));
+    set(command.scene.render, &RenderSettings::spp, static_cast<int>(read_whole(t, 1, max_samples)));
   });
   add_time_and_error(app, command.time_limit, command.target_error, "");
 }
@@ -84,9 +84,9 @@ void refuse_conflicts(const RenderCommand& c) {
   if (c.replay && !c.outputs.empty()) throw UsageError("--replay and -o exclude each other: a replay writes no image");
   if (c.replay && c.form.ppm == PpmCurve::gamma2)
     throw UsageError("--replay and --gamma2 exclude each other: a replay writes no image");
-  if (c.denoise && c.spp && *c.spp < least_clean_spp)
+  if (c.denoise && c.spp && *c.spp < min_clean_spp)
     throw UsageError("--denoise: found --spp " + std::to_string(*c.spp) + ", expected at least " +
-                     std::to_string(least_clean_spp) + " samples a pixel");
+                     std::to_string(min_clean_spp) + " samples a pixel");
   if (c.fresh && c.resume) throw UsageError("--fresh and --resume exclude each other: one starts over, one goes on");
   if (c.checkpoint > 0 && kept_film(c.outputs, c.form).empty())
     throw UsageError("--checkpoint needs an output that ends in .exr, and --exr-film yes");
@@ -113,7 +113,7 @@ void add_machine_options(CLI::App& app, int& threads, std::string& isa) {
   add_value(app, "-t,--threads", "N",
             "worker threads; the image is the same for any number\n[processors that this process may use: affinity, "
             "and quota rounded up]",
-            [&](Text t) { threads = static_cast<int>(read_whole(t, 1, most_threads)); });
+            [&](Text t) { threads = static_cast<int>(read_whole(t, 1, max_threads)); });
   add_isa(app, isa);
 }
 
@@ -167,9 +167,9 @@ void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
              [&scene](Text t) { scene.overrides.push_back(read_override(t)); });
 }
 
-Command read_view(const std::vector<std::string>& words) {
+Command read_view(const std::vector<std::string>& arguments) {
   ViewCommand command;
-  command.words = words;
+  command.arguments = arguments;
   const auto app =
       new_command("view [SCENE] [options]",
                   "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.",
@@ -189,12 +189,12 @@ Command read_view(const std::vector<std::string>& words) {
   add_value(*app, "--ui-log", "FILE",
             "for tests: write what is on the screen and how long things took;\n- for standard output",
             [&](Text t) { command.ui_log = t; });
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !command.scene.what.empty(), "SCENE");
   return command;
 }
 
-Command read_render(const std::vector<std::string>& words) {
+Command read_render(const std::vector<std::string>& arguments) {
   RenderCommand command;
   command.scene.what.clear();
   const auto app =
@@ -211,7 +211,7 @@ Command read_render(const std::vector<std::string>& words) {
   add_image_options(*app, command.scene);
   add_method_options(*app, command.scene);
   add_machine_options(*app, command.threads, command.isa);
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !command.scene.what.empty(), "SCENE");
   require(*app, command.replay || !command.outputs.empty(), "an output (-o FILE)");
   refuse_conflicts(command);
@@ -219,7 +219,7 @@ Command read_render(const std::vector<std::string>& words) {
   return command;
 }
 
-Command read_verify(const std::vector<std::string>& words) {
+Command read_verify(const std::vector<std::string>& arguments) {
   VerifyCommand command;
   const auto app =
       new_command("verify [NAME...] [options]",
@@ -240,7 +240,7 @@ Command read_verify(const std::vector<std::string>& words) {
   app->option_defaults()->group("Method");
   add_settings(*app, command.method.render, {"spp", "adaptive"});
   add_machine_options(*app, command.threads, command.isa);
-  if (auto help = parse(*app, words)) return PrintCommand{*help};
+  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   if (quiet) command.progress = ProgressStyle::none;
   return command;
 }

@@ -6,10 +6,10 @@
 namespace tyndall {
 
 /// Read the words after "view", "render", "verify" or "chart".
-Command read_view(const std::vector<std::string>& words);
-Command read_render(const std::vector<std::string>& words);
-Command read_verify(const std::vector<std::string>& words);
-Command read_chart(const std::vector<std::string>& words);
+Command read_view(const std::vector<std::string>& arguments);
+Command read_render(const std::vector<std::string>& arguments);
+Command read_verify(const std::vector<std::string>& arguments);
+Command read_chart(const std::vector<std::string>& arguments);
 
 /// Groups of options that commands share.
 void add_method_options(CLI::App& app, SceneRequest& scene);

@@ -68,10 +68,11 @@ void refuse_extras(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (const std::string& word : app.remaining()) {
-    if (word == "--") continue;  // words after this are no options
-    if (word.size() < 2 || word[0] != '-') throw UsageError("unexpected argument " + in_quotes(word) + see_help(app));
-    const std::string name = word.substr(0, word.find('='));
+  for (const std::string& argument : app.remaining()) {
+    if (argument == "--") continue;  // words after this are no options
+    if (argument.size() < 2 || argument[0] != '-')
+      throw UsageError("unexpected argument " + in_quotes(argument) + see_help(app));
+    const std::string name = argument.substr(0, argument.find('='));
     throw UsageError("unknown option " + in_quotes(name) + suggestion(name, names) + see_help(app));
   }
 }
@@ -111,10 +112,10 @@ void add_arguments(CLI::App& app, const std::string& name, const std::string& he
   app.add_option(name, texts, help)->option_text(" ")->type_name("")->take_all();
 }
 
-std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // what CLI11 expects
+std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> arguments) {
+  std::reverse(arguments.begin(), arguments.end());  // what CLI11 expects
   try {
-    app.parse(words);
+    app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     return PrintCommand{app.help(), page_of(app)};
   } catch (const CLI::ArgumentMismatch& error) {

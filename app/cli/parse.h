@@ -36,7 +36,7 @@ void add_argument(CLI::App& app, const std::string& name, const std::string& hel
 void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts);
 
 /// Reads the words after the command. Returns the help if that is asked for. Throws UsageError, a line.
-std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> words);
+std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> arguments);
 /// Throws "WHAT is missing" unless it was given.
 void require(const CLI::App& app, bool given, const std::string& what);
 

@@ -71,7 +71,7 @@ MemoryPlan memory_plan(const RenderCommand& command, const LoadedScene& loaded, 
   return {.width = region.width(),
           .height = region.height(),
           .place = loaded.name + ": /image",
-          .emission = has_lamps(loaded.scene),
+          .emission = has_lights(loaded.scene),
           .clean = command.denoise,
           .checkpoints = copies,
           .files = command.outputs,
@@ -96,7 +96,7 @@ void prepare(Job& job) {
   job.begin = find_start(command, job.loaded, job.options, job.kernels);
   job.samples_before = totals(job.begin.film).samples;
   if (!job.begin.note.empty()) complain(job.begin.note);
-  if (job.begin.as_asked) return;
+  if (job.begin.as_requested) return;
   for (const std::string& remark : remarks_on_outputs(command, job.begin.place)) complain(remark);
   check_if_ignored(command, job.loaded.scene.render);
   tell_alpha(job.loaded);
@@ -137,8 +137,7 @@ Embedded embedded_in(const Job& job, const Film& film, const std::filesystem::pa
           {TYNDALL_VERSION, job.kernels.isa, unfinished}};
 }
 
-/// Tells if the pixels have different numbers of samples, which the figures and the files say as least_spp and
-/// most_spp.
+/// Tells if the pixels have different numbers of samples, which the figures and the files say as min_spp and max_spp.
 void warn_if_uneven(const Job& job, const Outcome& outcome) {
   const std::string text = uneven_text(job.loaded.scene, outcome.picture.totals);
   if (!text.empty()) complain(text);
@@ -174,7 +173,7 @@ bool write(const Job& job, const Outcome& outcome, bool at_end = true) {
 /// Writes the picture so far in the middle of a render. What cannot be written is told, and the render goes on.
 void write_so_far(const Job& job, const RenderResult& result) {
   try {
-    if (totals(result.film).most_taken == 0) return;
+    if (totals(result.film).max_taken == 0) return;
     const Outcome outcome = outcome_of(job, result, true);
     warn_if_uneven(job, outcome);
     write(job, outcome, false);
@@ -202,13 +201,13 @@ RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressRepor
         "can go on");
     return false;
   };
-  breaks.take_film = [&checkpoints](const Film& film, Crew& crew) { checkpoints.take(film, crew); };
+  breaks.take_film = [&checkpoints](const Film& film, ThreadPool& thread_pool) { checkpoints.take(film, thread_pool); };
   return breaks;
 }
 
 ProgressGoal goal_of(const Job& job) {
-  const bool counted = *job.options.spp < most_samples;
-  return {totals(job.begin.film).least_taken, counted ? *job.options.spp : 0, job.command.time_limit,
+  const bool counted = *job.options.spp < max_samples;
+  return {totals(job.begin.film).min_taken, counted ? *job.options.spp : 0, job.command.time_limit,
           job.command.target_error};
 }
 
@@ -232,7 +231,7 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
   } catch (const std::bad_alloc&) {
     const Region& r = *job.options.region;
     const auto bytes =
-        static_cast<double>(bytes_per_pixel(needs_trait<&BsdfTraits::emits>(job.prepared->columns().needs)));
+        static_cast<double>(bytes_per_pixel(needs_trait<&BsdfTraits::emits>(job.prepared->columns().features)));
     throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
                               1e-9 * bytes * r.width() * r.height(), memory_limit_text()));
   }
@@ -275,14 +274,14 @@ int run(const RenderCommand& command) {
   if (command.replay) return print_replay(command);
   Job job{command};
   prepare(job);
-  if (job.begin.as_asked) return 0;
+  if (job.begin.as_requested) return 0;
   const SignalWatch signals;
   ProgressReport report(command.progress, goal_of(job));
   const RenderResult result = render(job, signals, report);
   const Outcome outcome = outcome_of(job, result, result.interrupted);
   report.finish(summary(outcome, command.outputs));
   const int code = result.interrupted ? 128 + signals.received() : 0;
-  if (outcome.picture.totals.most_taken == 0) {
+  if (outcome.picture.totals.max_taken == 0) {
     complain("interrupted before the first samples: nothing written");
     return code;
   }

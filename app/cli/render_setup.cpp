@@ -20,7 +20,7 @@ namespace {
 std::uint32_t last_sample_count(const RenderCommand& command, const LoadedScene& loaded) {
   if (command.samples) return command.samples->last - command.samples->first;
   if (command.spp) return *command.spp;
-  if (std::isfinite(command.time_limit) || command.target_error > 0) return most_samples;
+  if (std::isfinite(command.time_limit) || command.target_error > 0) return max_samples;
   return static_cast<std::uint32_t>(loaded.scene.render.spp.value_or(64));
 }
 
@@ -37,18 +37,18 @@ void refuse_adaptive(const char* option, const char* why) {
 }
 
 /// The first setting that differs, such as "other settings (seed 0), expected seed 9"; "": none does.
-std::string differing_settings(const RenderSettings& film, const RenderSettings& asked) {
+std::string differing_settings(const RenderSettings& film, const RenderSettings& requested) {
   std::string text;
   for_each_field(fields_of<RenderSettings>(), [&](const auto& field) {
-    const std::string a = default_text(film.*field.value), b = default_text(asked.*field.value);
+    const std::string a = default_text(film.*field.value), b = default_text(requested.*field.value);
     if (!text.empty() || a == b || std::string_view(field.name) == "spp") return;
     text = std::string("a film of other settings (") + field.name + " " + a + "), expected " + field.name + " " + b;
   });
   return text;
 }
 
-std::string differing(const std::string& what, const std::string& film, const std::string& asked) {
-  return film == asked ? "" : what + " " + film + ", expected " + asked;
+std::string differing(const std::string& what, const std::string& film, const std::string& requested) {
+  return film == requested ? "" : what + " " + film + ", expected " + requested;
 }
 
 std::string region_text(const Region& r) {
@@ -67,10 +67,11 @@ std::string difference(const StoredFilm& stored, const RenderCommand& command, c
   if (!stored.label.isa.empty()) look(differing("a film of instruction set", stored.label.isa, kernels.isa));
   look(differing("a film of another region,", region_text(film.region), region_text(*options.region)));
   look(differing("samples from", std::to_string(film.first_sample), std::to_string(options.first_sample)));
-  const std::uint32_t most = totals(film).most_taken;
-  if (command.samples && most > *options.spp)
-    look(differing("samples up to", std::to_string(film.first_sample + most), std::to_string(command.samples->last)));
-  if (options.adaptive && film.planned.empty() && most > warm_up)
+  const std::uint32_t maximum = totals(film).max_taken;
+  if (command.samples && maximum > *options.spp)
+    look(
+        differing("samples up to", std::to_string(film.first_sample + maximum), std::to_string(command.samples->last)));
+  if (options.adaptive && film.planned.empty() && maximum > warm_up)
     look("an adaptive film that does not say how many samples each pixel was to get, expected one that does");
   return text;
 }
@@ -126,19 +127,19 @@ void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const s
 RenderStart start_with(StoredFilm stored, const RenderCommand& command, const LoadedScene& loaded,
                        const RenderOptions& options) {
   RenderStart start;
-  const std::uint32_t taken = labelled_spp(stored.part.film), asked = *options.spp;
+  const std::uint32_t taken = labelled_spp(stored.part.film), requested = *options.spp;
   const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
-  const std::uint32_t most = options.adaptive ? taken : totals(stored.part.film).most_taken;
-  const std::string range = (most > taken ? std::to_string(taken) + " to " : "") + text_of_samples(most);
-  if (most > asked)
-    start.note = name + "the film has " + range + " already, more than the " + std::to_string(asked) + " asked for; " +
-                 (taken < asked ? "all pixels get as many" : "it is written as it is");
-  else if (taken == asked)
+  const std::uint32_t maximum = options.adaptive ? taken : totals(stored.part.film).max_taken;
+  const std::string range = (maximum > taken ? std::to_string(taken) + " to " : "") + text_of_samples(maximum);
+  if (maximum > requested)
+    start.note = name + "the film has " + range + " already, more than the " + std::to_string(requested) +
+                 " asked for; " + (taken < requested ? "all pixels get as many" : "it is written as it is");
+  else if (taken == requested)
     start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
   else if (!command.resume)
     start.note = name + "goes on from the film's " + text_of_samples(taken);
-  start.as_asked = taken == asked && !stored.label.unfinished && command.outputs.size() == 1 && command.stats.empty() &&
-                   !command.denoise && stored.scene.display == loaded.scene.display;
+  start.as_requested = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
+                       command.stats.empty() && !command.denoise && stored.scene.display == loaded.scene.display;
   start.film = std::move(stored.part.film);
   return start;
 }
@@ -193,11 +194,12 @@ void tell_alpha(const LoadedScene& loaded) {
   if (!note.empty()) complain(loaded.name + ": " + note);
 }
 
-std::string differing_scene(const Scene& film, const Scene& asked) {
-  if (same_samples(film, asked)) return "";
+std::string differing_scene(const Scene& film, const Scene& requested) {
+  if (same_samples(film, requested)) return "";
   const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
-  if (size(film) != size(asked)) return "a film of another image size, " + size(film) + ", expected " + size(asked);
-  const std::string settings = differing_settings(film.render, asked.render);
+  if (size(film) != size(requested))
+    return "a film of another image size, " + size(film) + ", expected " + size(requested);
+  const std::string settings = differing_settings(film.render, requested.render);
   return settings.empty() ? "a film of another scene, expected the same scene" : settings;
 }
 
@@ -225,7 +227,7 @@ std::vector<std::string> remarks_on_outputs(const RenderCommand& command, const 
   for (const auto& file : command.outputs) {
     const FilePlace place = check_can_write(file);
     const bool keeps = file == film.output && command.checkpoint != 0;
-    if (place.way != WriteWay::in_place || (place.folder_problem.empty() && !keeps)) continue;
+    if (place.method != WriteMethod::in_place || (place.folder_problem.empty() && !keeps)) continue;
     std::string text =
         file.string() + ": cannot be replaced, as " + place.obstacle + "; the picture is written into it at the end";
     if (!place.folder_problem.empty()) text += "; its folder takes no new files (" + place.folder_problem + ")";

@@ -15,14 +15,14 @@ namespace tyndall {
 /// The kernels of an instruction set ("": the best). Throws UsageError if this build or CPU has none of that name.
 Kernels find_kernels(const std::string& isa);
 
-/// Limits and region of a render. spp is always set; where only time or error end the render, to most_samples.
+/// Limits and region of a render. spp is always set; where only time or error end the render, to max_samples.
 /// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded);
 
 /// Where a render begins: anew, or with the film that its .exr output holds already.
 struct RenderStart {
   Film film;  ///< to go on from; empty: the render starts anew
-  bool as_asked =
+  bool as_requested =
       false;  ///< the film has all samples that are asked for, and the file holds what the command would write into it
   std::string note;  ///< what to tell the user; "": nothing
   FilmPlace place;   ///< where the film is kept
@@ -45,6 +45,6 @@ std::vector<std::string> remarks_on_outputs(const RenderCommand& command, const 
 
 /// How a film's scene differs from the one that is asked for if their samples do, as "found X, expected Y" without
 /// "found"; "": they are the same.
-std::string differing_scene(const Scene& film, const Scene& asked);
+std::string differing_scene(const Scene& film, const Scene& requested);
 
 }  // namespace tyndall

@@ -18,7 +18,7 @@ namespace tyndall {
 
 struct ViewCommand {
   SceneRequest scene;
-  std::vector<std::string> words;  ///< as the user typed them; repeated in the message that there is no display
+  std::vector<std::string> arguments;  ///< as the user typed them; repeated in the message that there is no display
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which the picture pauses
   double target_error = 0;                                      ///< the same for its estimated error; 0: none
   int threads = 0;                                              ///< 0: see thread_count()

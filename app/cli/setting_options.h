@@ -58,7 +58,7 @@ std::string choices_text(const T&) {
   std::string text;
   if constexpr (NamedEnum<T>)
     for (int i = 0; i < count_of<T>(); ++i) {
-      const Word choice = word(static_cast<T>(i));
+      const Label choice = label(static_cast<T>(i));
       text += std::string(text.empty() ? ": " : "; ") + choice.name +
               (*choice.help ? std::string(" (") + choice.help + ")" : "");
     }

@@ -5,8 +5,8 @@
 #include "app/files/open_scene.h"
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
-#include "core/base/crew.h"
 #include "core/base/seconds.h"
+#include "core/base/thread_pool.h"
 #include "core/compile/compile.h"
 
 #include <chrono>
@@ -30,16 +30,16 @@ Scene scene_of(const VerifyCommand& command, const VerifyCase& what) {
   SceneRequest request = command.method;
   request.what = what.scene.string();
   request.overrides = what.overrides;
-  set(request.render, &RenderSettings::seed, seed_of(what.name) + most_rounds * command.method.render.values.seed);
+  set(request.render, &RenderSettings::seed, seed_of(what.name) + max_rounds * command.method.render.values.seed);
   return open_scene(request).scene;
 }
 
 /// Whether a method finds the light of a case only by rare chance.
 bool is_out_of_reach(const VerifyCase& what, const RenderSettings& method) {
-  if (what.needs_light_sampling && method.integrator == Integrator::path) return true;
-  const bool chains = method.integrator == Integrator::mis && method.caustics == Caustics::chains &&
+  if (what.requires_light_sampling && method.integrator == Integrator::path) return true;
+  const bool solved = method.integrator == Integrator::mis && method.caustics == Caustics::chains &&
                       method.fresnel == FresnelKind::exact;
-  return what.needs_chains && !chains;
+  return what.requires_specular_paths && !solved;
 }
 
 class Verification {
@@ -48,7 +48,7 @@ class Verification {
       : command_(command), cases_(std::move(cases)), report_(command.progress) {
     run_.precision = command.thorough ? 1e-4 : 1e-3;
     run_.isa = find_kernels(command.isa).isa;
-    run_.threads = Crew(command.threads).size();
+    run_.threads = ThreadPool(command.threads).size();
   }
 
   VerifyRun run() {

@@ -17,9 +17,9 @@ struct VerifyCase {
   std::filesystem::path scene;      ///< file
   std::vector<Override> overrides;  ///< of the scene, in order
   double expected = 0;
-  std::string source;                 ///< author, title, year, or how it is derived
-  bool needs_light_sampling = false;  ///< its lights are too small for a path to meet by chance
-  bool needs_chains = false;          ///< so small that light through or off a ball is found by chains alone
+  std::string source;                    ///< author, title, year, or how it is derived
+  bool requires_light_sampling = false;  ///< its lights are too small for a path to meet by chance
+  bool requires_specular_paths = false;  ///< so small that light through or off a sphere is found by chains alone
 };
 
 /// Reads a table of cases: { "groups": [{ "name", "scene", "source", "set": { POINTER: VALUE, … }, "light_sampling",
@@ -34,7 +34,7 @@ std::vector<VerifyCase> chosen_cases(const std::vector<VerifyCase>& cases, const
 
 enum class Verdict { ok, fail, vague, skipped };
 
-constexpr Word word(Verdict verdict) {
+constexpr Label label(Verdict verdict) {
   switch (verdict) {
     case Verdict::ok:
       return {"ok"};
@@ -56,7 +56,7 @@ struct VerifyRow {
   Verdict verdict = Verdict::skipped;
 };
 
-/// The row with a measurement, judged. precision: largest standard error, as a share of what is expected.
+/// The row with a measurement, judged. precision: largest standard error, as a fraction of what is expected.
 VerifyRow judge(VerifyRow row, const Measured& measured, double precision);
 
 struct VerifyRun {

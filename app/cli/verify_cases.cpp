@@ -59,9 +59,10 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
   group.name = text_at(object, at, "name", "the group's name");
   group.scene = folder / text_at(object, at, "scene", "the name of a scene file beside this one");
   group.source = text_at(object, at, "source", "where the expected numbers are from");
-  group.needs_light_sampling =
+  group.requires_light_sampling =
       flag_of(object, at, "light_sampling", "true if chance alone does not find the lights, else false");
-  group.needs_chains = flag_of(object, at, "chains", "true if exact chains alone find the light, else false");
+  group.requires_specular_paths =
+      flag_of(object, at, "chains", "true if exact chains alone find the light, else false");
   read_overrides(object, at, group.overrides);
   const JsonArray& list = list_at(object, at, "cases", "the group's cases");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -107,8 +108,8 @@ std::vector<VerifyCase> read_verify_cases(const std::filesystem::path& file) {
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   try {
     return read_table(text, file.parent_path());
-  } catch (const Broken& broken) {
-    throw SceneError(file.string(), broken.where, broken.found, broken.expected);
+  } catch (const ParseError& error) {
+    throw SceneError(file.string(), error.where, error.found, error.expected);
   }
 }
 

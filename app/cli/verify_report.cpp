@@ -11,7 +11,7 @@
 namespace tyndall {
 namespace {
 
-constexpr double most_z = 4;
+constexpr double max_z = 4;
 
 int count(const VerifyRun& run, Verdict verdict) {
   return static_cast<int>(
@@ -22,7 +22,7 @@ std::string line_of(const VerifyRow& row, std::size_t name_width) {
   const std::string start = "  " + row.what.name + std::string(name_width + 2 - row.what.name.size(), ' ');
   if (row.verdict == Verdict::skipped)
     return start + fmt::format("{:<12.7g} {:<45} skipped\n", row.what.expected,
-                               row.what.needs_chains ? "needs chains" : "needs light sampling");
+                               row.what.requires_specular_paths ? "needs chains" : "needs light sampling");
   const Measured& m = row.measured;
   std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.what.expected,
                                          m.value.mean, m.value.error, row.z, m.totals.truncated, name_of(row.verdict));
@@ -77,7 +77,7 @@ VerifyRow judge(VerifyRow row, const Measured& measured, double precision) {
   row.measured = measured;
   row.z = z_score(measured.value, row.what.expected);
   const bool sharp = measured.value.error <= precision * std::abs(row.what.expected);
-  const bool right = std::abs(row.z) <= most_z && measured.totals.rejected == 0;
+  const bool right = std::abs(row.z) <= max_z && measured.totals.rejected == 0;
   row.verdict = !right ? Verdict::fail : sharp ? Verdict::ok : Verdict::vague;
   return row;
 }
@@ -86,7 +86,7 @@ ZStatistic z_statistic(const std::vector<VerifyRow>& rows) {
   ZStatistic scores;
   double sum = 0;
   for (const VerifyRow& row : rows) {
-    const double rounding = rounding_share * std::abs(row.what.expected);
+    const double rounding = rounding_fraction * std::abs(row.what.expected);
     if (row.verdict == Verdict::skipped || row.measured.value.error <= 10 * rounding) continue;
     sum += row.z * row.z;
     ++scores.count;

@@ -21,15 +21,15 @@ namespace tyndall {
 namespace {
 
 /// The word as a shell needs it.
-std::string shell_word(const std::string& word) {
+std::string shell_argument(const std::string& argument) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
   std::string quoted = "'";
-  if (all_printable(word) == word) {
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  if (all_printable(argument) == argument) {
+    for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
   }
-  for (const char c : word) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
+  for (const char c : argument) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
       quoted += fmt::format("\\x{:02x}", byte);
@@ -42,19 +42,19 @@ std::string shell_word(const std::string& word) {
 /// The render command that makes the picture which the window would show.
 std::string headless_command(const ViewCommand& command) {
   std::string text = "tyndall render";
-  if (std::find(command.words.begin(), command.words.end(), command.scene.what) == command.words.end())
-    text += " " + shell_word(command.scene.what);
-  for (std::size_t i = 0; i < command.words.size(); ++i) {
-    const std::string& word = command.words[i];
-    const bool of_window = word.starts_with("--reference") || word.starts_with("--ui-log");
-    if (!of_window) text += " " + shell_word(word);
-    if (of_window && word.find('=') == std::string::npos)
+  if (std::find(command.arguments.begin(), command.arguments.end(), command.scene.what) == command.arguments.end())
+    text += " " + shell_argument(command.scene.what);
+  for (std::size_t i = 0; i < command.arguments.size(); ++i) {
+    const std::string& argument = command.arguments[i];
+    const bool of_window = argument.starts_with("--reference") || argument.starts_with("--ui-log");
+    if (!of_window) text += " " + shell_argument(argument);
+    if (of_window && argument.find('=') == std::string::npos)
       ++i;  // the next word is the option's value: leave it out, too
   }
   const std::filesystem::path scene(command.scene.what);
   const std::string name = scene.extension() == ".png" ? scene.stem().string() + "-again" : scene.stem().string();
   const std::string file = (name == "-" ? "image" : name) + ".png";
-  return text + " -o " + shell_word(file.starts_with('-') ? "./" + file : file);  // a dash would begin an option
+  return text + " -o " + shell_argument(file.starts_with('-') ? "./" + file : file);  // a dash would begin an option
 }
 
 bool is_set(const char* variable) {
@@ -65,10 +65,10 @@ bool is_set(const char* variable) {
 void check_memory(const Scene& scene) {
 #ifdef TYNDALL_WINDOW
   const std::filesystem::path file = preferences_file();
-  check_memory({scene.width, scene.height, has_lamps(scene), read_preferences(file).value_or(Preferences{}).clean},
+  check_memory({scene.width, scene.height, has_lights(scene), read_preferences(file).value_or(Preferences{}).clean},
                free_memory(), "write \"clean off\" into " + file.string());
 #else
-  check_memory(WindowPlan{scene.width, scene.height, has_lamps(scene)}, free_memory(), "");
+  check_memory(WindowPlan{scene.width, scene.height, has_lights(scene)}, free_memory(), "");
 #endif
 }
 
@@ -93,8 +93,8 @@ int run(const ViewCommand& command) {
 #ifdef TYNDALL_WINDOW
   tell_alpha(loaded);
   try {
-    const auto& words = command.words;
-    const bool named = std::find(words.begin(), words.end(), command.scene.what) != words.end();
+    const auto& arguments = command.arguments;
+    const bool named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
     return run_window({loaded,
                        open,
                        read_edits,

@@ -73,10 +73,10 @@ struct Pictures {
 
 /// "a, b, c and 4 more"
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t maximum = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
-  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
+  for (std::size_t i = 0; i < std::min(names.size(), maximum); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > maximum ? text + " and " + std::to_string(names.size() - maximum) + " more" : text;
 }
 
 /// What is left out of a folder, a line for each reason.

@@ -45,13 +45,13 @@ void Convergence::clear() {
 }
 
 void Convergence::keep_current() {
-  if (current_.points.size() < 3 || current_.points.back().seconds < least_seconds) return;
+  if (current_.points.size() < 3 || current_.points.back().seconds < min_seconds) return;
   const auto same = std::ranges::find(earlier_, current_.method, &ErrorCurve::method);
   if (same != earlier_.end())
     *same = std::move(current_);
   else
     earlier_.push_back(std::move(current_));
-  if (earlier_.size() > most_earlier) earlier_.erase(earlier_.begin());
+  if (earlier_.size() > max_earlier) earlier_.erase(earlier_.begin());
 }
 
 std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept, const Convergence* clean) {

@@ -29,8 +29,8 @@ class Convergence {
   /// Of each method only the newest, in the place of the one before it, so that a method keeps its colour in the chart.
   const std::vector<ErrorCurve>& earlier() const { return earlier_; }
 
-  static constexpr std::size_t most_earlier = 4;
-  static constexpr double least_seconds = 0.5;  ///< curves over less time, as during a drag, are not kept
+  static constexpr std::size_t max_earlier = 4;
+  static constexpr double min_seconds = 0.5;  ///< curves over less time, as during a drag, are not kept
 
  private:
   void keep_current();

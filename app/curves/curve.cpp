@@ -7,10 +7,10 @@ namespace tyndall {
 namespace {
 
 /// How far `value` lies on the way from a to b on a logarithmic scale: 0 at a, 1 at b.
-double part_of_way(double a, double b, double value) { return std::log(value / a) / std::log(b / a); }
+double part_between(double a, double b, double value) { return std::log(value / a) / std::log(b / a); }
 
 /// The value at that part of the way from a to b on a logarithmic scale.
-double on_the_way(double a, double b, double part) { return a * std::pow(b / a, part); }
+double value_between(double a, double b, double part) { return a * std::pow(b / a, part); }
 
 }  // namespace
 
@@ -20,9 +20,9 @@ std::optional<ErrorPoint> point_at(const ErrorCurve& curve, double seconds) {
   const auto after = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.seconds >= seconds; });
   if (after == points.begin()) return *after;
   const ErrorPoint &a = after[-1], &b = *after;
-  const double part = part_of_way(a.seconds, b.seconds, seconds);
-  const double spp = on_the_way(std::max(1u, a.spp), std::max(1u, b.spp), part);
-  return ErrorPoint{seconds, on_the_way(a.rel_mse, b.rel_mse, part), static_cast<std::uint32_t>(std::lround(spp)),
+  const double part = part_between(a.seconds, b.seconds, seconds);
+  const double spp = value_between(std::max(1u, a.spp), std::max(1u, b.spp), part);
+  return ErrorPoint{seconds, value_between(a.rel_mse, b.rel_mse, part), static_cast<std::uint32_t>(std::lround(spp)),
                     b.noise};
 }
 
@@ -33,7 +33,7 @@ std::optional<double> seconds_to(const ErrorCurve& curve, double rel_mse) {
   // Zero and less, from a reference noisier than the picture, has no place on a logarithmic scale.
   if (reached == points.begin() || !(reached->rel_mse > 0)) return reached->seconds;
   const ErrorPoint &a = reached[-1], &b = *reached;
-  return on_the_way(a.seconds, b.seconds, part_of_way(a.rel_mse, b.rel_mse, rel_mse));
+  return value_between(a.seconds, b.seconds, part_between(a.rel_mse, b.rel_mse, rel_mse));
 }
 
 double seconds_left(double target, const ErrorPoint& known, double seconds) {
@@ -48,7 +48,7 @@ std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& c
   return *slow / *fast;
 }
 
-double least_measurable(double reference_noise) { return 4 * reference_noise; }
+double min_measurable(double reference_noise) { return 4 * reference_noise; }
 
 std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise) {
   if (curve.points.size() < 4) return {};
@@ -60,7 +60,7 @@ std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise) {
   // Bias stays when the samples double. What the estimate of noise misses of heavy tails does not: it falls.
   const double bias = rest(last);
   const bool stays = bias > 0.7 * rest(*before) && bias > 0.5 * last.noise;
-  return stays && bias > least_measurable(reference_noise) ? std::optional(bias) : std::nullopt;
+  return stays && bias > min_measurable(reference_noise) ? std::optional(bias) : std::nullopt;
 }
 
 }  // namespace tyndall

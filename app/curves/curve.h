@@ -43,7 +43,7 @@ std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& c
 
 /// Errors below this one would be mostly the reference's own noise. reference_noise: relMSE of the reference; 0: not
 /// known.
-double least_measurable(double reference_noise);
+double min_measurable(double reference_noise);
 
 /// The error that stays although the samples double: what noise does not explain in the last points. Nothing where it
 /// cannot be told from noise, the picture's or the reference's.

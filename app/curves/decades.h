@@ -13,14 +13,14 @@ struct Decades {
   double part_of(double value) const { return (std::log10(value) - first) / (last - first); }
   /// The value at that part of the axis.
   double value_at(double part) const { return std::pow(10.0, first + part * (last - first)); }
-  double least() const { return std::pow(10.0, first); }
-  double most() const { return std::pow(10.0, last); }
+  double minimum() const { return std::pow(10.0, first); }
+  double maximum() const { return std::pow(10.0, last); }
 };
 
-/// The whole decades that hold all values from `least` > 0 to `most`, and at least `count` >= 1 of them.
-inline Decades decades_around(double least, double most, int count) {
-  const int first = static_cast<int>(std::floor(std::log10(least)));
-  return {first, std::max(static_cast<int>(std::ceil(std::log10(most))), first + count)};
+/// The whole decades that hold all values from `minimum` > 0 to `maximum`, and at least `count` >= 1 of them.
+inline Decades decades_around(double minimum, double maximum, int count) {
+  const int first = static_cast<int>(std::floor(std::log10(minimum)));
+  return {first, std::max(static_cast<int>(std::ceil(std::log10(maximum))), first + count)};
 }
 
 }  // namespace tyndall

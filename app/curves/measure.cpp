@@ -65,7 +65,7 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
   std::uint32_t spp = 2;
   while (picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds() < seconds * 1.4) spp *= 2;
   FinishedPicture reference = picture.finished();
-  const std::uint32_t taken = reference.totals.least_taken;
+  const std::uint32_t taken = reference.totals.min_taken;
   if (taken < 2) return {};
   return {std::move(reference.image), squared(reference.estimate.relative_error),
           "mis, random numbers of another seed, " + std::to_string(taken) + " spp"};
@@ -81,7 +81,7 @@ ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartRefe
     if (!point) continue;
     curve.points.push_back(*point);
     const double measured = point->rel_mse + reference.noise;
-    if (measured < least_measurable(reference.noise) || 2 * picture.seconds() > seconds * 1.4) break;
+    if (measured < min_measurable(reference.noise) || 2 * picture.seconds() > seconds * 1.4) break;
   }
   return curve;
 }

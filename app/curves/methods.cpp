@@ -13,7 +13,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   exact.render.caustics = Caustics::chains;
   exact.render.sharing = true;
   const std::shared_ptr<const PreparedScene> prepared = prepare(exact);
-  const Needs needs = prepared->columns().needs;
+  const SceneFeatures features = prepared->columns().features;
   std::vector<ChartMethod> methods;
   RenderSettings settings = scene.render;
   settings.spp.reset();
@@ -22,20 +22,20 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.sampler = SamplerKind::random;
   settings.caustics = Caustics::scatter;
   settings.sharing = false;
-  settings.fresnel = has_material<Dielectric<>>(needs) ? FresnelKind::schlick : FresnelKind::exact;
+  settings.fresnel = has_material<Dielectric<>>(features) ? FresnelKind::schlick : FresnelKind::exact;
   methods.push_back({"the books' method", settings, "scalar"});
   const auto switch_on = [&](const char* name, auto change) {
     change(settings);
     methods.push_back({name, settings, "scalar"});
   };
-  if (has_material<Dielectric<>>(needs))
+  if (has_material<Dielectric<>>(features))
     switch_on("+ exact Fresnel", [](RenderSettings& s) { s.fresnel = FresnelKind::exact; });
-  if (has_material<Light<>>(needs)) {
+  if (has_material<Light<>>(features)) {
     switch_on("+ light sampling", [](RenderSettings& s) { s.integrator = Integrator::nee; });
     switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
   }
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
-  if (!prepared->columns().chains.ball.empty())
+  if (!prepared->columns().specular.sphere.empty())
     switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
   if (prepared->reuses_paths()) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
   for (const Kernels& kernels : available_kernels())
@@ -45,7 +45,7 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.adaptive = true;
   methods.push_back({"+ adaptive", settings, ""});
   settings.adaptive = false;
-  if (has_material<Dielectric<>>(needs)) {
+  if (has_material<Dielectric<>>(features)) {
     settings.fresnel = FresnelKind::schlick;
     methods.push_back({"Schlick", settings, ""});
   }

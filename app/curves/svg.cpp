@@ -48,15 +48,15 @@ struct Plot {
   Decades seconds{0, 1}, errors{-3, 0};
 
   explicit Plot(const std::vector<ErrorCurve>& curves) {
-    double first = 1e300, last = 0, least = 1e-2, most = 1e-1;
+    double first = 1e300, last = 0, minimum = 1e-2, maximum = 1e-1;
     for (const ErrorCurve& curve : curves)
       for (const ErrorPoint& p : curve.points) {
         first = std::min(first, p.seconds), last = std::max(last, p.seconds);
-        if (p.rel_mse > 0) least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
+        if (p.rel_mse > 0) minimum = std::min(minimum, p.rel_mse), maximum = std::max(maximum, p.rel_mse);
       }
     if (last <= 0) return;
     seconds = decades_around(first, last, 1);
-    errors = decades_around(least, most, 1);
+    errors = decades_around(minimum, maximum, 1);
   }
   double x(double time) const { return left + seconds.part_of(time) * (width - left - right); }
   double y(double error) const { return height - bottom - errors.part_of(error) * (height - top - bottom); }
@@ -97,8 +97,8 @@ std::string slope_guide(const Plot& plot, const std::vector<ErrorCurve>& curves)
       if (p.rel_mse > 0) best = std::min(best, p.rel_mse * p.seconds);
   if (best > 1e299) return "";
   best *= 0.6;
-  const double from = std::max(best / plot.errors.most(), plot.seconds.least()),
-               to = std::min(best / plot.errors.least(), plot.seconds.most());
+  const double from = std::max(best / plot.errors.maximum(), plot.seconds.minimum()),
+               to = std::min(best / plot.errors.minimum(), plot.seconds.maximum());
   if (from >= to) return "";
   const double x = plot.x(from), y = plot.y(best / from);
   return line(x, y, plot.x(to), plot.y(best / to), "guide") + text_at(x + 6, y + 14, "class=\"dim\"", "slope -1");

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t pixels_at_a_time = 4096;  ///< by one thread
 
 /// Copies a film into another one, whose memory is used again. All threads copy parts of it, as rendering waits for it.
-void copy(const Film& film, Film& to, Crew& crew) {
+void copy(const Film& film, Film& to, ThreadPool& thread_pool) {
   std::vector<FilmPixel> pixels = std::move(to.pixels);
   std::vector<EmissionSums> emission = std::move(to.emission);
   pixels.resize(film.pixels.size());
@@ -31,12 +31,12 @@ void copy(const Film& film, Film& to, Crew& crew) {
     part(film.pixels, pixels);
     part(film.emission, emission);
   };
-  crew.for_each(static_cast<int>((film.pixels.size() + pixels_at_a_time - 1) / pixels_at_a_time), copy_part);
+  thread_pool.for_each(static_cast<int>((film.pixels.size() + pixels_at_a_time - 1) / pixels_at_a_time), copy_part);
   to = {.width = film.width,
         .height = film.height,
         .region = film.region,
         .first_sample = film.first_sample,
-        .unit = film.unit,
+        .quantum = film.quantum,
         .cut_throughput = film.cut_throughput,
         .pixels = std::move(pixels),
         .emission = std::move(emission),
@@ -53,25 +53,25 @@ Checkpoints::~Checkpoints() { finish(); }
 
 bool Checkpoints::due() const {
   if (writing_) return false;
-  const double usual = std::max(least_checkpoint_interval, checkpoint_interval_over_cost * cost_);
+  const double usual = std::max(min_checkpoint_interval, checkpoint_interval_over_cost * cost_);
   const double interval = interval_.value_or(usual);
   const double lead = slowest_ > 0 ? 2 * slowest_ + checkpoint_look_interval : interval_.value_or(0);
   return seconds_since(taken_) >= std::max(interval - lead, interval / 2);
 }
 
-void Checkpoints::take(const Film& film, Crew& crew) {
+void Checkpoints::take(const Film& film, ThreadPool& thread_pool) {
   if (writer_.joinable()) writer_.join();
   taken_ = Clock::now();
-  if (!write_in_background(film, crew)) write(film);
+  if (!write_in_background(film, thread_pool)) write(film);
 }
 
 /// False if there is no memory for a copy, or no thread. Where the system promises more memory than it has, taking it
 /// would end the program: so what is free is looked at.
-bool Checkpoints::write_in_background(const Film& film, Crew& crew) {
+bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool) {
   if (copy_.pixels.empty() && free_memory().bytes < film.pixels.size() * bytes_per_pixel(!film.emission.empty()))
     return false;
   try {
-    copy(film, copy_, crew);
+    copy(film, copy_, thread_pool);
     writing_ = true;
     writer_ = std::thread([this] {
       write(copy_);
@@ -98,8 +98,8 @@ void Checkpoints::write(const Film& film) {
   }
   cost_ = seconds_since(taken_);
   slowest_ = std::max<double>(slowest_, cost_);
-  const double asked = interval_.value_or(0);
-  if (asked > 0 && cost_ > asked / 2 && !std::exchange(slow_, true))
+  const double requested = interval_.value_or(0);
+  if (requested > 0 && cost_ > requested / 2 && !std::exchange(slow_, true))
     note("checkpoints take longer than half of --checkpoint; a kill can cost twice what one took: ",
          fmt::format("{:.2g} s", cost_.load()).c_str());
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
 
@@ -18,7 +18,7 @@ namespace tyndall {
 
 /// Without an interval of the user's, it is this long at least, seconds; and at least so many times the time that the
 /// last checkpoint took: as the next one begins earlier by twice that, they then take at most 1 % of the time.
-inline constexpr double least_checkpoint_interval = 30, checkpoint_interval_over_cost = 102;
+inline constexpr double min_checkpoint_interval = 30, checkpoint_interval_over_cost = 102;
 /// Seconds that may pass until somebody asks again whether a checkpoint is due (see RenderBreaks).
 inline constexpr double checkpoint_look_interval = 0.05;
 
@@ -43,7 +43,7 @@ class Checkpoints {
   bool due() const;
   /// Copies the film, with all threads, and begins to write the copy in the background. The memory of the copy is kept
   /// for the next one. Where there is no memory for it, the film itself is written before this returns.
-  void take(const Film& film, Crew& crew);
+  void take(const Film& film, ThreadPool& thread_pool);
   /// Waits until the last one is written, and gives the memory of the copy back.
   void finish();
   /// What went wrong since the last call, once for each reason. A failed checkpoint leaves the one before it.
@@ -51,7 +51,7 @@ class Checkpoints {
 
  private:
   using Clock = std::chrono::steady_clock;
-  bool write_in_background(const Film& film, Crew& crew);
+  bool write_in_background(const Film& film, ThreadPool& thread_pool);
   void write(const Film& film);
   void note(const char* what, const char* why);
 

@@ -39,12 +39,12 @@ bool says(const std::string& text, const char* setting) {
   return find(find(&json.root, "render"), setting) != nullptr;
 }
 
-bool could_have_chains(Scene scene) {
+bool could_have_specular_paths(Scene scene) {
   scene.render.caustics = Caustics::chains;
-  return !compile(scene).chains.ball.empty();
+  return !compile(scene).specular.sphere.empty();
 }
 
-bool could_share(Scene scene) {
+bool could_reuse_paths(Scene scene) {
   scene.render.sharing = true;
   return prepare(scene)->reuses_paths();
 }
@@ -62,7 +62,7 @@ FilmLabel label_of(const std::filesystem::path& file) {
   try {
     const JsonDocument json = parse_json(stats);
     label.version = text_of(find(&json.root, "version")), label.isa = text_of(find(&json.root, "isa"));
-  } catch (const Broken&) {
+  } catch (const ParseError&) {
     return label;  // another program has changed the text
   }
   return label;
@@ -113,12 +113,12 @@ bool same_samples(Scene a, Scene b) {
   const bool other_sharing = a.render.sharing != b.render.sharing;
   b.render.caustics = a.render.caustics, b.render.sharing = a.render.sharing;
   if (!(a == b)) return false;
-  return !(other_caustics && could_have_chains(a)) && !(other_sharing && could_share(a));
+  return !(other_caustics && could_have_specular_paths(a)) && !(other_sharing && could_reuse_paths(a));
 }
 
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
                            const std::filesystem::path& image) {
-  scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, most_samples));
+  scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, max_samples));
   const std::string caustics = name_of(scene.render.caustics), sharing = scene.render.sharing ? "true" : "false";
   JsonValue json = scene_json(move_textures(std::move(scene), textures, image.parent_path()));
   apply_override(json, {caustics_pointer, caustics});
@@ -127,10 +127,9 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
 }
 
 std::string uneven_text(const Scene& scene, const FilmTotals& totals) {
-  if (scene.render.adaptive || totals.least_taken == totals.most_taken) return "";
+  if (scene.render.adaptive || totals.min_taken == totals.max_taken) return "";
   return fmt::format("the pixels have {} to {} samples, as the render was interrupted within a pass{}",
-                     totals.least_taken, totals.most_taken,
-                     totals.least_taken > 0 ? "" : "; those with none are black");
+                     totals.min_taken, totals.max_taken, totals.min_taken > 0 ? "" : "; those with none are black");
 }
 
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
@@ -139,8 +138,8 @@ FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
 
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads,
                        const std::string& isa) {
-  if (totals(film).least_taken < least_clean_spp)
-    throw UsageError(file + ": found pixels with fewer than " + std::to_string(least_clean_spp) +
+  if (totals(film).min_taken < min_clean_spp)
+    throw UsageError(file + ": found pixels with fewer than " + std::to_string(min_clean_spp) +
                      " samples, expected at least that many in each: the filter compares two halves of them");
   const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   const auto start = std::chrono::steady_clock::now();

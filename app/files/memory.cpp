@@ -85,7 +85,7 @@ std::uint64_t memory_needed(const WindowPlan& plan) {
   return program + libraries + (film + pictures) * all + clean;
 }
 
-bool has_lamps(const Scene& scene) {
+bool has_lights(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const auto& material) { return std::holds_alternative<Light<double>>(material.kind); });
 }

@@ -11,7 +11,7 @@ namespace tyndall {
 struct MemoryPlan {
   std::int64_t width = 0, height = 0;  ///< of the film
   std::string place;                   ///< what says so, as messages call it: "cover.json: /image"
-  bool emission = false;               ///< whether the film records emission: the scene has lamps
+  bool emission = false;               ///< whether the film records emission: the scene has lights
   bool clean = false;                  ///< whether the picture is filtered
   bool checkpoints = false;            ///< whether the film is copied while it is rendered
   bool parts = false;                  ///< whether another film is added to it
@@ -20,7 +20,7 @@ struct MemoryPlan {
 };
 
 /// Whether films of the scene record emission.
-bool has_lamps(const Scene& scene);
+bool has_lights(const Scene& scene);
 
 /// The most memory that the process then has, bytes. The scene and its textures are not counted.
 std::uint64_t memory_needed(const MemoryPlan& plan);

@@ -11,8 +11,8 @@ LoadedScene open_scene(const SceneRequest& request) {
   if (request.size) loaded.scene.width = request.size->width, loaded.scene.height = request.size->height;
   apply(request.render, loaded.scene.render);
   apply(request.display, loaded.scene.display);
-  if (const auto broken = check(loaded.scene))
-    throw SceneError(loaded.name, broken->where, broken->found, broken->expected);
+  if (const auto error = check(loaded.scene))
+    throw SceneError(loaded.name, error->where, error->found, error->expected);
   for (const std::string& remark : texture_remarks(loaded.scene)) complain(remark);
   return loaded;
 }

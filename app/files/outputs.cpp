@@ -167,12 +167,12 @@ FilmPlace film_place(const std::vector<std::filesystem::path>& outputs, const Im
   if (film.output.empty()) return film;
   const FilePlace place = check_can_write(film.output);
   film.unfinished = film.output;
-  if (place.way == WriteWay::replace) return film;
+  if (place.method == WriteMethod::replace) return film;
   film.unfinished = beside(place.target, "unfinished");
   const auto is_that = [&film](const auto& file) { return is_same_file(file, film.unfinished); };
   try {
     const bool other = std::any_of(outputs.begin(), outputs.end(), is_that);
-    if (other || check_can_write(film.unfinished).way != WriteWay::replace) film.unfinished.clear();
+    if (other || check_can_write(film.unfinished).method != WriteMethod::replace) film.unfinished.clear();
   } catch (const std::exception&) {
     film.unfinished.clear();
   }

@@ -24,7 +24,7 @@ void add_method(JsonObject& json, const RunFigures& run, const FilmTotals& sum) 
   const RenderSettings& settings = run.prepared.scene().render;
   put(json, "isa", run.result.kernels.isa);
   put(json, "lanes", run.result.kernels.lanes);
-  put(json, "kernel_features", names_of(run.prepared.columns().needs));
+  put(json, "kernel_features", names_of(run.prepared.columns().features));
   put(json, "integrator", settings.integrator);
   put(json, "sampler", settings.sampler);
   put(json, "fresnel", settings.fresnel);
@@ -60,8 +60,8 @@ void add_losses(JsonObject& json, const RunFigures& run, const FilmTotals& sum) 
     rejected.push_back(to_json(std::vector<std::int64_t>{r.x, r.y, r.sample}));
   put(json, "first_rejected", JsonValue{std::move(rejected)});
   put(json, "adaptive", run.prepared.scene().render.adaptive);
-  put(json, "least_spp", sum.least_taken);
-  put(json, "most_spp", sum.most_taken);
+  put(json, "least_spp", sum.min_taken);
+  put(json, "most_spp", sum.max_taken);
   put(json, "rare_bright_paths", run.picture.rare_bright_paths);
   put(json, "caustics", run.prepared.scene().render.caustics);
 }

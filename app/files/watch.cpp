@@ -63,10 +63,10 @@ struct FileWatch::State {
 
 /// Watches each name on the way to a file in the folder where it stands: those of folders, of links, and of the file.
 void FileWatch::State::follow(const fs::path& file, std::map<int, Folder>& found) {
-  constexpr int most_links = 40;  // as many as the system follows
-  std::vector<fs::path> rest;     // of the way, the next name at the end
-  const auto go_on_with = [&](const fs::path& way) {
-    const std::vector<fs::path> names(way.begin(), way.end());
+  constexpr int max_links = 40;  // as many as the system follows
+  std::vector<fs::path> rest;    // of the way, the next name at the end
+  const auto go_on_with = [&](const fs::path& components) {
+    const std::vector<fs::path> names(components.begin(), components.end());
     rest.insert(rest.end(), names.rbegin(), names.rend());
   };
   fs::path at = "/";
@@ -92,7 +92,7 @@ void FileWatch::State::follow(const fs::path& file, std::map<int, Folder>& found
       at /= name;
       continue;
     }
-    if (++links > most_links) return;
+    if (++links > max_links) return;
     if (target.is_absolute()) at = "/";
     go_on_with(target);
   }

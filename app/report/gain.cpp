@@ -73,19 +73,19 @@ KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernel
   }
   std::sort(gains.begin(), gains.end());
   result.gain = gains[pairs / 2];
-  result.least = gains.front(), result.most = gains.back();
+  result.minimum = gains.front(), result.maximum = gains.back();
   return result;
 }
 
-MethodGain measure_chain_gain(Scene scene, const std::string& isa) {
+MethodGain measure_specular_gain(Scene scene, const std::string& isa) {
   make_small(scene);
   const auto with = prepare(scene);
-  if (with->columns().chains.ball.empty()) return {};
+  if (with->columns().specular.sphere.empty()) return {};
   scene.render.caustics = Caustics::scatter;
   return measure(*with, *prepare(scene), isa);
 }
 
-MethodGain measure_sharing_gain(Scene scene, const std::string& isa) {
+MethodGain measure_reuse_gain(Scene scene, const std::string& isa) {
   make_small(scene);
   const auto with = prepare(scene);
   if (!with->reuses_paths()) return {};

@@ -1,7 +1,7 @@
 #pragma once
-#include "core/targets/kernels.h"
 #include "core/render/prepare.h"
 #include "core/scene/scene.h"
+#include "core/targets/kernels.h"
 
 #include <string>
 
@@ -12,10 +12,10 @@ namespace tyndall {
 /// What a scene's own kernel gains over the one that holds every model.
 struct KernelGain {
   std::string isa;
-  double gain = 1;             ///< speed over the full kernel's: median of the pairs
-  double least = 1, most = 1;  ///< of the pairs
-  int pairs = 0;               ///< 0: the full kernel is the scene's own, nothing was measured
-  bool same_picture = true;    ///< to the last bit
+  double gain = 1;                  ///< speed over the full kernel's: median of the pairs
+  double minimum = 1, maximum = 1;  ///< of the pairs
+  int pairs = 0;                    ///< 0: the full kernel is the scene's own, nothing was measured
+  bool same_picture = true;         ///< to the last bit
 };
 
 /// Renders the scene by both in turns, on one thread, for about two seconds. Where `kernels` render the scene with the
@@ -32,9 +32,9 @@ struct MethodGain {
 /// Exact chains, against leaving their light to chance. Renders the scene with and without them in turns, as a small
 /// picture on one thread, for about two seconds. Where chance seldom finds the light, the error without chains is
 /// estimated too small, and the true gain is larger.
-MethodGain measure_chain_gain(Scene scene, const std::string& isa);
+MethodGain measure_specular_gain(Scene scene, const std::string& isa);
 
 /// Sharing of second vertices between pixels, likewise.
-MethodGain measure_sharing_gain(Scene scene, const std::string& isa);
+MethodGain measure_reuse_gain(Scene scene, const std::string& isa);
 
 }  // namespace tyndall

@@ -21,16 +21,16 @@ double luminance(Vec3f light) {
 NoisyPath find_noisy_path(const SceneView& scene, int x, int y, std::uint32_t samples,
                           const std::function<bool()>& stop) {
   NoisyPath found{.x = x, .y = y};
-  double sum = 0, most = -1;
+  double sum = 0, maximum = -1;
   while (found.samples < std::max(samples, 1u) && (found.samples == 0 || !stop())) {
     PathReplay path = replay(scene, x, y, found.samples);
     const double light = luminance(path.radiance);
     sum += light;
-    if (light > most) most = light, found.sample = found.samples, found.path = std::move(path);
+    if (light > maximum) maximum = light, found.sample = found.samples, found.path = std::move(path);
     ++found.samples;
   }
-  found.share = sum > 0 ? most / sum : 0;
-  found.times_mean = found.share * found.samples;
+  found.fraction = sum > 0 ? maximum / sum : 0;
+  found.times_mean = found.fraction * found.samples;
   return found;
 }
 
@@ -55,9 +55,9 @@ std::vector<PathStop> stops_of(const Scene& scene, const RenderScene& compiled, 
 }
 
 std::string sentence_of(const NoisyPath& found) {
-  if (found.share <= 0) return fmt::format("all of {} samples are black", found.samples);
+  if (found.fraction <= 0) return fmt::format("all of {} samples are black", found.samples);
   return fmt::format("the brightest of {} samples: {:.2g} % of their light, {:.2g} times the mean", found.samples,
-                     100 * found.share, found.times_mean);
+                     100 * found.fraction, found.times_mean);
 }
 
 }  // namespace tyndall

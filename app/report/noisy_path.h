@@ -16,7 +16,7 @@ struct NoisyPath {
   int x = 0, y = 0;
   std::uint32_t samples = 0;  ///< so many of the pixel's samples were followed, from the first on
   std::uint32_t sample = 0;   ///< number of the brightest
-  double share = 0;           ///< of the light (luminance) of all that were followed
+  double fraction = 0;        ///< of the light (luminance) of all that were followed
   double times_mean = 0;      ///< its light over the mean
   PathReplay path{};
 };

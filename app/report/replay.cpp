@@ -85,14 +85,14 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
     if (v.kept != 1)
       text += fmt::format("    by smoke    {:.3g} of what it carried before\n", static_cast<double>(v.kept));
     row("radiance    ", exact(v.radiance));
-    if (!(v.by_chains == Vec3f{})) row("by chains   ", exact(v.by_chains));
+    if (!(v.by_specular_paths == Vec3f{})) row("by chains   ", exact(v.by_specular_paths));
     if (v.chance < 1)
       text += fmt::format("    by chance   this lamp counts {:.3g}, as chains find it, too\n",
                           static_cast<double>(v.chance));
     text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
             std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
   }
-  if (path.shared)
+  if (path.reused)
     text +=
         "shared: instead of what comes by way of its own second vertex, the sample takes a part of what leaves "
         "those of eight pixels\n";

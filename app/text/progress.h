@@ -11,7 +11,7 @@ namespace tyndall {
 
 enum class ProgressStyle { automatic, plain, none };
 
-constexpr Word word(ProgressStyle style) {
+constexpr Label label(ProgressStyle style) {
   switch (style) {
     case ProgressStyle::automatic:
       return {"auto", "a bar on a terminal, else plain"};

@@ -68,7 +68,7 @@ SampleRange read_samples(const std::string& text) {
   if (parts.size() != 2 || !read_all(parts[0], range.first) || !read_all(parts[1], range.last) ||
       range.first >= range.last)
     refuse(text, "A:B with whole numbers 0 <= A < B, such as 0:64");
-  if (range.last - range.first > most_samples) refuse(text, "at most " + std::to_string(most_samples) + " samples");
+  if (range.last - range.first > max_samples) refuse(text, "at most " + std::to_string(max_samples) + " samples");
   return range;
 }
 

@@ -42,7 +42,7 @@ std::int64_t read_whole(const std::string& text, Valid valid, const std::string&
 double read_number(const std::string& text, Valid valid, const std::string& expected);
 /// WIDTHxHEIGHT, both at least 1.
 Size read_size(const std::string& text);
-/// A:B, A < B, at most most_samples of them.
+/// A:B, A < B, at most max_samples of them.
 SampleRange read_samples(const std::string& text);
 /// X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1.
 Region read_region(const std::string& text);

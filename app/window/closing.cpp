@@ -13,19 +13,19 @@ void Closing::begin(Dialog& dialog) {
   if (step_ == Step::writes || step_ == Step::done) return;
   discards_ = false;
   if (!session_.editor().unsaved()) return finish();
-  step_ = Step::asks;
+  step_ = Step::asking;
   dialog = {Dialog::Kind::close, {}, true, 0};
 }
 
 bool Closing::draw(Ui& ui, const Rect& area, Dialog& dialog) {
-  if (step_ == Step::asks && dialog.kind != Dialog::Kind::close) step_ = Step::none;  // closed by Esc
+  if (step_ == Step::asking && dialog.kind != Dialog::Kind::close) step_ = Step::none;  // closed by Esc
   if (step_ == Step::saves && dialog.kind == Dialog::Kind::none) {
     step_ = Step::none;  // what was cancelled or failed leaves the window open
     if (!session_.editor().unsaved()) finish();
   }
   if (step_ == Step::begins) step_ = Step::saves;
   if (step_ == Step::writes) draw_progress(ui, area);
-  return step_ == Step::asks && draw_question(ui, area, dialog);
+  return step_ == Step::asking && draw_question(ui, area, dialog);
 }
 
 bool Closing::draw_question(Ui& ui, const Rect& area, Dialog& dialog) {

@@ -24,7 +24,7 @@ class Closing {
  private:
   enum class Step {
     none,
-    asks,    ///< whether to save
+    asking,  ///< whether to save
     begins,  ///< the user chose to; the caller saves when this drawing has ended
     saves,   ///< the user chose to; questions of saving may be open
     writes,  ///< files are still being written

@@ -17,9 +17,9 @@ void Commands::take(const InputEvents& events) {
       pacing_.on_event();
       continue;
     }
-    if (!press.typing && !asks() && objects_.has_keys() && objects_.take_press(press)) continue;
+    if (!press.typing && !has_question() && objects_.has_keys() && objects_.take_press(press)) continue;
     if (objects_.active() && !answers) continue;
-    if (!request || (press.typing && !asks()) || (asks() && !answers)) continue;
+    if (!request || (press.typing && !has_question()) || (has_question() && !answers)) continue;
     panels_.leave_row = true;
     act(*request);
   }
@@ -191,10 +191,11 @@ void Commands::reset_camera() {
 }
 
 void Commands::frame_selection() {
-  const auto ball = ball_around(session_.editor().scene(), panels_.selected);
-  if (!ball) return session_.messages().say("select an object first: click on it");
+  const auto sphere = bounding_sphere(session_.editor().scene(), panels_.selected);
+  if (!sphere) return session_.messages().say("select an object first: click on it");
   Scene scene = session_.editor().scene();
-  scene.camera = frame_ball(scene.camera, ball->center, ball->radius, static_cast<double>(scene.width) / scene.height);
+  scene.camera =
+      frame_sphere(scene.camera, sphere->center, sphere->radius, static_cast<double>(scene.width) / scene.height);
   session_.editor().edit(std::move(scene), gestures_.begin());
 }
 
@@ -252,9 +253,9 @@ void Commands::escape() {
     return;
   }
   if (objects_.escape()) return;
-  const bool covered = asks() || shows_help_ || session_.messages().current().error;
+  const bool covered = has_question() || shows_help_ || session_.messages().current().error;
   if (!covered && picture_.escape()) return;
-  if (asks())
+  if (has_question())
     dialog_.kind = Dialog::Kind::none;
   else if (shows_help_)
     shows_help_ = false;
@@ -275,7 +276,7 @@ void Commands::draw(Ui& ui, const Rect& area) {
   if (file && !session_.editor().save(*file)) ask_name(dialog_, *file);  // what was typed is not lost
   const auto opened = draw_open_dialog(ui, area, dialog_);
   if (opened) session_.references().open_dropped(std::filesystem::absolute(*opened));
-  if (session_.editor().asks_about_file() && !asks()) dialog_ = {Dialog::Kind::changed_file, {}, true, 0};
+  if (session_.editor().offers_reload() && !has_question()) dialog_ = {Dialog::Kind::changed_file, {}, true, 0};
   const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
   if (take) requests.push_back({Action::take_file, *take ? 1 : 0});
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;

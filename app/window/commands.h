@@ -52,7 +52,7 @@ class Commands {
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
   bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
   /// Whether a dialog or the palette has the keyboard.
-  bool asks() const { return has_dialog() || palette_.is_open(); }
+  bool has_question() const { return has_dialog() || palette_.is_open(); }
   bool shows_panels() const { return shows_panels_; }
 
  private:

@@ -39,8 +39,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       picture_(session_.renderers(), session_.accuracy()),
       appearance_(platform_, session_, ui_),
       objects_(session_, panels_, tools_.gestures, pacing_),
-      looks_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, looks_, log_.get()) {
+      picture_tools_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
+      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, log_.get()) {
   ui_.log = log_.get();
   panels_.model.scenes = built_in_scenes();
   panels_.model.accuracy = &session_.accuracy();
@@ -124,7 +124,7 @@ void MainWindow::draw(double now) {
   appearance_.update(panels_.look, gallery_.recent());
   platform_.begin_frame();
   ui_.wake_in = 1e300;
-  ui_.asks = commands_.has_dialog();
+  ui_.has_question = commands_.has_dialog();
   ui_.problem.clear();
   ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
@@ -137,7 +137,7 @@ void MainWindow::draw(double now) {
   Layout layout = layout_for(size, shown ? shown->width : scene.width, shown ? shown->height : scene.height);
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   follow_window_size(size, dots);
-  looks_.place(layout, dots);
+  picture_tools_.place(layout, dots);
   session_.wanted().shown_pixels = std::llround(layout.image.width() * layout.image.height() * dots * dots);
   session_.set_input_time(std::exchange(input_since_, 0));
   fill_panels();
@@ -145,7 +145,7 @@ void MainWindow::draw(double now) {
   use_mouse_and_keys(layout, now);
   apply_panels(now);
   session_.set_input_time(0);
-  session_.wanted().watched_pixel = looks_.watched_pixel();
+  session_.wanted().watched_pixel = picture_tools_.watched_pixel();
   if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
   if (send(now, !fresh) && !fresh) {
     awaits_until_ = now + longest_await;
@@ -177,8 +177,8 @@ void MainWindow::follow_window_size(const WindowSize& size, float dots) {
 }
 
 ShownState MainWindow::shown_state() const {
-  ShownState state{session_.editor().scene().display, view_entry(panels_.model.view).stops, looks_.shows_pixels(),
-                   session_.split(), session_.clean_beside_raw()};
+  ShownState state{session_.editor().scene().display, view_entry(panels_.model.view).stops,
+                   picture_tools_.shows_pixels(), session_.split(), session_.clean_beside_raw()};
   if (state.split) state.method = session_.method(Half::current), state.kept_method = session_.method(Half::kept);
   return state;
 }
@@ -205,7 +205,7 @@ void MainWindow::draw_interface(const Layout& layout) {
   draw_column(ui_, panels_, layout.column);
   objects_.draw(ui_, layout);
   picture_.draw_halves(ui_, overlap(layout.image, layout.area), shown_state());
-  looks_.draw(ui_, layout);
+  picture_tools_.draw(ui_, layout);
   const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(
       ui_, layout.status,
@@ -225,21 +225,21 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const std::set<int>& held = platform_.held();
   PointerTool& pointer = tools_.pointer;
   const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
-  const bool turns = pointer.is_turning(mouse, layout, now);
-  tools_.gestures.update(holds ? Gesture::held : turns ? Gesture::wheel : Gesture::none);
-  const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.asks();
-  const bool looks = !objects_.active() && looks_.use_mouse(mouse, layout, free);
+  const bool rotates = pointer.is_turning(mouse, layout, now);
+  tools_.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
+  const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.has_question();
+  const bool looks = !objects_.active() && picture_tools_.use_mouse(mouse, layout, free);
   const Rect visible = overlap(layout.image, layout.area);
   const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free, shown_state());
   if (!looks && !divides && !objects_.use_mouse(mouse, layout, ui_.scale, free)) {
-    const bool opens = !commands_.asks() && !objects_.shows_menu();
+    const bool opens = !commands_.has_question() && !objects_.shows_menu();
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
     if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
   }
   const bool grounded = mouse.control || objects_.active();
   const bool flies =
       tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
-  if (flies) pacing_.wake_at(now + least_frame_interval);
+  if (flies) pacing_.wake_at(now + min_frame_interval);
 }
 
 void MainWindow::apply_panels(double now) {

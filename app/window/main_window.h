@@ -71,7 +71,7 @@ class MainWindow {
   Pacing pacing_;
   Tools tools_;
   ObjectTools objects_;
-  PictureTools looks_;
+  PictureTools picture_tools_;
   Commands commands_;
   std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
   std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of

@@ -12,12 +12,12 @@
 namespace tyndall {
 namespace {
 
-constexpr Action add_actions[] = {Action::add_sphere, Action::add_hollow_ball, Action::add_box,
-                                  Action::add_quad,   Action::add_lamp,        Action::add_fog};
-constexpr Action object_actions[] = {Action::grab,       Action::duplicate,       Action::remove,
-                                     Action::rename,     Action::own_material,    Action::frame,
-                                     Action::add_sphere, Action::add_hollow_ball, Action::add_box,
-                                     Action::add_quad,   Action::add_lamp,        Action::add_fog};
+constexpr Action add_actions[] = {Action::add_sphere, Action::add_hollow_sphere, Action::add_box,
+                                  Action::add_quad,   Action::add_light,         Action::add_medium};
+constexpr Action object_actions[] = {Action::grab,       Action::duplicate,         Action::remove,
+                                     Action::rename,     Action::own_material,      Action::frame,
+                                     Action::add_sphere, Action::add_hollow_sphere, Action::add_box,
+                                     Action::add_quad,   Action::add_light,         Action::add_medium};
 
 std::string log_name(const char* name) {
   std::string word = name;
@@ -33,7 +33,7 @@ void ObjectTools::select_all(const ObjectPaths& paths) {
   pacing_.on_event();
 }
 
-bool ObjectTools::needs_selection() {
+bool ObjectTools::requires_selection() {
   if (!selected().empty()) return false;
   session_.messages().say("select an object first: click on it");
   return true;
@@ -83,19 +83,19 @@ bool ObjectTools::act(Action action) {
       open_menu("Add here", add_actions);
       return true;
     case Action::grab:
-      if (!needs_selection()) handles_.grab(mouse_, selected(), session_.editor().scene());
+      if (!requires_selection()) handles_.grab(mouse_, selected(), session_.editor().scene());
       return true;
     case Action::duplicate:
-      if (!needs_selection()) duplicate();
+      if (!requires_selection()) duplicate();
       return true;
     case Action::remove:
-      if (!needs_selection()) remove();
+      if (!requires_selection()) remove();
       return true;
     case Action::rename:
-      if (!needs_selection()) panels_.rename = true;
+      if (!requires_selection()) panels_.rename = true;
       return true;
     case Action::own_material:
-      if (!needs_selection()) own_material();
+      if (!requires_selection()) own_material();
       return true;
     default:
       return false;

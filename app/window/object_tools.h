@@ -56,7 +56,7 @@ class ObjectTools {
   void duplicate();
   void remove();
   void own_material();
-  bool needs_selection();
+  bool requires_selection();
   ObjectPaths selected() const { return all_selected(panels_); }
 
   Session& session_;

@@ -112,8 +112,8 @@ bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free
 std::string PictureTools::said_of_rectangle() const {
   const Frame* frame = panels_.model.frame.get();
   if (session_.editor().scene().render.adaptive) return "not refined first: adaptive sampling is on";
-  if (!frame || frame->most_spp <= frame->spp) return "refined first";
-  return fmt::format("refined first: {} spp", format_count(frame->most_spp));
+  if (!frame || frame->max_spp <= frame->spp) return "refined first";
+  return fmt::format("refined first: {} spp", format_count(frame->max_spp));
 }
 
 /// Says how large the picture is shown, in a corner.

@@ -241,8 +241,8 @@ void Session::render_reference() {
   const auto frame = renderers_.latest(Half::current);
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
-  constexpr std::uint32_t least = 64;
-  references_.render({*rendered_scene(), std::max(least, frame->spp), wanted_.threads, isa_});
+  constexpr std::uint32_t minimum = 64;
+  references_.render({*rendered_scene(), std::max(minimum, frame->spp), wanted_.threads, isa_});
 }
 
 void Session::snapshot() {

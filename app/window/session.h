@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/accuracy/references.h"
-#include "app/window/document/kept_edits.h"
+#include "app/window/document/autosave.h"
 #include "app/window/document/numbered_files.h"
 #include "app/window/document/send_timer.h"
 #include "app/window/rendering/renderer_pair.h"
@@ -154,7 +154,7 @@ class Session {
   std::uint64_t kept_changes_ = 0;                       ///< Editor::changes() when the edits were kept last
   bool discarded_ = false;                               ///< edits are not kept any more
   Keeping::Kind told_keeping_ = Keeping::Kind::nothing;  ///< what the user was told last
-  KeptEdits kept_;
+  Autosave kept_;
   References references_;
   NumberedFiles snapshots_, charts_;
   JobQueue loading_, saving_;  // last: their jobs use the others

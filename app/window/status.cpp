@@ -13,11 +13,11 @@
 namespace tyndall {
 namespace {
 
-constexpr double notable_cut = 1e-3;  // share of the throughput above which the status line tells of cut paths
+constexpr double notable_cut = 1e-3;  // fraction of the throughput above which the status line tells of cut paths
 
-std::string percent(double share) {
-  if (!std::isfinite(share)) return "?";
-  return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+std::string percent(double fraction) {
+  if (!std::isfinite(fraction)) return "?";
+  return fraction < 0.0995 ? fmt::format("{:.2g} %", 100 * fraction) : fmt::format("{:.0f} %", 100 * fraction);
 }
 
 std::string state_of(const Frame* frame, bool paused) {

@@ -49,7 +49,7 @@ BlockScores block_scores(const Film& a, const Film& b, int edge) {
   // The standard errors are themselves estimated, from one number for each group of both films: z follows Student's t
   // distribution, whose variance is freedom / (freedom - 2).
   const double freedom = 2.0 * edge * edge / group_size;
-  scores.most = freedom / (freedom - 2) + 4 * std::sqrt(2.0 / scores.blocks);
+  scores.maximum = freedom / (freedom - 2) + 4 * std::sqrt(2.0 / scores.blocks);
   return scores;
 }
 

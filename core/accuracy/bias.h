@@ -10,9 +10,9 @@ namespace tyndall {
 struct BlockScores {
   int blocks = 0;          ///< that were compared; blocks that are equal and without noise are not
   double mean_square = 0;  ///< of z; about 1 if the pictures differ by noise alone
-  double most = 0;         ///< largest mean_square that noise explains: 4 standard deviations above its expected value
+  double maximum = 0;      ///< largest mean_square that noise explains: 4 standard deviations above its expected value
   double worst = 0;        ///< largest |z|; infinite if a block without noise differs
-  bool noise() const { return mean_square <= most && worst < 1e300; }
+  bool noise() const { return mean_square <= maximum && worst < 1e300; }
 };
 
 /// Both films must have the same region, and samples in both halves of every pixel; otherwise there are no blocks.

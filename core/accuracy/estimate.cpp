@@ -24,7 +24,7 @@ constexpr float largest = 1e30f;  // squared errors are cut at this, because an 
 /// pixel. All are 0 where a half is empty. All but the lesser halves are summed over windows. Single precision is
 /// enough: what it loses of s is small against mu², and then g hardly depends on s.
 struct Row {
-  static constexpr std::size_t means = 0, noises = 3, products = 6, counts = 9, summed = 10, least = 10, planes = 13;
+  static constexpr std::size_t means = 0, noises = 3, products = 6, counts = 9, summed = 10, minimum = 10, planes = 13;
   std::array<std::vector<float>, planes> of;
   explicit Row(int width) {
     for (auto& plane : of) plane.resize(static_cast<std::size_t>(width) + std::size_t(2) * reach);
@@ -41,13 +41,13 @@ void read_row(const Film& film, int row, Row& to) {
     const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
     const bool whole = count_a > 0 && count_b > 0;
     const double per_a = whole ? 1 / count_a : 0, per_b = whole ? 1 / count_b : 0,
-                 share_a = whole ? count_a / (count_a + count_b) : 0;
+                 fraction_a = whole ? count_a / (count_a + count_b) : 0;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const double a = pixel.sum[0][channel].value() * per_a, b = pixel.sum[1][channel].value() * per_b;
-      planes[Row::means + channel][x] = static_cast<float>(b + share_a * (a - b));
+      planes[Row::means + channel][x] = static_cast<float>(b + fraction_a * (a - b));
       planes[Row::noises + channel][x] = static_cast<float>((a - b) * (a - b) / 4);
       planes[Row::products + channel][x] = static_cast<float>(a * b);
-      planes[Row::least + channel][x] = static_cast<float>(std::min(a, b));
+      planes[Row::minimum + channel][x] = static_cast<float>(std::min(a, b));
     }
     planes[Row::counts][x] = whole ? 1.0f : 0.0f;
   }
@@ -84,7 +84,7 @@ struct RowErrors {
 void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, float floor, RowErrors& errors) {
   const float *own_m = row.of[Row::means + channel].data() + reach,
               *own_n = row.of[Row::noises + channel].data() + reach,
-              *own_least = row.of[Row::least + channel].data() + reach,
+              *own_min = row.of[Row::minimum + channel].data() + reach,
               *sum_m = sums.of[Row::means + channel].data() + reach,
               *sum_n = sums.of[Row::noises + channel].data() + reach,
               *sum_ab = sums.of[Row::products + channel].data() + reach, *counts = sums.of[Row::counts].data() + reach;
@@ -96,7 +96,7 @@ void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, floa
     const float s = std::max(sum_ab[x] * per - mu * mu, 0.0f);
     const float alike = noise / std::max(s + noise, tiny), doubt = 4 * n / std::max(m * m, tiny);
     const float drawn = std::min(std::min(alike, doubt), counts[x]);  // 1 - w; 0 where there are no pixels around
-    const float g = std::max(m + drawn * (mu - m), own_least[x]);
+    const float g = std::max(m + drawn * (mu - m), own_min[x]);
     freed[x] += std::min(n / (g * g + floor), largest);
   }
 }
@@ -130,7 +130,7 @@ template <class Use>
 void for_rows_of_band(const Film& film, int band, const Use& use) {
   const int width = film.region.width(), height = film.region.height();
   const int first = band * band_rows, last = std::min(first + band_rows, height);
-  const auto floor = std::max(static_cast<float>(floor_of_square / film.unit / film.unit), tiny);
+  const auto floor = std::max(static_cast<float>(floor_of_square / film.quantum / film.quantum), tiny);
   const Row empty(width);
   Row columns(width), sums(width);
   std::vector<Row> ring(window, empty);
@@ -154,8 +154,8 @@ void for_rows_of_band(const Film& film, int band, const Use& use) {
 
 int bands_of(const Film& film) { return (film.region.height() + band_rows - 1) / band_rows; }
 
-void for_bands(const Film& film, Crew* crew, const std::function<void(int)>& job) {
-  if (crew) return crew->for_each(bands_of(film), job);
+void for_bands(const Film& film, ThreadPool* thread_pool, const std::function<void(int)>& job) {
+  if (thread_pool) return thread_pool->for_each(bands_of(film), job);
   for (int band = 0; band < bands_of(film); ++band) job(band);
 }
 
@@ -166,10 +166,10 @@ struct Spread {
 };
 
 /// left_out: places of pixels, in ascending order.
-Spread spread_of(const Film& film, Crew* crew, const std::vector<std::size_t>& left_out) {
+Spread spread_of(const Film& film, ThreadPool* thread_pool, const std::vector<std::size_t>& left_out) {
   std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
   const auto width = static_cast<std::size_t>(film.region.width());
-  for_bands(film, crew, [&](int band) {
+  for_bands(film, thread_pool, [&](int band) {
     Spread& to = bands[static_cast<std::size_t>(band)];
     for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
       const std::size_t first = static_cast<std::size_t>(y) * width;
@@ -214,7 +214,7 @@ bool few_matter(const Spread& all, double pixels) {
   return spread > few * sum || (spread > fewer * sum && all.own < hidden * sum);
 }
 
-/// Whether no light was found yet although the scene has lamps. Films record emission only if it has.
+/// Whether no light was found yet although the scene has lights. Films record emission only if it has.
 bool awaits_light(const Film& film) {
   const auto is_black = [](const FilmPixel& pixel) {
     return std::all_of(std::begin(pixel.sum), std::end(pixel.sum), [](const auto& half) {
@@ -226,10 +226,10 @@ bool awaits_light(const Film& film) {
 
 }  // namespace
 
-ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& levels_of,
+ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool, const LevelsOf& levels_of,
                              const std::vector<std::size_t>& rare) {
   if (film.pixels.empty()) return {};
-  const Spread plain = spread_of(film, crew, {});
+  const Spread plain = spread_of(film, thread_pool, {});
   if (plain.freed.sum() == infinity) return {};
   const auto pixels = static_cast<double>(film.pixels.size());
   const auto ask = [&](const auto& error_at, Spread all) {
@@ -242,7 +242,7 @@ ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& level
                          few_matter(by_noise, pixels) || (by_noise.freed.sum() == 0 && awaits_light(film))};
   const std::vector<Vec3f> levels = rare.empty() || !levels_of ? std::vector<Vec3f>() : levels_of(rare);
   if (levels.empty()) return estimate;
-  Spread others = spread_of(film, crew, rare);
+  Spread others = spread_of(film, thread_pool, rare);
   for (std::size_t i = 0; i < rare.size(); ++i) {
     const double error = error_at_level(film, rare[i], levels[i]);
     others.freed.add({rare[i], error}), others.own += error;
@@ -257,12 +257,14 @@ ErrorEstimate estimate_error(const Film& film, Crew* crew, const LevelsOf& level
   return estimate;
 }
 
-double estimated_relative_error(const Film& film, Crew* crew) { return estimate_error(film, crew).relative_error; }
+double estimated_relative_error(const Film& film, ThreadPool* thread_pool) {
+  return estimate_error(film, thread_pool).relative_error;
+}
 
-std::vector<double> squared_relative_errors(const Film& film, Crew* crew) {
+std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread_pool) {
   std::vector<double> all(film.pixels.size());
   const auto width = static_cast<std::size_t>(film.region.width());
-  for_bands(film, crew, [&](int band) {
+  for_bands(film, thread_pool, [&](int band) {
     for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
       std::copy(errors.freed.begin(), errors.freed.end(), all.data() + static_cast<std::size_t>(y) * width);
     });
@@ -270,8 +272,8 @@ std::vector<double> squared_relative_errors(const Film& film, Crew* crew) {
   return all;
 }
 
-std::vector<float> pixel_relative_error(const Film& film, Crew* crew) {
-  return root_window_means(squared_relative_errors(film, crew), film.region.width(), film.region.height());
+std::vector<float> pixel_relative_error(const Film& film, ThreadPool* thread_pool) {
+  return root_window_means(squared_relative_errors(film, thread_pool), film.region.width(), film.region.height());
 }
 
 }  // namespace tyndall

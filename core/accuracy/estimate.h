@@ -1,6 +1,6 @@
 #pragma once
-#include "core/base/crew.h"
 #include "core/base/error_sum.h"
+#include "core/base/thread_pool.h"
 #include "core/film/film.h"
 
 #include <limits>
@@ -20,10 +20,10 @@
 /// empty half; s = max(0, mean of A B - mu²): how much the true levels around differ, as A B estimates the square of a
 /// level without bias. The first part of w is Wiener's weight of a level of variance s that is seen with a noise of n
 /// (or nu, if that is more: n itself comes from two numbers). The second, and min(A, B), keep a pixel that both halves
-/// show to differ from those around it, such as a small lamp. Without any pixel around, g = m.
+/// show to differ from those around it, such as a small light. Without any pixel around, g = m.
 ///
-/// What is left: a lamp smaller than a pixel, met by one half only, looks like a rare path; and a rare path beside a
-/// lamp looks like that lamp. Where the scene is at hand, samples of their own can tell the levels of the few pixels
+/// What is left: a light smaller than a pixel, met by one half only, looks like a rare path; and a rare path beside a
+/// light looks like that light. Where the scene is at hand, samples of their own can tell the levels of the few pixels
 /// that decide the estimate: see ask_levels().
 namespace tyndall {
 
@@ -32,32 +32,32 @@ struct ErrorEstimate {
   /// pixel is empty.
   double relative_error = std::numeric_limits<double>::infinity();
   /// Whether a few pixels make up so much of the error that it means little: rare bright paths have been met in these,
-  /// and not yet in others; or lamps smaller than a pixel. True where the standard deviation of the mean of the pixels'
-  /// squared errors is more than 0.35 of it, which in large pictures means that it rests on about 8 pixels. Already
-  /// above 0.22 (about 20 pixels) if the error also depends much on how levels are found: if its square would be below
-  /// 0.36 of what it is with the pixels' own means for g. True as well for a black film of a scene with lamps: no light
-  /// was found yet. False while a half of any pixel is empty.
+  /// and not yet in others; or lights smaller than a pixel. True where the standard deviation of the mean of the
+  /// pixels' squared errors is more than 0.35 of it, which in large pictures means that it rests on about 8 pixels.
+  /// Already above 0.22 (about 20 pixels) if the error also depends much on how levels are found: if its square would
+  /// be below 0.36 of what it is with the pixels' own means for g. True as well for a black film of a scene with
+  /// lights: no light was found yet. False while a half of any pixel is empty.
   bool rests_on_few_pixels = false;
 };
 
-/// crew: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
+/// thread_pool: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
 /// levels_of: see ask_levels(); called on the calling thread; empty: g is found from the film alone.
 /// rare: places of pixels that are known, without looking at the film, to hold light which few of their samples meet,
 /// in ascending order. Their halves often agree by chance, so their levels are asked for as well, and (m - level)²
 /// stands for n in relative_error; whether a few pixels matter is judged with both. Pixels must not be chosen by what
 /// the film holds: those with a large error would be chosen more often.
-ErrorEstimate estimate_error(const Film& film, Crew* crew = nullptr, const LevelsOf& levels_of = {},
+ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool = nullptr, const LevelsOf& levels_of = {},
                              const std::vector<std::size_t>& rare = {});
 
 /// The relative error of estimate_error alone.
-double estimated_relative_error(const Film& film, Crew* crew = nullptr);
+double estimated_relative_error(const Film& film, ThreadPool* thread_pool = nullptr);
 
 /// The mean over the channels of n / (g² + 0.01) of each pixel of the region, row by row; infinite where a half is
 /// empty.
-std::vector<double> squared_relative_errors(const Film& film, Crew* crew = nullptr);
+std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread_pool = nullptr);
 
 /// The estimated relative error of each pixel of the region, from the 7 x 7 pixels around it. Pixels with an empty half
 /// are left out; the result is infinite where all have one.
-std::vector<float> pixel_relative_error(const Film& film, Crew* crew = nullptr);
+std::vector<float> pixel_relative_error(const Film& film, ThreadPool* thread_pool = nullptr);
 
 }  // namespace tyndall

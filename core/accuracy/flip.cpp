@@ -139,9 +139,9 @@ Plane filter_contrast(const Plane& in, const std::vector<Bell>& bells) {
     });
     double length = 0;
     for (const double w : line) length += w;
-    const double share = bell.a * std::sqrt(pi / bell.b), volume = share * length * length;
+    const double fraction = bell.a * std::sqrt(pi / bell.b), volume = fraction * length * length;
     const Plane part = convolve(in, line, line);
-    for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += share * part.values[i];
+    for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += fraction * part.values[i];
     total += volume;
   }
   for (double& v : sum.values) v /= total;

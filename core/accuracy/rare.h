@@ -6,11 +6,11 @@
 /// When to warn that an estimated error cannot be trusted.
 namespace tyndall {
 
-inline constexpr std::uint32_t least_rare_spp = 2;
+inline constexpr std::uint32_t min_rare_spp = 2;
 
 /// Whether a picture is not converged, whatever its estimated error says: light that only rare paths carry has been met
 /// by few pixels, or by none yet. estimate: of the film; spp: samples that every pixel has; chance: see
-/// chance_of_caustics. False before least_rare_spp, when there is no estimate.
+/// chance_of_caustics. False before min_rare_spp, when there is no estimate.
 bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance);
 
 /// The warning that users then get.

@@ -6,7 +6,7 @@
 
 /// Enums whose values have names in scene files, options and panels. Beside such an enum E stands
 ///
-///   constexpr Word word(E value) {
+///   constexpr Label label(E value) {
 ///     switch (value) {
 ///       case E::first:
 ///         return {"first", "what it does"};
@@ -20,7 +20,7 @@
 namespace tyndall {
 
 /// How one value of an enum is called, and what it does.
-struct Word {
+struct Label {
   const char* name = nullptr;  ///< as scene files and options spell it; null: there is no such value
   const char* help = "";       ///< a few words; "" where the name says it all
   bool approximation = false;  ///< wrong on purpose: marked wherever it is chosen
@@ -28,20 +28,20 @@ struct Word {
 
 template <class E>
 concept NamedEnum = requires(E value) {
-  { word(value) } -> std::same_as<Word>;
+  { label(value) } -> std::same_as<Label>;
 };
 
 /// Number of values.
 template <NamedEnum E>
 constexpr int count_of() {
   int count = 0;
-  while (word(static_cast<E>(count)).name) ++count;
+  while (label(static_cast<E>(count)).name) ++count;
   return count;
 }
 
 template <NamedEnum E>
 constexpr const char* name_of(E value) {
-  return word(value).name;
+  return label(value).name;
 }
 
 /// All names, in the order of the values.

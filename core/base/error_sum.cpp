@@ -14,18 +14,18 @@ bool is_larger(const PixelError& a, const PixelError& b) {
 
 void ErrorSum::set_apart(PixelError one) {
   apart_.push_back(one);
-  if (apart_.size() == 2 * most_apart) trim();
+  if (apart_.size() == 2 * max_apart) trim();
 }
 
 /// Leaves the largest apart, in order.
 void ErrorSum::trim() {
   std::sort(apart_.begin(), apart_.end(), is_larger);
-  while (apart_.size() > most_apart) {
+  while (apart_.size() > max_apart) {
     const double error = apart_.back().error;
     sum_ += error, squares_ += error * error;
     apart_.pop_back();
   }
-  least_ = apart_.back().error;
+  min_ = apart_.back().error;
 }
 
 void ErrorSum::add(const ErrorSum& other) {
@@ -48,7 +48,7 @@ double ErrorSum::squares() const {
 std::vector<PixelError> ErrorSum::largest() const {
   std::vector<PixelError> list = apart_;
   std::sort(list.begin(), list.end(), is_larger);
-  list.resize(std::min(list.size(), most_apart));
+  list.resize(std::min(list.size(), max_apart));
   return list;
 }
 
@@ -60,13 +60,13 @@ void ErrorSum::replace(const std::vector<PixelError>& better) {
 
 void ask_levels(const LevelsOf& levels_of, std::size_t pixels,
                 const std::function<double(std::size_t pixel, Vec3f level)>& error_at, ErrorSum& sum) {
-  constexpr double decisive_share = 0.01, decisive_multiple = 16;  // of the sum, and of the mean
-  const double share = std::max(decisive_share, decisive_multiple / static_cast<double>(pixels));
+  constexpr double decisive_fraction = 0.01, decisive_multiple = 16;  // of the sum, and of the mean
+  const double fraction = std::max(decisive_fraction, decisive_multiple / static_cast<double>(pixels));
   const std::vector<PixelError> errors = sum.largest();
   for (auto next = errors.begin();;) {
-    const double least = share * sum.sum();
+    const double minimum = fraction * sum.sum();
     std::vector<std::size_t> decisive;
-    while (next != errors.end() && next->error >= least) decisive.push_back((next++)->pixel);
+    while (next != errors.end() && next->error >= minimum) decisive.push_back((next++)->pixel);
     const std::vector<Vec3f> levels = decisive.empty() ? std::vector<Vec3f>() : levels_of(decisive);
     if (levels.empty()) return;
     std::vector<PixelError> better;

@@ -20,10 +20,10 @@ struct PixelError {
 /// largest.
 class ErrorSum {
  public:
-  static constexpr std::size_t most_apart = 32;
+  static constexpr std::size_t max_apart = 32;
 
   void add(PixelError one) {
-    if (one.error > least_)
+    if (one.error > min_)
       set_apart(one);
     else  // also what is not a number, which has no place in an order
       sum_ += one.error, squares_ += one.error * one.error;
@@ -32,7 +32,7 @@ class ErrorSum {
   double sum() const;
   double squares() const;
 
-  /// The largest errors, at most most_apart, the largest first.
+  /// The largest errors, at most max_apart, the largest first.
   std::vector<PixelError> largest() const;
   /// Replaces errors that largest() has returned.
   void replace(const std::vector<PixelError>& better);
@@ -42,18 +42,18 @@ class ErrorSum {
   void trim();
 
   double sum_ = 0, squares_ = 0;   ///< of those that are not apart
-  double least_ = 0;               ///< no error up to this can be among the largest
-  std::vector<PixelError> apart_;  ///< up to 2 · most_apart, among them the largest
+  double min_ = 0;                 ///< no error up to this can be among the largest
+  std::vector<PixelError> apart_;  ///< up to 2 · max_apart, among them the largest
 };
 
 /// Returns the levels (mean radiances) of some pixels, given by their places in the film, from samples that are not the
 /// film's; nothing if they cannot be had now. How many samples a level takes is for it to say.
 using LevelsOf = std::function<std::vector<Vec3f>(const std::vector<std::size_t>& pixels)>;
 
-/// Squared errors are relative to levels, which a film alone cannot tell of bright pixels: a lamp smaller than a pixel
+/// Squared errors are relative to levels, which a film alone cannot tell of bright pixels: a light smaller than a pixel
 /// looks like a rare path. This asks for the levels of the pixels that decide a sum over so many pixels, some at once,
 /// and replaces their errors by error_at(pixel, level). These are pixels whose error is at least 1 % of the sum and 16
-/// times the mean. As the sum becomes less, others may come to decide it: it goes on until none does, or most_apart
+/// times the mean. As the sum becomes less, others may come to decide it: it goes on until none does, or max_apart
 /// pixels are known.
 void ask_levels(const LevelsOf& levels_of, std::size_t pixels,
                 const std::function<double(std::size_t pixel, Vec3f level)>& error_at, ErrorSum& sum);

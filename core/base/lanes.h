@@ -152,8 +152,8 @@ TYNDALL_INLINE std::uint32_t shift_right(std::uint32_t v) {
 }
 
 /// The smallest of the lanes.
-TYNDALL_INLINE float least_lane(float v) { return v; }
-TYNDALL_INLINE float least_lane(double v) { return static_cast<float>(v); }
+TYNDALL_INLINE float min_lane(float v) { return v; }
+TYNDALL_INLINE float min_lane(double v) { return static_cast<float>(v); }
 
 /// table[index] of every lane; indices must be valid in all lanes, also in those that are not used.
 template <Plain F>

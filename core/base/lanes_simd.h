@@ -81,7 +81,7 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
 namespace HWY_NAMESPACE {
 /// Entries of a table that vectors hold. The SIMD library has no such lookup yet.
-inline constexpr int most_in_vectors = 64;
+inline constexpr int max_in_vectors = 64;
 
 /// table[index] for a table of `count` entries, at most 32, which two vectors hold. Of index only the low 5 bits count.
 TYNDALL_INLINE __m512i lookup_in_two(const std::int32_t* table, int count, __m512i index) {
@@ -90,7 +90,7 @@ TYNDALL_INLINE __m512i lookup_in_two(const std::int32_t* table, int count, __m51
   const __m512i high = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(readable >> 16), table + 16);
   return _mm512_permutex2var_epi32(low, index, high);
 }
-/// The same for at most most_in_vectors entries.
+/// The same for at most max_in_vectors entries.
 TYNDALL_INLINE __m512i lookup_in_vectors(const void* entries, int count, __m512i index) {
   const auto* table = static_cast<const std::int32_t*>(entries);
   if (count <= 32) return lookup_in_two(table, count, index);
@@ -102,7 +102,7 @@ TYNDALL_INLINE __m512i lookup_in_vectors(const void* entries, int count, __m512i
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= HWY_NAMESPACE::most_in_vectors) {
+  if (count <= HWY_NAMESPACE::max_in_vectors) {
     F r;
     r.v.raw = _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw));
     return r;
@@ -113,7 +113,7 @@ TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F>
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= HWY_NAMESPACE::most_in_vectors) {
+  if (count <= HWY_NAMESPACE::max_in_vectors) {
     IntOf<F> r;
     r.v.raw = HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw);
     return r;

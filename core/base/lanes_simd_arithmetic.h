@@ -254,7 +254,7 @@ TYNDALL_INLINE Uints shift_right(Uints a) {
   return a;
 }
 
-TYNDALL_INLINE float least_lane(Floats a) { return hn::GetLane(hn::MinOfLanes(TagF(), a.v)); }
+TYNDALL_INLINE float min_lane(Floats a) { return hn::GetLane(hn::MinOfLanes(TagF(), a.v)); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace tyndall

@@ -165,8 +165,8 @@ TYNDALL_INLINE Twice<T> shift_right(Twice<T> x) {
   return {shift_right<by>(x.a), shift_right<by>(x.b)};
 }
 template <class T>
-TYNDALL_INLINE float least_lane(Twice<T> x) {
-  return least_lane(min(x.a, x.b));
+TYNDALL_INLINE float min_lane(Twice<T> x) {
+  return min_lane(min(x.a, x.b));
 }
 template <class S, class T>
 TYNDALL_INLINE void store(S* to, Twice<T> x) {

@@ -16,7 +16,7 @@ struct SinCos {
 
 /// Sine and cosine of 2π·turn, turn in [0, 1). Absolute error below 2.5e-7.
 template <class F>
-TYNDALL_INLINE SinCos<F> sin_cos_turn(F turn) {
+TYNDALL_INLINE SinCos<F> sin_cos_2pi(F u) {
   const auto odd = [](F t) {  // sin(2πt), |t| <= 1/4
     const F z = t * t;
     F p = mul_add(z, F(-14.381392f), F(42.007797f));
@@ -25,14 +25,14 @@ TYNDALL_INLINE SinCos<F> sin_cos_turn(F turn) {
     p = mul_add(p, z, F(-41.3417f));
     return mul_add(p, z, F(6.2831855f)) * t;
   };
-  const F x = turn - F(0.5f);  // the angle is 2πx + π: both functions change sign
+  const F x = u - F(0.5f);  // the angle is 2πx + π: both functions change sign
   const F a = abs(x);
   const F folded = F(0.25f) - abs(a - F(0.25f));
   return {copy_sign(odd(folded), -x), -odd(F(0.25f) - a)};
 }
 template <>
-TYNDALL_INLINE SinCos<double> sin_cos_turn(double turn) {
-  return {std::sin(2 * pi * turn), std::cos(2 * pi * turn)};
+TYNDALL_INLINE SinCos<double> sin_cos_2pi(double u) {
+  return {std::sin(2 * pi * u), std::cos(2 * pi * u)};
 }
 
 /// Natural logarithm of a positive normal number. Relative error below 2e-7 (absolute near 1).

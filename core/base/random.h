@@ -24,15 +24,15 @@ inline constexpr std::uint32_t light_point = 6;  // and 7
 inline constexpr std::uint32_t roulette = 8;
 inline constexpr std::uint32_t near_pair = 9;
 inline constexpr std::uint32_t near_distance = 10;
-inline constexpr std::uint32_t near_point = 12;   // and 13
-inline constexpr std::uint32_t chain_point = 14;  // and 15
+inline constexpr std::uint32_t near_point = 12;      // and 13
+inline constexpr std::uint32_t specular_point = 14;  // and 15
 inline constexpr std::uint32_t per_event = 16;
-// within an event, too, but far from the numbered ones, so that these may grow: for Dice::alone()
-inline constexpr std::uint32_t chain_word = 0x40000000u;
-inline constexpr std::uint32_t chain_root = 0x40000001u;
-inline constexpr std::uint32_t chain_asked = 0x40000002u;
-inline constexpr std::uint32_t chain_pair = 0x40000003u;
-inline constexpr std::uint32_t chain_word_tail = 0x40000004u;
+// within an event, too, but far from the numbered ones, so that these may grow: for Sampler::independent_bits()
+inline constexpr std::uint32_t event_sequence = 0x40000000u;
+inline constexpr std::uint32_t specular_root = 0x40000001u;
+inline constexpr std::uint32_t specular_connect = 0x40000002u;
+inline constexpr std::uint32_t specular_pair = 0x40000003u;
+inline constexpr std::uint32_t event_sequence_tail = 0x40000004u;
 }  // namespace dimension
 
 inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions
@@ -96,10 +96,10 @@ TYNDALL_INLINE U sobol_second(U x) {
   return x ^ shift_left<1>(x & U(0x55555555u));
 }
 
-/// Where a path's random numbers come from. To add a sampler: a value and its word here, and its cases in Dice.
+/// Where a path's random numbers come from. To add a sampler: a value and its word here, and its cases in Sampler.
 enum class SamplerKind { random, sobol };
 
-constexpr Word word(SamplerKind sampler) {
+constexpr Label label(SamplerKind sampler) {
   switch (sampler) {
     case SamplerKind::random:
       return {"random", "independent numbers"};
@@ -114,31 +114,31 @@ constexpr Word word(SamplerKind sampler) {
 /// the samples of a pixel, shuffled and digitally shifted (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4),
 /// 2020, section 4, with a digital shift in place of the scrambling); sample i is point i/2 of randomisation i mod 2.
 template <class F>
-struct Dice {
+struct Sampler {
   using U = UintOf<F>;
   U low,
       high;  ///< random: 64 bits that name (seed, x, y, sample); sobol: pixel and half, and the point's reversed index
   U event;   ///< golden_ratio · the first dimension of the current event
-  SamplerKind sampler;
+  SamplerKind kind;
 
   /// Key of one sample; x, y: pixel in full-image coordinates. `random`: two chains of hashes in different orders, so
   /// that two samples have the same key only with probability 2^-64. The seed is hashed before it meets a coordinate:
   /// otherwise neighbouring seeds would give the same picture with its rows exchanged.
-  TYNDALL_INLINE static Dice of(std::uint32_t seed, U x, U y, U sample, SamplerKind sampler = SamplerKind::random) {
+  TYNDALL_INLINE static Sampler of(std::uint32_t seed, U x, U y, U sample, SamplerKind kind = SamplerKind::random) {
     const U a = hash(hash(U(hash(seed ^ 0x68bc21ebu)) ^ y) ^ x);
-    switch (sampler) {
+    switch (kind) {
       case SamplerKind::sobol:
-        return {hash(a ^ (sample & U(1u))), reverse_bits(shift_right<1>(sample)), U(0u), sampler};
+        return {hash(a ^ (sample & U(1u))), reverse_bits(shift_right<1>(sample)), U(0u), kind};
       case SamplerKind::random:
         break;
     }
     const U b = hash(hash(U(hash(seed + 0x02e5be93u)) ^ sample) ^ y);
-    return {hash(a ^ sample), hash(b ^ x), U(0u), sampler};
+    return {hash(a ^ sample), hash(b ^ x), U(0u), kind};
   }
   /// 32 bits for dimension `offset` of the current event.
-  TYNDALL_INLINE U word(std::uint32_t offset) const {
+  TYNDALL_INLINE U random_bits(std::uint32_t offset) const {
     U x = low + event + U(offset * golden_ratio);
-    switch (sampler) {
+    switch (kind) {
       case SamplerKind::sobol:
         x = hash(x);
         return shuffle_index(high, x) ^ (x * U(0x9e3779b1u));
@@ -151,18 +151,18 @@ struct Dice {
     x = x * U(0xd35a2d97u);
     return x ^ shift_right<15>(x);
   }
-  TYNDALL_INLINE F one(std::uint32_t offset) const { return unit_interval<F>(word(offset)); }
-  /// Like word(), but independent of the pixel's other samples with either sampler. Numbers that are spread evenly are
-  /// slightly correlated from one dimension to another. A choice that decides what the other numbers mean, such as
-  /// which events a chain has, must not be.
-  TYNDALL_INLINE U alone(std::uint32_t offset) const {
-    if (sampler != SamplerKind::sobol) return word(offset);
+  TYNDALL_INLINE F next_1d(std::uint32_t offset) const { return unit_interval<F>(random_bits(offset)); }
+  /// Like random_bits(), but independent of the pixel's other samples with either sampler. Numbers that are spread
+  /// evenly are slightly correlated from one dimension to another. A choice that decides what the other numbers mean,
+  /// such as which events a specular path has, must not be.
+  TYNDALL_INLINE U independent_bits(std::uint32_t offset) const {
+    if (kind != SamplerKind::sobol) return random_bits(offset);
     return hash(hash(low + event + U(offset * golden_ratio)) ^ high);
   }
-  TYNDALL_INLINE F one_alone(std::uint32_t offset) const { return unit_interval<F>(alone(offset)); }
+  TYNDALL_INLINE F independent_1d(std::uint32_t offset) const { return unit_interval<F>(independent_bits(offset)); }
   /// Dimensions offset and offset + 1: a point of the unit square, evenly spread together with those of other samples.
-  TYNDALL_INLINE Pair<F> pair(std::uint32_t offset) const {
-    if (sampler != SamplerKind::sobol) return {one(offset), one(offset + 1)};
+  TYNDALL_INLINE Pair<F> next_2d(std::uint32_t offset) const {
+    if (kind != SamplerKind::sobol) return {next_1d(offset), next_1d(offset + 1)};
     const U seed = hash(low + event + U(offset * golden_ratio));
     const U index = shuffle_index(high, seed);
     return {unit_interval<F>(index ^ (seed * U(0x9e3779b1u))),
@@ -170,7 +170,7 @@ struct Dice {
   }
   /// A number in (0, 1], for -log(u). Media that share one event each have a `stream` of their own.
   TYNDALL_INLINE F open(std::uint32_t offset, std::uint32_t stream) const {
-    return unit_interval_open<F>(word(offset + stream * 0x10000u));
+    return unit_interval_open<F>(random_bits(offset + stream * 0x10000u));
   }
   TYNDALL_INLINE void next_event() { event = event + U(dimension::per_event * golden_ratio); }
 };

@@ -11,7 +11,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> on_sphere(Pair<F> u) {
   const F z = mul_add(F(-2.0f), u.x, F(1.0f));
   const F r = sqrt(max(neg_mul_add(z, z, F(1.0f)), F(0.0f)));
-  const SinCos<F> a = sin_cos_turn(u.y);
+  const SinCos<F> a = sin_cos_2pi(u.y);
   return {r * a.cos, r * a.sin, z};
 }
 
@@ -19,17 +19,17 @@ TYNDALL_INLINE Vec3<F> on_sphere(Pair<F> u) {
 template <class F>
 TYNDALL_INLINE Pair<F> in_disc(Pair<F> u) {
   const F r = sqrt(u.x);
-  const SinCos<F> a = sin_cos_turn(u.y);
+  const SinCos<F> a = sin_cos_2pi(u.y);
   return {r * a.cos, r * a.sin};
 }
 
 /// A direction about the unit vector `axis` with the given cosine in [-1, 1]; turn in [0, 1) goes around.
 template <class F>
-TYNDALL_INLINE Vec3<F> around(Vec3<F> axis, F cosine, F turn) {
+TYNDALL_INLINE Vec3<F> around(Vec3<F> axis, F cosine, F u) {
   const Basis<F> b = basis_around(axis);
-  const SinCos<F> a = sin_cos_turn(turn);
+  const SinCos<F> a = sin_cos_2pi(u);
   const F sine = sqrt(max(neg_mul_add(cosine, cosine, F(1.0f)), F(0.0f)));
-  return along(along(cosine * axis, sine * a.cos, b.s), sine * a.sin, b.t);
+  return point_at(point_at(cosine * axis, sine * a.cos, b.s), sine * a.sin, b.t);
 }
 
 }  // namespace tyndall

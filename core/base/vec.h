@@ -62,13 +62,13 @@ TYNDALL_INLINE Vec3<F> normalize(Vec3<F> a) {
 }
 /// origin + t·direction.
 template <class F>
-TYNDALL_INLINE Vec3<F> along(Vec3<F> origin, F t, Vec3<F> direction) {
+TYNDALL_INLINE Vec3<F> point_at(Vec3<F> origin, F t, Vec3<F> direction) {
   return {mul_add(t, direction.x, origin.x), mul_add(t, direction.y, origin.y), mul_add(t, direction.z, origin.z)};
 }
 /// d mirrored at the plane with unit normal n.
 template <class F>
 TYNDALL_INLINE Vec3<F> reflect(Vec3<F> d, Vec3<F> n) {
-  return along(d, F(-2) * dot(d, n), n);
+  return point_at(d, F(-2) * dot(d, n), n);
 }
 template <class M, class F>
 TYNDALL_INLINE Vec3<F> select(M m, Vec3<F> a, Vec3<F> b) {

@@ -14,7 +14,7 @@ struct ChunkOfHalves {
 
 TYNDALL_INLINE int mirrored(int i, int count) {
   const int j = i < 0 ? -i - 1 : i >= count ? 2 * count - 1 - i : i;
-  return most(0, least(j, count - 1));
+  return maximum(0, minimum(j, count - 1));
 }
 
 /// Asks for the memory that a later row will be read from: rows are too short for the processor to foresee it.
@@ -27,15 +27,15 @@ inline constexpr int blur_reach = 2;
 /// Whether a cell that the blur of these pixels reads has emission.
 TYNDALL_INLINE bool emission_near(const FilterView& v, int y, int x0, int count) {
   if (!v.has_emission()) return false;
-  const int bottom = least(y + blur_reach, v.height - 1) / cell_edge, right = (x0 + count + blur_reach) / cell_edge;
+  const int bottom = minimum(y + blur_reach, v.height - 1) / cell_edge, right = (x0 + count + blur_reach) / cell_edge;
   bool any = false;
-  for (int cy = most(y - blur_reach, 0) / cell_edge; cy <= bottom; ++cy)
+  for (int cy = maximum(y - blur_reach, 0) / cell_edge; cy <= bottom; ++cy)
     for (int cx = x0 / cell_edge - 1; cx <= right; ++cx) any |= v.shines[(cy + 1) * v.cell_stride + cx + 1] != 0;
   return any;
 }
 
-/// What is blurred: a half, of whose sharp emission nothing is spread: the dark around a lamp that is smaller than a
-/// pixel would be spoilt by far more than the lamp gains.
+/// What is blurred: a half, of whose sharp emission nothing is spread: the dark around a light that is smaller than a
+/// pixel would be spoilt by far more than the light gains.
 template <class F, bool lit>
 TYNDALL_INLINE F blurred_part(const FilterView& v, int output, std::ptrdiff_t at) {
   const F half = load<F>(v.half[output] + at);
@@ -59,7 +59,7 @@ TYNDALL_INLINE void blur_lit_chunk(const FilterView& v, int y, int x0, int count
       store(column + row_margin + x, mul_add(F(0.25f), inner, mul_add(F(0.375f), part(2, x), F(0.0625f) * outer)));
     }
     float* at = column + row_margin;
-    for (int k = 1; k <= reach && x0 == 0; ++k) at[-k] = at[least(k - 1, v.width - 1)];
+    for (int k = 1; k <= reach && x0 == 0; ++k) at[-k] = at[minimum(k - 1, v.width - 1)];
     for (int k = 0; k < reach && x0 + count == v.width; ++k) at[count + k] = at[mirrored(v.width + k, v.width) - x0];
     for (int x = 0; x < count; x += lanes_of<F>) {
       const F outer = load<F>(at + x - 2) + load<F>(at + x + 2), inner = load<F>(at + x - 1) + load<F>(at + x + 1);

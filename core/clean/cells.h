@@ -9,8 +9,8 @@ namespace tyndall::filter {
 /// The sum of two numbers, as base/lanes_simd_pairs.h has it for groups of lanes.
 TYNDALL_INLINE float pair_sums(float a, float b) { return a + b; }
 
-TYNDALL_INLINE int least(int a, int b) { return a < b ? a : b; }
-TYNDALL_INLINE int most(int a, int b) { return a > b ? a : b; }
+TYNDALL_INLINE int minimum(int a, int b) { return a < b ? a : b; }
+TYNDALL_INLINE int maximum(int a, int b) { return a > b ? a : b; }
 
 /// As many cells beside each other as F has lanes: a row of their pixels fills cell_edge groups of lanes.
 template <class F>
@@ -44,9 +44,9 @@ TYNDALL_INLINE void take_rows(const float* plane, std::ptrdiff_t stride, int row
 inline constexpr float middle_of_cell = 0.5f * (cell_edge - 1), per_block = 1.0f / (2 * cell_edge);
 
 /// Fills the columns of the group of lanes from x on. rows: how many of its rows lie in the picture.
-/// Where lamps are seen, their emission is taken off the halves, because the regression would smear it over the pixels
+/// Where lights are seen, their emission is taken off the halves, because the regression would smear it over the pixels
 /// around; it is added again to what the regression predicts. It also stays one of the terms, because in a pixel that a
-/// lamp covers in part, it hides the rest in part.
+/// light covers in part, it hides the rest in part.
 template <class F>
 TYNDALL_INLINE void fill_group(const FilterView& v, int x, int y0, int rows, bool shines, const float* across,
                                Strip<F>& strip) {
@@ -118,7 +118,7 @@ TYNDALL_INLINE bool find_emission(const FilterView& v, int x0, int y0, int rows,
 template <class F>
 TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
   constexpr int n = lanes_of<F>;
-  const int y0 = cell_row * cell_edge, rows = least(cell_edge, v.height - y0);
+  const int y0 = cell_row * cell_edge, rows = minimum(cell_edge, v.height - y0);
   float* row = v.sums + std::ptrdiff_t{cell_row + 1} * all_sums * v.cell_stride;
   const bool dark = is_dark_row(v, y0, rows);
   Strip<F> strip;

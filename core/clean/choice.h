@@ -60,7 +60,7 @@ TYNDALL_INLINE F pixels_around(const FilterView& v, int y, int x, int reach) {
 template <class F>
 TYNDALL_INLINE F sum_around(const FilterView& v, const float* plane, int y, int x) {
   F sum = F(0.0f);
-  for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k) {
+  for (int k = maximum(y - 1, 0); k <= minimum(y + 1, v.height - 1); ++k) {
     const float* at = plane + k * v.stride + x;
     sum = sum + (load<F>(at - 1) + load<F>(at) + load<F>(at + 1));
   }
@@ -72,8 +72,8 @@ TYNDALL_INLINE void clear_behind(float* row, int width) {
 }
 
 /// The level of the picture that errors are relative to: the mean around a pixel, which is less by chance than its own.
-/// Where the pixel is by far darker than those around, and wherever lamps are seen sharply, it is the pixel's own, if
-/// that is less: next to a lamp nothing else tells how dark it is.
+/// Where the pixel is by far darker than those around, and wherever lights are seen sharply, it is the pixel's own, if
+/// that is less: next to a light nothing else tells how dark it is.
 template <class F>
 TYNDALL_INLINE F level_around(const FilterView& v, int y, int x) {
   const std::ptrdiff_t at = y * v.stride + x;
@@ -112,7 +112,7 @@ template <class F>
 TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   ChunkOfHalves q;
   for (int x0 = 0; x0 < v.width; x0 += chunk) {
-    const int count = least(chunk, v.width - x0);
+    const int count = minimum(chunk, v.width - x0);
     take_rival<F>(v, rival, y, x0, count, q);
     for (int x = 0; x < count; x += lanes_of<F>)
       compare_pixels<F>(v, q, y * v.stride + x0 + x, x, level_around<F>(v, y, x0 + x));
@@ -183,17 +183,18 @@ TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
   return total;
 }
 
-/// The share of the rival with which the mixture has the least error, in [0, 1]. doubt: the gain counts only beyond so
-/// many of its standard errors; 0 for the raw picture, which is right on average in any scene.
+/// The fraction of the rival with which the mixture has the least error, in [0, 1]. doubt: the gain counts only beyond
+/// so many of its standard errors; 0 for the raw picture, which is right on average in any scene.
 template <int spacing, class F>
-TYNDALL_INLINE F share_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0, int x) {
+TYNDALL_INLINE F fraction_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0,
+                                   int x) {
   const F pixels = deciding_pixels<spacing, F>(v, y, x0 + x);
   const F gain = window_sum<spacing, F>(columns, WindowColumns::gain, x) / pixels;
   const F squares = window_sum<spacing, F>(columns, WindowColumns::squares, x) / pixels;
   const F distance = window_sum<spacing, F>(columns, WindowColumns::distance, x) / pixels;
   const F error = sqrt(max(neg_mul_add(gain, gain, squares), F(0.0f)) / pixels);
-  const F share = neg_mul_add(splat<F>(doubt), error, gain) / max(distance, F(1e-12f));
-  return min(max(share, F(0.0f)), F(1.0f));
+  const F fraction = neg_mul_add(splat<F>(doubt), error, gain) / max(distance, F(1e-12f));
+  return min(max(fraction, F(0.0f)), F(1.0f));
 }
 
 template <int spacing, class F>
@@ -202,16 +203,16 @@ TYNDALL_INLINE void mix_spaced(const FilterView& v, Rival rival, int y) {
   ChunkOfHalves q;
   WindowColumns columns;
   for (int x0 = 0; x0 < v.width; x0 += chunk) {
-    const int count = least(chunk, v.width - x0);
+    const int count = minimum(chunk, v.width - x0);
     take_rival<F>(v, rival, y, x0, count, q);
     sum_columns<spacing, F>(v, y, x0, count, columns);
     for (int x = 0; x < count; x += lanes_of<F>) {
       const std::ptrdiff_t at = y * v.stride + x0 + x;
-      const F share = share_of_rival<spacing, F>(v, columns, doubt, y, x0, x);
+      const F fraction = fraction_of_rival<spacing, F>(v, columns, doubt, y, x0, x);
       F level = F(0.0f);
       for (int output = 0; output < outputs; ++output) {
         const F p = load<F>(v.filtered[output] + at);
-        const F mixed = mul_add(share, load<F>(q.of[output] + x) - p, p);
+        const F mixed = mul_add(fraction, load<F>(q.of[output] + x) - p, p);
         store(v.filtered[output] + at, mixed);
         level = level + mixed;
       }
@@ -223,7 +224,7 @@ TYNDALL_INLINE void mix_spaced(const FilterView& v, Rival rival, int y) {
 
 template <class F>
 TYNDALL_INLINE void mix_of(const FilterView& v, Rival rival, int y) {
-  v.shared ? mix_spaced<group_spacing, F>(v, rival, y) : mix_spaced<0, F>(v, rival, y);
+  v.grouped ? mix_spaced<group_spacing, F>(v, rival, y) : mix_spaced<0, F>(v, rival, y);
 }
 
 }  // namespace tyndall::filter

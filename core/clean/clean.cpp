@@ -159,7 +159,7 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   FilterView v;
   v.width = input.width, v.height = input.height, v.stride = work.stride();
   v.floor = 0.01f / input.scale / input.scale;
-  v.shared = input.shared;
+  v.grouped = input.grouped;
   v.trust_in_dark = input.spp >= 16 ? 1.0f : 0.0f;
   const auto doubt = static_cast<float>(1 / std::sqrt(std::max(input.spp, 1.0)));
   v.by_far = std::max(16 * doubt, 2.0f), v.quiet = std::min(0.8f * doubt, 0.4f);
@@ -177,13 +177,13 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   return v;
 }
 
-bool Cleaner::run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out,
+bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanPicture& out,
                   const LevelsOf& levels_of) {
   Memory& m = *memory_;
   m.resize(input.width, input.height);
   const FilterView v = m.view_of(input);
   const auto each = [&](int rows, const auto& step) {
-    crew.for_each(rows, [&](int row) {
+    thread_pool.for_each(rows, [&](int row) {
       if (!give_up.load(std::memory_order_relaxed)) step(row);
     });
     return !give_up;

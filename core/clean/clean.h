@@ -1,7 +1,7 @@
 #pragma once
-#include "core/base/crew.h"
 #include "core/base/error_sum.h"
 #include "core/base/target.h"
+#include "core/base/thread_pool.h"
 #include "core/film/film.h"
 
 #include <atomic>
@@ -24,7 +24,7 @@ struct FilterSteps;
 struct FirstSeen {
   Vec3f albedo, normal;
   float nearness = 0;  ///< 1 / (1 + depth over its harmonic mean in the picture), in [0, 1); 0: nothing is seen
-  bool sharp = true;   ///< lamps and sky are not seen by chance there, as they are in glass and in brushed metal
+  bool sharp = true;   ///< lights and sky are not seen by chance there, as they are in glass and in brushed metal
 };
 
 /// Zeros at first, and at a multiple of 64 bytes, as a group of lanes is. They take memory once they are written to, by
@@ -66,12 +66,12 @@ class Planes {
   ZeroedFloats data_;
 };
 
-/// A picture to be filtered: both halves, as means over samples, and the light that came straight from lamps and sky.
+/// A picture to be filtered: both halves, as means over samples, and the light that came straight from lights and sky.
 struct CleanInput {
   int width = 0, height = 0;
   float scale = 1;                      ///< a power of two: radiance is that times the numbers in the planes
   double spp = 0;                       ///< samples a pixel, on average
-  bool shared = false;                  ///< groups of pixels share second vertices, and so their noise: film/groups.h
+  bool grouped = false;                 ///< groups of pixels share second vertices, and so their noise: film/groups.h
   Planes halves;                        ///< 6: red, green, blue of A and B
   Planes emission;                      ///< likewise, or none
   std::vector<std::uint8_t> dark_rows;  ///< 1: the row's emission is 0; empty: not known of any
@@ -80,7 +80,7 @@ struct CleanInput {
 
 /// Fills all but `seen` with a film's region. Where one half of a pixel is empty it gets what the other has.
 /// Returns false if `give_up` was set before the end; the planes are then of no use.
-bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, CleanInput& input);
+bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanInput& input);
 /// Makes room in `seen`.
 void resize_first_seen(int width, int height, CleanInput& input);
 /// Sets what a pixel sees first.
@@ -113,7 +113,7 @@ class Cleaner {
   /// which takes less than 1 ms. levels_of: tells the levels of the pixels that decide the error (see ask_levels()),
   /// and has to notice `give_up` itself; empty: they are found from the picture alone. The same bits for any number of
   /// threads. Throws std::bad_alloc.
-  bool run(const CleanInput& input, Crew& crew, const std::atomic<bool>& give_up, CleanPicture& out,
+  bool run(const CleanInput& input, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanPicture& out,
            const LevelsOf& levels_of = {});
 
  private:

@@ -45,12 +45,12 @@ struct FilterView {
   // For glows_into_dark(). The more samples there are, the less a pixel is dark by chance, and the less it takes.
   float by_far = 0;                           ///< how many times brighter than raw a picture that glows is, at least
   float quiet = 0;                            ///< largest relative variance of raw pixels that count as known
-  bool shared = false;                        ///< groups of pixels share their noise: see film/groups.h
+  bool grouped = false;                       ///< groups of pixels share their noise: see film/groups.h
   const float* half[outputs];                 ///< A and B: red, green, blue
   const float* emission[2 * emission_terms];  ///< likewise; null: not recorded
   const std::uint8_t* dark_rows;              ///< 1 where a row's emission is 0; null: not known
   const float* seen[seen_features];
-  const float* sharp;        ///< 1 where lamps and sky are seen without chance in between, else 0
+  const float* sharp;        ///< 1 where lights and sky are seen without chance in between, else 0
   float* filtered[outputs];  ///< A and B
   float* level;              ///< mean of the six planes of `filtered`
   float *gain, *distance;    ///< by how much another picture would lower the error, and its squared distance

@@ -14,7 +14,7 @@ struct Surroundings {
 template <class F>
 TYNDALL_INLINE Surroundings<F> look_around(const FilterView& v, int channel, int y, int x) {
   F sum = F(0.0f), squares = F(0.0f);
-  for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k)
+  for (int k = maximum(y - 1, 0); k <= minimum(y + 1, v.height - 1); ++k)
     for (int i = -1; i <= 1; ++i) {
       const std::ptrdiff_t at = k * v.stride + x + i;
       const F a = load<F>(v.half[channel] + at), b = load<F>(v.half[3 + channel] + at);
@@ -30,7 +30,7 @@ TYNDALL_INLINE Surroundings<F> look_around(const FilterView& v, int channel, int
 /// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
 /// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
 /// is brighter than those around, the level is raised towards its own mean, the more its two halves agree. Where it is
-/// darker than the noise around explains and something is seen that is not sharp, as at the rim of a glass ball, the
+/// darker than the noise around explains and something is seen that is not sharp, as at the rim of a glass sphere, the
 /// level is lowered towards it. Not elsewhere: pixels that are dark by chance, whose halves are then both off in the
 /// same way, would count more than those that are bright by chance, and the error would seem twice as large.
 template <class F>
@@ -40,8 +40,8 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
   const F above = neg_mul_add(F(1.0f), around.others, F(0.5f) * both), square = above * above;
   const F real = max(neg_mul_add(F(5.0f), around.noise, square) / max(square, F(1e-30f)), F(0.0f));
   const F below = select(less(F(0.0f), sharp), F(0.0f), splat<F>(v.trust_in_dark) * real);
-  const F share = select(less(F(0.0f), above), agreed, below);
-  return mul_add(share, above, around.others);
+  const F fraction = select(less(F(0.0f), above), agreed, below);
+  return mul_add(fraction, above, around.others);
 }
 
 /// Whether the filter has spread light over a sharp edge into the dark, as beside a caustic: raw is by far darker than
@@ -61,7 +61,7 @@ TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
   if (!any(glows)) return glows;
   constexpr float certain = 0.004f;                     // relative variance that only hundreds of samples reach
   F noise = F(0.0f), dark = F(0.0f), bright = F(0.0f);  // noise: relative variance of a pixel's mean, times the pixels
-  for (int k = most(y - 1, 0); k <= least(y + 1, v.height - 1); ++k)
+  for (int k = maximum(y - 1, 0); k <= minimum(y + 1, v.height - 1); ++k)
     for (int i = -1; i <= 1; ++i) {
       const std::ptrdiff_t there = k * v.stride + x + i;
       const F a = sum(v.half, there), b = sum(v.half + 3, there), both = a + b;
@@ -115,10 +115,10 @@ template <class F>
 TYNDALL_INLINE void tell_of(const FilterView& v, int y, float* pixel_error) {
   alignas(64) float column[chunk + 64], root[chunk + 64];  // from x0 - row_margin on; from x0 on
   for (int x0 = 0; x0 < v.width; x0 += chunk) {
-    const int count = least(chunk, v.width - x0);
+    const int count = minimum(chunk, v.width - x0);
     for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
       F sum = F(0.0f);
-      for (int k = most(y - window_reach, 0); k <= least(y + window_reach, v.height - 1); ++k)
+      for (int k = maximum(y - window_reach, 0); k <= minimum(y + window_reach, v.height - 1); ++k)
         sum = sum + load<F>(v.error + k * v.stride + x0 + x);
       store(column + row_margin + x, sum);
       fetch(v, v.error, y + window_reach + 1, x0 + x);

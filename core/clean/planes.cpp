@@ -18,21 +18,21 @@ namespace {
 constexpr std::size_t large_page = std::size_t{1} << 21u, group = 64;
 
 /// Numbers are divided by this so that their squares, summed over windows, fit into single precision. It is 1 unless a
-/// lamp is brighter than 2^25.
-float scale_of(const Film& film) { return static_cast<float>(std::max(film.unit * 0x1p-25, 1.0)); }
+/// light is brighter than 2^25.
+float scale_of(const Film& film) { return static_cast<float>(std::max(film.quantum * 0x1p-25, 1.0)); }
 
 /// The factor that turns the sums of a half with so many samples into the means that planes hold; 0 for an empty half.
 /// Most pixels have as many samples as the one before, and a division takes longer than all the rest.
 class PerSample {
  public:
-  explicit PerSample(double unit) : unit_(unit) {}
+  explicit PerSample(double quantum) : quantum_(quantum) {}
   double of(std::uint32_t count) {
-    if (count != count_) count_ = count, per_ = count > 0 ? unit_ / count : 0;
+    if (count != count_) count_ = count, per_ = count > 0 ? quantum_ / count : 0;
     return per_;
   }
 
  private:
-  double unit_, per_ = 0;
+  double quantum_, per_ = 0;
   std::uint32_t count_ = 0;
 };
 
@@ -44,8 +44,8 @@ std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
   float* to[filter::outputs];
   for (int k = 0; k < filter::outputs; ++k) to[k] = input.halves.plane(k) + row;
   std::uint64_t samples = 0;
-  const double unit = film.unit / static_cast<double>(input.scale);
-  PerSample of_half[2] = {PerSample(unit), PerSample(unit)};
+  const double quantum = film.quantum / static_cast<double>(input.scale);
+  PerSample of_half[2] = {PerSample(quantum), PerSample(quantum)};
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
     samples += pixel.taken;
@@ -107,7 +107,7 @@ bool Planes::resize(int width, int height, int count) {
   return true;
 }
 
-bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, CleanInput& input) {
+bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanInput& input) {
   input.width = film.region.width(), input.height = film.region.height();
   input.scale = scale_of(film);
   input.halves.resize(input.width, input.height, filter::outputs);
@@ -116,7 +116,7 @@ bool read_film(const Film& film, Crew& crew, const std::atomic<bool>& give_up, C
   if (input.emission.resize(input.width, input.height, film.emission.empty() ? 0 : 2 * filter::emission_terms))
     input.dark_rows.assign(rows, 1);
   std::vector<std::uint64_t> samples(rows);
-  crew.for_each(input.height, [&](int y) {
+  thread_pool.for_each(input.height, [&](int y) {
     if (give_up.load(std::memory_order_relaxed)) return;
     samples[static_cast<std::size_t>(y)] = read_row(film, y, input);
     if (!film.emission.empty()) read_emission_row(film, y, input);

@@ -16,7 +16,8 @@ TYNDALL_INLINE void copy_row(const float* from, float* to) { __builtin_memcpy(to
 
 /// Copies a cell's pixels from a plane. Those to the right of the picture get what is there: they are not used.
 TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int rows, float* to) {
-  for (int y = 0; y < cell_edge; ++y) copy_row(plane + least(y, rows - 1) * stride, to + std::ptrdiff_t{y} * cell_edge);
+  for (int y = 0; y < cell_edge; ++y)
+    copy_row(plane + minimum(y, rows - 1) * stride, to + std::ptrdiff_t{y} * cell_edge);
 }
 
 /// Fills the terms that are the same in each cell.
@@ -32,7 +33,7 @@ TYNDALL_INLINE void fill_places(CellTerms& cell) {
 /// Fills the others.
 TYNDALL_INLINE void fill_terms(const FilterView& v, int cell_x, int cell_y, CellTerms& cell) {
   const std::ptrdiff_t at = std::ptrdiff_t{cell_y} * cell_edge * v.stride + std::ptrdiff_t{cell_x} * cell_edge;
-  cell.rows = least(cell_edge, v.height - cell_y * cell_edge);
+  cell.rows = minimum(cell_edge, v.height - cell_y * cell_edge);
   for (int k = 0; k < seen_features; ++k) take_cell(v.seen[k] + at, v.stride, cell.rows, cell.of[3 + k]);
   cell.shines = v.shines[(cell_y + 1) * v.cell_stride + cell_x + 1] != 0;
   for (int k = 0; cell.shines && k < 2 * emission_terms; ++k)
@@ -95,11 +96,11 @@ TYNDALL_INLINE void predict_pixels(const CellTerms& cell, const CellBlocks& bloc
   store(out[outputs] + pixel, F(1.0f / outputs) * level);
 }
 
-/// Whether a half shows no light but what came straight from lamps or the sky, in those of the 3 x 3 pixels around
+/// Whether a half shows no light but what came straight from lights or the sky, in those of the 3 x 3 pixels around
 /// where nothing is seen.
 TYNDALL_INLINE bool is_dark(const FilterView& v, int half, int x0, int y0) {
-  for (int y = most(y0 - 1, 0); y <= least(y0 + 1, v.height - 1); ++y)
-    for (int x = most(x0 - 1, 0); x <= least(x0 + 1, v.width - 1); ++x) {
+  for (int y = maximum(y0 - 1, 0); y <= minimum(y0 + 1, v.height - 1); ++y)
+    for (int x = maximum(x0 - 1, 0); x <= minimum(x0 + 1, v.width - 1); ++x) {
       const std::ptrdiff_t at = y * v.stride + x;
       if (v.seen[seen_features - 1][at] > 0) continue;
       for (int output = 3 * half; output < 3 * half + 3; ++output) {
@@ -144,7 +145,7 @@ TYNDALL_INLINE void keep_dark(const FilterView& v, const CellTerms& cell, int x0
 
 /// Writes what was made of a cell to the picture.
 TYNDALL_INLINE void put_cell(const FilterView& v, int x0, int y0, int rows, const float (*out)[cell_pixels]) {
-  const int columns = least(cell_edge, v.width - x0);
+  const int columns = minimum(cell_edge, v.width - x0);
   for (int output = 0; output <= outputs; ++output) {
     float* to = (output < outputs ? v.filtered[output] : v.level) + y0 * v.stride + x0;
     for (int y = 0; y < rows; ++y)

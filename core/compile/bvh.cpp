@@ -156,7 +156,7 @@ class Widener {
 }  // namespace
 
 Bvh build_bvh(std::vector<BvhInput> input) {
-  assert(!input.empty() && input.size() <= bvh_most_primitives);
+  assert(!input.empty() && input.size() <= bvh_max_primitives);
   Bvh bvh;
   bvh.input = std::move(input);
   const BinaryTree tree = build_binary_tree(bvh.input);

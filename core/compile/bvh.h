@@ -8,7 +8,7 @@
 namespace tyndall {
 
 inline constexpr int bvh_width = 8;  ///< most children of a node
-inline constexpr int bvh_most_primitives = 1 << 24;
+inline constexpr int bvh_max_primitives = 1 << 24;
 inline constexpr int bvh_stack = 640;  ///< more nodes than can wait in a traversal: 7 in each of 48 + 24 + 2 levels
 
 /// The children's boxes, component by component, so that one ray can be tested against all of them, or many rays

@@ -13,7 +13,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Bounds nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 constexpr int bins = 16;
-constexpr std::size_t most_in_leaf = 8;
+constexpr std::size_t max_in_leaf = 8;
 constexpr int deepest_heuristic = 48;  // below this depth ranges are halved, so that the traversal's stack is bounded
 
 /// Time for a node over that for a primitive's test. For spheres 3 to 6 were found as good, for boxes 1.3 to 2.
@@ -80,8 +80,8 @@ class Builder {
 
   /// The subtree over a range: its root, then the left and the right half. Halves of large ranges are built at once.
   std::vector<BinaryNode> build(Range range) {
-    constexpr int least_for_thread = 1 << 13, deepest_thread = 4;
-    if (range.end - range.begin < least_for_thread || range.depth >= deepest_thread) return build_alone(range);
+    constexpr int min_for_thread = 1 << 13, deepest_thread = 4;
+    if (range.end - range.begin < min_for_thread || range.depth >= deepest_thread) return build_alone(range);
     const Split at = split(range);
     std::vector<BinaryNode> nodes = room_for(range);
     nodes.push_back(at.node);
@@ -169,7 +169,7 @@ class Builder {
   int choose(std::span<Item> list, const Around& around, int depth) {
     if (list.size() == 1) return 0;
     const Plane plane = best_plane(list, around.centers);
-    const bool fits = list.size() <= most_in_leaf && one_kind(list);
+    const bool fits = list.size() <= max_in_leaf && one_kind(list);
     const float leaf_cost = static_cast<float>(list.size()) * half_area(around.bounds);
     const float node_cost = traversal_cost(list.front().input.kind) * half_area(around.bounds);
     if (fits && !(plane.cost + node_cost < leaf_cost)) return 0;

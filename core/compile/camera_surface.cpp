@@ -10,7 +10,7 @@ namespace tyndall {
 namespace {
 
 // Of the largest number in play. Single precision rounds to 2^-24, and tests of spheres square and subtract.
-constexpr double rounding_share = 0x1p-21, touching_sphere = 0x1p-24, touching_flat = 0x1p-40;
+constexpr double rounding_fraction = 0x1p-21, touching_sphere = 0x1p-24, touching_flat = 0x1p-40;
 constexpr double lens_rounding = 0x1p-22;  // of heights of points of the lens, over its radius
 
 double largest_component(Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -37,12 +37,12 @@ class NearestSurface {
     keep((1 / distance) * arm, distance - radius, 1 / radius, size, element);
   }
   void look_at(const Quad<>& quad, const Placement& placement, std::int32_t element) {
-    look_at_flat(place(placement, quad.corner), turn(placement, quad.u), turn(placement, quad.v), element);
+    look_at_flat(place(placement, quad.corner), rotate(placement, quad.u), rotate(placement, quad.v), element);
   }
   void look_at(const Box<>& box, const Placement& placement, std::int32_t element) {
     for (std::int32_t i = 0; i < 6; ++i) {
       const BoxFace face = box_face_edges(box, i);
-      look_at_flat(place(placement, face.corner), turn(placement, face.u), turn(placement, face.v), element + i);
+      look_at_flat(place(placement, face.corner), rotate(placement, face.u), rotate(placement, face.v), element + i);
     }
   }
 
@@ -63,7 +63,7 @@ class NearestSurface {
 
   /// size: of the largest number that is rounded where rays are tested against the surface. curvature: 0 for flats.
   void keep(Vec3d normal, double height, double curvature, double size, std::int32_t element) {
-    const double largest = std::max(size, largest_component(eye_ - origin_)), rounding = rounding_share * largest;
+    const double largest = std::max(size, largest_component(eye_ - origin_)), rounding = rounding_fraction * largest;
     const double touching = (curvature == 0 ? touching_flat : touching_sphere) * largest + lens_rounding * lens_;
     if (std::abs(height) > rounding) return;
     if (found.element >= 0 && std::abs(static_cast<double>(found.height)) <= std::abs(height)) return;

@@ -130,9 +130,9 @@ std::shared_ptr<const std::vector<float>> gradient_table() {
   auto table = std::make_shared<std::vector<float>>();
   for (std::uint32_t i = 0; i < 256; ++i) {
     const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)),
-                 turn = 2 * pi * unit_interval<double>(hash(2 * i + 2));
+                 phi = 2 * pi * unit_interval<double>(hash(2 * i + 2));
     const double r = std::sqrt(1 - z * z);
-    for (const double c : {r * std::cos(turn), r * std::sin(turn), z}) table->push_back(static_cast<float>(c));
+    for (const double c : {r * std::cos(phi), r * std::sin(phi), z}) table->push_back(static_cast<float>(c));
   }
   return table;
 }

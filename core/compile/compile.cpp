@@ -1,11 +1,11 @@
 #include "core/compile/compile.h"
 
 #include "core/compile/camera_surface.h"
-#include "core/compile/chains.h"
 #include "core/compile/columns.h"
-#include "core/compile/hull.h"
+#include "core/compile/enclosing_walls.h"
 #include "core/compile/lights.h"
-#include "core/compile/needs.h"
+#include "core/compile/scene_features.h"
+#include "core/compile/specular_pairs.h"
 #include "core/film/film.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int most_by_brute_force = 16;   // primitives; with more of them the tree is faster
+constexpr int max_by_brute_force = 16;    // primitives; with more of them the tree is faster
 constexpr double bounds_slack = 0x1p-20;  // share by which bounds grow on each side, to cover rounding in the tests
 
 double median(std::vector<double> values) {
@@ -34,8 +34,8 @@ Vec3d median_center(const Flattened& flat, const Camera& camera) {
   return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
 }
 
-/// Widens bounds on all axes by a share of their largest coordinate: a hit on a tilted surface that is far away on one
-/// axis has that axis's rounding errors in its other coordinates, too.
+/// Widens bounds on all axes by a fraction of their largest coordinate: a hit on a tilted surface that is far away on
+/// one axis has that axis's rounding errors in its other coordinates, too.
 Bounds widen(Vec3d low, Vec3d high) {
   const double reach = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});  // >= every |coordinate|
   const double slack = bounds_slack * reach;
@@ -75,8 +75,8 @@ struct SlotFiller {
     to.radius.push_back(static_cast<float>(std::abs(s.radius)));
     to.element.push_back(element);
     if (!s.center_end) return;
-    const Vec3f way = to_float(turn(placement, *s.center_end - s.center));
-    to.move_x.push_back(way.x), to.move_y.push_back(way.y), to.move_z.push_back(way.z);
+    const Vec3f motion = to_float(rotate(placement, *s.center_end - s.center));
+    to.move_x.push_back(motion.x), to.move_y.push_back(motion.y), to.move_z.push_back(motion.z);
   }
   void operator()(const Quad<>& q) const {
     out.quads.map.push_back(quad_map(q, placement, out.origin));
@@ -99,7 +99,7 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
                                       RenderScene& out) {
   std::vector<std::int32_t> order(flat.shapes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-  if (flat.shapes.size() <= most_by_brute_force) {
+  if (flat.shapes.size() <= max_by_brute_force) {
     const auto bounding = std::stable_partition(order.begin(), order.end(), [&](std::int32_t i) {
       return !bounds_scene(flat, static_cast<std::size_t>(i), camera);
     });
@@ -123,7 +123,7 @@ const Checker<>* checker_of(const Scene& scene, std::int32_t material) {
 
 void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
   std::vector<std::int32_t> first_element;
-  const MoreColumns more{out.needs.image_textures, out.needs.moving_spheres, out.needs.textures};
+  const MoreColumns more{out.features.image_textures, out.features.moving_spheres, out.features.textures};
   for (const PlacedShape& shape : flat.shapes) {
     first_element.push_back(out.elements.count());
     append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
@@ -158,17 +158,17 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
   }
 }
 
-KernelSet least_kernel(const RenderScene& s) {
-  const bool fog_or_textures = s.needs.media || s.needs.textures;
-  if (!s.chains.ball.empty()) return fog_or_textures ? KernelSet::everything : KernelSet::chains_alone;
-  return fog_or_textures ? KernelSet::no_chains : KernelSet::no_fog_nor_textures;
+KernelSet min_kernel(const RenderScene& s) {
+  const bool media_or_textures = s.features.media || s.features.textures;
+  if (!s.specular.sphere.empty()) return media_or_textures ? KernelSet::everything : KernelSet::specular_paths_only;
+  return media_or_textures ? KernelSet::no_specular_paths : KernelSet::no_media_no_textures;
 }
 
 /// Whether the scene holds nothing that second vertices cannot be shared around: a vertex on a moving sphere is there
 /// at one time only.
-bool can_share(const RenderScene& s) { return s.integrator == Integrator::mis && !s.needs.moving_spheres; }
+bool can_reuse_paths(const RenderScene& s) { return s.integrator == Integrator::mis && !s.features.moving_spheres; }
 
-bool asks_for_light(Integrator integrator) {
+bool samples_lights(Integrator integrator) {
   switch (integrator) {
     case Integrator::path:
       return false;
@@ -182,7 +182,7 @@ bool asks_for_light(Integrator integrator) {
 double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 
 double brightest(const Scene& scene) {
-  double most =
+  double maximum =
       std::visit(Overloaded{[](const Vec3d& colour) { return largest(colour); },
                             [](const Gradient& sky) { return std::max(largest(sky.bottom), largest(sky.top)); },
                             [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); }},
@@ -190,9 +190,9 @@ double brightest(const Scene& scene) {
   for (const Material& m : scene.materials)
     if (traits_of(m.kind).emits) {
       const auto* colour = std::get_if<Vec3d>(&m.colour);
-      most = std::max(most, colour ? largest(*colour) : 1.0);
+      maximum = std::max(maximum, colour ? largest(*colour) : 1.0);
     }
-  return most;
+  return maximum;
 }
 
 }  // namespace
@@ -202,7 +202,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   RenderScene out;
   out.width = scene.width;
   out.height = scene.height;
-  out.needs = needs_of(scene, flat);
+  out.features = features_of(scene, flat);
   out.origin = median_center(flat, scene.camera);
   out.camera = camera_columns(scene.camera, scene.width, scene.height, out.origin);
   out.background = background_columns(scene.background);
@@ -216,14 +216,14 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.schlick = scene.render.fresnel == FresnelKind::schlick;
   out.sampler = scene.render.sampler;
   out.integrator = scene.render.integrator;
-  out.light_sampling = asks_for_light(out.integrator) && out.lights.count() > 0;
-  if (out.integrator == Integrator::mis) out.near = find_near_lamps(out);
+  out.light_sampling = samples_lights(out.integrator) && out.lights.count() > 0;
+  if (out.integrator == Integrator::mis) out.near = find_near_lights(out);
   if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains)
-    out.chains = find_chains(flat, scene, out);
+    out.specular = find_specular_pairs(flat, scene, out);
   out.objects = std::move(flat.objects);
-  out.kernel = least_kernel(out);
-  out.may_share = scene.render.sharing && can_share(out);
-  out.film_unit = film_unit(brightest(scene));
+  out.kernel = min_kernel(out);
+  out.may_reuse_paths = scene.render.sharing && can_reuse_paths(out);
+  out.film_quantum = film_quantum(brightest(scene));
   return out;
 }
 
@@ -235,11 +235,11 @@ const char* name_of(KernelSet set) {
   switch (set) {
     case KernelSet::everything:
       return "everything";
-    case KernelSet::chains_alone:
+    case KernelSet::specular_paths_only:
       return "chains, no fog, no textures";
-    case KernelSet::no_chains:
+    case KernelSet::no_specular_paths:
       return "no chains";
-    case KernelSet::no_fog_nor_textures:
+    case KernelSet::no_media_no_textures:
       return "no fog, no textures";
   }
   return "";

@@ -48,24 +48,24 @@ struct Appender {
     for (const Vec3d row : {r.a, r.b})
       for (const double c : {row.x, row.y, row.z, -dot(row, corner - origin)}) to.uv.push_back(static_cast<float>(c));
   }
-  Vec3d turned(Vec3d way) const { return turn(shape.placement, way); }
+  Vec3d rotated(Vec3d direction) const { return rotate(shape.placement, direction); }
   Vec3d placed(Vec3d point) const { return place(shape.placement, point); }
 
   void operator()(const Sphere<>& s) const {
-    const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
-    append(to_float(placed(s.center) - origin), static_cast<float>(1 / s.radius), to_float(turned(way)), 0);
+    const Vec3d motion = s.center_end ? *s.center_end - s.center : Vec3d{};
+    append(to_float(placed(s.center) - origin), static_cast<float>(1 / s.radius), to_float(rotated(motion)), 0);
     if (!more.uv) return;
-    const Vec3d x_axis = turned({1, 0, 0});  // (cos, 0, -sin)
+    const Vec3d x_axis = rotated({1, 0, 0});  // (cos, 0, -sin)
     for (const double c : {x_axis.x, -x_axis.z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}) to.uv.push_back(static_cast<float>(c));
   }
   void operator()(const Quad<>& q) const {
-    const Vec3d u = turned(q.u), v = turned(q.v);
+    const Vec3d u = rotated(q.u), v = rotated(q.v);
     append_flat(normalize(cross(u, v)), placed(q.corner), u, v);
   }
   void operator()(const Box<>& b) const {
     for (std::int32_t i = 0; i < 6; ++i) {
       const BoxFace face = box_face_edges(b, i);
-      append_flat(turned(face.normal), placed(face.corner), turned(face.u), turned(face.v));
+      append_flat(rotated(face.normal), placed(face.corner), rotated(face.u), rotated(face.v));
     }
   }
 };
@@ -98,7 +98,7 @@ BoxFace box_face_edges(const Box<>& b, std::int32_t face) {
 }
 
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin) {
-  const Vec3d u = turn(placement, quad.u), v = turn(placement, quad.v);
+  const Vec3d u = rotate(placement, quad.u), v = rotate(placement, quad.v);
   const Vec3d middle = place(placement, quad.corner) - origin + 0.5 * (u + v);
   const Reciprocal r = reciprocal_edges(u, v);
   Affine map;
@@ -111,9 +111,9 @@ Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin) {
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin) {
   const Vec3d middle = place(placement, 0.5 * box.min + 0.5 * box.max) - origin, size = box.max - box.min;
   Affine map;
-  set_row(map, 0, (2 / size.x) * turn(placement, {1, 0, 0}), middle);
-  set_row(map, 1, (2 / size.y) * turn(placement, {0, 1, 0}), middle);
-  set_row(map, 2, (2 / size.z) * turn(placement, {0, 0, 1}), middle);
+  set_row(map, 0, (2 / size.x) * rotate(placement, {1, 0, 0}), middle);
+  set_row(map, 1, (2 / size.y) * rotate(placement, {0, 1, 0}), middle);
+  set_row(map, 2, (2 / size.z) * rotate(placement, {0, 0, 1}), middle);
   return map;
 }
 

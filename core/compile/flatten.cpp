@@ -17,13 +17,13 @@ struct CosSin {
 
 /// Cosine and sine of an angle, which are exact for multiples of 90 degrees.
 CosSin cos_sin(double degrees) {
-  const double turn = std::fmod(degrees, 360.0);
-  if (std::fmod(turn, 90.0) == 0) {
-    const int quarter = (static_cast<int>(turn / 90.0) + 4) % 4;
+  const double remainder = std::fmod(degrees, 360.0);
+  if (std::fmod(remainder, 90.0) == 0) {
+    const int quarter = (static_cast<int>(remainder / 90.0) + 4) % 4;
     constexpr double values[5] = {1, 0, -1, 0, 1};
     return {values[quarter], values[(quarter + 3) % 4]};
   }
-  return {std::cos(turn * (pi / 180)), std::sin(turn * (pi / 180))};
+  return {std::cos(remainder * (pi / 180)), std::sin(remainder * (pi / 180))};
 }
 
 void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::int32_t group, Flattened& out) {
@@ -107,8 +107,8 @@ Vec3d own_center(const Quad<>& q) { return q.corner + 0.5 * (q.u + q.v); }
 Vec3d own_center(const Box<>& b) { return 0.5 * b.min + 0.5 * b.max; }
 
 Extent own_extent(const Sphere<>& s, const Camera& camera) {
-  const Vec3d way = s.center_end ? *s.center_end - s.center : Vec3d{};
-  return {{s.center + camera.shutter_open * way, s.center + camera.shutter_close * way}, std::abs(s.radius)};
+  const Vec3d motion = s.center_end ? *s.center_end - s.center : Vec3d{};
+  return {{s.center + camera.shutter_open * motion, s.center + camera.shutter_close * motion}, std::abs(s.radius)};
 }
 Extent own_extent(const Quad<>& q, const Camera&) {
   return {{q.corner, q.corner + q.u, q.corner + q.v, q.corner + q.u + q.v}};
@@ -127,15 +127,15 @@ Extent placed(Extent extent, const Placement& placement) {
 
 }  // namespace
 
-Vec3d turn(const Placement& p, Vec3d v) {
+Vec3d rotate(const Placement& p, Vec3d v) {
   const CosSin a = cos_sin(p.degrees);
   return {a.cos * v.x + a.sin * v.z, v.y, a.cos * v.z - a.sin * v.x};
 }
 
-Vec3d place(const Placement& p, Vec3d v) { return turn(p, v) + p.offset; }
+Vec3d place(const Placement& p, Vec3d v) { return rotate(p, v) + p.offset; }
 
 Placement compose(const Placement& outer, const Placement& inner) {
-  return {outer.degrees + inner.degrees, turn(outer, inner.offset) + outer.offset};
+  return {outer.degrees + inner.degrees, rotate(outer, inner.offset) + outer.offset};
 }
 
 Placement placement_of(const Transform& list) {

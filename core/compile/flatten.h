@@ -19,8 +19,8 @@ struct Placement {
 /// The placement that first does `inner`, then `outer`.
 Placement compose(const Placement& outer, const Placement& inner);
 Placement placement_of(const Transform& list);
-Vec3d turn(const Placement& p, Vec3d v);   ///< a direction
-Vec3d place(const Placement& p, Vec3d v);  ///< a point
+Vec3d rotate(const Placement& p, Vec3d v);  ///< a direction
+Vec3d place(const Placement& p, Vec3d v);   ///< a point
 
 struct PlacedShape {
   std::variant<Sphere<>, Quad<>, Box<>> shape;  ///< in its own frame

@@ -47,24 +47,24 @@ struct Collector {
   void operator()(const Sphere<>& s) const {
     const double r = std::abs(s.radius);
     const Vec3d center = place(placement, s.center) - origin;
-    const Vec3d way = s.center_end ? turn(placement, *s.center_end - s.center) : Vec3d{};
+    const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
     out.kind.push_back(Lights::sphere);
     push(out.corner, center);
-    push(out.edge_u, way);
+    push(out.edge_u, motion);
     push(out.edge_v, {});
     push(out.normal, {});
     out.length_u.push_back(static_cast<float>(r));
     out.length_v.push_back(0);
-    push_common(out, emitter, 4 * pi * r * r, center + 0.5 * way, r + 0.5 * length(way));
+    push_common(out, emitter, 4 * pi * r * r, center + 0.5 * motion, r + 0.5 * length(motion));
   }
   void operator()(const Quad<>& q) const {
-    add_flat(out, emitter, place(placement, q.corner) - origin, turn(placement, q.u), turn(placement, q.v));
+    add_flat(out, emitter, place(placement, q.corner) - origin, rotate(placement, q.u), rotate(placement, q.v));
   }
   void operator()(const Box<>& b) const {
     for (std::int32_t i = 0; i < 6; ++i) {
       const BoxFace face = box_face_edges(b, i);
       add_flat(out, {emitter.brightness, emitter.element + i}, place(placement, face.corner) - origin,
-               turn(placement, face.u), turn(placement, face.v));
+               rotate(placement, face.u), rotate(placement, face.v));
     }
   }
 };
@@ -106,7 +106,7 @@ class TreeBuilder {
     std::size_t node, begin, end;
     int depth;
   };
-  /// A box around balls, and their power.
+  /// A box around spheres, and their power.
   struct Sum {
     Vec3d low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     double power = 0;
@@ -119,9 +119,9 @@ class TreeBuilder {
     double cost() const { return power * dot(high - low, high - low); }
   };
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  /// Among the lights of a node the mean inverse squared distance to them is about that at this share of the squared
-  /// half diagonal: for lights spread evenly in a ball it is 3 / radius², and a cube's half diagonal has twice the
-  /// square of the radius of a ball as large. With 1 in its place, which is never too much, V was 1.5 to 3.3 times
+  /// Among the lights of a node the mean inverse squared distance to them is about that at this fraction of the squared
+  /// half diagonal: for lights spread evenly in a sphere it is 3 / radius², and a cube's half diagonal has twice the
+  /// square of the radius of a sphere as large. With 1 in its place, which is never too much, V was 1.5 to 3.3 times
   /// higher.
   static constexpr double closeness = 1.0 / 6;
   static constexpr int deepest_by_cost = 48;  // below, ranges are halved, so that no tree is deeper than 80
@@ -184,10 +184,10 @@ class TreeBuilder {
     for (std::size_t i = count - 1; i > 0; --i) add(first[static_cast<std::ptrdiff_t>(i)], sum), right[i] = sum.cost();
     Sum left;
     std::size_t best = count / 2;
-    double least = infinity;
+    double minimum = infinity;
     for (std::size_t i = 1; i < count; ++i) {
       add(first[static_cast<std::ptrdiff_t>(i) - 1], left);
-      if (left.cost() + right[i] < least) least = left.cost() + right[i], best = i;
+      if (left.cost() + right[i] < minimum) minimum = left.cost() + right[i], best = i;
     }
     return range.begin + best;
   }
@@ -198,9 +198,9 @@ class TreeBuilder {
 };
 
 // The conditions in lights.h, as numbers.
-constexpr float nearness = 1.5f;      // largest distance of a light from the medium's centre, in half widths of it
-constexpr float small_lamp = 0.1f;    // largest radius of the light over the half width and over its camera distance
-constexpr float most_free_paths = 4;  // largest half width of the medium, in mean free paths
+constexpr float nearness = 1.5f;     // largest distance of a light from the medium's centre, in half widths of it
+constexpr float small_light = 0.1f;  // largest radius of the light over the half width and over its camera distance
+constexpr float max_free_paths = 4;  // largest half width of the medium, in mean free paths
 
 struct Place {
   float outside;     // distance from the medium's centre, in half widths
@@ -220,14 +220,14 @@ Place place_of(const MediumColumns& m, Vec3f point) {
 bool pays(const MediumColumns& m, Vec3f light, float reach, Vec3f camera) {
   const Place place = place_of(m, light);
   const bool scatters = m.texture >= 0 || !(m.albedo == Vec3f{0, 0, 0});
-  return scatters && m.density * place.half_width <= most_free_paths && place.outside <= nearness &&
-         reach <= small_lamp * std::min(place.half_width, length(light - camera));
+  return scatters && m.density * place.half_width <= max_free_paths && place.outside <= nearness &&
+         reach <= small_light * std::min(place.half_width, length(light - camera));
 }
 
 }  // namespace
 
 void build_light_tree(Lights& lights) {
-  if (lights.count() > most_lights_by_contribution) lights.tree = TreeBuilder(lights).build();
+  if (lights.count() > max_lights_by_contribution) lights.tree = TreeBuilder(lights).build();
 }
 
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
@@ -246,8 +246,8 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
   return out;
 }
 
-NearLamps find_near_lamps(const RenderScene& s) {
-  NearLamps near;
+NearLights find_near_lights(const RenderScene& s) {
+  NearLights near;
   for (std::size_t m = 0; m < s.media.size(); ++m)
     for (std::size_t k = 0; k < s.lights.kind.size(); ++k) {
       const Vec3f center{s.lights.center[0][k], s.lights.center[1][k], s.lights.center[2][k]};

@@ -8,19 +8,19 @@
 namespace tyndall {
 namespace {
 
-constexpr double largest_lamp = 0.5;  // of a lamp's reach against its distance from the mirror
+constexpr double largest_light = 0.5;  // of a light's reach against its distance from the mirror
 
 FlatMirror mirror_of(std::size_t shape, const Placement& placement, const BoxFace& face) {
   FlatMirror mirror;
   mirror.shape = shape;
-  mirror.u = 0.5 * turn(placement, face.u), mirror.v = 0.5 * turn(placement, face.v);
-  mirror.normal = normalize(turn(placement, face.normal));
+  mirror.u = 0.5 * rotate(placement, face.u), mirror.v = 0.5 * rotate(placement, face.v);
+  mirror.normal = normalize(rotate(placement, face.normal));
   mirror.middle = place(placement, face.corner) + mirror.u + mirror.v;
   return mirror;
 }
 
-/// Whether the line from a lamp's image through the face may come to a quad on its front or back: the face has to reach
-/// in between the image and the quad's plane.
+/// Whether the line from a light's image through the face may come to a quad on its front or back: the face has to
+/// reach in between the image and the quad's plane.
 bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, const Receiver& quad) {
   const Vec3d on_plane = quad.extent.points.front();
   const double start = dot(quad.normal, image - on_plane);
@@ -33,8 +33,8 @@ bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, const Recei
   return high > -reach && low < std::abs(start) + reach;
 }
 
-/// Whether light that seems to come from within `reach` of a lamp's image may meet a receiver: some of it has to be on
-/// the lamp's side of the mirror, within the pyramid from the image through the face. May be yes too often, never no.
+/// Whether light that seems to come from within `reach` of a light's image may meet a receiver: some of it has to be on
+/// the light's side of the mirror, within the pyramid from the image through the face. May be yes too often, never no.
 bool may_light(const FlatMirror& m, Vec3d image, double reach, const Receiver& receiver) {
   const std::vector<Vec3d>& points = receiver.extent.points;
   const double height = dot(image - m.middle, m.normal);
@@ -83,7 +83,7 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
     Receiver receiver{extent_of(shape, scene.camera), false, {}};
     if (const auto* quad = std::get_if<Quad<>>(&shape.shape)) {
       receiver.is_quad = true;
-      receiver.normal = normalize(turn(shape.placement, cross(quad->u, quad->v)));
+      receiver.normal = normalize(rotate(shape.placement, cross(quad->u, quad->v)));
     }
     list.push_back(receiver);
   }
@@ -93,22 +93,22 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
 
 double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d origin,
                 const std::vector<Receiver>& receivers) {
-  const Vec3d lamp = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
-  const Vec3d way = lamp - m.middle;
-  const double height = dot(way, m.normal), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
+  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d to_light = light - m.middle;
+  const double height = dot(to_light, m.normal), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
   if (height == 0) return 0;
-  if (m.depth > 0 && height < 0) {  // the inside of a box's face: for lamps within the box
+  if (m.depth > 0 && height < 0) {  // the inside of a box's face: for lights within the box
     const Reciprocal r = reciprocal_edges(m.u, m.v);
-    if (-height > m.depth || std::abs(dot(r.a, way)) > 1 || std::abs(dot(r.b, way)) > 1) return 0;
+    if (-height > m.depth || std::abs(dot(r.a, to_light)) > 1 || std::abs(dot(r.b, to_light)) > 1) return 0;
   }
-  const double distance = distance_to_flat(lamp, m.middle - m.u - m.v, 2.0 * m.u, 2.0 * m.v);
-  if (reach > largest_lamp * distance) return 0;
-  const Vec3d image = lamp - 2 * height * m.normal;
+  const double distance = distance_to_flat(light, m.middle - m.u - m.v, 2.0 * m.u, 2.0 * m.v);
+  if (reach > largest_light * distance) return 0;
+  const Vec3d image = light - 2 * height * m.normal;
   if (std::none_of(receivers.begin(), receivers.end(),
                    [&](const Receiver& r) { return may_light(m, image, reach, r); }))
     return 0;
-  const double share = length(cross(m.u, m.v)) * std::abs(height) / std::pow(distance, 3);
-  return static_cast<double>(lights.power[k]) * std::min(share, 1.0);
+  const double fraction = length(cross(m.u, m.v)) * std::abs(height) / std::pow(distance, 3);
+  return static_cast<double>(lights.power[k]) * std::min(fraction, 1.0);
 }
 
 void append_numbers(const FlatMirror& m, Vec3d origin, std::vector<float>& numbers) {

@@ -1,10 +1,10 @@
 #pragma once
-#include "core/compile/crowds.h"
+#include "core/compile/overlap.h"
 #include "core/compile/render_scene.h"
 
 #include <vector>
 
-/// Flat mirrors: what light takes exact chains off, beside balls.
+/// Flat mirrors: what light takes exact specular paths off, beside spheres.
 namespace tyndall {
 
 /// A quad, or a face of a box, of metal without fuzz.
@@ -19,7 +19,7 @@ struct FlatMirror {
 /// Those that no other flat covers, even in part. flats: of the scene.
 std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene);
 
-/// What scatters light evenly, so that the light of chains shows on it.
+/// What scatters light evenly, so that the light of specular paths shows on it.
 struct Receiver {
   Extent extent;
   bool is_quad = false;
@@ -27,8 +27,8 @@ struct Receiver {
 };
 std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene);
 
-/// What a lamp sends to a mirror, as a measure for choosing. 0: nothing, or nothing that goes on to a receiver, or the
-/// lamp is so large that chance finds it well enough.
+/// What a light sends to a mirror, as a measure for choosing. 0: nothing, or nothing that goes on to a receiver, or the
+/// light is so large that chance finds it well enough.
 double worth_of(const FlatMirror& mirror, const Lights& lights, std::size_t light, Vec3d origin,
                 const std::vector<Receiver>& receivers);
 

@@ -20,30 +20,30 @@ namespace tyndall {
 
 /// Which models a scene contains. By these a kernel is chosen that leaves others out, which changes no bit of the
 /// picture.
-struct Needs {
+struct SceneFeatures {
   bool spheres = false, moving_spheres = false, quads = false, boxes = false;
   bool media = false, phase_functions = false;                      ///< phase_functions: some medium has g != 0
   bool materials[std::variant_size_v<MaterialKinds<double>>] = {};  ///< by kind
   bool textures = false, image_textures = false;
   bool background = false, lens = false, shutter = false;
-  bool operator==(const Needs&) const = default;
+  bool operator==(const SceneFeatures&) const = default;
 };
 /// Whether some shape is of a kind of material: Metal<>, ...
 template <class Kind>
-constexpr bool has_material(const Needs& needs) {
-  return needs.materials[place_in<Kind, MaterialKinds<double>>];
+constexpr bool has_material(const SceneFeatures& features) {
+  return features.materials[place_in<Kind, MaterialKinds<double>>];
 }
 /// Whether some shape is of a material with a trait: needs_trait<&BsdfTraits::emits>(needs).
 template <bool BsdfTraits::*trait>
-constexpr bool needs_trait(const Needs& needs) {
+constexpr bool needs_trait(const SceneFeatures& features) {
   constexpr auto list = static_cast<const MaterialKinds<double>*>(nullptr);
   bool some = false;
-  for (std::size_t k = next_with<trait>(list, 0); k < std::size(needs.materials); k = next_with<trait>(list, k + 1))
-    some = some || needs.materials[k];
+  for (std::size_t k = next_with<trait>(list, 0); k < std::size(features.materials); k = next_with<trait>(list, k + 1))
+    some = some || features.materials[k];
   return some;
 }
 /// Names of the needs that are set, in the order above.
-std::vector<std::string> names_of(const Needs& needs);
+std::vector<std::string> names_of(const SceneFeatures& features);
 
 /// The surface on which the camera stands (camera_surface.h). Camera rays that start within rounding of it leave it
 /// like all other rays that leave a surface, so that they cannot meet the place where they start.
@@ -84,7 +84,7 @@ struct Flats {
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
   /// Boxes only: the numbers of `map` once more, in columns: x, y, z of the rows, then the offsets.
   std::vector<float> column[affine_numbers];
-  int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (hull.h)
+  int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (enclosing_walls.h)
 };
 
 /// Columns by element. An element is a sphere, a quad or a face of a box.
@@ -158,15 +158,15 @@ struct Lights {
   std::vector<float> area;
   std::vector<float> center[3];  ///< a point in the middle, for choosing a light
   std::vector<float> power;      ///< area times the largest component of the radiance
-  std::vector<float> reach2;     ///< squared radius of a ball around center that holds the light
-  LightTree tree;                ///< empty with at most most_lights_by_contribution
+  std::vector<float> reach2;     ///< squared radius of a sphere around center that holds the light
+  LightTree tree;                ///< empty with at most max_lights_by_contribution
   int count() const { return static_cast<int>(kind.size()); }
 };
-inline constexpr int most_lights_by_contribution = 16;
+inline constexpr int max_lights_by_contribution = 16;
 
-/// Pairs of a medium and a small lamp in it or close to it. The light that scatters next to such a lamp has no upper
-/// bound (inverse square), so integrator mis samples distances with regard to the lamp (core/trace/flight.h).
-struct NearLamps {
+/// Pairs of a medium and a small light in it or close to it. The light that scatters next to such a light has no upper
+/// bound (inverse square), so integrator mis samples distances with regard to the light (core/trace/flight.h).
+struct NearLights {
   std::vector<std::int32_t> medium, light;
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
@@ -179,40 +179,40 @@ enum MirrorNumber {
   numbers_of_mirror = 14
 };
 
-/// A pane as numbers.
-enum PaneNumber {
-  pane_rows = 0,     ///< the unit directions of its three edges
-  pane_offsets = 9,  ///< added to the products with these rows: places are measured from its middle
-  pane_halves = 12,  ///< half lengths of the edges
-  pane_index = 15,   ///< of refraction
-  pane_fog = 16,     ///< density of fog within
-  pane_closed = 17,  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
-  numbers_of_pane = 18
+/// A slab as numbers.
+enum SlabNumber {
+  slab_rows = 0,             ///< the unit directions of its three edges
+  slab_offsets = 9,          ///< added to the products with these rows: places are measured from its middle
+  slab_halves = 12,          ///< half lengths of the edges
+  slab_index = 15,           ///< of refraction
+  slab_medium_density = 16,  ///< density of media within
+  slab_closed = 17,  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
+  numbers_of_slab = 18
 };
 
-/// Balls of glass, mirror balls, flat mirrors and panes, and for each the lamps whose light integrator mis looks for
-/// through it or off it. Flat mirrors have places behind the balls, as mirror balls of radius 0. Panes have places
-/// behind the mirrors, as balls of glass that hold them; their element is that of their first face.
-struct Chains {
-  // Columns by ball: one sphere, or two around one centre.
+/// Spheres of glass, mirror spheres, flat mirrors and slabs, and for each the lights whose radiance integrator mis
+/// looks for through it or off it. Flat mirrors have places behind the spheres, as mirror spheres of radius 0. Slabs
+/// have places behind the mirrors, as spheres of glass that hold them; their element is that of their first face.
+struct SpecularPairs {
+  // Columns by sphere: one sphere, or two around one centre.
   std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
   std::vector<float> radius, index;              ///< of the outer sphere; index within it over that outside, 0: metal
   std::vector<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
   std::vector<std::int32_t> outer, inner;        ///< elements of the spheres
-  std::vector<std::int32_t> crowded;             ///< 1: surfaces or media other than its own are or reach into it
-  int first_mirror = 0, first_pane = 0;          ///< how many balls there are; how many balls and flat mirrors
+  std::vector<std::int32_t> overlapped;          ///< 1: surfaces or media other than its own are or reach into it
+  int first_mirror = 0, first_slab = 0;          ///< how many spheres there are; how many spheres and flat mirrors
   std::vector<float> mirrors;                    ///< numbers_of_mirror for each flat mirror, see MirrorNumber
-  std::vector<float> panes;                      ///< numbers_of_pane for each pane, see PaneNumber
-  // Pairs of a ball and a light.
-  std::vector<std::int32_t> ball, light;
-  Lights choice;                      ///< the pairs as what choose_light chooses from
-  std::vector<std::int32_t> pair_of;  ///< by ball · number of lights + light: the pair, or -1
-  std::vector<std::int32_t> ball_of;  ///< by element: 2 · ball + (1: inner sphere), or -1
+  std::vector<float> slabs;                      ///< numbers_of_slab for each slab, see SlabNumber
+  // Pairs of a sphere and a light.
+  std::vector<std::int32_t> sphere, light;
+  Lights choice;                        ///< the pairs as what choose_light chooses from
+  std::vector<std::int32_t> pair_of;    ///< by sphere · number of lights + light: the pair, or -1
+  std::vector<std::int32_t> sphere_of;  ///< by element: 2 · sphere + (1: inner sphere), or -1
 };
 
 /// The variants of the kernels, by the models that they hold or leave out. A scene that does not have the models which
 /// a variant leaves out gives the same picture with it, to the last bit.
-enum class KernelSet { everything, chains_alone, no_chains, no_fog_nor_textures };
+enum class KernelSet { everything, specular_paths_only, no_specular_paths, no_media_no_textures };
 inline constexpr int kernel_sets = 4;
 const char* name_of(KernelSet set);
 
@@ -230,8 +230,8 @@ struct RenderScene {
   Materials materials;
   std::vector<TextureColumns> textures;
   std::vector<MediumColumns> media;
-  NearLamps near;
-  Chains chains;
+  NearLights near;
+  SpecularPairs specular;
   std::shared_ptr<const std::vector<float>> gradients;  ///< of noise textures, 3·256
   int max_depth = 1000;
   std::uint32_t seed = 0;
@@ -239,10 +239,11 @@ struct RenderScene {
   SamplerKind sampler = SamplerKind::sobol;
   Integrator integrator = Integrator::mis;
   bool light_sampling = false;  ///< the integrator sends shadow rays to lights, and the scene has lights
-  double film_unit = 1;
-  Needs needs;
+  double film_quantum = 1;
+  SceneFeatures features;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs
-  bool may_share = false;  ///< second vertices may be shared between pixels; whether that pays: trace/scene_view.h
+  bool may_reuse_paths =
+      false;  ///< second vertices may be shared between pixels; whether that pays: trace/scene_view.h
   int primitives() const;
   /// The path of the object that an element belongs to.
   std::vector<int> object_of(std::int32_t element) const {

@@ -45,7 +45,7 @@ std::uint64_t film_checksum(const Film& film, std::string_view text) {
   const Region& r = film.region;
   for (const int number : {film.width, film.height, r.x0, r.y0, r.x1, r.y1}) sum.add_number(number);
   sum.add_number(film.first_sample);
-  sum.add_number(std::bit_cast<std::uint64_t>(film.unit));
+  sum.add_number(std::bit_cast<std::uint64_t>(film.quantum));
   sum.add_number(film.cut_throughput.high);
   sum.add_number(film.cut_throughput.low);
   sum.add_number(film.emission.size());

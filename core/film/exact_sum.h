@@ -5,7 +5,7 @@
 /// machines cannot change a picture.
 namespace tyndall {
 
-/// A sum in fixed point, held as two integers: `high` counts 2^-29 of the film's `unit`, `low` counts 2^-61 of it.
+/// A sum in fixed point, held as two integers: `high` counts 2^-29 of the film's `quantum`, `low` counts 2^-61 of it.
 /// Smaller bits of each number are cut off before it is added. 2^24 numbers of less than 2^30 units fit if their sum is
 /// below 2^34 units. That holds for the samples of a pixel: their mean is at most one unit, so a sample of 2^30 units
 /// has a chance of at most 2^-30, and 16 of them among 2^24 samples have one of 2^-140.

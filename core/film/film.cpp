@@ -10,15 +10,15 @@
 
 namespace tyndall {
 
-Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit, bool emission) {
+Film make_film(int width, int height, Region region, std::uint32_t first_sample, double quantum, bool emission) {
   assert(0 <= region.x0 && region.x0 < region.x1 && region.x1 <= width);
   assert(0 <= region.y0 && region.y0 < region.y1 && region.y1 <= height);
-  assert(unit > 0);
+  assert(quantum > 0);
   Film film{.width = width,
             .height = height,
             .region = region,
             .first_sample = first_sample,
-            .unit = unit,
+            .quantum = quantum,
             .cut_throughput = {},
             .pixels = {},
             .emission = {},
@@ -28,7 +28,7 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
   return film;
 }
 
-double film_unit(double brightest) {
+double film_quantum(double brightest) {
   assert(brightest >= 0 && std::isfinite(brightest));
   if (brightest == 0) return 1;
   int exponent = 0;
@@ -39,8 +39,8 @@ double film_unit(double brightest) {
 
 namespace {
 
-float mean_of(const ExactSum& sum, double unit, std::uint64_t count) {
-  return static_cast<float>(sum.value() * unit / static_cast<double>(count));
+float mean_of(const ExactSum& sum, double quantum, std::uint64_t count) {
+  return static_cast<float>(sum.value() * quantum / static_cast<double>(count));
 }
 
 /// Of 4 bytes, lowest first.
@@ -60,20 +60,22 @@ Vec3f mean(const Film& film, const FilmPixel& pixel) {
     both[channel] = pixel.sum[0][channel];
     both[channel].add(pixel.sum[1][channel]);
   }
-  return {mean_of(both[0], film.unit, count), mean_of(both[1], film.unit, count), mean_of(both[2], film.unit, count)};
+  return {mean_of(both[0], film.quantum, count), mean_of(both[1], film.quantum, count),
+          mean_of(both[2], film.quantum, count)};
 }
 
 Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half) {
   const std::uint32_t count = counted(film, pixel, half);
   if (count == 0) return {};
   const ExactSum* sum = pixel.sum[half];
-  return {mean_of(sum[0], film.unit, count), mean_of(sum[1], film.unit, count), mean_of(sum[2], film.unit, count)};
+  return {mean_of(sum[0], film.quantum, count), mean_of(sum[1], film.quantum, count),
+          mean_of(sum[2], film.quantum, count)};
 }
 
 Vec3f half_emission(const Film& film, std::size_t pixel, int half) {
   const std::uint32_t count = counted(film, film.pixels[pixel], half);
   if (count == 0 || film.emission.empty()) return {};
-  const double per = film.unit * 0x1p-29 / count;
+  const double per = film.quantum * 0x1p-29 / count;
   const std::int64_t* sum = film.emission[pixel].sum[half];
   return {static_cast<float>(static_cast<double>(sum[0]) * per), static_cast<float>(static_cast<double>(sum[1]) * per),
           static_cast<float>(static_cast<double>(sum[2]) * per)};
@@ -114,13 +116,13 @@ std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb) {
 FilmTotals totals(const Film& film) {
   FilmTotals sum;
   if (film.pixels.empty()) return sum;
-  sum.least_taken = film.pixels[0].taken;
+  sum.min_taken = film.pixels[0].taken;
   for (const FilmPixel& pixel : film.pixels) {
     sum.samples += pixel.taken;
     sum.rejected += std::uint64_t{pixel.rejected[0]} + pixel.rejected[1];
     sum.truncated += pixel.truncated;
-    sum.least_taken = std::min(sum.least_taken, pixel.taken);
-    sum.most_taken = std::max(sum.most_taken, pixel.taken);
+    sum.min_taken = std::min(sum.min_taken, pixel.taken);
+    sum.max_taken = std::max(sum.max_taken, pixel.taken);
   }
   if (sum.samples > 0) sum.cut_throughput = film.cut_throughput.value() / static_cast<double>(sum.samples);
   return sum;

@@ -28,8 +28,8 @@ struct FilmPixel {
 };
 static_assert(sizeof(FilmPixel) == 112);
 
-/// The part of a pixel's sums that came straight from lamps and sky, by paths that met nothing before but smooth glass
-/// and mirrors. It tells filters where lamps are seen. The sums count 2^-29 of the film's unit, and smaller bits of
+/// The part of a pixel's sums that came straight from lights and sky, by paths that met nothing before but smooth glass
+/// and mirrors. It tells filters where lights are seen. The sums count 2^-29 of the film's unit, and smaller bits of
 /// each sample are cut off, like the high part of an ExactSum: so the same numbers of samples fit.
 struct EmissionSums {
   std::int64_t sum[2][3] = {};
@@ -49,10 +49,10 @@ struct Film {
   int width = 0, height = 0;           ///< of the full image
   Region region;                       ///< the part that is held
   std::uint32_t first_sample = 0;      ///< index of every pixel's first sample
-  double unit = 1;                     ///< a power of two not below the brightest emitter: what sums are divided by
+  double quantum = 1;                  ///< a power of two not below the brightest emitter: what sums are divided by
   ExactSum cut_throughput;             ///< sum over paths that max_depth cut off: their throughput's brightest channel
   std::vector<FilmPixel> pixels;       ///< region, row by row
-  std::vector<EmissionSums> emission;  ///< likewise; empty: not recorded (no lamps, or a film of an older version)
+  std::vector<EmissionSums> emission;  ///< likewise; empty: not recorded (no lights, or a film of an older version)
   /// For each cell of 4 x 4 pixels the current or last round of adaptive sampling (see plan.h); empty: none yet.
   std::vector<PlannedSamples> planned;
 
@@ -65,14 +65,14 @@ struct Film {
   bool operator==(const Film&) const = default;
 };
 
-/// An empty film. unit: see Film; emission: whether it is recorded.
-Film make_film(int width, int height, Region region, std::uint32_t first_sample, double unit, bool emission = false);
+/// An empty film. quantum: see Film; emission: whether it is recorded.
+Film make_film(int width, int height, Region region, std::uint32_t first_sample, double quantum, bool emission = false);
 
 /// Memory that a film takes for each pixel.
 inline std::size_t bytes_per_pixel(bool emission) { return sizeof(FilmPixel) + (emission ? sizeof(EmissionSums) : 0); }
 
 /// A power of two not below `brightest` (>= 0); 1 for a scene without light.
-double film_unit(double brightest);
+double film_quantum(double brightest);
 
 /// Samples that count in one half (0 or 1) of a pixel.
 inline std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half) {
@@ -100,15 +100,15 @@ struct ScaledSample {
     return fits(x) && fits(y) && fits(z);
   }
 };
-TYNDALL_INLINE ScaledSample scaled(Vec3f radiance, double per_unit) {
-  return {static_cast<double>(radiance.x) * per_unit, static_cast<double>(radiance.y) * per_unit,
-          static_cast<double>(radiance.z) * per_unit};
+TYNDALL_INLINE ScaledSample scaled(Vec3f radiance, double per_quantum) {
+  return {static_cast<double>(radiance.x) * per_quantum, static_cast<double>(radiance.y) * per_quantum,
+          static_cast<double>(radiance.z) * per_quantum};
 }
 
 /// Adds one sample of a pixel. half: the sample's index & 1. A sample that is not finite, or not below sample_limit
 /// units, is counted as rejected instead. Does not change `taken`.
-TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_unit) {
-  const ScaledSample sample = scaled(radiance, per_unit);
+TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_quantum) {
+  const ScaledSample sample = scaled(radiance, per_quantum);
   if (!sample.fits()) {
     ++pixel.rejected[half];
     return;
@@ -116,8 +116,8 @@ TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radia
   add_each(pixel.sum[half], sample.x, sample.y, sample.z);
 }
 /// Adds a sample to the sums of emission, unless add_sample() rejects it.
-TYNDALL_INLINE void add_emission(EmissionSums& to, std::uint32_t half, Vec3f radiance, double per_unit) {
-  const ScaledSample sample = scaled(radiance, per_unit);
+TYNDALL_INLINE void add_emission(EmissionSums& to, std::uint32_t half, Vec3f radiance, double per_quantum) {
+  const ScaledSample sample = scaled(radiance, per_quantum);
   if (!sample.fits()) return;
   to.sum[half][0] += static_cast<std::int64_t>(sample.x * 0x1p29);
   to.sum[half][1] += static_cast<std::int64_t>(sample.y * 0x1p29);
@@ -136,8 +136,8 @@ std::uint64_t image_hash(int width, int height, const std::vector<float>& rgb);
 
 struct FilmTotals {
   std::uint64_t samples = 0, rejected = 0, truncated = 0;
-  double cut_throughput = 0;                      ///< Film::cut_throughput over the number of samples, at most 1
-  std::uint32_t least_taken = 0, most_taken = 0;  ///< of any pixel
+  double cut_throughput = 0;                   ///< Film::cut_throughput over the number of samples, at most 1
+  std::uint32_t min_taken = 0, max_taken = 0;  ///< of any pixel
 };
 FilmTotals totals(const Film& film);
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-/// Groups of pixels whose samples are computed together in scenes that share second vertices (reuse/share.h). Their
+/// Groups of pixels whose samples are computed together in scenes that share second vertices (reuse/reuse.h). Their
 /// noise is not independent, so standard errors of means over pixels are found from the sums over groups.
 namespace tyndall {
 

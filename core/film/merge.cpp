@@ -26,7 +26,7 @@ void check_same_picture(const FilmPart& first, const FilmPart& part) {
     refuse(part, "an image of " + size_text(b), size_text(a) + like);
   }
   if (a.region != b.region) refuse(part, "the region " + region_text(b.region), region_text(a.region) + like);
-  if (a.unit != b.unit) refuse(part, "another brightest light", "the same scene" + like);
+  if (a.quantum != b.quantum) refuse(part, "another brightest light", "the same scene" + like);
 }
 
 std::string range_text(std::uint64_t from, std::uint64_t to) { return std::to_string(from) + ":" + std::to_string(to); }

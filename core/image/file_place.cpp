@@ -87,7 +87,7 @@ std::string obstacle_of(const FilePlace& place) {
 
 FilePlace find_place(const fs::path& file) {
   FilePlace place;
-  place.way = file == "-" ? WriteWay::stream : WriteWay::replace;
+  place.method = file == "-" ? WriteMethod::stream : WriteMethod::replace;
   place.target = file;
   if (file == "-") return place;
   struct stat status {};
@@ -107,9 +107,9 @@ FilePlace find_place(const fs::path& file) {
   const bool once = S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode) || fs::is_symlink(place.target, error);
   if (!once && !S_ISREG(status.st_mode)) cannot_write(file, "not an ordinary file");
   if (once && access(file.c_str(), W_OK) != 0) cannot_write(file, message(errno));
-  if (once) place.way = WriteWay::stream;
+  if (once) place.method = WriteMethod::stream;
   if (!once) place.obstacle = obstacle_of(place);
-  if (!place.obstacle.empty()) place.way = WriteWay::in_place;
+  if (!place.obstacle.empty()) place.method = WriteMethod::in_place;
   return place;
 }
 
@@ -119,7 +119,7 @@ bool is_stream(const fs::path& file) {
   const fs::file_type type = fs::status(file, error).type();
   if (type == fs::file_type::fifo || type == fs::file_type::character) return true;
   try {
-    return type == fs::file_type::regular && find_place(file).way == WriteWay::stream;
+    return type == fs::file_type::regular && find_place(file).method == WriteMethod::stream;
   } catch (const ImageFileError&) {
     return false;  // writing it says why
   }

@@ -7,7 +7,7 @@
 /// How a file can get new bytes: found out before they are made.
 namespace tyndall {
 
-enum class WriteWay {
+enum class WriteMethod {
   replace,   ///< a whole new file takes its place
   in_place,  ///< nothing can take its place; the new bytes are written into it
   stream     ///< standard output, a named pipe or a device, which takes bytes once
@@ -15,7 +15,7 @@ enum class WriteWay {
 
 /// Where a file is, and how it is written.
 struct FilePlace {
-  WriteWay way = WriteWay::replace;
+  WriteMethod method = WriteMethod::replace;
   std::filesystem::path target;  ///< where the chain of symbolic links ends
   std::filesystem::path folder;  ///< of the target
   std::string obstacle;          ///< what keeps it from being replaced: "it is a mount point"; "": nothing does

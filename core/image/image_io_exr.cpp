@@ -116,7 +116,7 @@ void describe_film(Imf::Header& header, const Film& film, const Embedded& embedd
   header.insert(exr_name::width, Imf::IntAttribute(film.width));
   header.insert(exr_name::height, Imf::IntAttribute(film.height));
   header.insert(exr_name::first_sample, Imf::DoubleAttribute(film.first_sample));
-  header.insert(exr_name::unit, Imf::DoubleAttribute(film.unit));
+  header.insert(exr_name::quantum, Imf::DoubleAttribute(film.quantum));
   const ExactSum& cut = film.cut_throughput;
   header.insert(exr_name::cut_throughput,
                 Imf::StringAttribute(std::to_string(cut.high) + " " + std::to_string(cut.low)));

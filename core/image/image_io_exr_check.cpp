@@ -148,7 +148,7 @@ void take_value(ExrBytes& in, ExrPart& part, const std::string& name, const std:
 
 /// How rows are compressed, in the order of OpenEXR's codes: how many rows are one chunk, and how far one can shrink.
 struct ExrCompression {
-  std::uint64_t rows, most_ratio;
+  std::uint64_t rows, max_ratio;
 };
 ExrCompression compression_of(std::uint8_t code) {
   constexpr ExrCompression known[] = {{1, 1},     {1, 64},    {1, 1400},  {16, 1400},   {32, 1400},
@@ -172,7 +172,7 @@ std::uint64_t count_tiles(ExrBytes& in, const ExrPart& part, std::uint64_t width
 
 /// The least bytes that the table of chunks and the pixels of a part take. several: the file has more than one part;
 /// then each may be tiled or not.
-std::uint64_t least_size(ExrBytes& in, const ExrPart& part, bool tiled, bool several) {
+std::uint64_t min_size(ExrBytes& in, const ExrPart& part, bool tiled, bool several) {
   const std::int64_t columns = std::int64_t{part.window[2]} - part.window[0] + 1;
   const std::int64_t rows = std::int64_t{part.window[3]} - part.window[1] + 1;
   check_readable(in.file(), columns, rows);
@@ -184,7 +184,7 @@ std::uint64_t least_size(ExrBytes& in, const ExrPart& part, bool tiled, bool sev
     bytes += channel.bytes * over(width, channel.every_x) * over(height, channel.every_y);
   if (!tiled || several) chunks = std::max(chunks, over(height, compression.rows));
   if (tiled || part.tile_width != 0) chunks = std::max(chunks, count_tiles(in, part, width, height));
-  return std::max(8 * chunks, bytes / compression.most_ratio);
+  return std::max(8 * chunks, bytes / compression.max_ratio);
 }
 
 }  // namespace
@@ -201,9 +201,9 @@ void check_exr(const std::filesystem::path& file) {
     for (; !name.empty(); name = in.take_name()) take_value(in, part, name, in.take_name());
     if (!several) break;
   }
-  std::uint64_t least = 0;
-  for (const ExrPart& part : found) least += least_size(in, part, tiled, several);
-  check_enough(file, in.rest(), least);
+  std::uint64_t minimum = 0;
+  for (const ExrPart& part : found) minimum += min_size(in, part, tiled, several);
+  check_enough(file, in.rest(), minimum);
 }
 
 }  // namespace tyndall

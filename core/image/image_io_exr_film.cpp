@@ -80,10 +80,10 @@ Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
     damaged_film(file, std::string(exr_name::first_sample) + " is no sample index");
   }
   film.first_sample = static_cast<std::uint32_t>(first);
-  film.unit = value_of<Imf::DoubleAttribute>(file, header, exr_name::unit);
+  film.quantum = value_of<Imf::DoubleAttribute>(file, header, exr_name::quantum);
   int exponent = 0;
-  if (!(film.unit > 0) || !std::isfinite(film.unit) || std::frexp(film.unit, &exponent) != 0.5) {
-    damaged_film(file, std::string(exr_name::unit) + " is no power of two");
+  if (!(film.quantum > 0) || !std::isfinite(film.quantum) || std::frexp(film.quantum, &exponent) != 0.5) {
+    damaged_film(file, std::string(exr_name::quantum) + " is no power of two");
   }
   film.cut_throughput = read_cut_throughput(file, header);
   return film;

@@ -94,10 +94,10 @@ std::vector<ChannelGroup> groups_of(const Imf::Header& header, int part, bool se
 
 /// `"a", "b" and 7 more`; at most 24 of them.
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 24;
+  constexpr std::size_t maximum = 24;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + in_quotes(names[i]);
-  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
+  for (std::size_t i = 0; i < std::min(names.size(), maximum); ++i) text += (i > 0 ? ", " : "") + in_quotes(names[i]);
+  return names.size() > maximum ? text + " and " + std::to_string(names.size() - maximum) + " more" : text;
 }
 
 /// The names of the layers that can be asked for.

@@ -84,8 +84,8 @@ struct ExrLayer {
 ExrLayer find_exr_layer(const std::filesystem::path& file, const Imf::MultiPartInputFile& exr,
                         const std::optional<std::string>& name);
 
-/// The shares of red, green and blue in the luminance, by the attribute "chromaticities"; without it those of Rec.709.
-/// Throws ImageFileError for chromaticities that span no colours.
+/// The fractions of red, green and blue in the luminance, by the attribute "chromaticities"; without it those of
+/// Rec.709. Throws ImageFileError for chromaticities that span no colours.
 Imath::V3f luminance_weights(const std::filesystem::path& file, const Imf::Header& header);
 
 /// Converts linear RGB, 3 floats a pixel, by the attribute "chromaticities" to the Rec.709 RGB of the same CIE XYZ.

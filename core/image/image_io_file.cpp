@@ -50,10 +50,10 @@ void check_readable(const std::filesystem::path& file, std::int64_t width, std::
   if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
 }
 
-void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t least) {
-  if (size < least)
-    cannot_read(file, "damaged: found " + std::to_string(size) + " bytes, expected at least " + std::to_string(least) +
-                          " for the size that it says");
+void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t minimum) {
+  if (size < minimum)
+    cannot_read(file, "damaged: found " + std::to_string(size) + " bytes, expected at least " +
+                          std::to_string(minimum) + " for the size that it says");
 }
 
 void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {

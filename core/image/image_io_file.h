@@ -70,9 +70,9 @@ std::optional<std::string> exr_text(const std::filesystem::path& file, const std
 
 /// Throws for an image without pixels or with more than max_image_pixels.
 void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
-/// Throws if a file of `size` bytes is too short for what its header promises, which takes at least `least` bytes even
-/// if it is compressed as far as its format can. So a small file cannot ask for much memory.
-void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t least);
+/// Throws if a file of `size` bytes is too short for what its header promises, which takes at least `minimum` bytes
+/// even if it is compressed as far as its format can. So a small file cannot ask for much memory.
+void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t minimum);
 /// Where the pixels begin after a header in text, whose last word ends at `end`: behind one character of white space,
 /// or two where a program wrote CR LF and the file is long enough for it. pixels: how many bytes the pixels have.
 std::size_t pixels_after(std::span<const std::uint8_t> bytes, std::size_t end, std::size_t pixels);

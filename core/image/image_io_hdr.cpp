@@ -79,7 +79,7 @@ struct HdrReader {
 
 /// The fewest bytes that rows of this width can have: 4 for each pixel where runs are not allowed, else a mark of 4 and
 /// 2 for each run of 127 pixels of each of 4 channels.
-std::uint64_t least_hdr_bytes(int width, int height) {
+std::uint64_t min_hdr_bytes(int width, int height) {
   const auto columns = static_cast<std::uint64_t>(width), rows = static_cast<std::uint64_t>(height);
   return rows * (width < 8 || width >= 32768 ? 4 * columns : 4 + 8 * (columns / 127));
 }
@@ -197,7 +197,7 @@ PictureFile read_hdr(const std::filesystem::path& file, std::span<const std::uin
   for (std::string line = reader.take_line(); !line.empty(); line = reader.take_line()) header.read(line);
   if (!header.rgbe) cannot_read(file, "found no line FORMAT=32-bit_rle_rgbe in the header of the HDR");
   const HdrRows size = read_size_line(file, reader.take_line());
-  check_enough(file, reader.bytes.size(), least_hdr_bytes(size.columns, size.rows));
+  check_enough(file, reader.bytes.size(), min_hdr_bytes(size.columns, size.rows));
   LinearImage stored{size.columns, size.rows, {}};
   std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(size.columns));
   for (int y = 0; y < size.rows; ++y) {

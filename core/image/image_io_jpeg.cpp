@@ -14,7 +14,7 @@ namespace tyndall {
 namespace {
 
 /// More passes over the picture than any encoder makes: a small file could ask for so many that they take hours.
-constexpr int most_scans = 200;
+constexpr int max_scans = 200;
 
 /// libjpeg's decoder. Its errors arrive as calls that must not return; they jump to where `stop` was set. Between that
 /// place and the jump no object may live that has to be destroyed.
@@ -52,8 +52,8 @@ void judge_message(j_common_ptr info, int level) {
 
 void watch_scans(j_common_ptr info) {
   auto& decoder = *static_cast<JpegDecoder*>(info->client_data);
-  if (decoder.info.input_scan_number <= most_scans) return;
-  std::snprintf(decoder.problem, sizeof decoder.problem, "more than %d passes over the picture", most_scans);
+  if (decoder.info.input_scan_number <= max_scans) return;
+  std::snprintf(decoder.problem, sizeof decoder.problem, "more than %d passes over the picture", max_scans);
   std::longjmp(decoder.stop, 1);
 }
 

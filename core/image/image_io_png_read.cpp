@@ -106,7 +106,7 @@ bool read_png_rows(PngDecoder& decoder, int passes, const PngRows& rows) {
 }
 
 /// The fewest bytes that a PNG of this size can have: Deflate shrinks at most 1032 times.
-std::uint64_t least_png_bytes(std::span<const std::uint8_t> png) {
+std::uint64_t min_png_bytes(std::span<const std::uint8_t> png) {
   constexpr std::uint64_t channels_of[8] = {1, 1, 3, 1, 2, 1, 4, 1};  // by colour type
   const std::uint64_t bits = png[24] * channels_of[png[25] & 7u];
   return (1 + get_u32(png.subspan(16)) * bits / 8) * get_u32(png.subspan(20)) / 1032;
@@ -206,7 +206,7 @@ PictureFile read_png(const std::filesystem::path& file, std::span<const std::uin
   // What the header asks for is believed only where the file is long enough for it.
   if (bytes.size() >= 26) {
     check_readable(file, get_u32(bytes.subspan(16)), get_u32(bytes.subspan(20)));
-    check_enough(file, bytes.size(), least_png_bytes(bytes));
+    check_enough(file, bytes.size(), min_png_bytes(bytes));
   }
   check_png(file, bytes);
   PngDecoder decoder;

@@ -52,8 +52,8 @@ class Pieces {
   float operator()(float light) const {
     const float within = light > darkest ? std::min(light, brightest) : darkest;
     const std::uint32_t at = std::bit_cast<std::uint32_t>(within) - first, i = at >> piece_bits;
-    const float share = static_cast<float>(at & (piece - 1)) * (1.0f / piece);
-    return ends_[i] + share * (ends_[i + 1] - ends_[i]);
+    const float fraction = static_cast<float>(at & (piece - 1)) * (1.0f / piece);
+    return ends_[i] + fraction * (ends_[i + 1] - ends_[i]);
   }
 
  private:
@@ -192,10 +192,10 @@ void map_by(ToneMap curve, const std::vector<float>& light, double exposure, con
 
 float agx_contrast(float x) {
   constexpr float pivot = 20.0f / 33, toe = 59.507875f, shoulder = 69.862789f;
-  const float way = x - pivot;
-  const float bend = way < 0 ? std::pow(1 + toe * std::pow(-way, 3.0f), -1 / 3.0f)
-                             : std::pow(1 + shoulder * std::pow(way, 3.25f), -4 / 13.0f);
-  return 0.5f + 2 * way * bend;
+  const float offset = x - pivot;
+  const float bend = offset < 0 ? std::pow(1 + toe * std::pow(-offset, 3.0f), -1 / 3.0f)
+                                : std::pow(1 + shoulder * std::pow(offset, 3.25f), -4 / 13.0f);
+  return 0.5f + 2 * offset * bend;
 }
 
 std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve) {

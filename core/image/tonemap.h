@@ -11,7 +11,7 @@ namespace tyndall {
 /// How light beyond what a screen can show is treated.
 enum class ToneMap { srgb, aces, agx };
 
-constexpr Word word(ToneMap map) {
+constexpr Label label(ToneMap map) {
   switch (map) {
     case ToneMap::srgb:
       return {"srgb", "clipped"};
@@ -23,9 +23,9 @@ constexpr Word word(ToneMap map) {
   return {};
 }
 
-/// Contrast of AgX. x: stops above the darkest, as a share of all 16.5, in [0, 1]; the result is a screen's code value,
-/// gamma 2.2. J. Smith's sigmoid with the numbers of Sobotka's table AgX_Default_Contrast: slope 2 at 0.18, which is at
-/// 20/33, from there powers 3 downwards and 13/4 upwards to (0, 0) and (1, 1); in closed form after
+/// Contrast of AgX. x: stops above the darkest, as a fraction of all 16.5, in [0, 1]; the result is a screen's code
+/// value, gamma 2.2. J. Smith's sigmoid with the numbers of Sobotka's table AgX_Default_Contrast: slope 2 at 0.18,
+/// which is at 20/33, from there powers 3 downwards and 13/4 upwards to (0, 0) and (1, 1); in closed form after
 /// github.com/bWFuanVzYWth/AgX.
 float agx_contrast(float x);
 

@@ -122,10 +122,10 @@ void WholeFile::fail(int number) const { cannot_write(file_, std::generic_catego
 
 WholeFile::WholeFile(const fs::path& file) : file_(file), place_(find_place(file)) {
   buffer_.reserve(buffer_size);
-  if (place_.way == WriteWay::in_place) check_in_place();
-  if (place_.way != WriteWay::stream && place_.folder_problem.empty()) open_beside();
+  if (place_.method == WriteMethod::in_place) check_in_place();
+  if (place_.method != WriteMethod::stream && place_.folder_problem.empty()) open_beside();
   if (descriptor_ >= 0) return;
-  if (place_.way == WriteWay::in_place) check_in_place();  // as open_beside() may have found
+  if (place_.method == WriteMethod::in_place) check_in_place();  // as open_beside() may have found
   open_unnamed();
 }
 
@@ -135,7 +135,7 @@ void WholeFile::open_beside() {
   remove_dead(place_.folder, prefix);
   for (int attempt = 0; attempt < 1000; ++attempt)
     if (create(place_.folder / (prefix + hexadecimal(likely_unique())))) return;
-  if (place_.way == WriteWay::replace) fail(EEXIST);
+  if (place_.method == WriteMethod::replace) fail(EEXIST);
 }
 
 /// Throws unless the file can be opened for writing.
@@ -157,11 +157,11 @@ bool WholeFile::create(const fs::path& temporary) {
   const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (descriptor < 0) temporary_.clear();
   if (descriptor < 0 && errno == EEXIST) return false;
-  const bool needless = place_.way == WriteWay::in_place || errno == EACCES || errno == EPERM || errno == EROFS;
+  const bool needless = place_.method == WriteMethod::in_place || errno == EACCES || errno == EPERM || errno == EROFS;
   if (descriptor < 0 && place_.exists && needless) {
     place_.folder_problem = std::generic_category().message(errno);
     if (place_.obstacle.empty()) place_.obstacle = "its folder takes no new files";
-    place_.way = WriteWay::in_place;
+    place_.method = WriteMethod::in_place;
     return true;
   }
   if (descriptor < 0) fail(errno);
@@ -277,8 +277,8 @@ void WholeFile::overwrite() const {
 
 void WholeFile::commit() {
   flush();
-  if (place_.way == WriteWay::stream) return send();
-  if (place_.way == WriteWay::in_place) return overwrite();
+  if (place_.method == WriteMethod::stream) return send();
+  if (place_.method == WriteMethod::in_place) return overwrite();
   keep_owner();
   if (const int error = sync_error(descriptor_, false)) fail(error);
   if (rename(temporary_.c_str(), place_.target.c_str()) != 0) fail(errno);

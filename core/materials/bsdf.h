@@ -37,14 +37,14 @@ struct BsdfTraits {
 /// A ray that meets a surface: what a material is told in order to scatter it.
 template <class F>
 struct Incident {
-  Vec3<F> direction;  ///< unit, towards the surface
-  Vec3<F> normal;     ///< unit, the surface's own (reversed for a negative radius)
-  Vec3<F> facing;     ///< the normal, turned against the direction
-  F cosine;           ///< between facing and the reversed direction, in [0, 1]
-  MaskOf<F> along;    ///< the direction is on the normal's side: the ray leaves what the surface encloses
-  Vec3<F> unit;       ///< uniform on the unit sphere, from the event's direction dimensions
-  bool schlick;       ///< use the books' approximation of Fresnel's equations
-  Dice<F> dice;       ///< a copy, because compilers keep a path in memory whose members are pointed to
+  Vec3<F> direction;    ///< unit, towards the surface
+  Vec3<F> normal;       ///< unit, the surface's own (reversed for a negative radius)
+  Vec3<F> facing;       ///< the normal, turned against the direction
+  F cosine;             ///< between facing and the reversed direction, in [0, 1]
+  MaskOf<F> exiting;    ///< the direction is on the normal's side: the ray leaves what the surface encloses
+  Vec3<F> unit_vector;  ///< uniform on the unit sphere, from the event's direction dimensions
+  bool schlick;         ///< use the books' approximation of Fresnel's equations
+  Sampler<F> sampler;   ///< a copy, because compilers keep a path in memory whose members are pointed to
 };
 
 /// Marks a direction that light sampling cannot choose: a mirror's, glass's, the camera's.

@@ -34,7 +34,7 @@ TYNDALL_INLINE F refracted_cosine(F cos_in, F eta) {
   return select(equal(eta, F(1.0f)), cos_in, root);
 }
 
-/// Reflected share of unpolarised light at a smooth boundary, in [0, 1].
+/// Reflected fraction of unpolarised light at a smooth boundary, in [0, 1].
 /// cos_in, eta: as above; scaled_cos_out: refracted_cosine(cos_in, eta), 0 gives 1 (total reflection).
 /// Fresnel's equations: Born & Wolf, Principles of Optics, section 1.5.2.
 template <class F>
@@ -43,9 +43,9 @@ TYNDALL_INLINE F fresnel(F cos_in, F eta, F scaled_cos_out) {
   const F s = (cos_in - scaled_cos_out) / max(cos_in + scaled_cos_out, tiny);
   const F e2 = eta * eta;
   const F p = mul_add(e2, cos_in, -scaled_cos_out) / max(mul_add(e2, cos_in, scaled_cos_out), tiny);
-  const F share = F(0.5f) * mul_add(s, s, p * p);
+  const F reflectance = F(0.5f) * mul_add(s, s, p * p);
   return select(less_equal(mul_add(eta - F(1.0f), eta + F(1.0f), cos_in * cos_in), F(0.0f)),
-                select(equal(eta, F(1.0f)), share, F(1.0f)), share);
+                select(equal(eta, F(1.0f)), reflectance, F(1.0f)), reflectance);
 }
 template <class F>
 TYNDALL_INLINE F fresnel(F cos_in, F eta) {
@@ -61,9 +61,9 @@ TYNDALL_INLINE F schlick(F cos_in, F eta) {
   const F r0 = root * root;
   const F m = F(1.0f) - cos_in;
   const F m2 = m * m;
-  const F share = mul_add(F(1.0f) - r0, m2 * m2 * m, r0);
+  const F reflectance = mul_add(F(1.0f) - r0, m2 * m2 * m, r0);
   const auto total = less(mul_add(eta - F(1.0f), eta + F(1.0f), cos_in * cos_in), F(0.0f));
-  return select(total, F(1.0f), share);
+  return select(total, F(1.0f), reflectance);
 }
 
 /// A smooth boundary where a ray meets it.
@@ -71,12 +71,12 @@ template <class F>
 struct Boundary {
   F eta;             ///< refractive index of the far side over that of the near side
   F scaled_cos_out;  ///< refracted_cosine()
-  F reflected;       ///< share of the light that is reflected
+  F reflected;       ///< fraction of the light that is reflected
 };
 
 template <class F>
 TYNDALL_INLINE Boundary<F> boundary_at(const Dielectric<F>& glass, const Incident<F>& in) {
-  const F eta = select(in.along, F(1.0f) / glass.refractive_index, glass.refractive_index);
+  const F eta = select(in.exiting, F(1.0f) / glass.refractive_index, glass.refractive_index);
   const F g = refracted_cosine(in.cosine, eta);
   return {eta, g, in.schlick ? schlick(in.cosine, eta) : fresnel(in.cosine, eta, g)};
 }
@@ -85,7 +85,7 @@ TYNDALL_INLINE Boundary<F> boundary_at(const Dielectric<F>& glass, const Inciden
 /// The direction by Snell's law in vector form: (d + (cos_in - n cos_out) n) / eta.
 template <class F>
 TYNDALL_INLINE BsdfSample<F> leave_boundary(const Boundary<F>& b, const Incident<F>& in, MaskOf<F> reflects) {
-  const Vec3<F> bent = along(in.direction, in.cosine - b.scaled_cos_out, in.facing);
+  const Vec3<F> bent = point_at(in.direction, in.cosine - b.scaled_cos_out, in.facing);
   const F scale = select(equal(b.eta, F(1.0f)), F(1.0f), F(1.0f) / sqrt(max(dot(bent, bent), F(1e-30f))));
   return {select(reflects, reflect(in.direction, in.normal), scale * bent),
           F(1.0f),
@@ -97,7 +97,7 @@ TYNDALL_INLINE BsdfSample<F> leave_boundary(const Boundary<F>& b, const Incident
 template <class F>
 TYNDALL_INLINE BsdfSample<F> sample(const Dielectric<F>& glass, const Incident<F>& in) {
   const Boundary<F> b = boundary_at(glass, in);
-  return leave_boundary(b, in, less(in.dice.one(dimension::lobe), b.reflected));
+  return leave_boundary(b, in, less(in.sampler.next_1d(dimension::lobe), b.reflected));
 }
 
 }  // namespace tyndall

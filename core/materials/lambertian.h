@@ -27,7 +27,7 @@ constexpr auto fields(const Lambertian<F>*) {
 /// Ray Tracing in One Weekend, section 9.4 "True Lambertian Reflection".
 template <class F>
 TYNDALL_INLINE BsdfSample<F> sample(const Lambertian<F>&, const Incident<F>& in) {
-  const Vec3<F> sum = in.facing + in.unit;
+  const Vec3<F> sum = in.facing + in.unit_vector;
   const F squared = dot(sum, sum);
   const auto cancelled = less(squared, F(1e-6f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));

@@ -32,7 +32,7 @@ constexpr double lobe_width(const Metal<F>& metal) {
 
 /// Up to this fuzz a metal counts as a mirror, and lights are not sampled on it: directions in float are too coarse for
 /// so narrow a lobe.
-inline constexpr float least_sampled_fuzz = 1e-3f;
+inline constexpr float min_sampled_fuzz = 1e-3f;
 
 /// Probability density, per steradian, of scattering into a unit direction above the surface; 0 below it and for a
 /// mirror. The random points fill a ball of radius fuzz around the tip of the mirror direction, with the uniform
@@ -43,7 +43,7 @@ template <class F>
 TYNDALL_INLINE F pdf(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direction) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
   const F cosine = dot(mirror, direction);
-  const Vec3<F> across = along(direction, -cosine, mirror);
+  const Vec3<F> across = point_at(direction, -cosine, mirror);
   const F fuzz2 = metal.fuzz * metal.fuzz;
   const F h2 = fuzz2 - dot(across, across);  // sin² from the part across: exact for small angles
   const F h = sqrt(max(h2, F(0.0f)));
@@ -51,7 +51,7 @@ TYNDALL_INLINE F pdf(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direc
   const F middle = max(cosine, F(0.0f));
   const F volume = F(2.0f) * h * mul_add(F(3.0f) * middle, middle, h * h);
   const auto inside = mask_and(mask_and(less(F(0.0f), h2), less(F(0.0f), dot(direction, in.facing))),
-                               less(F(least_sampled_fuzz), metal.fuzz));
+                               less(F(min_sampled_fuzz), metal.fuzz));
   const F scale = F(static_cast<float>(0.25 / pi)) / max(fuzz2 * metal.fuzz, F(1e-30f));
   return select(mask_and(inside, less(F(0.0f), cosine)), volume * scale, F(0.0f));
 }
@@ -62,20 +62,20 @@ TYNDALL_INLINE F pdf(const Metal<F>& metal, const Incident<F>& in, Vec3<F> direc
 template <class F>
 TYNDALL_INLINE BsdfSample<F> sample(const Metal<F>& metal, const Incident<F>& in) {
   const Vec3<F> mirror = reflect(in.direction, in.normal);
-  const F radius = metal.fuzz * cube_root(in.dice.one(dimension::radius));
-  const Vec3<F> sum = along(mirror, radius, in.unit);
+  const F radius = metal.fuzz * cube_root(in.sampler.next_1d(dimension::radius));
+  const Vec3<F> sum = point_at(mirror, radius, in.unit_vector);
   const F squared = dot(sum, sum);
   const auto cancelled = less(squared, F(1e-12f));
   const F scale = F(1.0f) / sqrt(select(cancelled, F(1.0f), squared));
   const Vec3<F> out = select(cancelled, in.facing, scale * sum);
   return {out,
           F(1.0f),
-          select(less(F(least_sampled_fuzz), metal.fuzz), pdf(metal, in, out), F(one_direction)),
+          select(less(F(min_sampled_fuzz), metal.fuzz), pdf(metal, in, out), F(one_direction)),
           {less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f))}};
 }
 
-/// Share of the light that is not absorbed, at a cosine of incidence in [0, 1]: the share of the ball of random points
-/// that is above the surface, a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
+/// Fraction of the light that is not absorbed, at a cosine of incidence in [0, 1]: the fraction of the ball of random
+/// points that is above the surface, a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
 template <class F>
 TYNDALL_INLINE F metal_survival(F fuzz, F cosine) {
   const F c = min(cosine / max(fuzz, F(1e-9f)), F(1.0f));

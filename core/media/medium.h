@@ -5,11 +5,11 @@
 
 #include <tuple>
 
-/// Fog and other media: what users set, how far light flies in them, and how they scatter it.
+/// Media and other media: what users set, how far light flies in them, and how they scatter it.
 namespace tyndall {
 
-/// Fog, smoke or milk, the same everywhere inside its boundary. Its boundary and its colour (the scattering albedo) are
-/// members of the scene's Volume.
+/// Media, media or milk, the same everywhere inside its boundary. Its boundary and its colour (the scattering albedo)
+/// are members of the scene's Volume.
 template <class F = double>
 struct Medium {
   static constexpr const char* type = "medium";
@@ -36,7 +36,7 @@ TYNDALL_INLINE F free_flight(F density, F u) {
   return -log(u) / density;
 }
 
-/// Share of light that passes an optical depth (density times length, >= 0): Beer and Lambert's law.
+/// Fraction of light that passes an optical depth (density times length, >= 0): Beer and Lambert's law.
 template <class F>
 TYNDALL_INLINE F transmittance(F optical_depth) {
   return exp(-optical_depth);
@@ -60,17 +60,17 @@ TYNDALL_INLINE F henyey_greenstein_cosine(F g, F u) {
 
 /// Probability density per steradian of the phase function at a cosine between the directions before and after.
 template <class F>
-TYNDALL_INLINE F henyey_greenstein_density(F g, F cosine) {
+TYNDALL_INLINE F henyey_greenstein_pdf(F g, F cosine) {
   const F d = F(1.0f) + g * g - F(2.0f) * g * cosine;
   return F(static_cast<float>(0.25 / pi)) * (F(1.0f) - g * g) / (d * sqrt(d));
 }
 
-/// New direction after scattering. unit: a random direction, which is the result where g is 0. u in [0, 1)².
+/// New direction after scattering. unit_vector: a random direction, which is the result where g is 0. u in [0, 1)².
 template <class F>
-TYNDALL_INLINE Vec3<F> scatter_in_medium(F g, Vec3<F> direction, Vec3<F> unit, Pair<F> u) {
+TYNDALL_INLINE Vec3<F> scatter_in_medium(F g, Vec3<F> direction, Vec3<F> unit_vector, Pair<F> u) {
   const auto even = equal(g, F(0.0f));
-  if (all(even)) return unit;
-  return select(even, unit, around(direction, henyey_greenstein_cosine(g, u.x), u.y));
+  if (all(even)) return unit_vector;
+  return select(even, unit_vector, around(direction, henyey_greenstein_cosine(g, u.x), u.y));
 }
 
 }  // namespace tyndall

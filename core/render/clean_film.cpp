@@ -13,8 +13,8 @@ FilmCleaner::FilmCleaner(const Kernels& kernels) : cleaner_(find_target(kernels.
 
 bool FilmCleaner::run(const Film& film, const RenderEngine& engine, PixelLevels* levels,
                       const std::atomic<bool>& give_up, CleanPicture& out) {
-  if (!read_film(film, engine.crew, give_up, input_)) return false;
-  input_.shared = engine.scene.shares;
+  if (!read_film(film, engine.thread_pool, give_up, input_)) return false;
+  input_.grouped = engine.scene.reuses_paths;
   const bool seen = seen_.parts > 0 && seen_.region == film.region && seen_.parts == parts_of_pixels(seen_, input_.spp);
   if (!seen) {
     change_scene();
@@ -22,7 +22,7 @@ bool FilmCleaner::run(const Film& film, const RenderEngine& engine, PixelLevels*
     if (!find_first_seen(film.region, engine, give_up, input_, made)) return false;
     seen_ = made;
   }
-  return cleaner_.run(input_, engine.crew, give_up, out,
+  return cleaner_.run(input_, engine.thread_pool, give_up, out,
                       levels ? levels_of(film, engine, *levels, give_up) : LevelsOf());
 }
 
@@ -35,14 +35,14 @@ SceneView with_larger_pixels(SceneView scene, int step) {
   camera.corner = camera.corner + 0.5f * (1 - size) * (camera.du + camera.dv);
   camera.du = size * camera.du, camera.dv = size * camera.dv;
   scene.width = (scene.width + step - 1) / step, scene.height = (scene.height + step - 1) / step;
-  scene.glint_count = 0;  // they were found for the pixels as they are
+  scene.subpixel_light_count = 0;  // they were found for the pixels as they are
   return scene;
 }
 
-void put_rgba(const CleanPicture& picture, Crew& crew, std::vector<float>& rgba) {
+void put_rgba(const CleanPicture& picture, ThreadPool& thread_pool, std::vector<float>& rgba) {
   const auto width = static_cast<std::size_t>(picture.width);
   rgba.resize(4 * width * static_cast<std::size_t>(picture.height));
-  crew.for_each(picture.height, [&](int y) {
+  thread_pool.for_each(picture.height, [&](int y) {
     const float* from = picture.rgb.data() + 3 * width * static_cast<std::size_t>(y);
     float* to = rgba.data() + 4 * width * static_cast<std::size_t>(y);
     for (std::size_t x = 0; x < width; ++x, from += 3, to += 4)
@@ -52,28 +52,28 @@ void put_rgba(const CleanPicture& picture, Crew& crew, std::vector<float>& rgba)
 
 }  // namespace
 
-bool CoarseCleaner::run(int step, const RenderEngine& engine, double unit, const std::atomic<bool>& give_up,
+bool CoarseCleaner::run(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up,
                         CleanPicture& out) {
   const SceneView scene = with_larger_pixels(engine.scene, step);
-  const RenderEngine coarse{engine.crew, engine.kernels, scene};
+  const RenderEngine coarse{engine.thread_pool, engine.kernels, scene};
   const Region whole{0, 0, scene.width, scene.height};
-  if (!(film_.region == whole) || film_.emission.empty() == scene.has_lamps())
-    film_ = make_film(scene.width, scene.height, whole, 0, unit, scene.has_lamps());
-  film_.unit = unit;
+  if (!(film_.region == whole) || film_.emission.empty() == scene.has_lights())
+    film_ = make_film(scene.width, scene.height, whole, 0, quantum, scene.has_lights());
+  film_.quantum = quantum;
   cleaner_.change_scene();
-  return Pass(whole, 0, least_clean_spp, 1, 0, {.shares = scene.shares})
-             .run(coarse.crew, coarse.kernels, scene, film_, give_up) &&
+  return Pass(whole, 0, min_clean_spp, 1, 0, {.reuses_paths = scene.reuses_paths})
+             .run(coarse.thread_pool, coarse.kernels, scene, film_, give_up) &&
          cleaner_.run(film_, coarse, nullptr, give_up, out);
 }
 
 CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa) {
   const auto kernels = choose_kernels(isa);
   if (!kernels) throw std::invalid_argument("no filter for instruction set \"" + isa + "\"");
-  Crew crew(threads);
+  ThreadPool thread_pool(threads);
   CleanPicture picture;
   PixelLevels levels;
   const std::atomic<bool> never = false;
-  FilmCleaner(*kernels).run(film, {crew, *kernels, scene.view()}, &levels, never, picture);
+  FilmCleaner(*kernels).run(film, {thread_pool, *kernels, scene.view()}, &levels, never, picture);
   return picture;
 }
 
@@ -90,21 +90,21 @@ void LiveClean::start_over() {
 }
 
 bool LiveClean::is_due(const Progression& picture, bool at_rest) const {
-  constexpr double most_share = 0.25;
-  const std::uint32_t taken = picture.taken(), most = picture.most_taken();
-  const bool same = taken == made_of_ && most == made_of_most_;
-  if (!wanted_ || picture.within_pass() || taken < least_clean_spp || same) return false;
+  constexpr double max_fraction = 0.25;
+  const std::uint32_t taken = picture.taken(), maximum = picture.max_taken();
+  const bool same = taken == made_of_ && maximum == made_of_max_;
+  if (!wanted_ || picture.within_pass() || taken < min_clean_spp || same) return false;
   if (made_of_ == 0 || at_rest) return true;
   const double with_this = spent_ + last_seconds_;
-  return (taken >= 2 * made_of_ || most >= 2 * made_of_most_) &&
-         with_this <= most_share * (picture.tally().seconds + with_this);
+  return (taken >= 2 * made_of_ || maximum >= 2 * made_of_max_) &&
+         with_this <= max_fraction * (picture.tally().seconds + with_this);
 }
 
 /// The filtered picture as a frame.
-std::shared_ptr<CleanFrame> LiveClean::take_frame(const PictureGrid& grid, Crew& crew) {
+std::shared_ptr<CleanFrame> LiveClean::take_frame(const PictureGrid& grid, ThreadPool& thread_pool) {
   CleanFrameMemory& memory = grid.spacing > 1 ? coarse_frames_ : frames_;
   std::shared_ptr<CleanFrame> frame = memory.take(picture_.rgb.size() / 3);
-  put_rgba(picture_, crew, frame->rgba);
+  put_rgba(picture_, thread_pool, frame->rgba);
   std::swap(frame->pixel_error, picture_.pixel_error);
   frame->grid = grid;
   return frame;
@@ -116,9 +116,9 @@ bool LiveClean::make_coarse(const Film& film, double paths_per_second, const Ren
       coarse_clean_step(static_cast<std::int64_t>(film.pixels.size()), paths_per_second, seconds_per_pixel_);
   if (!wanted_ || step == 1) return false;
   try {
-    if (!coarse_.run(step, engine, film.unit, give_up, picture_)) return false;
+    if (!coarse_.run(step, engine, film.quantum, give_up, picture_)) return false;
     const std::shared_ptr<CleanFrame> frame =
-        take_frame({picture_.width, picture_.height, static_cast<float>(step)}, engine.crew);
+        take_frame({picture_.width, picture_.height, static_cast<float>(step)}, engine.thread_pool);
     frame->relative_error = std::numeric_limits<double>::infinity();
     latest_ = frame;
   } catch (const std::bad_alloc&) {
@@ -135,7 +135,7 @@ bool LiveClean::make(Progression& picture, const RenderEngine& engine, const std
     spent_ += last_seconds_;
     if (!whole) return false;
     seconds_per_pixel_ = last_seconds_ / static_cast<double>(picture.film().pixels.size());
-    const std::shared_ptr<CleanFrame> frame = take_frame({picture_.width, picture_.height, 1}, engine.crew);
+    const std::shared_ptr<CleanFrame> frame = take_frame({picture_.width, picture_.height, 1}, engine.thread_pool);
     frame->relative_error = picture_.relative_error;
     frame->spp = picture.taken();
     frame->doubtful = is_doubtful(picture_, frame->spp);
@@ -145,7 +145,7 @@ bool LiveClean::make(Progression& picture, const RenderEngine& engine, const std
     latest_ = nullptr;  // the picture is shown as it is
   }
   made_of_ = picture.taken();
-  made_of_most_ = picture.most_taken();
+  made_of_max_ = picture.max_taken();
   return true;
 }
 

@@ -12,7 +12,7 @@
 namespace tyndall {
 
 /// Samples a pixel from which on a picture can be filtered: one in each half.
-inline constexpr std::uint32_t least_clean_spp = 2;
+inline constexpr std::uint32_t min_clean_spp = 2;
 /// With fewer samples a pixel than this, the filtered picture's error is known only roughly.
 inline constexpr std::uint32_t rough_clean_spp = 16;
 /// Whether its error is known only roughly although it has so many samples.
@@ -44,7 +44,7 @@ class FilmCleaner {
 
   /// The scene has changed: what is first seen has to be found anew.
   void change_scene() { seen_ = {}; }
-  /// See Cleaner::run. Every pixel of the film must have least_clean_spp samples or more. levels: of its pixels; null:
+  /// See Cleaner::run. Every pixel of the film must have min_clean_spp samples or more. levels: of its pixels; null:
   /// the picture's error is of no interest.
   bool run(const Film& film, const RenderEngine& engine, PixelLevels* levels, const std::atomic<bool>& give_up,
            CleanPicture& out);
@@ -62,8 +62,9 @@ class CoarseCleaner {
   explicit CoarseCleaner(const Kernels& kernels) : cleaner_(kernels) {}
 
   /// Fills `out` with the clean view of a picture of the scene of which each pixel covers step x step pixels and has
-  /// two samples of its own, which are in no film. unit: see Film. Returns false if `give_up` was set before the end.
-  bool run(int step, const RenderEngine& engine, double unit, const std::atomic<bool>& give_up, CleanPicture& out);
+  /// two samples of its own, which are in no film. quantum: see Film. Returns false if `give_up` was set before the
+  /// end.
+  bool run(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up, CleanPicture& out);
 
  private:
   FilmCleaner cleaner_;
@@ -98,7 +99,7 @@ class LiveClean {
   const std::shared_ptr<const CleanFrame>& latest() const { return latest_; }
 
  private:
-  std::shared_ptr<CleanFrame> take_frame(const PictureGrid& grid, Crew& crew);
+  std::shared_ptr<CleanFrame> take_frame(const PictureGrid& grid, ThreadPool& thread_pool);
 
   FilmCleaner cleaner_;
   CoarseCleaner coarse_;
@@ -107,7 +108,7 @@ class LiveClean {
   std::shared_ptr<const CleanFrame> latest_;
   bool wanted_ = false;
   std::uint32_t made_of_ = 0;        ///< samples a pixel that the newest one was made from; 0: none was made yet
-  std::uint32_t made_of_most_ = 0;   ///< samples of the pixels that were refined first by then
+  std::uint32_t made_of_max_ = 0;    ///< samples of the pixels that were refined first by then
   double spent_ = 0;                 ///< seconds spent on all clean views of the present picture
   double last_seconds_ = 0;          ///< seconds that the newest one took
   double seconds_per_pixel_ = 2e-7;  ///< of filtering, as the newest one took

@@ -13,16 +13,16 @@ namespace {
 bool is_sharp(const SceneView& scene, std::int32_t element) {
   const std::int32_t material = scene.material[element], kind = scene.kind[material];
   if (has_trait<&BsdfTraits::transmissive>(kind)) return false;
-  return !has_trait<&BsdfTraits::glossy>(kind) || lobe_width_of(scene, material) <= least_sampled_fuzz;
+  return !has_trait<&BsdfTraits::glossy>(kind) || lobe_width_of(scene, material) <= min_sampled_fuzz;
 }
 
 constexpr int planes = 8;  // of input.seen: albedo, normal, nearness, sharpness
 constexpr int depth_plane = 6, sharp_plane = 7;
-constexpr int most_parts = 8;
+constexpr int max_parts = 8;
 /// Pixels of a row that are divided together or not at all.
 constexpr int group = 4;
 /// Parts beside each other that are looked at together, which fills the lanes.
-constexpr int together = group * most_parts;
+constexpr int together = group * max_parts;
 
 /// Of a row's pixels where anything is seen: how many there are, and the sum of 1 / depth. And its unlike pixels.
 struct RowCount {
@@ -98,7 +98,7 @@ struct FirstSeenFinder {
     for (const RowCount& row : rows) all.seen += row.seen, all.per_depth += row.per_depth;
     return static_cast<float>(all.seen > 0 ? all.per_depth / all.seen : 1);
   }
-  void turn_into_nearness(int y) const {
+  void convert_to_nearness(int y) const {
     float* depth = row(depth_plane, y);
     for (int x = 0; x < width(); ++x) depth[x] = depth[x] > 0 ? 1 / (1 + depth[x] * per_depth) : 0;
   }
@@ -144,10 +144,10 @@ struct FirstSeenFinder {
         std::copy_n(values, planes, sum[i]);
       }
     }
-    const float share = 1.0f / static_cast<float>(parts * parts);  // a power of two
+    const float fraction = 1.0f / static_cast<float>(parts * parts);  // a power of two
     for (int k = 0; k < planes; ++k)
-      for (int i = 0; i < count; ++i) row(k, y)[x0 + i] = share * sum[i][k];
-    for (int i = 0; i < count; ++i) row(sharp_plane, y)[x0 + i] = share * sum[i][sharp_plane] < 1 ? 0.0f : 1.0f;
+      for (int i = 0; i < count; ++i) row(k, y)[x0 + i] = fraction * sum[i][k];
+    for (int i = 0; i < count; ++i) row(sharp_plane, y)[x0 + i] = fraction * sum[i][sharp_plane] < 1 ? 0.0f : 1.0f;
   }
   /// Divides the unlike pixels of a row, as many together as fill the lanes.
   void divide_row(const SceneView& scene, int parts, int y, const std::atomic<bool>& give_up) const {
@@ -173,7 +173,7 @@ SceneView divided(SceneView scene, int parts) {
 
 int parts_of_pixels(const FirstSeenParts& made, double spp) {
   const double rays = spp * made.region.width() * made.region.height();
-  int parts = most_parts;
+  int parts = max_parts;
   while (parts > 1 && static_cast<double>(made.unlike * parts * parts) > rays) parts /= 2;
   return parts;
 }
@@ -187,14 +187,14 @@ bool find_first_seen(const Region& region, const RenderEngine& engine, const std
   finder.marks.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(region.width()));
   finder.unlike.resize(finder.groups() * static_cast<std::size_t>(height));
   const auto each_row = [&](const auto& job) {
-    engine.crew.for_each(height, [&](int y) {
+    engine.thread_pool.for_each(height, [&](int y) {
       if (!give_up.load(std::memory_order_relaxed)) job(y);
     });
     return !give_up;
   };
   if (!each_row([&](int y) { finder.look_at_centres(y); })) return false;
   finder.per_depth = finder.per_mean_depth();
-  if (!each_row([&](int y) { finder.turn_into_nearness(y); }) ||
+  if (!each_row([&](int y) { finder.convert_to_nearness(y); }) ||
       !each_row([&](int y) { finder.compare_neighbours(y); }) || !each_row([&](int y) { finder.find_unlike(y); }))
     return false;
   made = {region, 0, 1};

@@ -14,7 +14,7 @@ namespace tyndall {
 /// What a frame shows besides the beauty image.
 enum class View { beauty, albedo, normal, depth, noise, samples, cost, object };
 
-constexpr Word word(View view) {
+constexpr Label label(View view) {
   switch (view) {
     case View::beauty:
       return {"beauty"};
@@ -93,10 +93,10 @@ struct Frame {
   double first_picture_ms = 0;     ///< from the edit or restart to the first frame after it
   std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< see PassTally
   double cut_throughput = 0;                               ///< see FilmTotals
-  std::uint32_t most_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
-  double white = 1;     ///< what white stands for: a relative error in the view of noise, samples in that of samples,
-                        ///< scene units in that of depth, rays a path in that of cost
-  bool shares = false;  ///< groups of pixels share second vertices: see SceneView
+  std::uint32_t max_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
+  double white = 1;  ///< what white stands for: a relative error in the view of noise, samples in that of samples,
+                     ///< scene units in that of depth, rays a path in that of cost
+  bool reuses_paths = false;  ///< groups of pixels share second vertices: see SceneView
   std::size_t film_bytes = 0;
   std::string isa;
   int lanes = 1, threads = 1;

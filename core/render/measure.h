@@ -24,20 +24,20 @@ struct Measured {
 };
 
 /// One measurement takes at most so many rounds, each with a seed of its own, and so many samples a round.
-inline constexpr std::uint32_t most_rounds = 16;
-inline constexpr double most_samples_measured = 4e9;
+inline constexpr std::uint32_t max_rounds = 16;
+inline constexpr double max_samples_measured = 4e9;
 
 /// Measures the mean over a picture's pixels and channels. Short renders (pilots) find out how many samples the wanted
 /// standard error takes. Then as many samples with another seed are the measurement, because a mean of samples that
-/// also decide when to stop is biased. Uses the scene's seed and the seeds after it. Stops at most_samples_measured
-/// even if the error is larger than asked for, so look at value.error.
+/// also decide when to stop is biased. Uses the scene's seed and the seeds after it. Stops at max_samples_measured even
+/// if the error is larger than asked for, so look at value.error.
 Measured measure_mean(Scene scene, const MeasureOptions& options, const ProgressCallback& progress = {});
 
-/// Standard errors below this share of a value mean nothing, because the rounding of single precision is larger.
-inline constexpr double rounding_share = 1e-6;
+/// Standard errors below this fraction of a value mean nothing, because the rounding of single precision is larger.
+inline constexpr double rounding_fraction = 1e-6;
 
-/// How many standard errors a mean deviates from a known answer; rounding_share of the answer counts as error too. With
-/// the answer 0 and no standard error it is 0 if the mean is 0, else infinite.
+/// How many standard errors a mean deviates from a known answer; rounding_fraction of the answer counts as error too.
+/// With the answer 0 and no standard error it is 0 if the mean is 0, else infinite.
 double z_score(const FilmMean& measured, double expected);
 
 struct SquareBand {

@@ -1,6 +1,6 @@
 #include "core/render/pass.h"
 
-#include "core/base/crew_memory.h"
+#include "core/base/thread_pool_memory.h"
 #include "core/film/groups.h"
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 namespace tyndall {
 namespace {
 
-constexpr double unit_paths = 2048;
-constexpr int most_tile = 64;  // kernels take at most most_tile² pixels (most_unit_pixels)
+constexpr double paths_per_tile = 2048;
+constexpr int max_tile = 64;  // kernels take at most max_tile² pixels (max_tile_pixels)
 
-/// Edge of tiles whose units have about unit_paths paths: a multiple of `least`.
-int chosen_tile(std::uint32_t samples, int step, int least) {
-  const double pixels = unit_paths * step * step / std::max(1u, samples);
-  return std::clamp(static_cast<int>(std::sqrt(pixels)) / least * least, least, most_tile);
+/// Edge of tiles whose units have about paths_per_tile paths: a multiple of `minimum`.
+int chosen_tile(std::uint32_t samples, int step, int minimum) {
+  const double pixels = paths_per_tile * step * step / std::max(1u, samples);
+  return std::clamp(static_cast<int>(std::sqrt(pixels)) / minimum * minimum, minimum, max_tile);
 }
 
 int rounded_down(int at, int step) { return at / step * step; }
@@ -31,9 +31,9 @@ void for_each_pixel(const Region& tile, int step, const Visit& visit) {
       visit(x, y, static_cast<std::size_t>((y - tile.y0) * tile.width() + x - tile.x0));
 }
 
-/// The memory in which a unit of work gathers its samples. Of a unit that leaves pixels out, only those that it samples
+/// The memory in which a tile job gathers its samples. Of a tile job that leaves pixels out, only those that it samples
 /// hold what is true: where every 8th of them is sampled, clearing all would take far longer than to sample.
-struct UnitBuffer {
+struct TileBuffer {
   std::vector<FilmPixel> pixels;
   std::vector<EmissionSums> emission;
   std::vector<std::uint32_t> first, last;  ///< see list_lacking
@@ -51,10 +51,10 @@ struct UnitBuffer {
 };
 
 /// The buffer of a thread, kept from unit to unit: after its first unit a thread allocates nothing.
-UnitBuffer& buffer() {
-  std::shared_ptr<void>& memory = crew_memory();
-  if (!memory) memory = std::make_shared<UnitBuffer>();
-  return *static_cast<UnitBuffer*>(memory.get());
+TileBuffer& buffer() {
+  std::shared_ptr<void>& memory = thread_pool_memory();
+  if (!memory) memory = std::make_shared<TileBuffer>();
+  return *static_cast<TileBuffer*>(memory.get());
 }
 
 /// How many samples the pixels of a part lack on average of those that are wanted.
@@ -69,7 +69,7 @@ std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& want
 }
 
 /// Fills in the first and last sample of the next unit of a tile, for each of its pixels. Pixels that lack samples get
-/// so many that the unit has about unit_paths. False if no pixel lacks any.
+/// so many that the tile job has about paths_per_tile. False if no pixel lacks any.
 bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile,
                   std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) {
   first.clear(), last.clear();
@@ -83,9 +83,10 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
       deepest = std::max(deepest, last.back() - first.back());
     }
   if (lacking == 0) return false;
-  const std::uint32_t most = std::max(static_cast<std::uint32_t>(unit_paths) / lacking, 1u);
-  if (deepest > most + most / 2)  // otherwise this unit takes all that is lacking, so that no small rest is left over
-    for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + most);
+  const std::uint32_t maximum = std::max(static_cast<std::uint32_t>(paths_per_tile) / lacking, 1u);
+  if (deepest >
+      maximum + maximum / 2)  // otherwise this tile job takes all that is lacking, so that no small rest is left over
+    for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + maximum);
   return true;
 }
 
@@ -105,81 +106,81 @@ Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& pa
 }
 
 void Pass::cut(Tiling tiling, std::uint32_t samples) {
-  // Coarse passes sample every 8th pixel. A unit that cuts a shared block in two traces all of it twice.
-  const int least = tiling.shares ? std::max(block_width, block_height) : 8;
-  tile_ = tiling.edge > 0 ? std::min(tiling.edge, most_tile) : chosen_tile(samples, step_, least);
-  left_ = rounded_down(region_.x0, tiling.shares ? block_width : 1);
-  top_ = rounded_down(region_.y0, tiling.shares ? block_height : 1);
+  // Coarse passes sample every 8th pixel. A tile job that cuts a shared block in two traces all of it twice.
+  const int minimum = tiling.reuses_paths ? std::max(block_width, block_height) : 8;
+  tile_ = tiling.edge > 0 ? std::min(tiling.edge, max_tile) : chosen_tile(samples, step_, minimum);
+  left_ = rounded_down(region_.x0, tiling.reuses_paths ? block_width : 1);
+  top_ = rounded_down(region_.y0, tiling.reuses_paths ? block_height : 1);
   columns_ = divided_up(region_.x1 - left_, tile_);
   rows_ = divided_up(region_.y1 - top_, tile_);
   done_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
 }
 
-Region Pass::tile(int unit) const {
-  const int x = left_ + unit % columns_ * tile_, y = top_ + unit / columns_ * tile_;
+Region Pass::tile(int index) const {
+  const int x = left_ + index % columns_ * tile_, y = top_ + index / columns_ * tile_;
   return {std::max(x, region_.x0), std::max(y, region_.y0), std::min(x + tile_, region_.x1),
           std::min(y + tile_, region_.y1)};
 }
 
-bool Pass::run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& film, const std::atomic<bool>& give_up,
-               const std::function<void()>& poll) {
-  const auto job = [&](int unit) {
-    auto& done = done_[static_cast<std::size_t>(unit)];
+bool Pass::run(ThreadPool& thread_pool, const Kernels& kernels, const SceneView& scene, Film& film,
+               const std::atomic<bool>& give_up, const std::function<void()>& poll) {
+  const auto job = [&](int index) {
+    auto& done = done_[static_cast<std::size_t>(index)];
     if (done || give_up.load(std::memory_order_relaxed)) return;
     if (wanted_.empty()) {
-      run_unit(unit, kernels, scene, film);
+      run_tile(index, kernels, scene, film);
       done = 1;
     } else {
-      done = fill_tile(unit, kernels, scene, film, give_up);
+      done = fill_tile(index, kernels, scene, film, give_up);
     }
   };
-  crew.for_each(columns_ * rows_, job, poll);
+  thread_pool.for_each(columns_ * rows_, job, poll);
   film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
   return std::all_of(done_.begin(), done_.end(), [](std::uint8_t d) { return d != 0; });
 }
 
-void Pass::run_unit(int unit, const Kernels& kernels, const SceneView& scene, Film& film) {
-  const Region where = tile(unit);
-  UnitBuffer& unit_film = buffer();
-  unit_film.clear(where, step_, !film.emission.empty());
-  UnitCounts counts;
-  kernels.render_unit(scene, {where, step_, skip_step_, first_, last_}, film.unit, unit_film.pixels.data(), counts,
-                      unit_film.emission_or_null());
-  add_unit(where, step_, first_ == film.first_sample, film);
+void Pass::run_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film) {
+  const Region where = tile(index);
+  TileBuffer& tile_film = buffer();
+  tile_film.clear(where, step_, !film.emission.empty());
+  TileCounts counts;
+  kernels.render_tile(scene, {where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
+                      tile_film.emission_or_null());
+  add_tile(where, step_, first_ == film.first_sample, film);
   add_counts(counts);
 }
 
 /// Runs units until the tile's pixels have what is wanted. False if `give_up` was set before.
-bool Pass::fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
+bool Pass::fill_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film,
                      const std::atomic<bool>& give_up) {
-  const Region where = tile(unit);
-  UnitBuffer& unit_film = buffer();
+  const Region where = tile(index);
+  TileBuffer& tile_film = buffer();
   for (;;) {
-    if (!list_lacking(film, wanted_, where, unit_film.first, unit_film.last)) return true;
+    if (!list_lacking(film, wanted_, where, tile_film.first, tile_film.last)) return true;
     if (give_up.load(std::memory_order_relaxed)) return false;
-    unit_film.clear(where, 1, !film.emission.empty());
-    UnitCounts counts;
-    const Unit lacking{where, 1, 0, 0, 0, unit_film.first.data(), unit_film.last.data()};
-    kernels.render_unit(scene, lacking, film.unit, unit_film.pixels.data(), counts, unit_film.emission_or_null());
-    add_unit(where, 1, false, film);
+    tile_film.clear(where, 1, !film.emission.empty());
+    TileCounts counts;
+    const TileJob lacking{where, 1, 0, 0, 0, tile_film.first.data(), tile_film.last.data()};
+    kernels.render_tile(scene, lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null());
+    add_tile(where, 1, false, film);
     add_counts(counts);
   }
 }
 
 /// Adds the samples of the thread's unit to the film, or lets them replace what its pixels held.
-void Pass::add_unit(const Region& where, int step, bool replace, Film& film) {
+void Pass::add_tile(const Region& where, int step, bool replace, Film& film) {
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
-  const UnitBuffer& unit = buffer();
+  const TileBuffer& tile = buffer();
   for_each_pixel(where, step, [&](int x, int y, std::size_t i) {
-    const FilmPixel& from = unit.pixels[i];
+    const FilmPixel& from = tile.pixels[i];
     if (!from.taken) return;
     FilmPixel& to = film.at(x, y);
-    if (!unit.emission.empty()) {
+    if (!tile.emission.empty()) {
       EmissionSums& emission = film.emission[film.index(x, y)];
       if (replace)
-        emission = unit.emission[i];
+        emission = tile.emission[i];
       else
-        add_emission(emission, unit.emission[i]);
+        add_emission(emission, tile.emission[i]);
     }
     paths += from.taken;
     rejected += from.rejected[0] + from.rejected[1];
@@ -194,7 +195,7 @@ void Pass::add_unit(const Region& where, int step, bool replace, Film& film) {
   truncated_.fetch_add(truncated, std::memory_order_relaxed);
 }
 
-void Pass::add_counts(const UnitCounts& counts) {
+void Pass::add_counts(const TileCounts& counts) {
   rays_.fetch_add(counts.rays, std::memory_order_relaxed);
   shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);
   cut_high_.fetch_add(counts.cut_throughput.high, std::memory_order_relaxed);

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/film/film.h"
 #include "core/targets/kernels.h"
 
@@ -13,23 +13,23 @@ namespace tyndall {
 
 /// What a pass needs to run: threads, kernels and the scene that these read.
 struct RenderEngine {
-  Crew& crew;
+  ThreadPool& thread_pool;
   const Kernels& kernels;
   const SceneView& scene;
 };
 
-/// How a pass is cut into units of work.
+/// How a pass is cut into tile jobs.
 struct Tiling {
-  int edge = 0;         ///< of tiles, in pixels; 0: chosen
-  bool shares = false;  ///< the scene shares second vertices: tiles that are chosen hold whole blocks of pixels
+  int edge = 0;               ///< of tiles, in pixels; 0: chosen
+  bool reuses_paths = false;  ///< the scene shares second vertices: tiles that are chosen hold whole blocks of pixels
 };
 
 /// One sweep over an image. It takes the same range of sample indices for every pixel, or brings each pixel up to a
-/// count of its own. The work is cut into units of about 2,000 paths. A unit is added to the film whole or not at all,
-/// so each pixel always has the first n of its samples, without gaps. A pass that was interrupted can go on later.
+/// count of its own. The work is cut into units of about 2,000 paths. A tile job is added to the film whole or not at
+/// all, so each pixel always has the first n of its samples, without gaps. A pass that was interrupted can go on later.
 class Pass {
  public:
-  /// Samples first … last - 1 of the region's pixels. step, skip_step: see Unit.
+  /// Samples first … last - 1 of the region's pixels. step, skip_step: see TileJob.
   Pass(Region region, std::uint32_t first, std::uint32_t last, int step = 1, int skip_step = 0, Tiling tiling = {});
 
   /// Brings each pixel of the film's region to `wanted` samples (row by row); pixels that have more keep them.
@@ -39,9 +39,9 @@ class Pass {
 
   /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then it returns
   /// within one unit. Returns whether all are done. A sample of index film.first_sample replaces what its pixel held,
-  /// so that a film can be begun anew without clearing it. poll: see Crew::for_each.
-  bool run(Crew& crew, const Kernels& kernels, const SceneView& scene, Film& film, const std::atomic<bool>& give_up,
-           const std::function<void()>& poll = {});
+  /// so that a film can be begun anew without clearing it. poll: see ThreadPool::for_each.
+  bool run(ThreadPool& thread_pool, const Kernels& kernels, const SceneView& scene, Film& film,
+           const std::atomic<bool>& give_up, const std::function<void()>& poll = {});
 
   std::uint64_t rays() const { return rays_; }
   std::uint64_t shadow_rays() const { return shadow_rays_; }
@@ -53,12 +53,12 @@ class Pass {
 
  private:
   void cut(Tiling tiling, std::uint32_t samples);
-  Region tile(int unit) const;
-  void run_unit(int unit, const Kernels& kernels, const SceneView& scene, Film& film);
-  bool fill_tile(int unit, const Kernels& kernels, const SceneView& scene, Film& film,
+  Region tile(int index) const;
+  void run_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film);
+  bool fill_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film,
                  const std::atomic<bool>& give_up);
-  void add_unit(const Region& where, int step, bool replace, Film& film);
-  void add_counts(const UnitCounts& counts);
+  void add_tile(const Region& where, int step, bool replace, Film& film);
+  void add_counts(const TileCounts& counts);
 
   Region region_;
   std::uint32_t first_ = 0, last_ = 0;

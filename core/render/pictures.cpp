@@ -39,13 +39,13 @@ Vec3f between(Vec3f a, Vec3f opposite_a, Vec3f b, Vec3f opposite_b) {
 }
 
 /// A picture of twice as many columns and rows, whose new pixels go on along edges.
-std::vector<float> doubled(const std::vector<float>& from, int columns, int rows, Crew& crew) {
+std::vector<float> doubled(const std::vector<float>& from, int columns, int rows, ThreadPool& thread_pool) {
   std::vector<float> to(4 * from.size());
   const auto old = [&](int x, int y) {
     return get(from, offset(columns, std::clamp(x, 0, columns - 1), std::clamp(y, 0, rows - 1)));
   };
   const auto middle = [&](int x, int y) { return between(old(x, y), old(x + 1, y + 1), old(x + 1, y), old(x, y + 1)); };
-  crew.for_each(rows, [&](int y) {
+  thread_pool.for_each(rows, [&](int y) {
     for (int x = 0; x < columns; ++x) {
       const Vec3f here = old(x, y), corner = middle(x, y);
       put(to, offset(2 * columns, 2 * x, 2 * y), here);
@@ -64,26 +64,28 @@ Vec3f colour_of_object(const std::vector<int>& path) {
   const float hue = 6 * std::fmod(0.618034f * static_cast<float>(number % 4096), 1.0f);
   const float pale = number / 7 % 2 == 0 ? 0.06f : 0.3f, bright = number / 3 % 2 == 0 ? 0.85f : 0.5f;
   const auto channel = [&](float from) {
-    const float way = std::abs(std::fmod(hue + from, 6.0f) - 3) - 1;
-    return bright * (pale + (1 - pale) * std::clamp(way, 0.0f, 1.0f));
+    const float offset = std::abs(std::fmod(hue + from, 6.0f) - 3) - 1;
+    return bright * (pale + (1 - pale) * std::clamp(offset, 0.0f, 1.0f));
   };
   return {channel(0), channel(4), channel(2)};
 }
 
 }  // namespace
 
-void beauty_rgba(const Film& film, Crew& crew, std::vector<float>& rgba) { coarse_rgba(film, 1, crew, rgba); }
+void beauty_rgba(const Film& film, ThreadPool& thread_pool, std::vector<float>& rgba) {
+  coarse_rgba(film, 1, thread_pool, rgba);
+}
 
-PictureGrid coarse_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba) {
+PictureGrid coarse_rgba(const Film& film, int step, ThreadPool& thread_pool, std::vector<float>& rgba) {
   const int width = film.region.width(), height = film.region.height();
   const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
   rgba.resize(4 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  crew.for_each(rows, [&](int y) {
+  thread_pool.for_each(rows, [&](int y) {
     for (int x = 0; x < columns; ++x)
       put(rgba, offset(columns, x, y), mean(film, film.pixels[offset(width, x * step, y * step)]));
   });
   if (step < 3) return {columns, rows, static_cast<float>(step)};
-  rgba = doubled(rgba, columns, rows, crew);
+  rgba = doubled(rgba, columns, rows, thread_pool);
   return {2 * columns, 2 * rows, 0.5f * static_cast<float>(step)};
 }
 
@@ -113,27 +115,27 @@ std::vector<float> samples_rgba(const Film& film) {
   const auto twice_mean = static_cast<float>(twice_mean_samples(film));
   std::vector<float> rgba(4 * film.pixels.size());
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-    const float share = std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f);
-    put(rgba, i, {share, share, share});
+    const float fraction = std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f);
+    put(rgba, i, {fraction, fraction, fraction});
   }
   return rgba;
 }
 
-std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
+std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, ThreadPool& thread_pool,
                               const std::atomic<bool>& give_up) {
   constexpr int edge = 4, samples = 4;
   SceneView alone = scene;
-  alone.shares = false;  // what a pixel's own paths cost, not those of its groups
+  alone.reuses_paths = false;  // what a pixel's own paths cost, not those of its groups
   std::vector<float> costs(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
   const auto find = [&](const Region& cell) {
     FilmPixel pixels[edge * edge] = {};
-    UnitCounts counts;
-    kernels.render_unit(alone, {.tile = cell, .first = 0, .last = samples}, 1, pixels, counts);
+    TileCounts counts;
+    kernels.render_tile(alone, {.tile = cell, .first = 0, .last = samples}, 1, pixels, counts);
     const float cost = static_cast<float>(counts.rays) / static_cast<float>(samples * cell.width() * cell.height());
     for (int y = cell.y0; y < cell.y1; ++y)
       for (int x = cell.x0; x < cell.x1; ++x) costs[offset(scene.width, x, y)] = cost;
   };
-  crew.for_each((scene.height + edge - 1) / edge, [&](int row) {
+  thread_pool.for_each((scene.height + edge - 1) / edge, [&](int row) {
     for (int x = 0; x < scene.width && !give_up; x += edge)
       find({x, edge * row, std::min(x + edge, scene.width), std::min(edge * (row + 1), scene.height)});
   });
@@ -142,17 +144,17 @@ std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Cr
 }
 
 float largest(const std::vector<float>& values) {
-  float most = 1e-37f;
-  for (const float value : values) most = std::max(most, value);
-  return most;
+  float maximum = 1e-37f;
+  for (const float value : values) maximum = std::max(maximum, value);
+  return maximum;
 }
 
 std::vector<float> relative_rgba(const std::vector<float>& values) {
-  const float most = largest(values);
+  const float maximum = largest(values);
   std::vector<float> rgba(4 * values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const float share = values[i] / most;
-    put(rgba, i, {share, share, share});
+    const float fraction = values[i] / maximum;
+    put(rgba, i, {fraction, fraction, fraction});
   }
   return rgba;
 }
@@ -213,9 +215,9 @@ std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view) 
   return rgba;
 }
 
-std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, Crew& crew) {
+std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, ThreadPool& thread_pool) {
   std::vector<FirstHit> hits(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
-  crew.for_each(scene.height, [&](int y) {
+  thread_pool.for_each(scene.height, [&](int y) {
     kernels.first_hits(scene, {0, y, scene.width, y + 1}, hits.data() + offset(scene.width, 0, y));
   });
   return hits;

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/compile/render_scene.h"
 #include "core/film/film.h"
 #include "core/render/frame.h"
@@ -16,11 +16,11 @@
 namespace tyndall {
 
 /// Writes the means of a film into `rgba`, every pixel.
-void beauty_rgba(const Film& film, Crew& crew, std::vector<float>& rgba);
+void beauty_rgba(const Film& film, ThreadPool& thread_pool, std::vector<float>& rgba);
 
 /// Writes the means of a film of which only every step-th pixel in x and y has samples. From a step of 3 on the picture
 /// has twice as many columns and rows: what is between samples goes on along edges. step >= 1.
-PictureGrid coarse_rgba(const Film& film, int step, Crew& crew, std::vector<float>& rgba);
+PictureGrid coarse_rgba(const Film& film, int step, ThreadPool& thread_pool, std::vector<float>& rgba);
 
 /// Keeps the memory of what nobody uses any more for new ones: to get fresh memory from the system takes longer than to
 /// draw a picture into it. kept: the members whose memory is kept.
@@ -39,14 +39,14 @@ class MemoryOf {
     return {made.release(), [spare = spare_](T* done) {
               const std::unique_ptr<T> owner(done);
               const std::lock_guard lock(spare->mutex);
-              if (spare->left.size() < most_spare) move_kept(*done, spare->left.emplace_back());
+              if (spare->left.size() < max_spare) move_kept(*done, spare->left.emplace_back());
             }};
   }
 
  private:
-  static constexpr std::size_t most_spare = 2;
+  static constexpr std::size_t max_spare = 2;
   struct Spare {
-    Spare() { left.reserve(most_spare); }  // so that giving memory back, which nobody could refuse, needs none
+    Spare() { left.reserve(max_spare); }  // so that giving memory back, which nobody could refuse, needs none
     std::mutex mutex;
     std::vector<T> left;  ///< empty but for the kept members
   };
@@ -70,7 +70,7 @@ double twice_mean_samples(const Film& film);
 
 /// How many rays a path through each pixel takes: the mean over cells of 4 x 4 pixels. Their first 4 samples are
 /// rendered once more to count it. Empty if `give_up` was set meanwhile.
-std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Crew& crew,
+std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, ThreadPool& thread_pool,
                               const std::atomic<bool>& give_up);
 
 /// Numbers >= 0 as grey: the largest is white.
@@ -89,6 +89,6 @@ float farthest(const std::vector<FirstHit>& hits);
 std::vector<float> object_rgba(const std::vector<FirstHit>& hits, const RenderScene& scene);
 
 /// What is first seen through the centre of each pixel of the image.
-std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, Crew& crew);
+std::vector<FirstHit> find_first_hits(const Kernels& kernels, const SceneView& scene, ThreadPool& thread_pool);
 
 }  // namespace tyndall

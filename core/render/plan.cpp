@@ -43,10 +43,10 @@ struct Cells {
   }
 };
 
-constexpr double most_taken = 1 << 24;  // more samples do not fit into a film's sums
+constexpr double max_taken = 1 << 24;  // more samples do not fit into a film's sums
 
-void for_rows(Crew* crew, int rows, const std::function<void(int)>& job) {
-  if (crew) return crew->for_each(rows, job);
+void for_rows(ThreadPool* thread_pool, int rows, const std::function<void(int)>& job) {
+  if (thread_pool) return thread_pool->for_each(rows, job);
   for (int row = 0; row < rows; ++row) job(row);
 }
 
@@ -71,7 +71,7 @@ Variance variance_in(const Film& film, const std::vector<double>& errors, const 
 
 /// Cube root of the mean over the window around a cell, without the cell itself. If squared error falls with the square
 /// of the count, counts in proportion to this number make the sum of squared errors smallest.
-double need_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
+double demand_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
   Variance around;
   for (int v = std::max(row - window_reach, 0); v <= std::min(row + window_reach, cells.rows - 1); ++v)
     for (int u = std::max(column - window_reach, 0); u <= std::min(column + window_reach, cells.columns - 1); ++u) {
@@ -84,21 +84,21 @@ double need_of(const std::vector<Variance>& variances, const Cells& cells, int c
 }
 
 /// What each cell needs, relative to the mean over all cells; at least a little, so that a round can reach its mean.
-std::vector<double> needs_of(const Film& film, const Cells& cells, Crew* crew) {
-  const std::vector<double> errors = squared_relative_errors(film, crew);
+std::vector<double> demands_of(const Film& film, const Cells& cells, ThreadPool* thread_pool) {
+  const std::vector<double> errors = squared_relative_errors(film, thread_pool);
   std::vector<Variance> variances(cells.count());
-  for_rows(crew, cells.rows, [&](int row) {
+  for_rows(thread_pool, cells.rows, [&](int row) {
     for (int column = 0; column < cells.columns; ++column)
       variances[cells.index(column, row)] = variance_in(film, errors, cells.pixels(column, row));
   });
-  std::vector<double> needs(cells.count());
-  for_rows(crew, cells.rows, [&](int row) {
+  std::vector<double> demands(cells.count());
+  for_rows(thread_pool, cells.rows, [&](int row) {
     for (int column = 0; column < cells.columns; ++column)
-      needs[cells.index(column, row)] = need_of(variances, cells, column, row);
+      demands[cells.index(column, row)] = demand_of(variances, cells, column, row);
   });
-  const double mean = std::accumulate(needs.begin(), needs.end(), 0.0) / static_cast<double>(needs.size());
-  for (double& need : needs) need = mean > 0 ? std::max(need / mean, 1e-3) : 1;
-  return needs;
+  const double mean = std::accumulate(demands.begin(), demands.end(), 0.0) / static_cast<double>(demands.size());
+  for (double& demand : demands) demand = mean > 0 ? std::max(demand / mean, 1e-3) : 1;
+  return demands;
 }
 
 /// A number in [0, 2^16) for each cell, by multiples of the golden ratio, which spreads the numbers of neighbours in
@@ -111,61 +111,61 @@ std::uint32_t rounded(double count) { return std::bit_floor(static_cast<std::uin
 
 /// Gives each cell a count in proportion to its need: a need of 1 gets `scale` samples. Also sums the counts over all
 /// pixels.
-struct Shares {
+struct SampleAllocation {
   std::vector<std::uint64_t> areas;
-  const std::vector<double>& needs;
+  const std::vector<double>& demands;
   const std::vector<PlannedSamples>& planned;
   double mean;
 
   double wish(std::size_t cell, double scale) const {
-    return std::min(std::clamp(scale * needs[cell], least_of_mean * mean, most_of_mean * mean), most_taken);
+    return std::min(std::clamp(scale * demands[cell], min_of_mean * mean, max_of_mean * mean), max_taken);
   }
   std::uint32_t of(std::size_t cell, double scale) const {
     return std::max(rounded(wish(cell, scale)), planned[cell].from);
   }
   double total(double scale) const {
     double sum = 0;
-    for (std::size_t i = 0; i < needs.size(); ++i) sum += static_cast<double>(of(i, scale) * areas[i]);
+    for (std::size_t i = 0; i < demands.size(); ++i) sum += static_cast<double>(of(i, scale) * areas[i]);
     return sum;
   }
 };
 
 /// The highest scale whose total is at most `budget`.
-double find_scale(const Shares& shares, double budget) {
-  double low = 0, high = shares.mean;
-  while (shares.total(high) <= budget && high < 1e6 * shares.mean) low = high, high *= 2;
+double find_scale(const SampleAllocation& allocation, double budget) {
+  double low = 0, high = allocation.mean;
+  while (allocation.total(high) <= budget && high < 1e6 * allocation.mean) low = high, high *= 2;
   for (int halving = 0; halving < 16; ++halving) {
     const double middle = 0.5 * (low + high);
-    (shares.total(middle) <= budget ? low : high) = middle;
+    (allocation.total(middle) <= budget ? low : high) = middle;
   }
   return low;
 }
 
 /// Rounding leaves a part of the budget. Spends it on cells that were rounded down, so that the mean of the counts
 /// becomes the number of samples that the picture is labelled with.
-void spend(double left, const Shares& shares, double scale, std::vector<PlannedSamples>& planned) {
+void spend(double left, const SampleAllocation& allocation, double scale, std::vector<PlannedSamples>& planned) {
   for (std::size_t i = 0; i < planned.size(); ++i) {
-    if (shares.wish(i, scale) <= planned[i].to) continue;
+    if (allocation.wish(i, scale) <= planned[i].to) continue;
     const double more =
-        std::min<double>(planned[i].to, 2 * std::floor(left / static_cast<double>(2 * shares.areas[i])));
+        std::min<double>(planned[i].to, 2 * std::floor(left / static_cast<double>(2 * allocation.areas[i])));
     planned[i].to += static_cast<std::uint32_t>(more);
-    left -= more * static_cast<double>(shares.areas[i]);
+    left -= more * static_cast<double>(allocation.areas[i]);
   }
 }
 
 /// The factor by which the best counts would lower the squared error below that of even counts, if it falls as 1/count.
 /// The best counts are in proportion to the root of the variance.
-double best_gain(const std::vector<double>& needs) {
+double best_gain(const std::vector<double>& demands) {
   double variances = 0, roots = 0;
-  for (const double need : needs) variances += need * need * need, roots += need * std::sqrt(need);
-  return variances * static_cast<double>(needs.size()) / (roots * roots);
+  for (const double demand : demands) variances += demand * demand * demand, roots += demand * std::sqrt(demand);
+  return variances * static_cast<double>(demands.size()) / (roots * roots);
 }
 
 /// The same factor for a plan.
-double expected_gain(const std::vector<double>& needs, const std::vector<PlannedSamples>& planned, double mean) {
+double expected_gain(const std::vector<double>& demands, const std::vector<PlannedSamples>& planned, double mean) {
   double even = 0, as_planned = 0;
-  for (std::size_t i = 0; i < needs.size(); ++i) {
-    const double variance = needs[i] * needs[i] * needs[i];
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    const double variance = demands[i] * demands[i] * demands[i];
     even += variance / mean, as_planned += variance / planned[i].to;
   }
   return even / as_planned;
@@ -181,7 +181,7 @@ std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count)
 
 }  // namespace
 
-void plan_round(Film& film, Crew* crew) {
+void plan_round(Film& film, ThreadPool* thread_pool) {
   const Cells cells(film.region);
   std::vector<PlannedSamples> planned(cells.count());
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -190,27 +190,27 @@ void plan_round(Film& film, Crew* crew) {
   }
   film.planned = std::move(planned);
   const double mean = 2.0 * round_mean(film, &PlannedSamples::from);
-  const std::vector<double> needs = needs_of(film, cells, crew);
+  const std::vector<double> demands = demands_of(film, cells, thread_pool);
   const bool still_even = !planned_unevenly(film);
   const auto stay_even = [&] {
     for (PlannedSamples& p : film.planned) p.to = static_cast<std::uint32_t>(mean);
   };
-  if (still_even && best_gain(needs) < least_gain) return stay_even();  // not even the best counts would gain enough
-  const Shares shares{cells.areas(), needs, film.planned, mean};
-  const double budget = mean * static_cast<double>(film.pixels.size()), scale = find_scale(shares, budget);
-  const double left = budget - shares.total(scale);
-  for (std::size_t i = 0; i < needs.size(); ++i) film.planned[i].to = shares.of(i, scale);
-  spend(left, shares, scale, film.planned);
-  if (still_even && expected_gain(needs, film.planned, mean) < least_gain) stay_even();
+  if (still_even && best_gain(demands) < min_gain) return stay_even();  // not even the best counts would gain enough
+  const SampleAllocation allocation{cells.areas(), demands, film.planned, mean};
+  const double budget = mean * static_cast<double>(film.pixels.size()), scale = find_scale(allocation, budget);
+  const double left = budget - allocation.total(scale);
+  for (std::size_t i = 0; i < demands.size(); ++i) film.planned[i].to = allocation.of(i, scale);
+  spend(left, allocation, scale, film.planned);
+  if (still_even && expected_gain(demands, film.planned, mean) < min_gain) stay_even();
 }
 
 std::uint32_t planned_mean(const Film& film) {
   return film.planned.empty() ? 0 : round_mean(film, &PlannedSamples::to);
 }
 
-std::uint32_t end_of_round(Film& film, std::uint32_t taken, Crew* crew) {
+std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool* thread_pool) {
   if (taken < warm_up) return warm_up;
-  if (taken >= planned_mean(film)) plan_round(film, crew);
+  if (taken >= planned_mean(film)) plan_round(film, thread_pool);
   return planned_mean(film);
 }
 
@@ -246,7 +246,7 @@ std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
 std::uint32_t labelled_spp(const Film& film) { return labelled_spp(film, totals(film)); }
 
 std::uint32_t labelled_spp(const Film& film, const FilmTotals& sum) {
-  if (film.planned.empty()) return sum.least_taken;
+  if (film.planned.empty()) return sum.min_taken;
   return static_cast<std::uint32_t>(
       std::llround(static_cast<double>(sum.samples) / static_cast<double>(film.pixels.size())));
 }

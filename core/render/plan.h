@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/film/film.h"
 #include "core/film/rounds.h"
 
@@ -28,23 +28,23 @@
 namespace tyndall {
 
 inline constexpr int cell_edge = planned_cell_edge;
-inline constexpr std::uint32_t warm_up = 16;   ///< samples that every pixel gets before the first round
-inline constexpr int window_reach = 2;         ///< cells to each side whose errors decide on a cell
-inline constexpr double least_of_mean = 0.25;  ///< a cell gets at least this share of the mean count
-inline constexpr double most_of_mean = 16;     ///< and at most so many times the mean
-inline constexpr double least_gain = 1.1;      ///< how many times less relMSE uneven counts must promise to be used
+inline constexpr std::uint32_t warm_up = 16;  ///< samples that every pixel gets before the first round
+inline constexpr int window_reach = 2;        ///< cells to each side whose errors decide on a cell
+inline constexpr double min_of_mean = 0.25;   ///< a cell gets at least this fraction of the mean count
+inline constexpr double max_of_mean = 16;     ///< and at most so many times the mean
+inline constexpr double min_gain = 1.1;       ///< how many times less relMSE uneven counts must promise to be used
 
 /// Begins a round: sets film.planned, for a mean of twice the samples that the film has, made a power of two. All
-/// pixels of a cell must have the same count. crew: shares the work; null: the caller's thread does it, with the same
-/// result.
-void plan_round(Film& film, Crew* crew = nullptr);
+/// pixels of a cell must have the same count. thread_pool: shares the work; null: the caller's thread does it, with the
+/// same result.
+void plan_round(Film& film, ThreadPool* thread_pool = nullptr);
 
 /// The mean number of samples at the end of the planned round; 0 if no round is planned.
 std::uint32_t planned_mean(const Film& film);
 
 /// The mean number of samples at which a pass that starts at a mean of `taken` has to end at the latest: warm_up, later
 /// the end of the round. Plans the next round if the last one is over.
-std::uint32_t end_of_round(Film& film, std::uint32_t taken, Crew* crew = nullptr);
+std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool* thread_pool = nullptr);
 
 /// Whether a round is planned that does not give all cells the same counts.
 bool planned_unevenly(const Film& film);

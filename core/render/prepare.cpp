@@ -2,7 +2,7 @@
 
 #include "core/compile/compile.h"
 #include "core/render/caustics.h"
-#include "core/specular/find_glints.h"
+#include "core/specular/find_subpixel_lights.h"
 #include "core/targets/scalar.h"
 
 #include <utility>
@@ -14,11 +14,11 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
       columns_(std::move(columns)),
       textures_(texture_views(columns_)),
       view_(view_of(columns_, textures_)) {
-  subpixel_lights_ = find_glints(view_);
-  view_.glint_count = static_cast<int>(subpixel_lights_.size());
-  view_.glints = subpixel_lights_.data();
-  if (columns_.may_share) reuse_gain_ = probe_sharing(view_, trace_groups);
-  view_.shares = columns_.may_share && is_worthwhile(reuse_gain_);
+  subpixel_lights_ = find_subpixel_lights(view_);
+  view_.subpixel_light_count = static_cast<int>(subpixel_lights_.size());
+  view_.subpixel_lights = subpixel_lights_.data();
+  if (columns_.may_reuse_paths) reuse_gain_ = probe_reuse(view_, trace_groups);
+  view_.reuses_paths = columns_.may_reuse_paths && is_worthwhile(reuse_gain_);
 }
 
 double PreparedScene::caustic_chance() const {

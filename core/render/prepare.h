@@ -26,9 +26,9 @@ class PreparedScene {
   /// What kernels read; valid as long as this object.
   const SceneView& view() const { return view_; }
   /// Whether second vertices are shared between pixels, because that is allowed, possible and pays.
-  bool reuses_paths() const { return view_.shares; }
+  bool reuses_paths() const { return view_.reuses_paths; }
   /// What sharing would gain; not probed where it is not allowed or not possible.
-  const SharingGain& reuse_gain() const { return reuse_gain_; }
+  const ReuseGain& reuse_gain() const { return reuse_gain_; }
   /// See chance_of_caustics(). Found when it is first asked for, as only pictures of many samples need it.
   double caustic_chance() const;
 
@@ -36,8 +36,8 @@ class PreparedScene {
   std::shared_ptr<const Scene> scene_;
   RenderScene columns_;
   std::vector<TextureView> textures_;
-  std::vector<Glint> subpixel_lights_;
-  SharingGain reuse_gain_;
+  std::vector<SubpixelLight> subpixel_lights_;
+  ReuseGain reuse_gain_;
   SceneView view_;
   mutable std::once_flag caustic_chance_found_;
   mutable double caustic_chance_ = 1;

@@ -8,11 +8,11 @@ namespace tyndall {
 double picture_budget(bool only_camera, double since) { return only_camera ? 0.016 : since < 0.3 ? 0.033 : 0.075; }
 
 int preview_step(std::int64_t pixels, double paths_per_second, double budget, int before) {
-  constexpr int most = 8;
-  if (!(paths_per_second > 0)) return most;
+  constexpr int maximum = 8;
+  if (!(paths_per_second > 0)) return maximum;
   const double wanted = std::sqrt(static_cast<double>(pixels) / (paths_per_second * budget));
   const auto step_of = [](double ideal) {
-    return static_cast<int>(std::ceil(std::clamp(ideal, 1.0, static_cast<double>(most))));
+    return static_cast<int>(std::ceil(std::clamp(ideal, 1.0, static_cast<double>(maximum))));
   };
   if (before < 1 || wanted > 1.1 * before) return step_of(wanted);
   return std::min(before, step_of(1.25 * wanted));
@@ -25,10 +25,10 @@ int step_of_shown(std::int64_t pixels, std::int64_t shown) {
 }
 
 int coarse_clean_step(std::int64_t pixels, double paths_per_second, double filter_seconds) {
-  constexpr double budget = 0.1, soon = 0.04, most = 8;
-  if (!(paths_per_second > 0)) return static_cast<int>(most);
+  constexpr double budget = 0.1, soon = 0.04, maximum = 8;
+  if (!(paths_per_second > 0)) return static_cast<int>(maximum);
   const double whole = static_cast<double>(pixels) * (2 / paths_per_second + filter_seconds);
-  return whole <= soon ? 1 : static_cast<int>(std::ceil(std::clamp(std::sqrt(whole / budget), 2.0, most)));
+  return whole <= soon ? 1 : static_cast<int>(std::ceil(std::clamp(std::sqrt(whole / budget), 2.0, maximum)));
 }
 
 int FirstPictures::step_for(std::int64_t pixels, double budget, std::int64_t shown) {

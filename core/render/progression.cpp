@@ -13,8 +13,8 @@ namespace tyndall {
 namespace {
 
 /// A part of a film's region, made larger so that it cuts no block of pixels that share; empty where they do not meet.
-Region part_of(const Film& film, const Region& part, bool shares) {
-  const int across = shares ? block_width : 1, down = shares ? block_height : 1;
+Region part_of(const Film& film, const Region& part, bool reuses_paths) {
+  const int across = reuses_paths ? block_width : 1, down = reuses_paths ? block_height : 1;
   const auto up = [](int at, int step) { return (at + step - 1) / step * step; };
   const Region all = film.region;
   return {std::max(std::max(part.x0, 0) / across * across, all.x0),
@@ -22,21 +22,21 @@ Region part_of(const Film& film, const Region& part, bool shares) {
           std::min(up(std::max(part.y1, 0), down), all.y1)};
 }
 
-std::uint32_t least_taken(const Film& film, const Region& part) {
-  std::uint32_t least = film.at(part.x0, part.y0).taken;
+std::uint32_t min_taken(const Film& film, const Region& part) {
+  std::uint32_t minimum = film.at(part.x0, part.y0).taken;
   for (int y = part.y0; y < part.y1; ++y)
-    for (int x = part.x0; x < part.x1; ++x) least = std::min(least, film.at(x, y).taken);
-  return least;
+    for (int x = part.x0; x < part.x1; ++x) minimum = std::min(minimum, film.at(x, y).taken);
+  return minimum;
 }
 
 }  // namespace
 
 std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second) {
   const double per_second = std::max(paths_per_second, 0.0) / static_cast<double>(std::max<std::size_t>(pixels, 1));
-  double most = length.most;
-  if (std::isfinite(length.seconds)) most = std::clamp(per_second * length.seconds, 1.0, most);
-  const double wish = std::max(length.growth * taken, per_second * length.least_seconds);
-  return std::max(static_cast<std::uint32_t>(std::min(wish, most)), 1u);
+  double maximum = length.maximum;
+  if (std::isfinite(length.seconds)) maximum = std::clamp(per_second * length.seconds, 1.0, maximum);
+  const double wish = std::max(length.growth * taken, per_second * length.min_seconds);
+  return std::max(static_cast<std::uint32_t>(std::min(wish, maximum)), 1u);
 }
 
 PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) : options_(options) {
@@ -45,12 +45,12 @@ PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) 
     taken_ = static_cast<std::uint32_t>(sum.samples / film.pixels.size());
     return;
   }
-  taken_ = sum.least_taken;
+  taken_ = sum.min_taken;
   // No pass does more than double the samples, apart from those that refine a part first.
-  if (sum.most_taken > 4 * std::max(sum.least_taken, options.length.most))
-    most_ = sum.most_taken;
-  else if (sum.most_taken > sum.least_taken)
-    level_to_ = sum.most_taken;
+  if (sum.max_taken > 4 * std::max(sum.min_taken, options.length.maximum))
+    max_ = sum.max_taken;
+  else if (sum.max_taken > sum.min_taken)
+    level_to_ = sum.max_taken;
 }
 
 Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
@@ -63,7 +63,7 @@ Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double 
   end_ = 1;
   if (level_to_ > 0) {
     end_ = level_to_;
-    const Tiling tiling{options_.tile, engine.scene.shares};
+    const Tiling tiling{options_.tile, engine.scene.reuses_paths};
     pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
   } else if (coarse_) {
     pass_ = std::make_unique<Pass>(film.region, film.first_sample, film.first_sample + 1, options_.coarse_step, 0,
@@ -76,15 +76,15 @@ Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double 
 
 std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
                                               const RenderEngine& engine) {
-  const Tiling tiling{options_.tile, engine.scene.shares};
+  const Tiling tiling{options_.tile, engine.scene.reuses_paths};
   end_ = taken_ + pass_samples(options_.length, taken_, film.pixels.size(), paths_per_second);
   if (limit) end_ = std::min(end_, *limit);
-  if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.crew));
+  if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.thread_pool));
   if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
-  if (most_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
+  if (max_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
   // The pixels of a coarse pass have their first sample, unless that was one without its group.
   const bool after_coarse = taken_ == 0 && coarse_done_;
-  replaces_ = after_coarse && tiling.shares;
+  replaces_ = after_coarse && tiling.reuses_paths;
   if (replaces_) film.cut_throughput = {};
   const int skip_step = after_coarse && !replaces_ ? options_.coarse_step : 0;
   return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
@@ -93,24 +93,24 @@ std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uin
 
 std::unique_ptr<Pass> PassSchedule::refining_pass(const Film& film, std::optional<std::uint32_t> limit,
                                                   double paths_per_second, const RenderEngine& engine) {
-  const Region part = part_of(film, options_.first, engine.scene.shares);
+  const Region part = part_of(film, options_.first, engine.scene.reuses_paths);
   if (options_.adaptive || part.width() <= 0 || part.height() <= 0) return nullptr;
   const auto pixels = static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height());
-  const std::uint32_t least = least_taken(film, part);
+  const std::uint32_t minimum = min_taken(film, part);
   PassLength length = options_.length;
-  length.most = 1024;  // a small part takes little time
-  end_ = least + pass_samples(length, least, pixels, paths_per_second);
+  length.maximum = 1024;  // a small part takes little time
+  end_ = minimum + pass_samples(length, minimum, pixels, paths_per_second);
   if (limit) end_ = std::min(end_, *limit);
-  if (end_ <= least) return nullptr;
+  if (end_ <= minimum) return nullptr;
   return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), part,
-                                Tiling{options_.tile, engine.scene.shares});
+                                Tiling{options_.tile, engine.scene.reuses_paths});
 }
 
 void PassSchedule::finish() {
   if (coarse_)
     coarse_done_ = true;
   else if (refining_)
-    most_ = std::max(most_, end_);
+    max_ = std::max(max_, end_);
   else
     taken_ = end_;
   level_to_ = 0;
@@ -121,15 +121,15 @@ void PassSchedule::finish() {
 void Progression::start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
                         const ProgressionOptions& options) {
   const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
-  const bool emission = needs_trait<&BsdfTraits::emits>(scene.needs);
+  const bool emission = needs_trait<&BsdfTraits::emits>(scene.features);
   if (film_.pixels.size() != pixels) {
-    film_ = make_film(scene.width, scene.height, region, first_sample, scene.film_unit, emission);
+    film_ = make_film(scene.width, scene.height, region, first_sample, scene.film_quantum, emission);
   } else {  // the first pass replaces what the pixels hold
     film_.emission.resize(emission ? pixels : 0);
     film_.width = scene.width, film_.height = scene.height;
     film_.region = region;
     film_.first_sample = first_sample;
-    film_.unit = scene.film_unit;
+    film_.quantum = scene.film_quantum;
     film_.cut_throughput = {};
     film_.planned.clear();
   }
@@ -177,7 +177,7 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
   Pass& pass = schedule_.next(film_, limits.spp, tally_.last_paths_per_second, engine);
   const Clock::time_point start = Clock::now();
   running_from_ = options_.count_breaks ? last_write_ : start;
-  const bool whole = pass.run(engine.crew, engine.kernels, engine.scene, film_, give_up, poll);
+  const bool whole = pass.run(engine.thread_pool, engine.kernels, engine.scene, film_, give_up, poll);
   last_write_ = Clock::now();
   pass_seconds_ += seconds_between(start, last_write_);
   tally_.seconds += seconds_between(*running_from_, last_write_);

@@ -26,13 +26,13 @@ struct Limits {
 
 /// How many samples a pixel each pass takes. The first pass takes one.
 struct PassLength {
-  double growth = 1;        ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
-  std::uint32_t most = 32;  ///< samples of the longest pass
+  double growth = 1;           ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
+  std::uint32_t maximum = 32;  ///< samples of the longest pass
   double seconds =
       std::numeric_limits<double>::infinity();  ///< about how long a pass may take, by the last one's speed
   /// A pass takes as many samples as fit into this time, if these are more than `growth` says: each pass goes through
   /// the whole film once, which costs as much as half a sample of a simple scene.
-  double least_seconds = 0;
+  double min_seconds = 0;
 };
 
 /// Samples of the next pass, at least 1. taken: samples a pixel so far; paths_per_second: <= 0 if unknown.
@@ -82,7 +82,7 @@ class PassSchedule {
   const Pass* pass() const { return pass_.get(); }  ///< null between passes
   bool replaces() const { return replaces_; }       ///< whether the pass replaces the samples of the coarse one
   std::uint32_t taken() const { return taken_; }    ///< samples of every pixel; after adaptive rounds their mean
-  std::uint32_t most() const { return std::max(taken_, most_); }  ///< samples of those that were refined first
+  std::uint32_t maximum() const { return std::max(taken_, max_); }  ///< samples of those that were refined first
   bool coarse_done() const { return coarse_done_; }
   int coarse_step() const { return options_.coarse_step; }
 
@@ -96,7 +96,7 @@ class PassSchedule {
   std::unique_ptr<Pass> pass_;
   bool coarse_ = false, coarse_done_ = false, refining_ = false, replaces_ = false;
   std::uint32_t taken_ = 0, end_ = 0;
-  std::uint32_t most_ = 0;      ///< above taken_: so many samples have pixels that were refined first
+  std::uint32_t max_ = 0;       ///< above taken_: so many samples have pixels that were refined first
   std::uint32_t level_to_ = 0;  ///< an interrupted pass left some pixels with so many: all get these first; 0: none did
 };
 
@@ -125,8 +125,8 @@ class Progression {
   /// Whether the picture is finished.
   bool reached(const Limits& limits) const;
   /// Takes samples until the next pass is complete, and returns true. If `give_up` is set meanwhile it returns false
-  /// within one unit of work, about 2 ms; the next call then goes on with that pass. Estimates the error if that is
-  /// due. poll: see Crew::for_each.
+  /// within one tile job, about 2 ms; the next call then goes on with that pass. Estimates the error if that is due.
+  /// poll: see ThreadPool::for_each.
   bool run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
                 const std::function<void()>& poll = {});
 
@@ -139,7 +139,7 @@ class Progression {
   /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass is there.
   std::uint32_t taken() const { return schedule_.taken(); }
   /// Samples of the pixels that were refined first; taken() where there are none.
-  std::uint32_t most_taken() const { return schedule_.most(); }
+  std::uint32_t max_taken() const { return schedule_.maximum(); }
   /// See ProgressionOptions; from the next pass on.
   void set_first(const Region& first);
   /// Whether there is something to show.

@@ -22,10 +22,10 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   made.count_breaks = true;
   // If time or error decide when to stop, passes are short, because both are looked at between passes only. Otherwise
   // there are few passes: each doubles the samples, or takes a tenth of a second, until it is as long as
-  // PassLength::most allows.
+  // PassLength::maximum allows.
   const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
   made.length.growth = looks ? 0.25 : 1;
-  made.length.least_seconds = looks ? 0 : 0.1;
+  made.length.min_seconds = looks ? 0 : 0.1;
   if (reports) made.estimates = {.seconds = 0.5, .growth = 0.5};
   return made;
 }
@@ -48,13 +48,13 @@ class CleanView {
 
   /// Whether its error is small enough to stop. Filters only so often that this takes at most a quarter of the time.
   bool is_good(const Progression& picture) {
-    if (!wanted_ || target_ <= 0 || picture.taken() < least_clean_spp) return false;
+    if (!wanted_ || target_ <= 0 || picture.taken() < min_clean_spp) return false;
     if (cleaned_ != picture.taken() && seconds_ <= picture.tally().seconds / 4) make(picture.film(), picture.taken());
     return cleaned_ == picture.taken() && clean_.relative_error <= target_;
   }
   /// Gives the clean view of the film to the result.
   void finish(const Film& film, std::uint32_t taken, bool whole, RenderResult& result) {
-    if (!wanted_ || totals(film).least_taken < least_clean_spp) return;
+    if (!wanted_ || totals(film).min_taken < min_clean_spp) return;
     if (!whole || cleaned_ != taken) make(film, taken);
     result.clean = std::move(clean_);
     result.seconds_clean = seconds_;
@@ -98,8 +98,8 @@ class Rendering {
       picture_.start(columns, options.region.value_or(whole), options.first_sample, how);
     else
       picture_.go_on(std::move(film), how);
-    crew_.emplace(options.threads);
-    engine_.emplace(RenderEngine{*crew_, kernels_, view_});
+    thread_pool_.emplace(options.threads);
+    engine_.emplace(RenderEngine{*thread_pool_, kernels_, view_});
     clean_.emplace(options, *engine_, picture_.levels());
   }
 
@@ -135,7 +135,7 @@ class Rendering {
   }
 
   void take_breaks() {
-    if (std::exchange(film_due_, false)) options_.breaks.take_film(picture_.film(), *crew_);
+    if (std::exchange(film_due_, false)) options_.breaks.take_film(picture_.film(), *thread_pool_);
     if (!std::exchange(result_due_, false)) return;
     RenderResult so_far = result();
     options_.breaks.take_result(so_far);
@@ -148,7 +148,7 @@ class Rendering {
     const PassTally tally = picture_.tally();
     result.rays = tally.rays, result.shadow_rays = tally.shadow_rays;
     result.seconds = tally.seconds;
-    result.threads = crew_->size();
+    result.threads = thread_pool_->size();
     result.kernels = kernels_;
     result.interrupted = stopped_;
     const bool whole = !picture_.within_pass();
@@ -167,7 +167,7 @@ class Rendering {
   Limits limits_;
   const SceneView& view_;
   Progression picture_;
-  std::optional<Crew> crew_;
+  std::optional<ThreadPool> thread_pool_;
   std::optional<RenderEngine> engine_;
   std::optional<CleanView> clean_;
   std::atomic<bool> give_up_ = false;
@@ -182,10 +182,10 @@ RenderResult render(const PreparedScene& scene, const RenderOptions& options, co
 }
 
 ErrorEstimate estimate_error(const PreparedScene& scene, const Kernels& kernels, const Film& film, int threads) {
-  Crew crew(threads);
+  ThreadPool thread_pool(threads);
   PixelLevels levels;
   const std::atomic<bool> never = false;
-  return estimate_error(film, {crew, kernels, scene.view()}, levels, never);
+  return estimate_error(film, {thread_pool, kernels, scene.view()}, levels, never);
 }
 
 FinishedPicture finished_picture(const PreparedScene& scene, const RenderResult& result) {
@@ -197,9 +197,9 @@ FinishedPicture finished_picture(const PreparedScene& scene, const RenderResult&
   picture.image = {film.region.width(), film.region.height(), resolve(film)};
   picture.hash = image_hash(picture.image.width, picture.image.height, picture.image.rgb);
   if (result.clean) picture.clean_hash = image_hash(result.clean->width, result.clean->height, result.clean->rgb);
-  const std::uint32_t least = picture.totals.least_taken;
-  picture.rare_bright_paths = has_rare_bright_paths(picture.estimate, least, scene.caustic_chance()) ||
-                              (result.clean && is_doubtful(*result.clean, least));
+  const std::uint32_t minimum = picture.totals.min_taken;
+  picture.rare_bright_paths = has_rare_bright_paths(picture.estimate, minimum, scene.caustic_chance()) ||
+                              (result.clean && is_doubtful(*result.clean, minimum));
   return picture;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/accuracy/estimate.h"
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/clean/clean.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
@@ -20,11 +20,11 @@ namespace tyndall {
 struct RenderResult;
 
 /// What a caller does with a picture while it is rendered. About every 50 ms it is asked whether that is due. If it is,
-/// the threads stop within one unit of work (2 ms), wait until it is done on the calling thread, and go on. That
-/// changes no sample. Each may be empty.
+/// the threads stop within one tile job (2 ms), wait until it is done on the calling thread, and go on. That changes no
+/// sample. Each may be empty.
 struct RenderBreaks {
   std::function<bool()> film_due;
-  std::function<void(const Film&, Crew&)> take_film;  ///< gets the threads, too, which have nothing else to do
+  std::function<void(const Film&, ThreadPool&)> take_film;  ///< gets the threads, too, which have nothing else to do
   std::function<bool()> result_due;
   std::function<void(const RenderResult&)> take_result;  ///< gets what render() would return now
 };

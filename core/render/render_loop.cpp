@@ -19,7 +19,7 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step, cons
   options.first = first;
   options.adaptive = scene.render.adaptive;
   options.coarse_step = coarse_step;
-  options.length = {.growth = 1, .most = 64, .seconds = pass_budget};
+  options.length = {.growth = 1, .maximum = 64, .seconds = pass_budget};
   options.estimates = {.seconds = 0.4, .growth = 0, .each_below = 16};
   return options;
 }
@@ -27,7 +27,7 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step, cons
 }  // namespace
 
 void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
-  if (picture.taken() < least_rare_spp || !picture.estimate_is_new()) return;
+  if (picture.taken() < min_rare_spp || !picture.estimate_is_new()) return;
   found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), shown.prepared->caustic_chance());
 }
 
@@ -35,7 +35,7 @@ RenderLoop::RenderLoop(Mailbox& mail, Kernels kernels, int threads, std::functio
     : mail_(mail),
       kernels_(kernels),
       on_frame_(std::move(on_frame)),
-      crew_(std::make_unique<Crew>(threads)),
+      thread_pool_(std::make_unique<ThreadPool>(threads)),
       clean_(kernels) {}
 
 void RenderLoop::run(const StopToken& stop) {
@@ -84,8 +84,8 @@ void RenderLoop::follow(const ReceivedRequest& next) {
   const RenderRequest& wanted = request_.wanted;
   clean_.set_wanted(wanted.clean);
   picture_.set_first(wanted.refine_first);
-  if (change.threads && wanted.threads > 0 && wanted.threads != crew_->size())
-    tell_if_it_fails(next.edit, [&] { crew_ = std::make_unique<Crew>(wanted.threads); });
+  if (change.threads && wanted.threads > 0 && wanted.threads != thread_pool_->size())
+    tell_if_it_fails(next.edit, [&] { thread_pool_ = std::make_unique<ThreadPool>(wanted.threads); });
   bool goes_on = false;
   if (change.scene) {
     goes_on = take_scene();
@@ -132,7 +132,7 @@ bool RenderLoop::go_on_from(Film* film) {
   const RenderScene& scene = shown_.prepared->columns();
   const Region whole{0, 0, scene.width, scene.height};
   if (!film || film->width != scene.width || film->height != scene.height || !(film->region == whole) ||
-      film->first_sample != 0 || film->unit != scene.film_unit)
+      film->first_sample != 0 || film->quantum != scene.film_quantum)
     return false;
   picture_.go_on(std::move(*film), progression_options(shown_.prepared->scene(), 1, request_.wanted.refine_first));
   rare_paths_.start_over();
@@ -159,7 +159,7 @@ void RenderLoop::finish_pass() {
   report_pixel();
   publish();
   if (!first) return;
-  give_way();
+  yield();
   make_coarse_clean();
 }
 
@@ -174,13 +174,13 @@ void RenderLoop::report_pixel() {
 }
 
 /// The first picture of an edit is on its way to the screen: until it is there, the processors are for that.
-void RenderLoop::give_way() {
+void RenderLoop::yield() {
   if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
 }
 
 /// Shows what the picture will look like once it has samples to filter. A request that cannot wait interrupts this.
 void RenderLoop::make_coarse_clean() {
-  if (request_.limit() < least_clean_spp || picture_.taken() >= least_clean_spp) return;
+  if (request_.limit() < min_clean_spp || picture_.taken() >= min_clean_spp) return;
   if (!clean_.make_coarse(picture_.film(), first_pictures_.paths_per_second(), engine(), mail_.give_up())) return;
   publish();
   mail_.wait_until_shown(frames_);
@@ -197,7 +197,7 @@ void RenderLoop::publish() {
   const View view = request_.wanted.view;
   frame->clean = clean_.latest();
   frame->grid = views_.draw(view, picture_, frame->clean.get(), engine(), mail_.give_up(), frame->rgba);
-  if (view != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *crew_, frame->beauty);
+  if (view != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *thread_pool_, frame->beauty);
   const Clock::time_point drawn = Clock::now();
   first_pictures_.note_drawing(seconds_between(start, drawn));
   if (!first_picture_ms_) first_picture_ms_ = 1000 * seconds_between(shown_.submitted, drawn);
@@ -210,7 +210,7 @@ void RenderLoop::publish() {
   frame->white = views_.white();
   frame->awaits_clean = clean_is_due();
   frame->step = picture_.step();
-  frame->most_spp = picture_.most_taken();
+  frame->max_spp = picture_.max_taken();
   frame->spp = picture_.taken();
   frame->relative_error = picture_.error();
   frame->rare_bright_paths = rare_paths_.found() || (frame->clean && frame->clean->doubtful);
@@ -218,11 +218,11 @@ void RenderLoop::publish() {
   frame->mrays_per_s = tally.last_mrays_per_s;
   frame->first_picture_ms = *first_picture_ms_;
   frame->samples = tally.samples, frame->rejected = tally.rejected, frame->truncated = tally.truncated;
-  frame->shares = shown_.prepared->reuses_paths();
+  frame->reuses_paths = shown_.prepared->reuses_paths();
   frame->cut_throughput = picture_.cut_throughput();
   frame->film_bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
   frame->isa = kernels_.isa;
-  frame->lanes = kernels_.lanes, frame->threads = crew_->size();
+  frame->lanes = kernels_.lanes, frame->threads = thread_pool_->size();
   mail_.post(frame);
   if (on_frame_) on_frame_();
 }

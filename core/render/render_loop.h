@@ -49,19 +49,19 @@ class RenderLoop {
   void start_over(double budget);
   void answer_films();
   void finish_pass();
-  void give_way();
+  void yield();
   void report_pixel();
   void publish();
   void make_clean();
   void make_coarse_clean();
   bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(request_.limit())); }
   bool unfinished(std::uint32_t limit) const { return shown_.prepared && picture_.taken() < limit; }
-  RenderEngine engine() const { return {*crew_, kernels_, shown_.prepared->view()}; }
+  RenderEngine engine() const { return {*thread_pool_, kernels_, shown_.prepared->view()}; }
 
   Mailbox& mail_;
   Kernels kernels_;
   std::function<void()> on_frame_;
-  std::unique_ptr<Crew> crew_;
+  std::unique_ptr<ThreadPool> thread_pool_;
 
   ShownScene shown_;
   Progression picture_;

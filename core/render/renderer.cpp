@@ -59,9 +59,10 @@ Renderer::Pick Renderer::pick(int x, int y) const {
   const auto column = static_cast<double>(x) + 0.5, row = static_cast<double>(y) + 0.5;
   const CameraColumns& c = scene->camera;
   const auto widen = [](Vec3f v) { return Vec3d{v.x, v.y, v.z}; };
-  const Vec3d way = widen(c.corner) + column * widen(c.du) + row * widen(c.dv);
-  const double scale = static_cast<double>(hit.depth) / dot(way, widen(c.axis));
-  return {scene->object_of(hit.element), static_cast<double>(hit.depth), scene->origin + widen(c.center) + scale * way};
+  const Vec3d offset = widen(c.corner) + column * widen(c.du) + row * widen(c.dv);
+  const double scale = static_cast<double>(hit.depth) / dot(offset, widen(c.axis));
+  return {scene->object_of(hit.element), static_cast<double>(hit.depth),
+          scene->origin + widen(c.center) + scale * offset};
 }
 
 }  // namespace tyndall

@@ -7,8 +7,8 @@
 namespace tyndall {
 namespace {
 
-constexpr std::uint32_t unit_samples = 1024;
-constexpr std::uint32_t units = PixelLevels::samples / unit_samples;
+constexpr std::uint32_t job_samples = 1024;
+constexpr std::uint32_t jobs = PixelLevels::samples / job_samples;
 
 }  // namespace
 
@@ -26,24 +26,24 @@ std::vector<Vec3f> PixelLevels::of(const std::vector<std::size_t>& pixels, const
 bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
                        const std::atomic<bool>& give_up) {
   SceneView scene = engine.scene;
-  scene.seed = ~scene.seed;  // samples that have nothing to do with the film's
-  scene.shares = false;      // a pixel's samples without those of its group
+  scene.seed = ~scene.seed;    // samples that have nothing to do with the film's
+  scene.reuses_paths = false;  // a pixel's samples without those of its group
   const auto width = static_cast<std::size_t>(film.region.width());
-  std::vector<FilmPixel> parts(pixels.size() * units);
-  engine.crew.for_each(static_cast<int>(parts.size()), [&](int i) {
+  std::vector<FilmPixel> parts(pixels.size() * jobs);
+  engine.thread_pool.for_each(static_cast<int>(parts.size()), [&](int i) {
     if (give_up.load(std::memory_order_relaxed)) return;
-    const std::size_t part = static_cast<std::size_t>(i), pixel = pixels[part / units];
+    const std::size_t part = static_cast<std::size_t>(i), pixel = pixels[part / jobs];
     const int x = film.region.x0 + static_cast<int>(pixel % width),
               y = film.region.y0 + static_cast<int>(pixel / width);
-    const auto first = static_cast<std::uint32_t>(part % units) * unit_samples;
-    UnitCounts counts;
-    engine.kernels.render_unit(scene, {{x, y, x + 1, y + 1}, 1, 0, first, first + unit_samples}, film.unit,
+    const auto first = static_cast<std::uint32_t>(part % jobs) * job_samples;
+    TileCounts counts;
+    engine.kernels.render_tile(scene, {{x, y, x + 1, y + 1}, 1, 0, first, first + job_samples}, film.quantum,
                                &parts[part], counts);
   });
   if (give_up.load(std::memory_order_relaxed)) return false;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     FilmPixel whole;
-    for (std::size_t k = 0; k < units; ++k) add_pixel(whole, parts[i * units + k]);
+    for (std::size_t k = 0; k < jobs; ++k) add_pixel(whole, parts[i * jobs + k]);
     known_[pixels[i]] = mean(film, whole);
   }
   return true;
@@ -54,37 +54,37 @@ LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& le
   return [&](const std::vector<std::size_t>& pixels) { return levels.of(pixels, film, engine, give_up); };
 }
 
-std::vector<std::size_t> pixels_with_glints(const SceneView& scene, const Film& film) {
-  constexpr std::size_t most = 32;
+std::vector<std::size_t> pixels_with_subpixel_lights(const SceneView& scene, const Film& film) {
+  constexpr std::size_t maximum = 32;
   std::set<std::size_t> places;
-  for (int i = 0; i < scene.glint_count && places.size() <= most; ++i) {
-    const int x = static_cast<int>(scene.glints[i].x), y = static_cast<int>(scene.glints[i].y);
+  for (int i = 0; i < scene.subpixel_light_count && places.size() <= maximum; ++i) {
+    const int x = static_cast<int>(scene.subpixel_lights[i].x), y = static_cast<int>(scene.subpixel_lights[i].y);
     const Region& r = film.region;
     if (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1) places.insert(film.index(x, y));
   }
-  if (places.size() > most) return {};
+  if (places.size() > maximum) return {};
   return {places.begin(), places.end()};
 }
 
 ErrorEstimate estimate_error(const Film& film, const RenderEngine& engine, PixelLevels& levels,
                              const std::atomic<bool>& give_up) {
-  return estimate_error(film, &engine.crew, levels_of(film, engine, levels, give_up),
-                        pixels_with_glints(engine.scene, film));
+  return estimate_error(film, &engine.thread_pool, levels_of(film, engine, levels, give_up),
+                        pixels_with_subpixel_lights(engine.scene, film));
 }
 
 std::vector<RejectedSample> find_rejected(const Kernels& kernels, const SceneView& scene, const Film& film,
-                                          std::size_t most) {
+                                          std::size_t maximum) {
   std::vector<RejectedSample> found;
   for (int y = film.region.y0; y < film.region.y1; ++y)
     for (int x = film.region.x0; x < film.region.x1; ++x) {
       const FilmPixel& pixel = film.at(x, y);
       std::uint32_t left = pixel.rejected[0] + pixel.rejected[1];
       for (std::uint32_t i = 0; left > 0 && i < pixel.taken; ++i) {
-        if (found.size() >= most) return found;
+        if (found.size() >= maximum) return found;
         FilmPixel again{};
-        UnitCounts counts;
+        TileCounts counts;
         const std::uint32_t sample = film.first_sample + i;
-        kernels.render_unit(scene, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, film.unit, &again, counts);
+        kernels.render_tile(scene, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, film.quantum, &again, counts);
         if (again.rejected[sample & 1u] == 0) continue;
         found.push_back({x, y, sample});
         --left;

@@ -33,11 +33,11 @@ class PixelLevels {
 /// Asks `levels` for those of a film's pixels. What is returned refers to all four arguments.
 LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels, const std::atomic<bool>& give_up);
 
-/// The pixels of the film with glints (trace/glints.h), in ascending order of their places. None if there are more
-/// than 32: then chance evens out between them, and to find their levels would take long.
-std::vector<std::size_t> pixels_with_glints(const SceneView& scene, const Film& film);
+/// The pixels of the film with subpixel lights (trace/subpixel_lights.h), in ascending order of their places. None if
+/// there are more than 32: then chance evens out between them, and to find their levels would take long.
+std::vector<std::size_t> pixels_with_subpixel_lights(const SceneView& scene, const Film& film);
 
-/// The error of a film, with levels of the pixels that decide it, and of those with glints.
+/// The error of a film, with levels of the pixels that decide it, and of those with subpixel lights.
 ErrorEstimate estimate_error(const Film& film, const RenderEngine& engine, PixelLevels& levels,
                              const std::atomic<bool>& give_up);
 
@@ -48,10 +48,10 @@ struct RejectedSample {
   bool operator==(const RejectedSample&) const = default;
 };
 
-/// The first `most` of a film's rejected samples, ordered by row, pixel and index. A film only counts them, so the
+/// The first `maximum` of a film's rejected samples, ordered by row, pixel and index. A film only counts them, so the
 /// pixels that have some are sampled once more, by the kernels that made the film: that needs no memory while
 /// rendering, and which samples are named does not depend on the order in which threads met them.
 std::vector<RejectedSample> find_rejected(const Kernels& kernels, const SceneView& scene, const Film& film,
-                                          std::size_t most = 4);
+                                          std::size_t maximum = 4);
 
 }  // namespace tyndall

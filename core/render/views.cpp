@@ -12,7 +12,7 @@ void Views::change_scene(std::shared_ptr<const PreparedScene> scene) {
 
 void Views::find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up) {
   if (!costs_due_) return;
-  std::vector<float> found = find_costs(engine.kernels, engine.scene, engine.crew, give_up);
+  std::vector<float> found = find_costs(engine.kernels, engine.scene, engine.thread_pool, give_up);
   if (found.empty()) return;
   costs_ = std::move(found);
   costs_due_ = false;
@@ -21,8 +21,8 @@ void Views::find_due_costs(const RenderEngine& engine, const std::atomic<bool>& 
 /// The view of noise or of samples. While there is nothing to tell yet, the old one stays.
 void Views::draw_counts(View view, const Progression& picture, std::vector<float>& rgba) {
   const Film& film = picture.film();
-  const std::uint32_t least = view == View::noise ? 2 : 1;  // samples that tell something
-  if (picture.taken() >= least) {
+  const std::uint32_t minimum = view == View::noise ? 2 : 1;  // samples that tell something
+  if (picture.taken() >= minimum) {
     counts_ = view == View::noise ? noise_rgba(film) : samples_rgba(film);
     counts_of_ = view;
     white_of_counts_ = view == View::noise ? 1 : twice_mean_samples(film);
@@ -40,7 +40,7 @@ PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame*
   white_ = 1;
   switch (view) {
     case View::beauty:
-      return coarse_rgba(film, picture.step(), engine.crew, rgba);
+      return coarse_rgba(film, picture.step(), engine.thread_pool, rgba);
     case View::noise:
       if (clean && clean->spp > 0) {
         rgba = noise_rgba(clean->pixel_error);
@@ -61,7 +61,7 @@ PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame*
     case View::object:
       break;
   }
-  if (first_hits_.empty()) first_hits_ = find_first_hits(engine.kernels, engine.scene, engine.crew);
+  if (first_hits_.empty()) first_hits_ = find_first_hits(engine.kernels, engine.scene, engine.thread_pool);
   rgba = view == View::object ? object_rgba(first_hits_, scene_->columns()) : first_hit_rgba(first_hits_, view);
   if (view == View::depth) white_ = static_cast<double>(farthest(first_hits_));
   return every_pixel;

@@ -201,11 +201,11 @@ void check_all(const Scene& scene) {
 
 }  // namespace
 
-std::optional<Broken> check(const Scene& scene) {
+std::optional<ParseError> check(const Scene& scene) {
   try {
     check_all(scene);
-  } catch (Broken& broken) {
-    return std::move(broken);
+  } catch (ParseError& error) {
+    return std::move(error);
   }
   return std::nullopt;
 }

@@ -12,6 +12,6 @@ namespace tyndall {
 /// area, a box has min < max, a medium's boundary rests and faces outward, an image texture lies on no medium, the
 /// camera has a direction that is not parallel to vup, the shutter does not close before it opens. It needs no file: a
 /// scene that was edited in memory is checked like one that was read.
-std::optional<Broken> check(const Scene& scene);
+std::optional<ParseError> check(const Scene& scene);
 
 }  // namespace tyndall

@@ -10,7 +10,7 @@ namespace tyndall {
 
 enum class Integrator { path, nee, mis };
 
-constexpr Word word(Integrator integrator) {
+constexpr Label label(Integrator integrator) {
   switch (integrator) {
     case Integrator::path:
       return {"path", "paths meet lamps by chance alone"};

@@ -77,12 +77,12 @@ JsonValue root_of(const std::string& text) {
 JsonValue override_value(const std::string& text, const std::string& where) {
   try {
     return root_of(text);
-  } catch (const Broken&) {
+  } catch (const ParseError&) {
   }
   try {
     return root_of(in_quotes(text));
-  } catch (const Broken&) {
-    throw Broken{where, "a value that is not UTF-8", "JSON or text"};
+  } catch (const ParseError&) {
+    throw ParseError{where, "a value that is not UTF-8", "JSON or text"};
   }
 }
 
@@ -91,10 +91,10 @@ JsonValue& make_child(JsonValue& holder, const std::string& step, const std::str
   if (JsonValue* old = child(holder, step)) return *old;
   if (auto* object = std::get_if<JsonObject>(&holder.value)) return object->emplace_back(JsonMember{step, {}}).value;
   auto* array = std::get_if<JsonArray>(&holder.value);
-  if (!array) throw Broken{where, describe(holder) + " as the parent", "an existing object or array as the parent"};
+  if (!array) throw ParseError{where, describe(holder) + " as the parent", "an existing object or array as the parent"};
   if (step == "-" || array_index(step) == array->size()) return array->emplace_back();
-  throw Broken{where, "no element " + in_quotes(step) + " in " + describe(holder),
-               "an index below that, or - to append"};
+  throw ParseError{where, "no element " + in_quotes(step) + " in " + describe(holder),
+                   "an index below that, or - to append"};
 }
 
 }  // namespace
@@ -103,18 +103,19 @@ void apply_override(JsonValue& root, const Override& override_) {
   const std::string where = "--set " + override_.pointer;
   const auto steps = pointer_steps(override_.pointer);
   if (!steps)
-    throw Broken{where, "no JSON pointer", "a pointer such as /camera/vfov (in keys, ~1 stands for / and ~0 for ~)"};
+    throw ParseError{where, "no JSON pointer",
+                     "a pointer such as /camera/vfov (in keys, ~1 stands for / and ~0 for ~)"};
   JsonValue* holder = &root;
   std::string path;
   for (std::size_t i = 0; i + 1 < steps->size(); ++i) {
     JsonValue* next = child(*holder, (*steps)[i]);
     path += "/" + pointer_step((*steps)[i]);
-    if (!next) throw Broken{where, "no " + path, "an existing parent" + hint(*holder, (*steps)[i])};
+    if (!next) throw ParseError{where, "no " + path, "an existing parent" + hint(*holder, (*steps)[i])};
     holder = next;
   }
   JsonValue value = override_value(override_.value, where);
   if (steps->size() + depth_of(value) > max_nesting)
-    throw Broken{where, "brackets nested more than " + std::to_string(max_nesting) + " deep", "a flatter value"};
+    throw ParseError{where, "brackets nested more than " + std::to_string(max_nesting) + " deep", "a flatter value"};
   make_child(*holder, steps->back(), where) = std::move(value);
 }
 

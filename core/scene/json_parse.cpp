@@ -27,7 +27,7 @@ class TreeBuilder {
   TreeBuilder(std::string_view text, std::pmr::memory_resource* memory) : text_(text), memory_(memory) {}
 
   JsonValue root;
-  std::optional<Broken> broken;
+  std::optional<ParseError> failure;
 
   bool null() { return put(nullptr); }
   bool boolean(bool value) { return put(value); }
@@ -71,8 +71,8 @@ class TreeBuilder {
   std::vector<JsonValue*> open_;  ///< arrays and objects around the next value, from the outermost to the innermost
   std::size_t values_ = 0;
 
-  bool refuse(Broken why) {
-    broken = std::move(why);
+  bool refuse(ParseError why) {
+    failure = std::move(why);
     return false;
   }
 
@@ -134,15 +134,15 @@ bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") 
 }  // namespace
 
 JsonDocument parse_json(std::string_view text) {
-  if (text.size() > max_scene_bytes) throw Broken{"/", "more than 256 MiB of text", "a scene of at most 256 MiB"};
-  if (is_blank(text)) throw Broken{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
+  if (text.size() > max_scene_bytes) throw ParseError{"/", "more than 256 MiB of text", "a scene of at most 256 MiB"};
+  if (is_blank(text)) throw ParseError{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
   // The parser would take it for the end of the text, and what follows would not be looked at.
   if (const std::size_t zero = text.find('\0'); zero != text.npos) throw syntax_error(text, zero + 1, "zero byte");
   auto memory = std::make_unique<JsonMemory>();
   TreeBuilder builder(text, memory.get());
   if (!TreeBuilder::Json::sax_parse(text.begin(), text.end(), &builder, TreeBuilder::Json::input_format_t::json, true,
                                     true))
-    throw builder.broken.value_or(Broken{"/", "text that is not JSON", "JSON"});
+    throw builder.failure.value_or(ParseError{"/", "text that is not JSON", "JSON"});
   return {std::move(memory), std::move(builder.root)};
 }
 

@@ -189,10 +189,10 @@ Scene read_scene(std::string_view text, const std::string& name, const std::file
     JsonValue& root = document.root;
     for (const Override& one : overrides) apply_override(root, one);
     Scene scene = scene_from(root, folder);
-    if (const auto broken = check(scene)) throw *broken;
+    if (const auto error = check(scene)) throw *error;
     return scene;
-  } catch (const Broken& broken) {
-    throw SceneError(name, broken.where, broken.found, broken.expected);
+  } catch (const ParseError& error) {
+    throw SceneError(name, error.where, error.found, error.expected);
   }
 }
 

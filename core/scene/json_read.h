@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 /// Reading of objects and colours, which refer by name to the materials and textures that were read before them. All
-/// throw Broken.
+/// throw ParseError.
 namespace tyndall {
 
 /// Index of each texture or material by its name. The names must outlive it.

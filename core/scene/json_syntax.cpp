@@ -75,7 +75,7 @@ constexpr Fault faults[] = {
 
 }  // namespace
 
-Broken syntax_error(std::string_view text, std::size_t end, std::string_view reason) {
+ParseError syntax_error(std::string_view text, std::size_t end, std::string_view reason) {
   const bool at_end = end > text.size() || text.empty();
   const std::size_t last = at_end ? text.size() : std::max<std::size_t>(end, 1) - 1;
   for (const Fault& fault : faults)

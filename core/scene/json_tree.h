@@ -82,11 +82,12 @@ struct JsonDocument {
 inline constexpr std::size_t max_nesting = 64;
 inline constexpr std::size_t max_scene_bytes = std::size_t(256) << 20;
 
-/// The document in a text. Comments are skipped. Throws Broken, at a pointer or at "line L, column C", for text that is
-/// not JSON, duplicate keys, numbers that are not finite, nesting above max_nesting, and texts above max_scene_bytes.
+/// The document in a text. Comments are skipped. Throws ParseError, at a pointer or at "line L, column C", for text
+/// that is not JSON, duplicate keys, numbers that are not finite, nesting above max_nesting, and texts above
+/// max_scene_bytes.
 JsonDocument parse_json(std::string_view text);
 
-/// Replaces or adds one value. Throws Broken at "--set POINTER".
+/// Replaces or adds one value. Throws ParseError at "--set POINTER".
 void apply_override(JsonValue& root, const Override& override_);
 
 /// The document that write_scene() writes.

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <utility>
 
-/// Reads typed values out of a JSON tree, guided by fields(). All throw Broken where a type is wrong; check() looks at
-/// ranges later.
+/// Reads typed values out of a JSON tree, guided by fields(). All throw ParseError where a type is wrong; check() looks
+/// at ranges later.
 namespace tyndall {
 
 /// What a value holds. If it is of another type, the message says that `expected` was expected.

@@ -27,14 +27,14 @@ constexpr const char* expected_scene =
 
 constexpr std::size_t block = std::size_t(1) << 16;
 
-/// All bytes of a file or pipe, but not much more than `most`: then it is refused anyway.
-std::string read_all(std::FILE* file, const std::string& name, std::size_t most = max_scene_bytes) {
+/// All bytes of a file or pipe, but not much more than `maximum`: then it is refused anyway.
+std::string read_all(std::FILE* file, const std::string& name, std::size_t maximum = max_scene_bytes) {
   std::string text;
   std::error_code ignored;  // what has no size, such as a pipe, is read all the same
   const std::uintmax_t size = fs::file_size(name, ignored);
-  if (!ignored && size <= most) text.reserve(static_cast<std::size_t>(size) + block);
+  if (!ignored && size <= maximum) text.reserve(static_cast<std::size_t>(size) + block);
   std::size_t got = 1;
-  while (got > 0 && text.size() <= most) {
+  while (got > 0 && text.size() <= maximum) {
     const std::size_t old = text.size();
     text.resize(old + block);
     got = std::fread(text.data() + old, 1, text.size() - old, file);
@@ -44,11 +44,11 @@ std::string read_all(std::FILE* file, const std::string& name, std::size_t most 
   return text;
 }
 
-std::string read_file(const std::string& name, std::size_t most = max_scene_bytes) {
+std::string read_file(const std::string& name, std::size_t maximum = max_scene_bytes) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), &std::fclose);
   if (!file)
     throw SceneError(name, std::string("a file that cannot be read (") + std::strerror(errno) + ")", expected_scene);
-  return read_all(file.get(), name, most);
+  return read_all(file.get(), name, maximum);
 }
 
 bool is_image(std::string_view bytes) {
@@ -107,7 +107,7 @@ std::string name_of(const std::string& text) {
   try {
     const JsonDocument json = parse_json(text);
     return printable(text_of(find(&json.root, "name")));
-  } catch (const Broken&) {
+  } catch (const ParseError&) {
     return "";
   }
 }
@@ -180,7 +180,7 @@ std::vector<fs::path> files_of_scene(const fs::path& file) {
       if (const std::string name = text_of(find(&texture.value, "file")); !name.empty())
         files.push_back(file.parent_path() / name);
   } catch (const SceneError&) {  // it cannot be read
-  } catch (const Broken&) {      // it is not JSON
+  } catch (const ParseError&) {  // it is not JSON
   }
   return files;
 }

@@ -53,7 +53,7 @@ std::string pointer(const Place& place) {
 }
 
 void fail(const Place& place, std::string found, std::string expected) {
-  throw Broken{pointer(place), std::move(found), std::move(expected)};
+  throw ParseError{pointer(place), std::move(found), std::move(expected)};
 }
 
 Meaning colour_meaning(std::string_view colour_name) {

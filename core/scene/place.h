@@ -14,7 +14,7 @@
 namespace tyndall {
 
 /// What is wrong with a scene, and where: a JSON pointer, or a line and column.
-struct Broken {
+struct ParseError {
   std::string where, found, expected;
 };
 
@@ -35,7 +35,7 @@ std::string pointer_step(std::string_view key);
 /// The JSON pointer of a place; "/" for the whole scene.
 std::string pointer(const Place& place);
 
-/// Throws Broken.
+/// Throws ParseError.
 [[noreturn]] void fail(const Place& place, std::string found, std::string expected);
 
 /// What a number, or each number of a vector, means.

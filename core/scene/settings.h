@@ -42,7 +42,7 @@ inline constexpr auto fields(const Camera*) {
 /// How much light a smooth boundary reflects.
 enum class FresnelKind { exact, schlick };
 
-constexpr Word word(FresnelKind fresnel) {
+constexpr Label label(FresnelKind fresnel) {
   switch (fresnel) {
     case FresnelKind::exact:
       return {"exact", "Fresnel's equations, unpolarised"};
@@ -52,10 +52,10 @@ constexpr Word word(FresnelKind fresnel) {
   return {};
 }
 
-/// How integrator mis finds lamps through glass balls and panes and off mirrors.
+/// How integrator mis finds lights through glass spheres and slabs and off mirrors.
 enum class Caustics { chains, scatter };
 
-constexpr Word word(Caustics caustics) {
+constexpr Label label(Caustics caustics) {
   switch (caustics) {
     case Caustics::chains:
       return {"chains", "exact paths through and off single balls, where they pay, and chance"};
@@ -66,7 +66,7 @@ constexpr Word word(Caustics caustics) {
 }
 
 /// Most samples a pixel that a film can add without losing exactness.
-inline constexpr std::uint32_t most_samples = 1u << 24;
+inline constexpr std::uint32_t max_samples = 1u << 24;
 
 struct RenderSettings {
   int max_depth = 1000;
@@ -85,7 +85,7 @@ inline constexpr auto fields(const RenderSettings*) {
   return std::tuple{
       Field{"max_depth", &RenderSettings::max_depth, at_least(0), Slider{1, 1000, true}, "",
             "longest path, in scattering events; 0: lights and background only"},
-      Field{"spp", &RenderSettings::spp, between(1, most_samples), Slider{1, 65536, true}, "", "samples per pixel"},
+      Field{"spp", &RenderSettings::spp, between(1, max_samples), Slider{1, 65536, true}, "", "samples per pixel"},
       Field{"integrator", &RenderSettings::integrator, "how light is found"},
       Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
       Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},

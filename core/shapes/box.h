@@ -23,8 +23,8 @@ constexpr auto fields(const Box<F>*) {
 /// inside or outside of it, and nothing becomes 0·∞.
 template <class F>
 TYNDALL_INLINE F safe_reciprocal(F d) {
-  const F least = F(1e-20f);
-  return F(1.0f) / select(less(abs(d), least), copy_sign(least, d), d);
+  const F minimum = F(1e-20f);
+  return F(1.0f) / select(less(abs(d), minimum), copy_sign(minimum, d), d);
 }
 
 /// Where a line is inside a box, and which faces it crosses.

@@ -72,7 +72,7 @@ TYNDALL_INLINE QuadHit<F> hit_quad(const Affine& quad, Vec3<F> origin, Vec3<F> d
   const F t = -affine_point(quad, 2, origin) / affine_direction(quad, 2, direction);
   MaskOf<F> hit = mask_and(less(F(0.0f), t), less_equal(t, limit));
   if (!any(hit)) return {t, hit};
-  const Vec3<F> p = along(origin, t, direction);
+  const Vec3<F> p = point_at(origin, t, direction);
   const F edge = max(abs(affine_point(quad, 0, p)), abs(affine_point(quad, 1, p)));
   return {t, mask_and(hit, less_equal(edge, F(1.0f)))};
 }

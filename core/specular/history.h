@@ -1,19 +1,19 @@
 #pragma once
 #include "core/base/vec.h"
 
-/// What a path has met since it last scattered at a diffuse surface or in a medium, so that a lamp which it then finds
+/// What a path has met since it last scattered at a diffuse surface or in a medium, so that a light which it then finds
 /// can be weighed against the specular path that would have found the same light.
 namespace tyndall {
 
 /// Bits [first, first + width) of a number in each lane.
 template <int first, int width, class F>
 struct BitField {
-  static constexpr std::int32_t one = 1 << first;            ///< what counts one event
-  static constexpr std::int32_t most = (1 << width) - 1;     ///< the largest number that it holds
-  static constexpr std::int32_t mask = most * (1 << first);  ///< its bits
+  static constexpr std::int32_t one = 1 << first;               ///< what counts one event
+  static constexpr std::int32_t maximum = (1 << width) - 1;     ///< the largest number that it holds
+  static constexpr std::int32_t mask = maximum * (1 << first);  ///< its bits
   TYNDALL_INLINE static IntOf<F> of(IntOf<F> packed) {
-    if constexpr (first == 0) return packed & IntOf<F>(most);
-    return as_int(shift_right<first>(as_uint(packed))) & IntOf<F>(most);
+    if constexpr (first == 0) return packed & IntOf<F>(maximum);
+    return as_int(shift_right<first>(as_uint(packed))) & IntOf<F>(maximum);
   }
   TYNDALL_INLINE static MaskOf<F> is_full(IntOf<F> packed) { return equal(packed & IntOf<F>(mask), IntOf<F>(mask)); }
 };
@@ -23,12 +23,12 @@ struct BitField {
 ///   0                 nothing was met yet
 ///   -1                something was met that no specular path meets, or more than can be counted
 ///   otherwise         the object's index + 1 in bits 14 and up, and below them
-///     at a sphere, a shell or a flat mirror (which counts as a sphere: see Chains)
+///     at a sphere, a shell or a flat mirror (which counts as a sphere: see SpecularPairs)
 ///       bits 0-3      events at the outer sphere
 ///       bits 4-8      events at the inner sphere
 ///       bits 9-12     reflections among these
 ///       bit 13        the path first went away from the centre
-///     at a pane
+///     at a slab
 ///       bits 0-3, 4-7, 8-11   events at the two faces across its first, second and third edge
 ///       bits 12-13            the edge across which it met a face first
 template <class F>
@@ -58,7 +58,7 @@ struct SpecularHistory {
   TYNDALL_INLINE I inner_reflected() const { return InnerReflected::of(packed); }
   TYNDALL_INLINE MaskOf<F> began_away() const { return mask_not(equal(packed & I(away_from_center), I(0))); }
 
-  /// Events at the faces across an edge of a pane: 0, 1 or 2.
+  /// Events at the faces across an edge of a slab: 0, 1 or 2.
   template <int edge>
   TYNDALL_INLINE I at_faces() const {
     return BitField<4 * edge, 4, F>::of(packed);
@@ -85,9 +85,9 @@ TYNDALL_INLINE HistoryEvent<F> event_at_sphere(IntOf<F> packed, MaskOf<F> inner,
           mask_or(mask_or(H::Outer::is_full(packed), H::Inner::is_full(packed)), H::InnerReflected::is_full(packed))};
 }
 
-/// An event at a face of a pane. edge: the one across which the face lies, 0, 1 or 2.
+/// An event at a face of a slab. edge: the one across which the face lies, 0, 1 or 2.
 template <class F>
-TYNDALL_INLINE HistoryEvent<F> event_at_pane(IntOf<F> packed, IntOf<F> edge) {
+TYNDALL_INLINE HistoryEvent<F> event_at_slab(IntOf<F> packed, IntOf<F> edge) {
   using I = IntOf<F>;
   const I one = select(equal(edge, I(0)), I(1), select(equal(edge, I(1)), I(16), I(256)));
   return {as_int(shift_left<12>(as_uint(edge))), one, equal(packed & (one * I(15)), one * I(15))};

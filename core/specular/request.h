@@ -5,25 +5,26 @@
 
 namespace tyndall {
 
-/// What an event at a diffuse surface or in fog asks for: the light that specular paths bring to it.
+/// What an event at a diffuse surface or in media asks for: the light that specular paths bring to it.
 template <class F>
 struct SpecularRequest {
   Vec3<F> point;
-  Vec3<F> facing;  ///< at a surface: its unit normal on the side from which the path came; in fog: the path's direction
+  Vec3<F>
+      facing;  ///< at a surface: its unit normal on the side from which the path came; in media: the path's direction
   Vec3<F> throughput;  ///< with which light from there enters the sample: the path's own times the albedo
   F time;
-  F g;             ///< of the medium
-  IntOf<F> from;   ///< Ray::from of rays that leave the point
-  IntOf<F> depth;  ///< scattering events before this one
-  IntOf<F> slot;   ///< names the sample
-  Dice<F> dice;    ///< at this event
+  F g;                 ///< of the medium
+  IntOf<F> from;       ///< Ray::from of rays that leave the point
+  IntOf<F> depth;      ///< scattering events before this one
+  IntOf<F> slot;       ///< names the sample
+  Sampler<F> sampler;  ///< at this event
   MaskOf<F> in_medium;
 };
 
 /// Calls number(row, x) or integer(row, x) for each part of the requests.
 template <class F>
 TYNDALL_INLINE void each_part(const auto&, SpecularRequest<F>& q, const auto& number, const auto& integer) {
-  IntOf<F> low = as_int(q.dice.low), high = as_int(q.dice.high), event = as_int(q.dice.event);
+  IntOf<F> low = as_int(q.sampler.low), high = as_int(q.sampler.high), event = as_int(q.sampler.event);
   IntOf<F> in_medium = select(q.in_medium, IntOf<F>(1), IntOf<F>(0));
   number(0, q.point.x), number(1, q.point.y), number(2, q.point.z);
   number(3, q.facing.x), number(4, q.facing.y), number(5, q.facing.z);
@@ -31,18 +32,18 @@ TYNDALL_INLINE void each_part(const auto&, SpecularRequest<F>& q, const auto& nu
   number(9, q.time), number(10, q.g);
   integer(0, q.from), integer(1, q.depth), integer(2, q.slot);
   integer(3, low), integer(4, high), integer(5, event), integer(6, in_medium);
-  q.dice.low = as_uint(low), q.dice.high = as_uint(high), q.dice.event = as_uint(event);
+  q.sampler.low = as_uint(low), q.sampler.high = as_uint(high), q.sampler.event = as_uint(event);
   q.in_medium = equal(in_medium, IntOf<F>(1));
 }
 
 /// Density, per steradian, with which light scatters at the requests' points into a direction.
 template <class F>
-TYNDALL_INLINE F scattered_density(const auto& s, const SpecularRequest<F>& q, Vec3<F> direction) {
+TYNDALL_INLINE F scattered_pdf(const auto& s, const SpecularRequest<F>& q, Vec3<F> direction) {
   Incident<F> in{};
   in.facing = q.facing;
   const F diffuse = diffuse_pdf(in, direction);
   if (!s.has_media() || !any(q.in_medium)) return diffuse;
-  return select(q.in_medium, phase_density(s, q.g, q.facing, direction), diffuse);
+  return select(q.in_medium, phase_pdf(s, q.g, q.facing, direction), diffuse);
 }
 
 }  // namespace tyndall

@@ -62,10 +62,10 @@ std::optional<int> quota_of(const fs::path& folder) {
 }  // namespace
 
 std::optional<int> processor_quota(const fs::path& root) {
-  std::optional<int> least;
+  std::optional<int> minimum;
   for (const fs::path& folder : cgroup_folders("cpu", root))
-    if (const auto quota = quota_of(folder)) least = std::min(*quota, least.value_or(*quota));
-  return least;
+    if (const auto quota = quota_of(folder)) minimum = std::min(*quota, minimum.value_or(*quota));
+  return minimum;
 }
 
 ThreadCount thread_count(int requested, const fs::path& root) {

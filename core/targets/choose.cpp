@@ -34,16 +34,16 @@ Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }
 
 }  // namespace
 
-void Kernels::render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                          UnitCounts& counts, EmissionSums* emission) const {
+void Kernels::render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+                          TileCounts& counts, EmissionSums* emission) const {
   // The pixels of a coarse pass are too far apart to share.
-  const auto& render = scene.shares && unit.step == 1 ? render_shared : render_alone;
-  render[static_cast<int>(scene.kernel)](scene, unit, film_unit, pixels, emission, counts);
+  const auto& render = scene.reuses_paths && job.step == 1 ? render_reusing : render_alone;
+  render[static_cast<int>(scene.kernel)](scene, job, film_quantum, pixels, emission, counts);
 }
 
-KernelSet Kernels::set_for(KernelSet least) const {
-  const RenderUnit full = render_alone[static_cast<int>(KernelSet::everything)];
-  return render_alone[static_cast<int>(least)] == full ? KernelSet::everything : least;
+KernelSet Kernels::set_for(KernelSet minimum) const {
+  const RenderTile full = render_alone[static_cast<int>(KernelSet::everything)];
+  return render_alone[static_cast<int>(minimum)] == full ? KernelSet::everything : minimum;
 }
 
 std::vector<Kernels> available_kernels() {

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/reuse/shared_unit.h"
+#include "core/reuse/reuse_tile.h"
 #include "core/targets/kernels.h"
 
 /// The kernels' entry points as templates over the number type F. Each instruction set has a small .cpp file, which
@@ -76,7 +76,9 @@ class EitherSamples {
   TYNDALL_INLINE explicit EitherSamples(AloneSamples& alone) : alone_(&alone) {}
   TYNDALL_INLINE explicit EitherSamples(GroupSamples& groups) : groups_(&groups) {}
   TYNDALL_INLINE bool empty() const { return groups_ ? groups_->empty() : alone_->empty(); }
-  TYNDALL_INLINE const Glints& glints() const { return groups_ ? groups_->glints() : alone_->glints(); }
+  TYNDALL_INLINE const SubpixelLights& subpixel_lights() const {
+    return groups_ ? groups_->subpixel_lights() : alone_->subpixel_lights();
+  }
   template <int lanes>
   TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
     groups_ ? groups_->take(to) : alone_->take(to);
@@ -110,46 +112,45 @@ class EitherSamples {
 // all files, and one with wide instructions would crash older CPUs.
 
 template <class F>
-[[gnu::noinline]] static void follow_either(const SceneView& s, EitherSamples samples, UnitCounts& counts,
+[[gnu::noinline]] static void follow_either(const SceneView& s, EitherSamples samples, TileCounts& counts,
                                             auto& recorder) {
   follow_paths<F>(s, samples, counts, recorder);
 }
 
 /// Renders a unit by the kernel with every model. s: says whether second vertices are shared.
 template <class F>
-static void render_any_unit(const SceneView& s, const Unit& unit, const UnitFilm& film, auto& recorder) {
-  if (!s.shares) {
-    AloneSamples samples(s, unit, film);
+static void render_any_unit(const SceneView& s, const TileJob& job, const TileFilm& film, auto& recorder) {
+  if (!s.reuses_paths) {
+    AloneSamples samples(s, job, film);
     return follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
   }
-  render_shared_unit<F>(s, unit, film, [&](GroupSamples& samples) {
-    follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
-  });
+  render_tile_reusing<F>(
+      s, job, film, [&](GroupSamples& samples) { follow_either<F>(s, EitherSamples(samples), film.counts, recorder); });
 }
 
 // The functions that stand in the table of an instruction set.
 template <class F, KernelSet set, bool reuse>
-static void render_unit_entry(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                              EmissionSums* emission, UnitCounts& counts) {
+static void render_tile_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+                              EmissionSums* emission, TileCounts& counts) {
   const SceneViewFor<set, reuse> s{scene};
-  const UnitFilm film{1 / film_unit, pixels, emission, counts};
+  const TileFilm film{1 / film_quantum, pixels, emission, counts};
   NoRecorder recorder;
   if constexpr (reuse) {
-    render_shared_unit<F>(
-        s, unit,
+    render_tile_reusing<F>(
+        s, job,
         film, [&](auto& samples) __attribute__((always_inline)) { follow_paths<F>(s, samples, counts, recorder); });
   } else {
-    AloneSamples samples(s, unit, film);
+    AloneSamples samples(s, job, film);
     follow_paths<F>(s, samples, counts, recorder);
   }
 }
 template <class F, class Recorder, bool reuse>
-static void render_any_entry(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                             EmissionSums* emission, UnitCounts& counts) {
+static void render_any_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+                             EmissionSums* emission, TileCounts& counts) {
   SceneView s = scene;
-  s.shares = reuse;
+  s.reuses_paths = reuse;
   Recorder recorder{};
-  render_any_unit<F>(s, unit, {1 / film_unit, pixels, emission, counts}, recorder);
+  render_any_unit<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder);
 }
 template <class F>
 static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {
@@ -160,17 +161,19 @@ static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
 /// A table with kernels of their own for the KernelSets, for the instruction sets that most processors have. Scenes
-/// with chains that share all have one kernel, with fog and textures or without: another would make the build longer.
+/// with specular paths that share all have one kernel, with media and textures or without: another would make the build
+/// longer.
 template <class F>
 static Kernels kernels_of(const char* isa) {
-  const RenderUnit share = render_unit_entry<F, KernelSet::everything, true>;
+  const RenderTile reusing = render_tile_entry<F, KernelSet::everything, true>;
   return {
       isa,
       lanes_of<F>,
-      {render_unit_entry<F, KernelSet::everything, false>, render_unit_entry<F, KernelSet::chains_alone, false>,
-       render_unit_entry<F, KernelSet::no_chains, false>, render_unit_entry<F, KernelSet::no_fog_nor_textures, false>},
-      {share, share, render_unit_entry<F, KernelSet::no_chains, true>,
-       render_unit_entry<F, KernelSet::no_fog_nor_textures, true>},
+      {render_tile_entry<F, KernelSet::everything, false>, render_tile_entry<F, KernelSet::specular_paths_only, false>,
+       render_tile_entry<F, KernelSet::no_specular_paths, false>,
+       render_tile_entry<F, KernelSet::no_media_no_textures, false>},
+      {reusing, reusing, render_tile_entry<F, KernelSet::no_specular_paths, true>,
+       render_tile_entry<F, KernelSet::no_media_no_textures, true>},
       trace_entry<F>,
       first_hits_entry<F>};
 }
@@ -178,11 +181,11 @@ static Kernels kernels_of(const char* isa) {
 /// the same pictures, a little slower, and compiles much sooner: for references and for old processors.
 template <class F, class Recorder = NoRecorder>
 static Kernels full_kernel_of(const char* isa) {
-  const RenderUnit render = render_any_entry<F, Recorder, false>, share = render_any_entry<F, Recorder, true>;
+  const RenderTile render = render_any_entry<F, Recorder, false>, fraction = render_any_entry<F, Recorder, true>;
   return {isa,
           lanes_of<F>,
           {render, render, render, render},
-          {share, share, share, share},
+          {fraction, fraction, fraction, fraction},
           trace_entry<F>,
           first_hits_entry<F>};
 }

@@ -10,8 +10,8 @@
 /// compiled from the same source.
 namespace tyndall {
 
-using RenderUnit = void (*)(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels,
-                            EmissionSums* emission, UnitCounts& counts);
+using RenderTile = void (*)(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+                            EmissionSums* emission, TileCounts& counts);
 
 /// Finds the closest surface on each of `count` rays, which fill groups of lanes in the given order. brute_force: tests
 /// every primitive, without the tree.
@@ -23,20 +23,20 @@ using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHi
 struct Kernels {
   const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
   int lanes;        ///< how many paths run together
-  /// By KernelSet, for scenes that do not share second vertices, and for those that do (share.h). For a set that was
+  /// By KernelSet, for scenes that do not share second vertices, and for those that do (reuse.h). For a set that was
   /// not compiled the full kernel stands.
-  RenderUnit render_alone[kernel_sets], render_shared[kernel_sets];
+  RenderTile render_alone[kernel_sets], render_reusing[kernel_sets];
   TraceRays trace;
   FirstHits first_hits;
 
-  /// Renders a unit of work with the kernel that the scene names (SceneView::kernel). Adds its samples to `pixels` (the
+  /// Renders a tile job with the kernel that the scene names (SceneView::kernel). Adds its samples to `pixels` (the
   /// tile, row by row, empty on entry) and to `counts`. emission: the same for EmissionSums; null: not recorded.
-  void render_unit(const SceneView& scene, const Unit& unit, double film_unit, FilmPixel* pixels, UnitCounts& counts,
-                   EmissionSums* emission = nullptr) const;
+  void render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+                   TileCounts& counts, EmissionSums* emission = nullptr) const;
 
-  /// The set whose kernel really runs for a scene that needs `least`: `least` itself, or `everything` for instruction
-  /// sets that have the full kernel alone.
-  KernelSet set_for(KernelSet least) const;
+  /// The set whose kernel really runs for a scene that needs `minimum`: `minimum` itself, or `everything` for
+  /// instruction sets that have the full kernel alone.
+  KernelSet set_for(KernelSet minimum) const;
 };
 
 // Each is in a file of its own, which is compiled with that instruction set's flags. Call only what this CPU can run.

@@ -13,13 +13,13 @@ bool finite(Vec3f v) {
 struct OwnColours {
   Vec3f gathered{}, tint{1, 1, 1};
 
-  OwnColours(const Paths<float>& p, const SharedPaths* shared) {
+  OwnColours(const Paths<float>& p, const ReusedPaths* reused) {
     if (!p.second) return;
-    const auto at = [&](const float(&columns)[3][SharedPaths::room]) {
+    const auto at = [&](const float(&columns)[3][ReusedPaths::room]) {
       return Vec3f{columns[0][p.slot], columns[1][p.slot], columns[2][p.slot]};
     };
-    const Vec3f albedo = at(shared->albedo);
-    gathered = at(shared->own), tint = (1 / max_component(albedo)) * albedo;
+    const Vec3f albedo = at(reused->albedo);
+    gathered = at(reused->own), tint = (1 / max_component(albedo)) * albedo;
   }
 };
 
@@ -30,44 +30,44 @@ void PathRecorder::on_event(const SceneView& s, const Paths<float>& p, const Hit
   wanted_ = is_wanted(p);
   if (!wanted_) return;
   if (path_.vertices.empty())
-    path_.origin = p.ray.origin, path_.time = p.ray.time, path_.weight = s.has_chains() ? p.weight : 1;
+    path_.origin = p.ray.origin, path_.time = p.ray.time, path_.weight = s.has_specular_paths() ? p.weight : 1;
   PathVertex v{};
   v.direction = p.ray.direction, v.point = p.ray.origin;
   v.first_dimension = dimension::camera_count + static_cast<std::uint32_t>(p.depth) * dimension::per_event;
-  if (s.has_media()) v.kept = kept_by_smoke(s, p.ray, p.dice, hit.t, true);
-  v.throughput = OwnColours(p, shared).tint * p.throughput;
-  at_lamp_ = !found.happens && hit.element >= 0 && !e.surface;
+  if (s.has_media()) v.kept = transmitted_by_absorbers(s, p.ray, p.sampler, hit.t, true);
+  v.throughput = OwnColours(p, reused).tint * p.throughput;
+  at_light_ = !found.happens && hit.element >= 0 && !e.surface;
   if (found.happens)
     v.met = Met::medium, v.element = found.from / 4, v.point = found.point, v.medium = found.medium;
   else if (hit.element >= 0)
     v.met = Met::surface, v.element = hit.element, v.point = e.at.point;
   v.distance = length(v.point - p.ray.origin);
-  if (at_lamp_) v.chance = weight_;
+  if (at_light_) v.chance = weight_;
   weight_ = 1;
   path_.vertices.push_back(v);
 }
 
-void PathRecorder::on_chain_light(Vec3f light) {
-  if (wanted_) path_.vertices.back().by_chains = path_.weight * light;
+void PathRecorder::on_specular_path_light(Vec3f light) {
+  if (wanted_) path_.vertices.back().by_specular_paths = path_.weight * light;
 }
 
 void PathRecorder::on_end(const Paths<float>& p, bool on, StepResult<float> end) {
   if (!wanted_) return;
   PathVertex& v = path_.vertices.back();
-  const OwnColours own(p, shared);
+  const OwnColours own(p, reused);
   v.radiance = own.gathered + own.tint * (path_.weight * p.radiance);
   v.fate = end.survivors           ? Fate::goes_on
            : end.cut               ? Fate::cut
            : !finite(p.radiance)   ? Fate::lost
            : v.kept == 0           ? Fate::absorbed
            : v.met == Met::nothing ? Fate::escapes
-           : at_lamp_              ? Fate::ends_at_light
+           : at_light_             ? Fate::ends_at_light
            : on                    ? Fate::roulette
                                    : Fate::absorbed;
   v.inside = v.met == Met::surface && end.survivors && p.ray.from >= 0 &&
              (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
   path_.radiance = v.radiance;
-  path_.shared = p.first != 0;
+  path_.reused = p.first != 0;
 }
 
 }  // namespace tyndall

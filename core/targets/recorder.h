@@ -1,5 +1,5 @@
 #pragma once
-#include "core/reuse/share.h"
+#include "core/reuse/reuse.h"
 #include "core/targets/replay.h"
 #include "core/transport/path.h"
 
@@ -10,21 +10,21 @@ namespace tyndall {
 class PathRecorder {
  public:
   /// The path belongs to one of these, if its scene shares second vertices. Null: it goes alone.
-  const SharedPaths* shared = nullptr;
+  const ReusedPaths* reused = nullptr;
 
-  void on_weight_against_chains(float weight) { weight_ = weight; }
+  void on_weight_against_specular_paths(float weight) { weight_ = weight; }
   void on_event(const SceneView& s, const Paths<float>& p, const Hit<float>& hit, const MediumEvent<float>& found,
                 const Event<float>& e);
-  void on_chain_light(Vec3f light);
+  void on_specular_path_light(Vec3f light);
   void on_end(const Paths<float>& p, bool on, StepResult<float> end);
   const PathReplay& path() const { return path_; }
 
  private:
-  bool is_wanted(const Paths<float>& p) const { return !shared || shared->pixel[p.slot] >= 0; }
+  bool is_wanted(const Paths<float>& p) const { return !reused || reused->pixel[p.slot] >= 0; }
 
   PathReplay path_;
-  float weight_ = 1;  ///< of the light of the lamp that this step has hit
-  bool wanted_ = false, at_lamp_ = false;
+  float weight_ = 1;  ///< of the radiance of the light that this step has hit
+  bool wanted_ = false, at_light_ = false;
 };
 
 /// The recorder of the scalar kernel, which most of the time records nothing. What it hands on are copies: a kernel
@@ -32,15 +32,15 @@ class PathRecorder {
 struct MaybeRecorder {
   PathRecorder* to = nullptr;
 
-  TYNDALL_INLINE void on_weight_against_chains(float weight) {
-    if (to) to->on_weight_against_chains(weight);
+  TYNDALL_INLINE void on_weight_against_specular_paths(float weight) {
+    if (to) to->on_weight_against_specular_paths(weight);
   }
   TYNDALL_INLINE void on_event(const SceneView& s, Paths<float> p, Hit<float> hit, MediumEvent<float> found,
                                Event<float> e) {
     if (to) to->on_event(s, p, hit, found, e);
   }
-  TYNDALL_INLINE void on_chain_light(Vec3f light) {
-    if (to) to->on_chain_light(light);
+  TYNDALL_INLINE void on_specular_path_light(Vec3f light) {
+    if (to) to->on_specular_path_light(light);
   }
   TYNDALL_INLINE void on_end(Paths<float> p, bool on, StepResult<float> end) {
     if (to) to->on_end(p, on, end);

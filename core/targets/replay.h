@@ -23,8 +23,9 @@ struct PathVertex {
   Vec3f throughput;           ///< with which it came; 1 at the camera
   float kept = 1;             ///< by what media that only absorb changed it since the vertex before: flight.h
   Vec3f radiance;             ///< gathered so far, this vertex included
-  Vec3f by_chains;            ///< the part of it that exact chains from here have added
-  float chance = 1;  ///< weight of a lamp's light that was found here; chains, which find it too, count for the rest
+  Vec3f by_specular_paths;    ///< the part of it that exact specular paths from here have added
+  float chance =
+      1;  ///< weight of a light's power that was found here; specular paths, which find it too, count for the rest
   std::uint32_t first_dimension;  ///< number of the first random dimension of the event
 };
 
@@ -33,10 +34,10 @@ struct PathReplay {
   float time = 0;
   std::vector<PathVertex> vertices;
   Vec3f radiance;    ///< the sample, bit for bit what the scalar kernel gives to the film
-  float weight = 1;  ///< of the sample, see glints.h; the radiances of all vertices include it
-  /// Its first vertex shares second vertices with seven other pixels (share.h): instead of what the path has gathered
+  float weight = 1;  ///< of the sample, see subpixel_lights.h; the radiances of all vertices include it
+  /// Its first vertex shares second vertices with seven other pixels (reuse.h): instead of what the path has gathered
   /// from its own one, the sample holds a weighted mean of what leaves all eight.
-  bool shared = false;
+  bool reused = false;
 };
 
 /// Follows sample number `sample` of pixel (x, y), in full-image coordinates. It takes the same steps as the kernels.

@@ -14,11 +14,11 @@ Vec3f sample_of(const FilmPixel& pixel, std::uint32_t half) {
 }
 
 /// Renders a unit of one sample of one pixel, and records the sample's path.
-void record_unit(const SceneView& s, const Unit& unit, const UnitFilm& film, PathRecorder& recorder) {
+void record_unit(const SceneView& s, const TileJob& job, const TileFilm& film, PathRecorder& recorder) {
   MaybeRecorder maybe{&recorder};
-  if (!s.shares) return render_any_unit<float>(s, unit, film, maybe);
-  render_shared_unit<float>(s, unit, film, [&](GroupSamples& samples) {
-    recorder.shared = &samples.shared();
+  if (!s.reuses_paths) return render_any_unit<float>(s, job, film, maybe);
+  render_tile_reusing<float>(s, job, film, [&](GroupSamples& samples) {
+    recorder.reused = &samples.reused();
     follow_either<float>(s, EitherSamples(samples), film.counts, maybe);
   });
 }
@@ -29,20 +29,20 @@ Kernels scalar_kernels() { return full_kernel_of<float, MaybeRecorder>("scalar")
 
 PathReplay replay(const SceneView& scene, int x, int y, std::uint32_t sample) {
   FilmPixel pixel{};
-  UnitCounts counts;
+  TileCounts counts;
   PathRecorder recorder;
   record_unit(scene, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, {1, &pixel, nullptr, counts}, recorder);
   PathReplay path = recorder.path();
-  if (scene.shares) path.radiance = sample_of(pixel, sample & 1u);
+  if (scene.reuses_paths) path.radiance = sample_of(pixel, sample & 1u);
   return path;
 }
 
-void trace_groups(const SceneView& scene, SharedPaths& paths, UnitCounts& counts) {
-  const UnitFilm film{1, nullptr, nullptr, counts};
+void trace_groups(const SceneView& scene, ReusedPaths& paths, TileCounts& counts) {
+  const TileFilm film{1, nullptr, nullptr, counts};
   GroupSamples samples(paths, {nullptr, nullptr}, film);
   MaybeRecorder none;
   follow_either<float>(scene, EitherSamples(samples), counts, none);
-  add_chains_to_leaving(scene, paths);
+  add_specular_paths_to_leaving(scene, paths);
 }
 
 }  // namespace tyndall

@@ -3,9 +3,9 @@
 
 namespace tyndall {
 
-struct SharedPaths;
+struct ReusedPaths;
 
-/// Follows the paths of groups by the scalar kernel, for probe_sharing(). scene: one that shares.
-void trace_groups(const SceneView& scene, SharedPaths& paths, UnitCounts& counts);
+/// Follows the paths of groups by the scalar kernel, for probe_reuse(). scene: one that shares.
+void trace_groups(const SceneView& scene, ReusedPaths& paths, TileCounts& counts);
 
 }  // namespace tyndall

@@ -51,7 +51,7 @@ TYNDALL_INLINE Vec3<F> image_colour(const float* texels, int width, int height, 
     const I at = (row * I(width) + column) * I(3);
     return Vec3<F>{gather<F>(texels, at), gather<F>(texels + 1, at), gather<F>(texels + 2, at)};
   };
-  const auto mix = [](Vec3<F> a, Vec3<F> b, F t) { return along(a, t, b - a); };
+  const auto mix = [](Vec3<F> a, Vec3<F> b, F t) { return point_at(a, t, b - a); };
   return mix(mix(texel(left, top), texel(right, top), fx), mix(texel(left, bottom), texel(right, bottom), fx), fy);
 }
 

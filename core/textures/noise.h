@@ -12,7 +12,7 @@ namespace tyndall {
 
 enum class NoiseStyle { perlin, turbulence, marble };
 
-constexpr Word word(NoiseStyle style) {
+constexpr Label label(NoiseStyle style) {
   switch (style) {
     case NoiseStyle::perlin:
       return {"perlin", "one octave"};
@@ -120,22 +120,22 @@ TYNDALL_INLINE F turbulence(Vec3<F> p, MaskOf<F> lanes, const float* gradients) 
   return abs(sum);
 }
 
-/// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_turn: scale · z
+/// Grey value in [0, 1] for a style. p: scale · position, for marble the position (both modulo 256); z_phase: scale · z
 /// / 2π. lanes: those whose value is wanted.
 template <class F>
-TYNDALL_INLINE F noise_grey(NoiseStyle style, Vec3<F> p, F z_turn, MaskOf<F> lanes, const float* gradients) {
+TYNDALL_INLINE F noise_grey(NoiseStyle style, Vec3<F> p, F z_phase, MaskOf<F> lanes, const float* gradients) {
   if (style == NoiseStyle::perlin) return F(0.5f) * (F(1.0f) + gradient_noise(p, gradients));
   const F t = turbulence(p, lanes, gradients);
   if (style == NoiseStyle::turbulence) return t;
-  const F turn = mul_add(t, F(static_cast<float>(10 / (2 * pi))), z_turn);
-  const F wave = sin_cos_turn(turn - floor(turn)).sin;  // can pass 1 by a rounding
+  const F phase = mul_add(t, F(static_cast<float>(10 / (2 * pi))), z_phase);
+  const F wave = sin_cos_2pi(phase - floor(phase)).sin;  // can pass 1 by a rounding
   return F(0.5f) * (F(1.0f) + min(max(wave, F(-1.0f)), F(1.0f)));
 }
 
 template <class F, class Uv>
 TYNDALL_INLINE Vec3<F> colour_at(const Noise<F>*, const auto& columns, const TexturePoint<F, Uv>& at) {
-  const F turn = mul_add(splat<F>(columns.z_scale), at.point.z, splat<F>(columns.z_offset));
-  const F grey = noise_grey(columns.style, at.scaled, turn, at.wanted, at.gradients);
+  const F phase = mul_add(splat<F>(columns.z_scale), at.point.z, splat<F>(columns.z_offset));
+  const F grey = noise_grey(columns.style, at.scaled, phase, at.wanted, at.gradients);
   return {grey, grey, grey};
 }
 

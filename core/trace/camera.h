@@ -4,7 +4,7 @@
 #include "core/trace/scene_view.h"
 #include "core/trace/work.h"
 
-/// Camera rays: which samples a unit of work holds, and the ray with which each of them starts.
+/// Camera rays: which samples a tile job holds, and the ray with which each of them starts.
 namespace tyndall {
 
 /// Ray::from of rays that leave the lens at `offset` from its centre, for a camera that stands on a surface: they go
@@ -18,7 +18,7 @@ TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> off
   const F rise = dot(normal, offset), across2 = neg_mul_add(rise, rise, dot(offset, offset));
   const F curvature = splat<F>(c.curvature);
   const F height = splat<F>(c.height) + mul_add(F(0.5f) * curvature, across2, rise);
-  const auto outward = less_equal(F(0.0f), dot(direction, along(normal, curvature, offset)));
+  const auto outward = less_equal(F(0.0f), dot(direction, point_at(normal, curvature, offset)));
   const F ahead = select(outward, height, -height);  // how far the start is on the side to which the ray goes
   const auto on = mask_and(less_equal(abs(height), splat<F>(c.rounding)), less_equal(splat<F>(-c.touching), ahead));
   const std::int32_t first = 4 * c.element;
@@ -33,8 +33,8 @@ TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> off
 /// Ray Tracing in One Weekend, section 13.2 "Generating Sample Rays".
 template <class F>
 TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens, F time) {
-  const Vec3<F> target = along(along(splat<F>(c.corner), x, splat<F>(c.du)), y, splat<F>(c.dv));
-  const Vec3<F> offset = along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v));
+  const Vec3<F> target = point_at(point_at(splat<F>(c.corner), x, splat<F>(c.du)), y, splat<F>(c.dv));
+  const Vec3<F> offset = point_at(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v));
   Ray<F> ray{splat<F>(c.center) + offset, normalize(target - offset), time, IntOf<F>(from_nowhere)};
   if (c.surface.element >= 0) ray.from = leave_camera_surface(c.surface, offset, ray.direction);
   return ray;
@@ -42,22 +42,22 @@ TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens,
 
 /// The ray of one sample through the point (x, y) of the picture.
 template <class F>
-TYNDALL_INLINE Ray<F> ray_through(const SceneView& s, F x, F y, const Dice<F>& dice) {
+TYNDALL_INLINE Ray<F> ray_through(const SceneView& s, F x, F y, const Sampler<F>& sampler) {
   Pair<F> lens{F(0.0f), F(0.0f)};
-  if (s.needs.lens) lens = in_disc(dice.pair(dimension::lens));
+  if (s.features.lens) lens = in_disc(sampler.next_2d(dimension::lens));
   F time = splat<F>(s.camera.shutter_open);
-  if (s.needs.shutter) time = mul_add(dice.one(dimension::time), splat<F>(s.camera.shutter_length), time);
+  if (s.features.shutter) time = mul_add(sampler.next_1d(dimension::time), splat<F>(s.camera.shutter_length), time);
   return camera_ray(s.camera, x, y, lens, time);
 }
 
-/// The ray of one sample of the pixel (x, y), if it has no glints.
+/// The ray of one sample of the pixel (x, y), if it has no subpixel lights.
 template <class F>
-TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Dice<F>& dice) {
-  const Pair<F> in_pixel = dice.pair(dimension::pixel);
-  return ray_through(s, x + in_pixel.x, y + in_pixel.y, dice);
+TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Sampler<F>& sampler) {
+  const Pair<F> in_pixel = sampler.next_2d(dimension::pixel);
+  return ray_through(s, x + in_pixel.x, y + in_pixel.y, sampler);
 }
 
-inline constexpr int most_unit_pixels = 4096;
+inline constexpr int max_tile_pixels = 4096;
 
 /// Samples that are to be taken next, one in each lane.
 template <int lanes>
@@ -68,19 +68,19 @@ struct CameraSamples {
   int count = 0;
 };
 
-/// The samples of a unit, in the order in which lanes take them: first one sample of every pixel, then the next one of
-/// every pixel, and so on.
-struct UnitSamples {
-  std::uint16_t column[most_unit_pixels], row[most_unit_pixels];  ///< within the tile
-  std::uint32_t start[most_unit_pixels];                          ///< first sample of each pixel
-  int x0, y0, width;                                              ///< of the tile
-  const std::uint32_t *first_of, *last_of;                        ///< see Unit
+/// The samples of a tile job, in the order in which lanes take them: first one sample of every pixel, then the next one
+/// of every pixel, and so on.
+struct TileSamples {
+  std::uint16_t column[max_tile_pixels], row[max_tile_pixels];  ///< within the tile
+  std::uint32_t start[max_tile_pixels];                         ///< first sample of each pixel
+  int x0, y0, width;                                            ///< of the tile
+  const std::uint32_t *first_of, *last_of;                      ///< see TileJob
   int pixels;
   int pixel;            ///< the next one, as an index into these lists
   std::uint32_t round;  ///< its next sample, counted from the pixel's first
   std::uint32_t rounds;
-  std::uint32_t next_finish;  ///< the round before which no pixel has all its samples
-  Glints glints;              ///< those in the rows of the tile
+  std::uint32_t next_finish;       ///< the round before which no pixel has all its samples
+  SubpixelLights subpixel_lights;  ///< those in the rows of the tile
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
@@ -118,35 +118,36 @@ struct UnitSamples {
   }
 };
 
-TYNDALL_INLINE void list_samples(const SceneView& s, const Unit& unit, UnitSamples& list) {
-  list.glints = glints_in_rows({s.glints, s.glints + s.glint_count}, unit.tile.y0, unit.tile.y1);
+TYNDALL_INLINE void list_samples(const SceneView& s, const TileJob& job, TileSamples& list) {
+  list.subpixel_lights = subpixel_lights_in_rows({s.subpixel_lights, s.subpixel_lights + s.subpixel_light_count},
+                                                 job.tile.y0, job.tile.y1);
   list.pixels = 0;
-  const auto first_multiple = [&](int from) { return (from + unit.step - 1) / unit.step * unit.step; };
-  for (int y = first_multiple(unit.tile.y0); y < unit.tile.y1; y += unit.step)
-    for (int x = first_multiple(unit.tile.x0); x < unit.tile.x1; x += unit.step) {
-      if (unit.skip_step > 0 && x % unit.skip_step == 0 && y % unit.skip_step == 0) continue;
-      list.column[list.pixels] = static_cast<std::uint16_t>(x - unit.tile.x0);
-      list.row[list.pixels] = static_cast<std::uint16_t>(y - unit.tile.y0);
-      list.start[list.pixels] = unit.first;
+  const auto first_multiple = [&](int from) { return (from + job.step - 1) / job.step * job.step; };
+  for (int y = first_multiple(job.tile.y0); y < job.tile.y1; y += job.step)
+    for (int x = first_multiple(job.tile.x0); x < job.tile.x1; x += job.step) {
+      if (job.skip_step > 0 && x % job.skip_step == 0 && y % job.skip_step == 0) continue;
+      list.column[list.pixels] = static_cast<std::uint16_t>(x - job.tile.x0);
+      list.row[list.pixels] = static_cast<std::uint16_t>(y - job.tile.y0);
+      list.start[list.pixels] = job.first;
       ++list.pixels;
     }
-  list.x0 = unit.tile.x0, list.y0 = unit.tile.y0, list.width = unit.tile.x1 - unit.tile.x0;
-  list.first_of = unit.first_of, list.last_of = unit.last_of;
+  list.x0 = job.tile.x0, list.y0 = job.tile.y0, list.width = job.tile.x1 - job.tile.x0;
+  list.first_of = job.first_of, list.last_of = job.last_of;
   list.pixel = 0;
   list.round = 0;
-  list.rounds = list.pixels ? unit.last - unit.first : 0;
+  list.rounds = list.pixels ? job.last - job.first : 0;
   list.next_finish = ~0u;
-  if (!unit.first_of) return;
+  if (!job.first_of) return;
   list.rounds = ~0u;
   list.drop_finished();
 }
 
-/// The next samples of a unit, one in each lane, and the rays with which they start.
+/// The next samples of a tile job, one in each lane, and the rays with which they start.
 template <class F>
 struct NewSamples {
   Ray<F> ray;
-  UintOf<F> low, high;  ///< see Dice
-  AtGlints<F> glints;
+  UintOf<F> low, high;  ///< see Sampler
+  AtSubpixelLights<F> subpixel_lights;
   IntOf<F> slot;  ///< see Paths::slot
   int count;      ///< lanes from this one on have no sample
 };
@@ -159,14 +160,15 @@ template <class F>
   samples.take(next);
   const IntOf<F> column = load_int<F>(next.x), row = load_int<F>(next.y);
   const F x = from_int<F>(column), y = from_int<F>(row);
-  const Dice<F> dice = Dice<F>::of(s.seed, as_uint(column), as_uint(row), load_uint<F>(next.index), s.sampler);
+  const Sampler<F> sampler = Sampler<F>::of(s.seed, as_uint(column), as_uint(row), load_uint<F>(next.index), s.sampler);
   NewSamples<F> taken;
-  Pair<F> in_pixel = dice.pair(dimension::pixel);
-  taken.glints = {F(1.0f), {IntOf<F>(0)}};
-  const Glints& glints = samples.glints();
-  if (glints.first != glints.last) taken.glints = aim_at_glints(glints, x, y, in_pixel);
-  taken.ray = ray_through(s, x + in_pixel.x, y + in_pixel.y, dice);
-  taken.low = dice.low, taken.high = dice.high;
+  Pair<F> in_pixel = sampler.next_2d(dimension::pixel);
+  taken.subpixel_lights = {F(1.0f), {IntOf<F>(0)}};
+  const SubpixelLights& subpixel_lights = samples.subpixel_lights();
+  if (subpixel_lights.first != subpixel_lights.last)
+    taken.subpixel_lights = aim_at_subpixel_lights(subpixel_lights, x, y, in_pixel);
+  taken.ray = ray_through(s, x + in_pixel.x, y + in_pixel.y, sampler);
+  taken.low = sampler.low, taken.high = sampler.high;
   taken.slot = load_int<F>(next.slot), taken.count = next.count;
   return taken;
 }

@@ -18,12 +18,13 @@ struct MediumEvent {
   Vec3<F> point;
   IntOf<F> from;  ///< Ray::from of a start within the medium
   Vec3<F> albedo;
-  F g;           ///< only in scenes with phase functions, else 0
-  F density;     ///< of the medium: its mean number of events per unit length; only in scenes with lamps in fog
-  F begin, far;  ///< distances between which the ray is within the medium's boundary; only in scenes with lamps in fog
+  F g;        ///< only in scenes with phase functions, else 0
+  F density;  ///< of the medium: its mean number of events per unit length; only in scenes with lights in media
+  F begin,
+      far;  ///< distances between which the ray is within the medium's boundary; only in scenes with lights in media
 };
 
-/// No event in any lane. To clear all of it in every step would take up to an eighth of the time in fog.
+/// No event in any lane. To clear all of it in every step would take up to an eighth of the time in media.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> no_event() {
   MediumEvent<F> event;
@@ -57,7 +58,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, const Interval<F>& inside,
                                     MaskOf<F> lanes) {
   const F begin = max(inside.near, F(0.0f));
-  const Vec3<F> point = along(ray.origin, select(lanes, begin, F(0.0f)), ray.direction);
+  const Vec3<F> point = point_at(ray.origin, select(lanes, begin, F(0.0f)), ray.direction);
   const auto dense = mask_and(lanes, less(F(0x1p14f), splat<F>(m.density) * inside.far));
   if (!any(dense)) return point;
   const Start<F> start = start_on<F>(ray.from, m.first, m.count);
@@ -65,15 +66,15 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
   const auto inexact = mask_and(dense, mask_or(on_surface, less(F(0.0f), begin)));
   if (!any(inexact)) return point;
   const Interval<F> again = medium_interval(m, point, ray.direction, IntOf<F>(from_nowhere));
-  return along(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
+  return point_at(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
 }
 
 /// Draws where a path scatters in media before it meets a surface. Each medium has a free flight of its own, and the
 /// shortest counts; this is right where media overlap, too, because their densities add. Media that weigh paths are
-/// left to kept_by_smoke(). nearest: on entry the distance to the surface; shortened to the event where there is one.
-/// event: what no_event() gives, on entry.
+/// left to transmitted_by_absorbers(). nearest: on entry the distance to the surface; shortened to the event where
+/// there is one. event: what no_event() gives, on entry.
 template <class F>
-TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Dice<F>& dice, MaskOf<F> active,
+TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Sampler<F>& sampler, MaskOf<F> active,
                                       F& nearest, MediumEvent<F>& event) {
   const F infinity = F(__builtin_inff());
   for (int k = 0; k < s.medium_count; ++k) {
@@ -83,26 +84,27 @@ TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Di
     const F begin = max(inside.near, F(0.0f)), end = min(inside.far, nearest);
     const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
     if (!any(crosses)) continue;
-    const F flight = free_flight(splat<F>(m.density), dice.open(dimension::free_flight, static_cast<std::uint32_t>(k)));
+    const F flight =
+        free_flight(splat<F>(m.density), sampler.open(dimension::free_flight, static_cast<std::uint32_t>(k)));
     const F t = begin + flight;
     const auto here = mask_and(mask_and(crosses, less(t, end)), less(t, infinity));
     nearest = select(here, t, nearest);
     event.happens = mask_or(event.happens, here);
     const Vec3<F> entry = enter_medium(m, ray, inside, here);
-    event.point = select(here, along(entry, flight, ray.direction), event.point);
+    event.point = select(here, point_at(entry, flight, ray.direction), event.point);
     event.medium = select(here, IntOf<F>(k), event.medium);
-    if (s.has_lamps_in_fog()) {
+    if (s.has_lights_in_media()) {
       event.density = select(here, splat<F>(m.density), event.density);
       event.begin = select(here, begin, event.begin), event.far = select(here, inside.far, event.far);
     }
     event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
     event.albedo = select(here, splat<F>(m.albedo), event.albedo);
     if (s.has_textures()) event.texture = select(here, IntOf<F>(m.texture), event.texture);
-    if (s.needs.phase_functions) event.g = select(here, splat<F>(m.g), event.g);
+    if (s.features.phase_functions) event.g = select(here, splat<F>(m.g), event.g);
   }
 }
 
-/// Share of the light, in [0, 1], that passes all media on the way to `distance`.
+/// Fraction of the light, in [0, 1], that passes all media on the way to `distance`.
 template <class F>
 TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, MaskOf<F> active) {
   F depth = F(0.0f);
@@ -117,15 +119,14 @@ TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, M
 
 /// Russian roulette puts only paths at risk whose throughput is below this. The time to a given error was found to be
 /// the same for all values from 1/8 to 1/4.
-inline constexpr float least_carried = 0.125f;
+inline constexpr float min_carried = 0.125f;
 
 /// By what the throughput of a path is to be multiplied for media that only absorb, on the way to `distance`. If such a
 /// medium ended paths by chance, few would find what is behind it, and each of these would count for much. So a path
-/// carries what passes each medium. Where that is less than `least_carried`, it carries that much or, by chance,
-/// nothing.
+/// carries what passes each medium. Where that is less than `min_carried`, it carries that much or, by chance, nothing.
 template <class F>
-TYNDALL_INLINE F kept_by_smoke(const SceneView& s, const Ray<F>& ray, const Dice<F>& dice, F distance,
-                               MaskOf<F> active) {
+TYNDALL_INLINE F transmitted_by_absorbers(const SceneView& s, const Ray<F>& ray, const Sampler<F>& sampler, F distance,
+                                          MaskOf<F> active) {
   F kept = F(1.0f);
   for (int k = 0; k < s.medium_count; ++k) {
     const MediumColumns& m = s.media[k];
@@ -135,51 +136,51 @@ TYNDALL_INLINE F kept_by_smoke(const SceneView& s, const Ray<F>& ray, const Dice
     const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
     if (!any(crosses)) continue;
     const F passes = transmittance(splat<F>(m.density) * (end - begin));
-    const F u = dice.open(dimension::free_flight, static_cast<std::uint32_t>(k));
-    const auto goes_on = less_equal(F(least_carried) * u, passes);
-    kept = select(crosses, kept * select(goes_on, max(passes, F(least_carried)), F(0.0f)), kept);
+    const F u = sampler.open(dimension::free_flight, static_cast<std::uint32_t>(k));
+    const auto goes_on = less_equal(F(min_carried) * u, passes);
+    kept = select(crosses, kept * select(goes_on, max(passes, F(min_carried)), F(0.0f)), kept);
   }
   return kept;
 }
 
 /// Density per steradian with which a medium scatters from one direction into another.
 template <class F>
-TYNDALL_INLINE F phase_density(const auto& s, F g, Vec3<F> before, Vec3<F> after) {
-  if (!s.needs.phase_functions) return F(static_cast<float>(0.25 / pi));  // what the formula gives for g = 0
-  return henyey_greenstein_density(g, dot(before, after));
+TYNDALL_INLINE F phase_pdf(const auto& s, F g, Vec3<F> before, Vec3<F> after) {
+  if (!s.features.phase_functions) return F(static_cast<float>(0.25 / pi));  // what the formula gives for g = 0
+  return henyey_greenstein_pdf(g, dot(before, after));
 }
 
-// Flights in fog that end close to a lamp. Free flights, whose lengths follow the fog's density, seldom end there,
-// though a small lamp's light is strongest there, without bound: it falls with the squared distance. The few that do
-// would be bright dots in the picture. So distances are also sampled evenly in the angle at which a lamp sees them:
-// C. Kulla, M. Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, EGSR 2012, section 4.
-// This is done only for pairs of a medium and a lamp in it or near it.
+// Flights in media that end close to a light. Free flights, whose lengths follow the medium's density, seldom end
+// there, though a small light's light is strongest there, without bound: it falls with the squared distance. The few
+// that do would be bright dots in the picture. So distances are also sampled evenly in the angle at which a light sees
+// them: C. Kulla, M. Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, EGSR 2012,
+// section 4. This is done only for pairs of a medium and a light in it or near it.
 
-/// A distribution of distances along a ray, from begin to end: uniform in the angle seen from a lamp's centre.
+/// A distribution of distances along a ray, from begin to end: uniform in the angle seen from a light's centre.
 template <class F>
 struct Equiangular {
   F begin, end;
-  F middle;  ///< distance to the place closest to the lamp's centre; may be outside of [begin, end]
-  /// Distance from that place to the centre, increased by half of the lamp's reach (root of the sum of the squares),
-  /// because that close to the lamp its light no longer grows with the inverse squared distance.
+  F middle;  ///< distance to the place closest to the light's centre; may be outside of [begin, end]
+  /// Distance from that place to the centre, increased by half of the light's reach (root of the sum of the squares),
+  /// because that close to the light its light no longer grows with the inverse squared distance.
   F across;
   F angle;  ///< between begin and end, seen from the centre; 0: it is so narrow that distances are drawn uniformly
 };
 
-/// to_center: from the ray's origin to the lamp's centre. reach2: squared radius of a ball around it that holds the
-/// lamp.
+/// to_center: from the ray's origin to the light's centre. reach2: squared radius of a sphere around it that holds the
+/// light.
 template <class F>
 TYNDALL_INLINE Equiangular<F> equiangular(Vec3<F> to_center, F reach2, Vec3<F> direction, F begin, F end) {
   const F middle = dot(to_center, direction);
-  const Vec3<F> way = along(to_center, -middle, direction);
-  const F across = sqrt(max(mul_add(reach2, F(0.25f), dot(way, way)), F(1e-30f)));
+  const Vec3<F> offset = point_at(to_center, -middle, direction);
+  const F across = sqrt(max(mul_add(reach2, F(0.25f), dot(offset, offset)), F(1e-30f)));
   const F angle = atan2((end - begin) * across, mul_add(begin - middle, end - middle, across * across));
   return {begin, end, middle, across, select(less(angle, F(2e-3f)), F(0.0f), angle)};
 }
 
 /// Probability density per unit length.
 template <class F>
-TYNDALL_INLINE F density(const Equiangular<F>& e, F distance) {
+TYNDALL_INLINE F pdf(const Equiangular<F>& e, F distance) {
   const F off = distance - e.middle;
   const auto uniform = equal(e.angle, F(0.0f));
   return select(uniform, F(1.0f), e.across) /
@@ -189,7 +190,7 @@ TYNDALL_INLINE F density(const Equiangular<F>& e, F distance) {
 /// The distance for a random number u in [0, 1).
 template <class F>
 TYNDALL_INLINE F sample(const Equiangular<F>& e, F u) {
-  const SinCos<F> part = sin_cos_turn(u * e.angle * F(static_cast<float>(0.5 / pi)));
+  const SinCos<F> part = sin_cos_2pi(u * e.angle * F(static_cast<float>(0.5 / pi)));
   const F first = e.begin - e.middle;
   const F off = e.across * mul_add(first, part.cos, e.across * part.sin) /
                 neg_mul_add(first, part.sin, e.across * part.cos);  // across · tan of the angle
@@ -200,17 +201,17 @@ TYNDALL_INLINE F sample(const Equiangular<F>& e, F u) {
 /// A flight along a ray that ended in a medium, with all that is needed to tell how likely each way of sampling was to
 /// end it there.
 template <class F>
-struct FogFlight {
+struct MediumFlight {
   IntOf<F> medium;  ///< -1: the flight did not end in one
   Vec3<F> origin, direction;
   F begin, end;  ///< distances at which its ray enters the medium, and leaves it or meets a surface
   F distance;    ///< where it ended
-  F density;     ///< probability density, per unit length, with which free flights end there in this medium
+  F pdf;         ///< probability density, per unit length, with which free flights end there in this medium
 };
 
 /// The distribution by which a flight is ended by angle for a light.
 template <class F>
-TYNDALL_INLINE Equiangular<F> way_past(const LightView& l, IntOf<F> light, const FogFlight<F>& flight) {
+TYNDALL_INLINE Equiangular<F> distances_past(const LightView& l, IntOf<F> light, const MediumFlight<F>& flight) {
   const auto at = [&](const float* column) { return lookup<F>(column, l.count, light); };
   const Vec3<F> center{at(l.center[0]), at(l.center[1]), at(l.center[2])};
   return equiangular(center - flight.origin, at(l.reach2), flight.direction, flight.begin, flight.end);
@@ -220,14 +221,14 @@ TYNDALL_INLINE Equiangular<F> way_past(const LightView& l, IntOf<F> light, const
 /// `light`, over that with which it ends freely and `light` is then chosen with `probability`. 0 where flights in this
 /// medium are never ended by angle for this light.
 template <class F>
-TYNDALL_INLINE F by_angle_odds(const SceneView& s, const FogFlight<F>& flight, IntOf<F> light, F probability) {
-  const auto in_fog = less_equal(IntOf<F>(0), flight.medium);
-  const IntOf<F> pair = select(in_fog, flight.medium * IntOf<F>(s.lights.count) + light, IntOf<F>(0));
-  const F chosen = select(in_fog, gather<F>(s.near_probability, pair), F(0.0f));
+TYNDALL_INLINE F by_angle_odds(const SceneView& s, const MediumFlight<F>& flight, IntOf<F> light, F probability) {
+  const auto in_medium = less_equal(IntOf<F>(0), flight.medium);
+  const IntOf<F> pair = select(in_medium, flight.medium * IntOf<F>(s.lights.count) + light, IntOf<F>(0));
+  const F chosen = select(in_medium, gather<F>(s.near_probability, pair), F(0.0f));
   const auto could = less(F(0.0f), chosen);
   if (!any(could)) return F(0.0f);
-  const F by_angle = chosen * density(way_past(s.lights, light, flight), flight.distance);
-  const F odds = min(by_angle / max(flight.density * probability, F(1e-30f)), F(1e15f));
+  const F by_angle = chosen * pdf(distances_past(s.lights, light, flight), flight.distance);
+  const F odds = min(by_angle / max(flight.pdf * probability, F(1e-30f)), F(1e15f));
   return select(could, odds * odds, F(0.0f));
 }
 

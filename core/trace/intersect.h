@@ -1,11 +1,11 @@
 #pragma once
-#include "core/trace/lone_ray.h"
+#include "core/trace/single_ray.h"
 
 /// Finds the closest surface along a ray, and whether anything blocks a way. A lane's result depends on its own ray and
 /// the scene alone, never on the rays in other lanes: of two hits at one distance the lower element wins, and a box may
 /// rule out a primitive only if the primitive's hit could not win. Where there is a tree of boxes (core/compile/bvh.h),
 /// all lanes go through it from node to node together, as long as enough of them meet the same boxes; then each goes on
-/// alone (lone_ray.h).
+/// alone (single_ray.h).
 namespace tyndall {
 
 /// Nodes that are still to be visited. near: the distance at which each lane enters the node; infinity if it misses it.
@@ -19,11 +19,11 @@ struct Stack {
   TYNDALL_INLINE void raise_nearest(int bottom) {
     const int top = size - 1;
     int nearest = top;
-    float least = least_lane(near[top]);
+    float minimum = min_lane(near[top]);
     for (int i = bottom; i < top; ++i) {
-      const float key = least_lane(near[i]);
-      nearest = key < least ? i : nearest;
-      least = key < least ? key : least;
+      const float key = min_lane(near[i]);
+      nearest = key < minimum ? i : nearest;
+      minimum = key < minimum ? key : minimum;
     }
     const F near_top = near[top];
     const std::int32_t node_top = node[top];
@@ -32,22 +32,22 @@ struct Stack {
   }
 };
 
-/// If no more lanes than this have to enter a node, each of them goes on alone (lone_ray.h): a test in all lanes would
-/// be wasted on most of them. By measurement 4 of 32 and 2 of 16 lanes are best for the rays of paths, and twice as
-/// many for rays in random order. Lanes always enter a leaf together: there is too little work in it to go alone.
+/// If no more lanes than this have to enter a node, each of them goes on alone (single_ray.h): a test in all lanes
+/// would be wasted on most of them. By measurement 4 of 32 and 2 of 16 lanes are best for the rays of paths, and twice
+/// as many for rays in random order. Lanes always enter a leaf together: there is too little work in it to go alone.
 template <class F>
 inline constexpr int few_lanes = lanes_of<F> < bvh_width ? 0 : lanes_of<F> / 8;
 
 /// Takes nodes off the stack until there is one in which some lane may find a hit closer than its best, and sets `node`
 /// to it. Returns a bit for each such lane; 0: no node is left.
 template <class F, class Q>
-TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& asked, const Hit<F>& best) {
+TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& query, const Hit<F>& best) {
   const F infinity = F(__builtin_inff());
   while (stack.size > 0) {
     --stack.size;
     const F near = stack.near[stack.size];
-    asked.near = select(less_equal(near, best.t * F(slab_room)), near, infinity);
-    const std::uint32_t live = bits(less(asked.near, infinity));
+    query.near = select(less_equal(near, best.t * F(slab_room)), near, infinity);
+    const std::uint32_t live = bits(less(query.near, infinity));
     node = stack.node[stack.size];
     if (live) return live;
   }
@@ -72,24 +72,24 @@ TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F li
 /// Replaces `best` in lanes that meet something closer. On entry best.t says how far each lane has to look; negative:
 /// the lane takes no part.
 template <class F, class Q>
-TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hit<F>& best) {
+TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q query, Hit<F>& best) {
   const Slopes<F> slopes = slopes_of(ray);
-  LoneRays<F> alone;
+  SingleRays<F> alone;
   Stack<F> stack;
   stack.near[0] = F(0.0f);
   stack.node[0] = 0;
   stack.size = 1;
   std::int32_t node = 0;
-  while (const std::uint32_t live = take_node(stack, node, asked, best)) {
+  while (const std::uint32_t live = take_node(stack, node, query, best)) {
     if (node < 0) {
-      test_leaf(s, s.leaves[~node], ray, asked, best);
+      test_leaf(s, s.leaves[~node], ray, query, best);
     } else if (__builtin_popcount(live) > few_lanes<F>) {
       open_node(s.nodes[node], slopes, best.t, stack);
       continue;
     } else if constexpr (few_lanes<F> > 0) {
-      alone.remember(ray, slopes, asked);
-      store(alone.near, asked.near);
-      test_lone_rays<F, Q>(s, alone, node, live, best);
+      alone.remember(ray, slopes, query);
+      store(alone.near, query.near);
+      test_single_rays<F, Q>(s, alone, node, live, best);
     }
     if constexpr (Q::shadow) best.t = select(less(best.element, IntOf<F>(0)), best.t, F(-1.0f));
   }
@@ -98,14 +98,14 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q asked, Hi
 template <class F>
 TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  test_all(s, ray, Asked<F, false, false>{F(0.0f), IntOf<F>(-1), -1}, best);
+  test_all(s, ray, RayQuery<F, false, false>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
 }
 
 template <class F>
 TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
-  test_tree(s, ray, Asked<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
+  test_tree(s, ray, RayQuery<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
 }
 
@@ -121,9 +121,9 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, 
                                          std::int32_t common_aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
   if (s.nodes)
-    test_tree(s, ray, Asked<F, true, true>{F(0.0f), aim, common_aim}, best);
+    test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
   else
-    test_all(s, ray, Asked<F, true, false>{F(0.0f), aim, common_aim}, best);
+    test_all(s, ray, RayQuery<F, true, false>{F(0.0f), aim, common_aim}, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 

@@ -13,10 +13,10 @@ TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
   return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
 }
 
-// The next functions choose among lights, or among pairs of a ball or mirror and a light: among what `view` has. (They
-// are not given closures, which would keep the path in memory.)
+// The next functions choose among lights, or among pairs of a sphere or mirror and a light: among what `view` has.
+// (They are not given closures, which would keep the path in memory.)
 TYNDALL_INLINE const LightView& choice_of(const LightView& view) { return view; }
-TYNDALL_INLINE const LightView& choice_of(const ChainView& view) { return view.choice; }
+TYNDALL_INLINE const LightView& choice_of(const SpecularView& view) { return view.choice; }
 
 template <class F>
 TYNDALL_INLINE F total_worth(const auto& view, Vec3<F> point) {
@@ -35,11 +35,11 @@ struct LightChoice {
 /// The probabilities with which a point takes the two children of a pair of nodes: in proportion to what they roughly
 /// contribute, as light_worth() says of single lights.
 template <class F>
-TYNDALL_INLINE Pair<F> shares_of_pair(const LightTreeView& t, IntOf<F> first, Vec3<F> point) {
+TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> first, Vec3<F> point) {
   const auto worth = [&](IntOf<F> node) {
     const Vec3<F> center{gather<F>(t.center[0], node), gather<F>(t.center[1], node), gather<F>(t.center[2], node)};
-    const Vec3<F> way = center - point;
-    return gather<F>(t.power, node) / max(dot(way, way), gather<F>(t.reach2, node)) + F(1e-30f);
+    const Vec3<F> to_node = center - point;
+    return gather<F>(t.power, node) / max(dot(to_node, to_node), gather<F>(t.reach2, node)) + F(1e-30f);
   };
   const F a = worth(first), b = worth(first + IntOf<F>(1)), sum = a + b;
   return {a / sum, b / sum};
@@ -56,10 +56,11 @@ TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> poi
     const auto inner = less_equal(I(0), child);
     if (!any(inner)) return {I(-1) - child, probability};
     const I pair = select(inner, child, I(0));
-    const Pair<F> shares = shares_of_pair(t, pair, point);
-    const auto first = less(u, shares.x);
-    const F share = select(first, shares.x, shares.y), rest = select(first, u, u - shares.x) / share;
-    probability = select(inner, probability * share, probability);
+    const Pair<F> probabilities = probabilities_of_pair(t, pair, point);
+    const auto first = less(u, probabilities.x);
+    const F chosen = select(first, probabilities.x, probabilities.y),
+            rest = select(first, u, u - probabilities.x) / chosen;
+    probability = select(inner, probability * chosen, probability);
     u = select(inner, min(rest, F(0.99999994f)), u);
     node = select(inner, select(first, pair, pair + I(1)), node);
   }
@@ -75,20 +76,20 @@ TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntO
     const auto below = less(I(0), node);
     if (!any(below)) return probability;
     const I side = node & I(1), pair = select(below, node - side, I(0));
-    const Pair<F> shares = shares_of_pair(t, pair, point);
-    probability = select(below, probability * select(equal(side, I(0)), shares.x, shares.y), probability);
+    const Pair<F> probabilities = probabilities_of_pair(t, pair, point);
+    probability = select(below, probability * select(equal(side, I(0)), probabilities.x, probabilities.y), probability);
     node = select(below, gather_int<F>(t.parent, node), I(0));
   }
 }
 
 /// Chooses a light for a point by u in [0, 1): in proportion to light_worth() if there are few lights, by the tree of
-/// lights if there are more than most_lights_by_contribution.
+/// lights if there are more than max_lights_by_contribution.
 template <class F>
 TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u) {
   using I = IntOf<F>;
   const LightView& l = choice_of(view);
   if (l.count == 1) return {I(0), F(1.0f)};
-  if (l.count <= most_lights_by_contribution) {
+  if (l.count <= max_lights_by_contribution) {
     const F total = total_worth(view, point);
     LightChoice<F> choice{I(l.count - 1), F(0.0f)};
     F left = u * total, worth = F(0.0f);
@@ -111,7 +112,7 @@ template <class F>
 TYNDALL_INLINE F choice_probability(const auto& view, Vec3<F> point, IntOf<F> light) {
   const LightView& l = choice_of(view);
   if (l.count == 1) return F(1.0f);
-  if (l.count > most_lights_by_contribution) return probability_in_tree(l.tree, point, light);
+  if (l.count > max_lights_by_contribution) return probability_in_tree(l.tree, point, light);
   F total = F(0.0f), own = F(0.0f);
   for (int k = 0; k < l.count; ++k) {
     const F worth = light_worth(view, k, point);

@@ -6,7 +6,8 @@
 
 /// Samples lights as seen from a point: which point of a light, and with which density of the direction, per steradian,
 /// the choice of the light (light_choice.h) included. The density depends on the point and the light alone, so that a
-/// ray which meets a light by chance can be weighed against the sample that would have chosen the same direction.
+/// ray which meets a light by BSDF sampling can be weighed against the sample that would have chosen the same
+/// direction.
 namespace tyndall {
 
 /// A light's columns for each lane: see Lights. With one light in the scene they are read once for all lanes.
@@ -46,10 +47,10 @@ TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
 /// solid angle (two of the four are conjugated), so that one arc tangent is enough.
 template <class F>
 struct SphericalRectangle {
-  F x0, y0, x1, y1, z;   ///< in units of `scale`; z: distance from the rectangle's plane, >= 0
-  F scale;               ///< the largest of these coordinates, in scene units
-  F solid_angle;         ///< 0: too small, too flat or too wide for these formulas; sample the area instead
-  F turn_cos, turn_sin;  ///< cosine and sine of the angle of conj(c01) c00, the corners (x0, y1) and (x0, y0)
+  F x0, y0, x1, y1, z;     ///< in units of `scale`; z: distance from the rectangle's plane, >= 0
+  F scale;                 ///< the largest of these coordinates, in scene units
+  F solid_angle;           ///< 0: too small, too flat or too wide for these formulas; sample the area instead
+  F angle_cos, angle_sin;  ///< cosine and sine of the angle of conj(c01) c00, the corners (x0, y1) and (x0, y0)
 };
 
 template <class F>
@@ -74,9 +75,9 @@ TYNDALL_INLINE Complex<F> corner_at(F x, F y, F z) {
 
 template <class F>
 TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light, Vec3<F> point) {
-  const Vec3<F> way = light.corner - point;
+  const Vec3<F> to_light = light.corner - point;
   SphericalRectangle<F> r;
-  const F x = dot(way, light.edge_u), y = dot(way, light.edge_v), z = abs(dot(way, light.normal));
+  const F x = dot(to_light, light.edge_u), y = dot(to_light, light.edge_v), z = abs(dot(to_light, light.normal));
   const F largest =
       max(max(max(abs(x), abs(x + light.length_u)), max(abs(y), abs(y + light.length_v))), max(z, F(1e-30f)));
   r.scale = largest;
@@ -90,17 +91,17 @@ TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light
   const auto good = mask_and(mask_and(less(F(2e-3f), solid_angle), less(solid_angle, F(6.28f))), less(F(1e-4f), r.z));
   r.solid_angle = select(mask_and(good, equal(light.kind, IntOf<F>(Lights::rectangle))), solid_angle, F(0.0f));
   const F inverse = F(1.0f) / sqrt(max(mul_add(q.re, q.re, q.im * q.im), F(1e-37f)));
-  r.turn_cos = q.re * inverse, r.turn_sin = q.im * inverse;
+  r.angle_cos = q.re * inverse, r.angle_sin = q.im * inverse;
   return r;
 }
 
 /// Point of a rectangle that is uniform in solid angle, as (x, y) in the rectangle's frame, in units of its scale.
 template <class F>
 TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pair<F> u) {
-  const SinCos<F> part = sin_cos_turn(min(u.x * r.solid_angle * F(static_cast<float>(0.5 / pi)), F(0.9999999f)));
+  const SinCos<F> part = sin_cos_2pi(min(u.x * r.solid_angle * F(static_cast<float>(0.5 / pi)), F(0.9999999f)));
   // The angle is u S + π - arg q.
-  const F sine = mul_add(r.turn_sin, part.cos, -(r.turn_cos * part.sin));
-  const F cosine = -mul_add(r.turn_cos, part.cos, r.turn_sin * part.sin);
+  const F sine = mul_add(r.angle_sin, part.cos, -(r.angle_cos * part.sin));
+  const F cosine = -mul_add(r.angle_cos, part.cos, r.angle_sin * part.sin);
   const F z2 = r.z * r.z;
   const F b0 = -r.y0 / sqrt(mul_add(r.y0, r.y0, z2)), b1 = r.y1 / sqrt(mul_add(r.y1, r.y1, z2));
   const F safe = select(less(abs(sine), F(1e-20f)), F(1e-20f), sine);
@@ -120,7 +121,7 @@ template <class F>
 struct SphericalCap {
   Vec3<F> axis;     ///< unit, towards the centre
   F one_minus_cos;  ///< 1 - cos of the cone's half angle; 2: the point is inside, and every direction meets the sphere
-  F density;        ///< of each direction, per steradian
+  F pdf;            ///< of each direction, per steradian
 };
 
 template <class F>
@@ -142,13 +143,13 @@ TYNDALL_INLINE Vec3<F> in_cap(const SphericalCap<F>& cap, Pair<F> u) {
   const F x = u.x * cap.one_minus_cos;  // 1 - cos of the angle from the axis
   const F sine = sqrt(max(x * (F(2.0f) - x), F(0.0f)));
   const Basis<F> b = basis_around(cap.axis);
-  const SinCos<F> a = sin_cos_turn(u.y);
-  return along(along((F(1.0f) - x) * cap.axis, sine * a.cos, b.s), sine * a.sin, b.t);
+  const SinCos<F> a = sin_cos_2pi(u.y);
+  return point_at(point_at((F(1.0f) - x) * cap.axis, sine * a.cos, b.s), sine * a.sin, b.t);
 }
 
 template <class F>
 TYNDALL_INLINE Vec3<F> sphere_light_center(const LightColumns<F>& light, F time) {
-  return along(light.corner, time, light.edge_u);
+  return point_at(light.corner, time, light.edge_u);
 }
 
 /// A direction to a light.
@@ -156,26 +157,26 @@ template <class F>
 struct LightSample {
   Vec3<F> direction;  ///< unit
   F distance;
-  F density;  ///< per steradian, the choice of the light not included; 0: nothing can come from there
+  F pdf;  ///< per steradian, the choice of the light not included; 0: nothing can come from there
 };
 
 template <class F>
 TYNDALL_INLINE LightSample<F> sample_flat(const LightColumns<F>& light, Vec3<F> point, Pair<F> u) {
   const SphericalRectangle<F> r = rectangle_from(light, point);
   const auto by_area = equal(r.solid_angle, F(0.0f));
-  Vec3<F> way =
-      along(along(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
+  Vec3<F> to_light =
+      point_at(point_at(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
   if (!all(by_area)) {
     const Pair<F> at = on_spherical_rectangle(r, u);
     const F side = copy_sign(F(1.0f), dot(light.corner - point, light.normal));
-    const Vec3<F> local = along(along(at.x * light.edge_u, at.y, light.edge_v), side * r.z, light.normal);
-    way = select(by_area, way, r.scale * local);
+    const Vec3<F> local = point_at(point_at(at.x * light.edge_u, at.y, light.edge_v), side * r.z, light.normal);
+    to_light = select(by_area, to_light, r.scale * local);
   }
-  const F d2 = max(dot(way, way), F(1e-37f)), inverse = F(1.0f) / sqrt(d2);
-  const Vec3<F> direction = inverse * way;
+  const F d2 = max(dot(to_light, to_light), F(1e-37f)), inverse = F(1.0f) / sqrt(d2);
+  const Vec3<F> direction = inverse * to_light;
   const F cosine = abs(dot(direction, light.normal));
-  const F area_density = select(less(F(0.0f), cosine), d2 / max(cosine * light.area, F(1e-37f)), F(0.0f));
-  return {direction, d2 * inverse, select(by_area, area_density, F(1.0f) / r.solid_angle)};
+  const F area_pdf = select(less(F(0.0f), cosine), d2 / max(cosine * light.area, F(1e-37f)), F(0.0f));
+  return {direction, d2 * inverse, select(by_area, area_pdf, F(1.0f) / r.solid_angle)};
 }
 
 template <class F>
@@ -185,10 +186,10 @@ TYNDALL_INLINE LightSample<F> sample_sphere_light(const LightColumns<F>& light, 
   const Vec3<F> direction = in_cap(cap, u);
   // The direction was drawn within the cone: if it misses the sphere, by rounding, it counts as one that grazes it.
   const F middle = dot(to_center, direction);
-  const Vec3<F> across = along(to_center, -middle, direction);
+  const Vec3<F> across = point_at(to_center, -middle, direction);
   const F half = sqrt(max(mul_add(light.length_u, light.length_u, -dot(across, across)), F(0.0f)));
   const F near = middle - half;
-  return {direction, select(less(F(0.0f), near), near, middle + half), cap.density};
+  return {direction, select(less(F(0.0f), near), near, middle + half), cap.pdf};
 }
 
 template <class F>
@@ -198,9 +199,9 @@ TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, V
   LightSample<F> sample{{F(0.0f), F(0.0f), F(1.0f)}, F(0.0f), F(0.0f)};
   if (!all(round)) sample = sample_flat(columns, point, u);
   if (any(round)) {
-    const LightSample<F> ball = sample_sphere_light(columns, point, time, u);
-    sample = {select(round, ball.direction, sample.direction), select(round, ball.distance, sample.distance),
-              select(round, ball.density, sample.density)};
+    const LightSample<F> sphere = sample_sphere_light(columns, point, time, u);
+    sample = {select(round, sphere.direction, sample.direction), select(round, sphere.distance, sample.distance),
+              select(round, sphere.pdf, sample.pdf)};
   }
   return sample;
 }
@@ -208,20 +209,18 @@ TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, V
 /// Density, per steradian, with which sample_light() gives `direction`, which meets `light` at `distance`, times the
 /// probability with which choose_light() takes this light.
 template <class F>
-TYNDALL_INLINE F light_density(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction,
-                               F distance) {
+TYNDALL_INLINE F light_pdf(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction, F distance) {
   const LightColumns<F> columns = load_light<F>(l, light);
   const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
-  F density = F(0.0f);
+  F pdf = F(0.0f);
   if (!all(round)) {
     const SphericalRectangle<F> r = rectangle_from(columns, point);
     const F cosine = abs(dot(direction, columns.normal));
     const F by_area = distance * distance / max(cosine * columns.area, F(1e-37f));
-    density = select(less(F(0.0f), r.solid_angle), F(1.0f) / r.solid_angle, by_area);
+    pdf = select(less(F(0.0f), r.solid_angle), F(1.0f) / r.solid_angle, by_area);
   }
-  if (any(round))
-    density = select(round, cap_from(sphere_light_center(columns, time) - point, columns.length_u).density, density);
-  return density * choice_probability(l, point, light);
+  if (any(round)) pdf = select(round, cap_from(sphere_light_center(columns, time) - point, columns.length_u).pdf, pdf);
+  return pdf * choice_probability(l, point, light);
 }
 
 }  // namespace tyndall

@@ -6,7 +6,7 @@
 #include "core/trace/scene_view.h"
 
 /// Tests rays against primitives and keeps the closest hit. Either the lanes are rays that are tested against the same
-/// primitive, or all lanes hold the same ray and each tests another primitive (lone_ray.h).
+/// primitive, or all lanes hold the same ray and each tests another primitive (single_ray.h).
 namespace tyndall {
 
 template <class F>
@@ -24,7 +24,7 @@ inline constexpr float slab_room = 1.0f + 0x1p-17f;
 /// lane aims does not count. is_by_tree: the primitives are those of a leaf of the tree, whose box the lane enters at
 /// `near`.
 template <class F, bool is_shadow, bool is_by_tree>
-struct Asked {
+struct RayQuery {
   static constexpr bool shadow = is_shadow, by_tree = is_by_tree;
   F near;                   ///< distance; infinity: the lane misses the leaf's box
   IntOf<F> aim;             ///< shadow rays: the element that does not count
@@ -33,59 +33,59 @@ struct Asked {
 
 /// Lanes whose candidate, at distance t, is closer than the best so far. best.t is negative in lanes that take no part.
 template <class F, class Q>
-TYNDALL_INLINE MaskOf<F> beats(F t, IntOf<F> element, MaskOf<F> hit, const Hit<F>& best, const Q& asked) {
+TYNDALL_INLINE MaskOf<F> beats(F t, IntOf<F> element, MaskOf<F> hit, const Hit<F>& best, const Q& query) {
   const auto ahead = mask_and(hit, less(F(0.0f), t));
   auto closer = less(t, best.t);
   if constexpr (!Q::shadow) closer = mask_or(closer, mask_and(equal(t, best.t), less(element, best.element)));
   const auto better = mask_and(ahead, closer);
-  if constexpr (Q::by_tree) return mask_and(better, less_equal(asked.near, t * F(slab_room)));
+  if constexpr (Q::by_tree) return mask_and(better, less_equal(query.near, t * F(slab_room)));
   return better;
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_sphere(Vec3<F> center, F radius, IntOf<F> element, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_sphere(Vec3<F> center, F radius, IntOf<F> element, const Ray<F>& ray, const Q& query,
                                 Hit<F>& best) {
   const Vec3<F> to_center = center - ray.origin;
   Interval<F> line = sphere_interval(to_center, radius, ray.direction);
   const Start<F> start = start_on<F>(ray.from, element);
   if (any(start.here)) line = leave_sphere(line, to_center, ray.direction, ray.from, start);
-  if constexpr (Q::shadow) line.hit = mask_and_not(line.hit, equal(asked.aim, element));
+  if constexpr (Q::shadow) line.hit = mask_and_not(line.hit, equal(query.aim, element));
   if (!any(line.hit)) return;
   const F t = select(less(F(0.0f), line.near), line.near, line.far);
-  const auto better = beats(t, element, line.hit, best, asked);
+  const auto better = beats(t, element, line.hit, best, query);
   best.t = select(better, t, best.t);
   best.element = select(better, element, best.element);
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& query,
                                  Hit<F>& best) {
   for (int i = first; i < last; ++i)
-    test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, asked,
+    test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query,
                 best);
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& query,
                                         Hit<F>& best) {
   for (int i = first; i < last; ++i) {
-    const Vec3<F> way = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
-    const Vec3<F> center = along(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, way);
-    test_sphere(center, splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, asked, best);
+    const Vec3<F> motion = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
+    const Vec3<F> center = point_at(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, motion);
+    test_sphere(center, splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query, best);
   }
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Q& query,
                                Hit<F>& best) {
   for (int i = first; i < last; ++i) {
-    if (Q::shadow && q.element[i] == asked.common_aim) continue;
+    if (Q::shadow && q.element[i] == query.common_aim) continue;
     const auto element = splat_int<F>(q.element[i]);
     QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
-    if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(asked.aim, element));
+    if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
     if (!any(h.hit)) continue;
     const Start<F> start = start_on<F>(ray.from, element);
-    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, asked);
+    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, query);
     best.t = select(better, h.t, best.t);
     best.element = select(better, element, best.element);
   }
@@ -93,7 +93,7 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
 
 /// map: as for box_slabs(). element: of the box's first face.
 template <class F, class Q>
-TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, const Ray<F>& ray, const Q& query,
                              Hit<F>& best) {
   const BoxSlabs<F> slabs = box_slabs(map, ray.origin, ray.direction);
   Interval<F> line = slabs.inside;
@@ -102,47 +102,47 @@ TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, 
   const auto entering = less(F(0.0f), line.near);
   const F t = select(entering, line.near, line.far);
   if constexpr (Q::shadow) {
-    const IntOf<F> face = asked.aim - element;  // one of its own faces?
+    const IntOf<F> face = query.aim - element;  // one of its own faces?
     const auto aimed = mask_and(less(IntOf<F>(-1), face), less(face, IntOf<F>(6)));
     if (any(aimed)) line.hit = mask_and_not(line.hit, mask_and(aimed, equal(face, box_face(slabs, entering))));
   }
-  const auto better = beats(t, element, line.hit, best, asked);
+  const auto better = beats(t, element, line.hit, best, query);
   if (!any(better)) return;
   best.t = select(better, t, best.t);
   best.element = select(better, element + box_face(slabs, entering), best.element);
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Q& query,
                                Hit<F>& best) {
   for (int i = first; i < last; ++i)
-    test_box(b.map[i], splat_int<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, asked, best);
+    test_box(b.map[i], splat_int<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, query, best);
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_all(const SceneView& s, const Ray<F>& ray, const Q& asked, Hit<F>& best) {
-  test_spheres(s.spheres, 0, s.spheres.count, ray, asked, best);
-  test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, asked, best);
-  test_quads(s.quads, 0, Q::shadow ? s.quads.hiding : s.quads.count, ray, asked, best);
-  test_boxes(s.boxes, 0, s.boxes.count, ray, asked, best);
+TYNDALL_INLINE void test_all(const SceneView& s, const Ray<F>& ray, const Q& query, Hit<F>& best) {
+  test_spheres(s.spheres, 0, s.spheres.count, ray, query, best);
+  test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, query, best);
+  test_quads(s.quads, 0, Q::shadow ? s.quads.blocking : s.quads.count, ray, query, best);
+  test_boxes(s.boxes, 0, s.boxes.count, ray, query, best);
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray<F>& ray, const Q& asked,
+TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray<F>& ray, const Q& query,
                               Hit<F>& best) {
   const int last = leaf.first + leaf.count;
   switch (leaf.kind) {
     case PrimitiveKind::sphere:
-      test_spheres(s.spheres, leaf.first, last, ray, asked, best);
+      test_spheres(s.spheres, leaf.first, last, ray, query, best);
       break;
     case PrimitiveKind::moving_sphere:
-      test_moving_spheres(s.moving_spheres, leaf.first, last, ray, asked, best);
+      test_moving_spheres(s.moving_spheres, leaf.first, last, ray, query, best);
       break;
     case PrimitiveKind::quad:
-      test_quads(s.quads, leaf.first, last, ray, asked, best);
+      test_quads(s.quads, leaf.first, last, ray, query, best);
       break;
     case PrimitiveKind::box:
-      test_boxes(s.boxes, leaf.first, last, ray, asked, best);
+      test_boxes(s.boxes, leaf.first, last, ray, query, best);
       break;
   }
 }

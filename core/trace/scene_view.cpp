@@ -58,19 +58,19 @@ LightView view_of(const Lights& l) {
   return v;
 }
 
-ChainView view_of(const Chains& c) {
-  ChainView v{};
-  v.pairs = static_cast<int>(c.ball.size()), v.balls = static_cast<int>(c.radius.size());
+SpecularView view_of(const SpecularPairs& c) {
+  SpecularView v{};
+  v.pairs = static_cast<int>(c.sphere.size()), v.spheres = static_cast<int>(c.radius.size());
   v.shells = std::any_of(c.inner_radius.begin(), c.inner_radius.end(), [](float r) { return r > 0; });
-  v.crowds = std::find(c.crowded.begin(), c.crowded.end(), 1) != c.crowded.end();
+  v.has_overlaps = std::find(c.overlapped.begin(), c.overlapped.end(), 1) != c.overlapped.end();
   for (int i = 0; i < 3; ++i) v.center[i] = c.center[i].data(), v.move[i] = c.move[i].data();
   v.radius = c.radius.data(), v.index = c.index.data();
   v.inner_radius = c.inner_radius.data(), v.inner_index = c.inner_index.data();
-  v.outer = c.outer.data(), v.inner = c.inner.data(), v.crowded = c.crowded.data(), v.ball = c.ball.data(),
+  v.outer = c.outer.data(), v.inner = c.inner.data(), v.overlapped = c.overlapped.data(), v.sphere = c.sphere.data(),
   v.light = c.light.data();
-  v.pair_of = c.pair_of.data(), v.ball_of = c.ball_of.data();
+  v.pair_of = c.pair_of.data(), v.sphere_of = c.sphere_of.data();
   v.first_mirror = c.first_mirror, v.mirrors = c.mirrors.data();
-  v.first_pane = c.first_pane, v.panes = c.panes.data();
+  v.first_slab = c.first_slab, v.slabs = c.slabs.data();
   v.choice = view_of(c.choice);
   return v;
 }
@@ -111,13 +111,13 @@ SceneView view_of(const RenderScene& s, const std::vector<TextureView>& textures
   v.near_count = static_cast<int>(s.near.medium.size());
   v.near_medium = s.near.medium.data(), v.near_light = s.near.light.data();
   v.near_probability = s.near.probability.data();
-  v.chains = view_of(s.chains);
+  v.specular = view_of(s.specular);
   v.gradients = s.gradients ? s.gradients->data() : nullptr;
   v.max_depth = s.max_depth;
   v.seed = s.seed;
   v.schlick = s.schlick, v.sampler = s.sampler;
   v.light_sampling = s.light_sampling, v.integrator = s.integrator;
-  v.needs = s.needs;
+  v.features = s.features;
   v.kernel = s.kernel;
   return v;
 }

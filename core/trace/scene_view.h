@@ -1,6 +1,6 @@
 #pragma once
 #include "core/compile/render_scene.h"
-#include "core/trace/glints.h"
+#include "core/trace/subpixel_lights.h"
 
 /// A RenderScene as plain pointers, which is all that kernels read. They must not call a container's member functions:
 /// the linker keeps one copy of each for all files, and one with wide instructions would crash older CPUs.
@@ -16,7 +16,7 @@ struct SphereView {
 };
 struct FlatView {
   int count = 0;
-  int hiding = 0;  ///< so many from the first on can be in the way of shadow rays; the others bound the scene
+  int blocking = 0;  ///< so many from the first on can be in the way of shadow rays; the others bound the scene
   const Affine* map;
   const std::int32_t* element;
   const float* column[affine_numbers];  ///< boxes only: see Flats
@@ -42,16 +42,16 @@ struct LightView {
   LightTreeView tree;
 };
 
-struct ChainView {
-  int pairs = 0, balls = 0, first_mirror = 0, first_pane = 0;
-  bool shells, crowds;  ///< whether some ball is a shell, or crowded
+struct SpecularView {
+  int pairs = 0, spheres = 0, first_mirror = 0, first_slab = 0;
+  bool shells, has_overlaps;  ///< whether some sphere is a shell, or crowded
   const float *center[3], *move[3], *radius, *index, *inner_radius, *inner_index;
-  const std::int32_t *outer, *inner, *crowded, *ball, *light, *pair_of, *ball_of;
-  const float *mirrors, *panes;
+  const std::int32_t *outer, *inner, *overlapped, *sphere, *light, *pair_of, *sphere_of;
+  const float *mirrors, *slabs;
   LightView choice;
-  TYNDALL_INLINE bool has_balls() const { return first_mirror > 0; }
-  TYNDALL_INLINE bool has_mirrors() const { return first_mirror < first_pane; }
-  TYNDALL_INLINE bool has_panes() const { return first_pane < balls; }
+  TYNDALL_INLINE bool has_spheres() const { return first_mirror > 0; }
+  TYNDALL_INLINE bool has_mirrors() const { return first_mirror < first_slab; }
+  TYNDALL_INLINE bool has_slabs() const { return first_slab < spheres; }
 };
 
 struct SceneView {
@@ -79,30 +79,30 @@ struct SceneView {
   const TextureView* textures;
   int medium_count;
   const MediumColumns* media;
-  int near_count;  ///< number of pairs of a medium and a lamp in it or near it: see NearLamps
+  int near_count;  ///< number of pairs of a medium and a light in it or near it: see NearLights
   const std::int32_t *near_medium, *near_light;
   const float* near_probability;  ///< at medium · number of lights + light
-  ChainView chains;
-  int glint_count;
-  const Glint* glints;
+  SpecularView specular;
+  int subpixel_light_count;
+  const SubpixelLight* subpixel_lights;
   const float* gradients;
   int max_depth;
   std::uint32_t seed;
   bool schlick, light_sampling;
   SamplerKind sampler;
   Integrator integrator;
-  Needs needs;
+  SceneFeatures features;
   KernelSet kernel;
-  bool shares;  ///< second vertices are shared between pixels: see share.h
+  bool reuses_paths;  ///< second vertices are shared between pixels: see reuse.h
 
   // What kernels ask before they run the code of a model.
-  TYNDALL_INLINE bool has_media() const { return needs.media; }
-  TYNDALL_INLINE bool has_textures() const { return needs.textures; }
-  TYNDALL_INLINE bool has_image_textures() const { return needs.image_textures; }
-  TYNDALL_INLINE bool has_lamps_in_fog() const { return near_count > 0; }
-  TYNDALL_INLINE bool has_chains() const { return chains.pairs > 0; }
-  TYNDALL_INLINE bool has_lamps() const { return lights.count > 0; }
-  TYNDALL_INLINE bool has_reuse() const { return shares; }
+  TYNDALL_INLINE bool has_media() const { return features.media; }
+  TYNDALL_INLINE bool has_textures() const { return features.textures; }
+  TYNDALL_INLINE bool has_image_textures() const { return features.image_textures; }
+  TYNDALL_INLINE bool has_lights_in_media() const { return near_count > 0; }
+  TYNDALL_INLINE bool has_specular_paths() const { return specular.pairs > 0; }
+  TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
+  TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
 };
 
 /// The scene as a kernel that leaves models out sees it: for those models has_...() is a constant false, so that the
@@ -110,21 +110,22 @@ struct SceneView {
 /// reuse: whether the kernel shares second vertices between pixels (core/reuse).
 template <KernelSet set, bool reuse>
 struct SceneViewFor : SceneView {
-  static constexpr bool fog_and_textures = set != KernelSet::no_fog_nor_textures && set != KernelSet::chains_alone;
-  static constexpr bool asks_chains = set == KernelSet::everything || set == KernelSet::chains_alone;
-  TYNDALL_INLINE bool has_media() const { return fog_and_textures && needs.media; }
-  TYNDALL_INLINE bool has_textures() const { return fog_and_textures && needs.textures; }
-  TYNDALL_INLINE bool has_image_textures() const { return fog_and_textures && needs.image_textures; }
-  TYNDALL_INLINE bool has_lamps_in_fog() const { return fog_and_textures && near_count > 0; }
-  TYNDALL_INLINE bool has_chains() const { return asks_chains && chains.pairs > 0; }
+  static constexpr bool media_and_textures =
+      set != KernelSet::no_media_no_textures && set != KernelSet::specular_paths_only;
+  static constexpr bool solves_specular_paths = set == KernelSet::everything || set == KernelSet::specular_paths_only;
+  TYNDALL_INLINE bool has_media() const { return media_and_textures && features.media; }
+  TYNDALL_INLINE bool has_textures() const { return media_and_textures && features.textures; }
+  TYNDALL_INLINE bool has_image_textures() const { return media_and_textures && features.image_textures; }
+  TYNDALL_INLINE bool has_lights_in_media() const { return media_and_textures && near_count > 0; }
+  TYNDALL_INLINE bool has_specular_paths() const { return solves_specular_paths && specular.pairs > 0; }
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
 };
 
 /// The textures of a scene as kernels see them. They point into `scene`.
 std::vector<TextureView> texture_views(const RenderScene& scene);
 
-/// A scene as kernels see it, without glints and without sharing. It points into both arguments, which must stay as
-/// they are while it is used. core/render/prepare.h adds what has to be found out.
+/// A scene as kernels see it, without subpixel lights and without sharing. It points into both arguments, which must
+/// stay as they are while it is used. core/render/prepare.h adds what has to be found out.
 SceneView view_of(const RenderScene& scene, const std::vector<TextureView>& textures);
 
 }  // namespace tyndall

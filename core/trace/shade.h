@@ -18,7 +18,7 @@ TYNDALL_INLINE Vec3<F> background_radiance(const BackgroundColumns& b, Vec3<F> d
   const Vec3<F> first = splat<F>(b.a);
   if (b.kind == BackgroundKind::constant) return first;
   if (b.kind == BackgroundKind::hemispheres) return select(less(F(0.0f), direction.y), first, splat<F>(b.b));
-  return along(first, mul_add(F(0.5f), direction.y, F(0.5f)), splat<F>(b.b) - first);
+  return point_at(first, mul_add(F(0.5f), direction.y, F(0.5f)), splat<F>(b.b) - first);
 }
 
 /// A surface where a ray meets it.
@@ -36,20 +36,21 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
   const F safe_t = select(less(t, F(__builtin_inff())), t, F(0.0f));
   SurfacePoint<F> p;
   p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
-  p.point = along(ray.origin, safe_t, ray.direction);
+  p.point = point_at(ray.origin, safe_t, ray.direction);
   p.material = lookup_int<F>(s.material, s.element_count, p.element);
   Vec3<F> column{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
                  lookup<F>(s.z, s.element_count, p.element)};
   p.normal = column;
   p.inverted = less(F(1.0f), F(0.0f));
-  if (!s.needs.spheres && !s.needs.moving_spheres) return p;
+  if (!s.features.spheres && !s.features.moving_spheres) return p;
   const F inverse_radius = lookup<F>(s.inverse_radius, s.element_count, p.element);
   const auto round = mask_not(equal(inverse_radius, F(0.0f)));
   if (!any(round)) return p;
-  if (s.needs.moving_spheres) {
-    const Vec3<F> way{lookup<F>(s.move_x, s.element_count, p.element), lookup<F>(s.move_y, s.element_count, p.element),
-                      lookup<F>(s.move_z, s.element_count, p.element)};
-    column = along(column, ray.time, way);
+  if (s.features.moving_spheres) {
+    const Vec3<F> motion{lookup<F>(s.move_x, s.element_count, p.element),
+                         lookup<F>(s.move_y, s.element_count, p.element),
+                         lookup<F>(s.move_z, s.element_count, p.element)};
+    column = point_at(column, ray.time, motion);
   }
   const Vec3<F> arm = p.point - column;
   const F scale = copy_sign(F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f))), inverse_radius);
@@ -101,7 +102,7 @@ TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
                                       const SurfacePoint<F>* surface) {
-  const Vec3<F> scaled = along(splat<F>(t.offset), splat<F>(t.scale), point);
+  const Vec3<F> scaled = point_at(splat<F>(t.offset), splat<F>(t.scale), point);
   return colour_of_kind<0, F>(t, {point, scaled, wanted, s.gradients, {&s, surface}});
 }
 
@@ -125,7 +126,7 @@ TYNDALL_INLINE Vec3<F> texture_point(const SceneView& s, const SurfacePoint<F>& 
   const Vec3<F> normal{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
                        lookup<F>(s.z, s.element_count, p.element)};
   const F gap = lookup<F>(s.plane, s.element_count, p.element) - dot(normal, p.point);
-  return select(flat, along(p.point, gap, normal), p.point);
+  return select(flat, point_at(p.point, gap, normal), p.point);
 }
 
 template <class F>
@@ -194,7 +195,7 @@ inline constexpr bool has_constant_weights =
 
 /// Whether the integrator samples lights where a material of kind M scatters.
 template <class M>
-TYNDALL_INLINE bool asks_for_lights(const auto& s) {
+TYNDALL_INLINE bool samples_lights(const auto& s) {
   constexpr LightSampling rule = M::traits.light_sampling;
   return rule == LightSampling::always || (rule == LightSampling::weighted && s.integrator == Integrator::mis);
 }
@@ -213,8 +214,8 @@ TYNDALL_INLINE void sample_kinds(const auto& s, IntOf<F> material, IntOf<F> kind
       if constexpr (!M::traits.constant_weight) out.weight = select(here, one.weight, out.weight);
       out.flags.absorbed = mask_or(out.flags.absorbed, mask_and(here, one.flags.absorbed));
       out.flags.transmitted = mask_or(out.flags.transmitted, mask_and(here, one.flags.transmitted));
-      const F density = asks_for_lights<M>(s) ? one.pdf : F(one_direction);
-      out.pdf = select(here, density, out.pdf);
+      const F pdf = samples_lights<M>(s) ? one.pdf : F(one_direction);
+      out.pdf = select(here, pdf, out.pdf);
     }
     sample_kinds<first + 1>(s, material, kind, lanes, in, out);
   }
@@ -248,7 +249,7 @@ TYNDALL_INLINE BsdfValue<F> eval_any(const auto& s, IntOf<F> material, IntOf<F> 
     out = eval_any<first + 1>(s, material, kind, lanes, in, direction);
     if constexpr (M::traits.light_sampling != LightSampling::never) {
       const auto here = mask_and(lanes, equal(kind, IntOf<F>(static_cast<std::int32_t>(first))));
-      if (asks_for_lights<M>(s) && any(here)) {
+      if (samples_lights<M>(s) && any(here)) {
         const M m = load_material<M, F>(s, material);
         out.pdf = select(here, pdf(m, in, direction), out.pdf);
         if constexpr (!has_constant_weights<decltype(s)>) out.value = select(here, eval(m, in, direction), out.value);

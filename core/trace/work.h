@@ -7,8 +7,8 @@
 /// What kernels are given to do, and what they count.
 namespace tyndall {
 
-/// A unit of work: samples [first, last) of the pixels of a tile.
-struct Unit {
+/// A tile job: samples [first, last) of the pixels of a tile.
+struct TileJob {
   Region tile;        ///< full-image coordinates
   int step = 1;       ///< only pixels whose x and y are multiples of step; step 1: all
   int skip_step = 0;  ///< above 0: leaves out pixels whose x and y are both multiples of it, which are done already
@@ -17,7 +17,7 @@ struct Unit {
   const std::uint32_t *first_of = nullptr, *last_of = nullptr;
 };
 
-struct UnitCounts {
+struct TileCounts {
   std::uint64_t rays = 0;         ///< all rays that were traced
   std::uint64_t shadow_rays = 0;  ///< those of them that only asked whether something is in the way
   std::uint64_t steps = 0;        ///< how often all lanes together were taken a step further

@@ -2,7 +2,7 @@
 #include "core/trace/lights.h"
 #include "core/transport/paths.h"
 
-/// Light straight from lamps: asked for by a shadow ray, and found by paths that hit a lamp.
+/// Light straight from lights: asked for by a shadow ray, and found by paths that hit a light.
 namespace tyndall {
 
 /// The places where a group of lanes is about to scatter: points of surfaces and points within media.
@@ -12,23 +12,23 @@ struct Event {
   Vec3<F> point;
   Vec3<F> colour;  ///< albedo
   IntOf<F> from;   ///< Ray::from of rays that leave to the side from which the ray came, or that start in the medium
-  Incident<F> incident;  ///< only set if any lane is at a surface
-  SurfacePoint<F> at;    ///< likewise
-  IntOf<F> kind;         ///< of the material: its place in SceneView::MaterialList
-  F asks;                ///< probability of asking for a chain; only in scenes with chains
-  F g;                   ///< of the medium
+  Incident<F> incident;   ///< only set if any lane is at a surface
+  SurfacePoint<F> at;     ///< likewise
+  IntOf<F> kind;          ///< of the material: its place in SceneView::MaterialList
+  F connect_probability;  ///< probability of asking for a specular path; only in scenes with specular paths
+  F g;                    ///< of the medium
 };
 
 /// An event of which no more is known than the ray that led to it. What describes surfaces is left as it is: to clear
-/// it in every step would take up to a tenth of the time in fog.
+/// it in every step would take up to a tenth of the time in media.
 template <class F>
-TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Dice<F>& dice) {
+TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Sampler<F>& sampler) {
   const auto none = less(F(1.0f), F(0.0f));
   Event<F> e;
   e.surface = none, e.medium = none;
   e.point = ray.origin, e.colour = zero3<F>(), e.from = ray.from;
-  e.incident.schlick = false, e.incident.dice = dice;
-  e.kind = IntOf<F>(0), e.asks = F(1.0f), e.g = F(0.0f);
+  e.incident.schlick = false, e.incident.sampler = sampler;
+  e.kind = IntOf<F>(0), e.connect_probability = F(1.0f), e.g = F(0.0f);
   return e;
 }
 
@@ -41,7 +41,7 @@ TYNDALL_INLINE MaskOf<F> accepts_specular_paths(const auto& s, const Event<F>& e
 /// Lanes whose event scatters a light that does not depend on the direction in which it leaves: at a diffuse surface,
 /// or in a medium without a preferred direction.
 template <class F>
-TYNDALL_INLINE MaskOf<F> scatters_evenly(const auto& s, const Event<F>& e) {
+TYNDALL_INLINE MaskOf<F> is_diffuse(const auto& s, const Event<F>& e) {
   const auto surface = mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind));
   if (!s.has_media()) return surface;
   return mask_or(surface, mask_and(e.medium, equal(e.g, F(0.0f))));
@@ -49,11 +49,11 @@ TYNDALL_INLINE MaskOf<F> scatters_evenly(const auto& s, const Event<F>& e) {
 
 /// Which light an event asks for, and how the event was found.
 template <class F>
-struct LightAsked {
-  LightChoice<F> choice;  ///< with the probability with which choose_light() takes this light there
-  Pair<F> u;              ///< random numbers for the point of the light
-  FogFlight<F> flight;    ///< the flight that led to the event
-  bool by_angle;          ///< that flight was ended by angle for this very light
+struct LightQuery {
+  LightChoice<F> choice;   ///< with the probability with which choose_light() takes this light there
+  Pair<F> u;               ///< random numbers for the point of the light
+  MediumFlight<F> flight;  ///< the flight that led to the event
+  bool by_angle;           ///< that flight was ended by angle for this very light
 };
 
 /// Ray::from of a shadow ray.
@@ -67,7 +67,7 @@ TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F
   }
 }
 
-/// Light that arrives at an event straight from a lamp, estimated by one shadow ray to one light. With integrator mis
+/// Light that arrives at an event straight from a light, estimated by one shadow ray to one light. With integrator mis
 /// it is weighed by the power heuristic (E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
 /// section 9.2) against two other ways to sample the same path. All densities are divided by that of free flight and
 /// light sampling; let r be that of scattering towards the light, q that of ending the flight by angle. Then the
@@ -75,16 +75,16 @@ TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F
 /// by angle.
 template <class F>
 TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
-                                    const LightAsked<F>& asked, std::uint32_t& shadow_rays) {
-  const LightChoice<F>& choice = asked.choice;
-  const LightSample<F> sample = sample_light(s.lights, choice.light, e.point, p.ray.time, asked.u);
+                                    const LightQuery<F>& query, std::uint32_t& shadow_rays) {
+  const LightChoice<F>& choice = query.choice;
+  const LightSample<F> sample = sample_light(s.lights, choice.light, e.point, p.ray.time, query.u);
   BsdfValue<F> scattered{F(0.0f), F(0.0f)};
   if (any(e.surface)) scattered = eval_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
   if (s.has_media() && any(e.medium)) {
-    const F phase = phase_density(s, e.g, p.ray.direction, sample.direction);
+    const F phase = phase_pdf(s, e.g, p.ray.direction, sample.direction);
     scattered = {select(e.medium, phase, scattered.value), select(e.medium, phase, scattered.pdf)};
   }
-  const F chosen = sample.density * choice.probability;
+  const F chosen = sample.pdf * choice.probability;
   const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered.value), less(F(0.0f), chosen)));
   if (!any(useful)) return zero3<F>();
   shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(useful)));
@@ -96,27 +96,27 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   const F safe = select(useful, chosen, F(1.0f)), ratio = scattered.pdf / safe;
   F weight = scattered.value / safe;
   if (s.integrator == Integrator::mis) {
-    const F odds = s.has_lamps_in_fog() ? by_angle_odds(s, asked.flight, choice.light, choice.probability) : F(0.0f);
+    const F odds = s.has_lights_in_media() ? by_angle_odds(s, query.flight, choice.light, choice.probability) : F(0.0f);
     weight = weight / mul_add(ratio, ratio, F(1.0f) + odds);
-    if (asked.by_angle) weight = weight * sqrt(odds);
+    if (query.by_angle) weight = weight * sqrt(odds);
   }
   if (s.has_media()) weight = weight * pass_media(s, ray, sample.distance, arrives);
-  const Vec3<F> radiance = light_radiance(s, element, along(e.point, sample.distance, sample.direction), arrives);
+  const Vec3<F> radiance = light_radiance(s, element, point_at(e.point, sample.distance, sample.direction), arrives);
   return select(arrives, weight * (p.throughput * e.colour * radiance), zero3<F>());
 }
 
-/// Weight of the light of a lamp that a ray met by chance: 1 where no shadow ray could have asked for it.
+/// Weight of the radiance of a light that a ray met by chance: 1 where no shadow ray could have asked for it.
 template <class F>
 TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
-  const auto could = mask_and(lit, less(F(0.0f), p.density));
+  const auto could = mask_and(lit, less(F(0.0f), p.pdf));
   if (!s.light_sampling || !any(could)) return F(1.0f);
   if (s.integrator != Integrator::mis) return select(could, F(0.0f), F(1.0f));
   const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
-  const F chosen = light_density(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
-  const F ratio = p.density / max(chosen, F(1e-30f));
+  const F chosen = light_pdf(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
+  const F ratio = p.pdf / max(chosen, F(1e-30f));
   F others = F(1.0f);
-  if (s.has_lamps_in_fog())
+  if (s.has_lights_in_media())
     others = others + by_angle_odds(s, p.flight, safe, choice_probability(s.lights, p.ray.origin, safe));
   return select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f));
 }

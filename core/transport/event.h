@@ -13,17 +13,17 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, const Ray<F>& ray, const Hit<F>
   e.colour = surface_colour(s, e.at, e.surface);
 }
 
-/// Adds the radiance of the lamps that lanes in e.surface have hit, and takes these lanes out of e.surface: lamps
+/// Adds the radiance of the lights that lanes in e.surface have hit, and takes these lanes out of e.surface: lights
 /// reflect nothing.
 template <class F>
 TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, Event<F>& e, auto& recorder) {
   const auto lit = mask_and(e.surface, has_trait<&BsdfTraits::emits>(s, e.kind));
   if (any(lit)) {
     F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
-    if (s.has_chains()) {
+    if (s.has_specular_paths()) {
       const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, e.at.element);
-      const F by_chance = found_by_chance_weight(s, p.trail, p.ray, light, e.at.point, lit);
-      recorder.on_weight_against_chains(by_chance);
+      const F by_chance = mis_weight_of_bsdf_hit(s, p.trail, p.ray, light, e.at.point, lit);
+      recorder.on_weight_against_specular_paths(by_chance);
       weight = weight * by_chance;
     }
     p.radiance = select(lit, p.radiance + weight * (p.throughput * e.colour), p.radiance);
@@ -31,25 +31,25 @@ TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, 
   e.surface = mask_and_not(e.surface, lit);
 }
 
-/// Describes how the lanes in e.surface meet their surfaces. unit: see Incident.
+/// Describes how the lanes in e.surface meet their surfaces. unit_vector: see Incident.
 template <class F>
-TYNDALL_INLINE void describe_incidence(const auto& s, const Paths<F>& p, Vec3<F> unit, Event<F>& e) {
+TYNDALL_INLINE void describe_incidence(const auto& s, const Paths<F>& p, Vec3<F> unit_vector, Event<F>& e) {
   const F towards = dot(p.ray.direction, e.at.normal);
-  const auto along_normal = less(F(0.0f), towards);
-  const Vec3<F> facing = select(along_normal, -e.at.normal, e.at.normal);
+  const auto exiting = less(F(0.0f), towards);
+  const Vec3<F> facing = select(exiting, -e.at.normal, e.at.normal);
   e.incident = {p.ray.direction, e.at.normal, facing,    min(abs(towards), F(1.0f)),
-                along_normal,    unit,        s.schlick, p.dice};
+                exiting,         unit_vector, s.schlick, p.sampler};
   const IntOf<F> one = IntOf<F>(1), zero = IntOf<F>(0);
-  const IntOf<F> inside = select(along_normal, select(e.at.inverted, zero, one), select(e.at.inverted, one, zero));
+  const IntOf<F> inside = select(exiting, select(e.at.inverted, zero, one), select(e.at.inverted, one, zero));
   e.point = select(e.surface, e.at.point, e.point);
   e.from = select(e.surface, e.at.element * IntOf<F>(4) + inside, e.from);
 }
 
-/// Draws where the paths scatter in media (see fly_through_media()), and takes away what smoke absorbs until there.
+/// Draws where the paths scatter in media (see fly_through_media()), and takes away what media absorbs until there.
 template <class F>
 TYNDALL_INLINE void cross_media(const auto& s, Paths<F>& p, MaskOf<F> active, F& nearest, MediumEvent<F>& event) {
-  fly_through_media(s, p.ray, p.dice, active, nearest, event);
-  p.throughput = kept_by_smoke(s, p.ray, p.dice, nearest, active) * p.throughput;
+  fly_through_media(s, p.ray, p.sampler, active, nearest, event);
+  p.throughput = transmitted_by_absorbers(s, p.ray, p.sampler, nearest, active) * p.throughput;
 }
 
 /// Describes the event in lanes that scatter in a medium.

@@ -1,19 +1,19 @@
 #pragma once
 #include "core/transport/event.h"
 
-/// Direct light in fog close to a small lamp. For each ray that crosses fog a pair of a medium and a lamp near it is
-/// drawn, a place on the ray is sampled by the angle at which the lamp sees it (see Equiangular), and the lamp is asked
-/// for light there.
+/// Direct light in media close to a small light. For each ray that crosses media a pair of a medium and a light near it
+/// is drawn, a place on the ray is sampled by the angle at which the light sees it (see Equiangular), and the light is
+/// asked for light there.
 namespace tyndall {
 
-/// What fly_by_angle() samples for each lane: a pair of a medium and a lamp near it, and a flight that ends in the
-/// medium at a distance chosen for that lamp. What describes the medium is only set in lanes in which it happens,
+/// What fly_by_angle() samples for each lane: a pair of a medium and a light near it, and a flight that ends in the
+/// medium at a distance chosen for that light. What describes the medium is only set in lanes in which it happens,
 /// except for the texture, which is -1 in the others.
 template <class F>
 struct NearEvent {
   MaskOf<F> happens;  ///< the ray crosses the medium
   IntOf<F> light;
-  FogFlight<F> flight;
+  MediumFlight<F> flight;
   F density, g;  ///< of the medium
   Vec3<F> albedo;
   IntOf<F> texture, from;
@@ -23,12 +23,12 @@ struct NearEvent {
 template <class F>
 TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
   const F count = splat<F>(static_cast<float>(s.near_count));
-  const IntOf<F> pair = to_int(min(p.dice.one(dimension::near_pair) * count, count - F(1.0f)));
+  const IntOf<F> pair = to_int(min(p.sampler.next_1d(dimension::near_pair) * count, count - F(1.0f)));
   NearEvent<F> event;
   event.happens = less(F(1.0f), F(0.0f));
   event.texture = IntOf<F>(-1);
   event.light = lookup_int<F>(s.near_light, s.near_count, pair);
-  FogFlight<F>& flight = event.flight;
+  MediumFlight<F>& flight = event.flight;
   flight = {lookup_int<F>(s.near_medium, s.near_count, pair),
             p.ray.origin,
             p.ray.direction,
@@ -51,53 +51,53 @@ TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, 
     event.texture = select(here, IntOf<F>(m.texture), event.texture);
     event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
   }
-  flight.distance = sample(way_past(s.lights, event.light, flight), p.dice.one(dimension::near_distance));
-  flight.density = event.density * pass_media(s, p.ray, flight.distance, event.happens);
+  flight.distance = sample(distances_past(s.lights, event.light, flight), p.sampler.next_1d(dimension::near_distance));
+  flight.pdf = event.density * pass_media(s, p.ray, flight.distance, event.happens);
   return event;
 }
 
 /// Describes the free flight that ended at the event `found`, so that its density can be weighed against that of a
 /// flight ended by angle. lengths: of the ray, to its event (x) and to the next surface (y).
 template <class F>
-TYNDALL_INLINE FogFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray, const MediumEvent<F>& found,
-                                           Pair<F> lengths) {
-  const F density = found.density * pass_media(s, ray, lengths.x, found.happens);
-  return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, density};
+TYNDALL_INLINE MediumFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray, const MediumEvent<F>& found,
+                                              Pair<F> lengths) {
+  const F pdf = found.density * pass_media(s, ray, lengths.x, found.happens);
+  return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, pdf};
 }
 
-/// The light that lamps send to the places sampled by angle. It is a call, because it holds nearly all of the code with
-/// which surfaces look for light; a second copy of that would take seconds to compile in each kernel. Its arguments are
-/// copies, so that the path loop can keep its own values in registers.
+/// The radiance that lights send to the places sampled by angle. It is a call, because it holds nearly all of the code
+/// with which surfaces look for light; a second copy of that would take seconds to compile in each kernel. Its
+/// arguments are copies, so that the path loop can keep its own values in registers.
 template <class F>
-[[gnu::noinline]] static Vec3<F> light_by_angle(const SceneView& s, Ray<F> ray, Vec3<F> throughput, Dice<F> dice,
+[[gnu::noinline]] static Vec3<F> light_by_angle(const SceneView& s, Ray<F> ray, Vec3<F> throughput, Sampler<F> sampler,
                                                 MaskOf<F> lanes, F to_surface, std::uint32_t& shadow_rays) {
   Paths<F> p{};
-  p.ray = ray, p.throughput = throughput, p.dice = dice;
+  p.ray = ray, p.throughput = throughput, p.sampler = sampler;
   const NearEvent<F> near = fly_by_angle(s, p, lanes, to_surface);
   if (!any(near.happens)) return zero3<F>();
   Event<F> e{};
   e.surface = less(F(1.0f), F(0.0f));
   e.medium = near.happens;
-  e.point = along(p.ray.origin, near.flight.distance, p.ray.direction);
+  e.point = point_at(p.ray.origin, near.flight.distance, p.ray.direction);
   e.from = near.from, e.g = near.g;
   e.colour = s.has_textures() ? textured<F>(s, near.albedo, near.texture, e.medium, e.point, nullptr) : near.albedo;
-  const LightAsked<F> asked{{near.light, choice_probability(s.lights, e.point, near.light)},
-                            p.dice.pair(dimension::near_point),
+  const LightQuery<F> query{{near.light, choice_probability(s.lights, e.point, near.light)},
+                            p.sampler.next_2d(dimension::near_point),
                             near.flight,
                             true};
-  return direct_light(s, p, e, near.happens, asked, shadow_rays);
+  return direct_light(s, p, e, near.happens, query, shadow_rays);
 }
 
-/// Adds to the radiance of `p` the light that lamps send to the places sampled by angle. Also sets p.flight to the
+/// Adds to the radiance of `p` the radiance that lights send to the places sampled by angle. Also sets p.flight to the
 /// free flight that ended at the event `found`. throughput: at the start of the ray, because what media take away on
 /// the way to such a place is part of what is weighed. lengths: of the ray, to its event (x) and to the next surface
 /// (y).
 template <class F>
-TYNDALL_INLINE void light_near_lamps(const auto& s, Paths<F>& p, Vec3<F> throughput, const MediumEvent<F>& found,
-                                     MaskOf<F> active, Pair<F> lengths, std::uint32_t& shadow_rays) {
+TYNDALL_INLINE void add_near_lights(const auto& s, Paths<F>& p, Vec3<F> throughput, const MediumEvent<F>& found,
+                                    MaskOf<F> active, Pair<F> lengths, std::uint32_t& shadow_rays) {
   p.flight = free_flight_to(s, p.ray, found, lengths);
   const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
-  p.radiance = p.radiance + light_by_angle(s, p.ray, throughput, p.dice, lanes, lengths.y, shadow_rays);
+  p.radiance = p.radiance + light_by_angle(s, p.ray, throughput, p.sampler, lanes, lengths.y, shadow_rays);
 }
 
 }  // namespace tyndall

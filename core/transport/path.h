@@ -20,8 +20,8 @@ namespace tyndall {
 /// A recorder that records nothing. One that does is told, in this order, of each step of a path: see core/targets.
 struct NoRecorder {
   TYNDALL_INLINE void on_event(const auto&...) {}
-  TYNDALL_INLINE void on_weight_against_chains(const auto&) {}
-  TYNDALL_INLINE void on_chain_light(const auto&) {}
+  TYNDALL_INLINE void on_weight_against_specular_paths(const auto&) {}
+  TYNDALL_INLINE void on_specular_path_light(const auto&) {}
   TYNDALL_INLINE void on_end(const auto&...) {}
 };
 
@@ -48,24 +48,24 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   const F to_surface = hit.t;
   const Vec3<F> at_start = p.throughput;
   if (s.has_media()) cross_media(s, p, active, hit.t, found);
-  Event<F> e = event_on(p.ray, p.dice);
+  Event<F> e = event_on(p.ray, p.sampler);
   e.medium = found.happens;
   e.surface = mask_and(active, mask_and_not(less_equal(IntOf<F>(0), hit.element), e.medium));
   const auto escaped = mask_and_not(mask_and_not(active, e.surface), e.medium);
   if (any(e.surface)) meet_surfaces(s, p.ray, hit, e);
 
   // ---- emission: of the background, and of lights that the paths have hit
-  if (s.needs.background && any(escaped))
+  if (s.features.background && any(escaped))
     p.radiance =
         select(escaped, p.radiance + p.throughput * background_radiance(s.background, p.ray.direction), p.radiance);
   if (any(e.surface)) add_emission(s, p, hit, e, recorder);
 
   // ---- the event, and the light of small lights in media that the path has passed
-  const Pair<F> u = p.dice.pair(dimension::direction);
-  const Vec3<F> unit = on_sphere(u);
-  if (any(e.surface)) describe_incidence(s, p, unit, e);
+  const Pair<F> u = p.sampler.next_2d(dimension::direction);
+  const Vec3<F> unit_vector = on_sphere(u);
+  if (any(e.surface)) describe_incidence(s, p, unit_vector, e);
   if (s.has_media() && any(e.medium)) meet_media(s, found, e);
-  if (s.has_lamps_in_fog()) light_near_lamps(s, p, at_start, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
+  if (s.has_lights_in_media()) add_near_lights(s, p, at_start, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
   recorder.on_event(s, p, hit, found, e);
 
   // ---- what ends here: a path that carries nothing any more, or no finite number, or that is as long as max_depth
@@ -76,22 +76,23 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
       mask_and(mask_and_not(met, lose(p, met, carried + e.point)), less(F(0.0f), max_component(carried)));
   const auto deep = less_equal(IntOf<F>(s.max_depth), p.depth);
   const auto cut = mask_and(useful, deep), scattering = mask_and_not(useful, deep);
-  auto spared = samples.on_scatter(s, p, e, scattering);
+  auto exempt = samples.on_scatter(s, p, e, scattering);
 
   // ---- direct light: one light and one shadow ray, and specular paths
   if (s.light_sampling && any(scattering)) {
-    const LightAsked<F> asked{choose_light(s.lights, e.point, p.dice.one(dimension::light_choice)),
-                              p.dice.pair(dimension::light_point), p.flight, false};
-    p.radiance = p.radiance + direct_light(s, p, e, scattering, asked, shadow_rays);
+    const LightQuery<F> query{choose_light(s.lights, e.point, p.sampler.next_1d(dimension::light_choice)),
+                              p.sampler.next_2d(dimension::light_point), p.flight, false};
+    p.radiance = p.radiance + direct_light(s, p, e, scattering, query, shadow_rays);
   }
-  if (s.has_chains()) ask_for_chains(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
+  if (s.has_specular_paths())
+    request_specular_paths(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
 
   // ---- sample the BSDF or the phase function
   F weight;
-  const auto on = mask_and(scattering, scatter(s, p, e, unit, u, weight));
-  if (s.has_chains() || !has_constant_weights<decltype(s)>) carried = select(on, weight * carried, carried);
+  const auto on = mask_and(scattering, scatter(s, p, e, unit_vector, u, weight));
+  if (s.has_specular_paths() || !has_constant_weights<decltype(s)>) carried = select(on, weight * carried, carried);
   if (p.straight) {
-    const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow(p.density));
+    const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow_lobe(p.pdf));
     p.straight &= ~bits(mask_and_not(scattering, mirrored));
   }
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
@@ -99,20 +100,20 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   p.depth = p.depth + IntOf<F>(1);
 
   // ---- Russian roulette
-  if (s.has_chains()) spared = mask_or(spared, seeks_glint(p));
-  const auto survivors = s.has_reuse() || s.has_chains() ? roulette_but(p, lanes, spared) : roulette(p, lanes);
-  p.dice.next_event();
+  if (s.has_specular_paths()) exempt = mask_or(exempt, seeks_subpixel_light(p));
+  const auto survivors = s.has_reuse() || s.has_specular_paths() ? roulette_but(p, lanes, exempt) : roulette(p, lanes);
+  p.sampler.next_event();
   recorder.on_end(p, on, StepResult<F>{survivors, cut});
   return {survivors, cut};
 }
 
 /// Follows paths until all samples are done and all requests for the light of specular paths are answered.
 template <class F>
-TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, UnitCounts& counts, auto& recorder) {
+TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& counts, auto& recorder) {
   PathPool<F> pool{};
   SpecularQueue<F> waiting{};
   Paths<F> p{};
-  p.dice.sampler = s.sampler;
+  p.sampler.kind = s.sampler;
   // One loop for both, because a second one for the last requests would put their code into each kernel twice.
   for (bool sampling = true; sampling || waiting.count > 0;) {
     take_paths(s, p, pool, samples);
@@ -129,7 +130,7 @@ TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, UnitCounts& count
     if constexpr (SpecularQueue<F>::waits) {
       const bool full = waiting.count >= lanes_of<F>, rest = !sampling && waiting.count > 0;
       const auto add = [&](std::int32_t slot, Vec3f light) { samples.add(slot, light); };
-      if (s.has_chains() && (full || rest)) answer_requests(s, waiting, counts, add);
+      if (s.has_specular_paths() && (full || rest)) answer_requests(s, waiting, counts, add);
     }
   }
 }

@@ -33,27 +33,27 @@ TYNDALL_INLINE void set_marks(const auto& s, IntOf<F> marks, Paths<F>& p) {
 /// scene does not need is left out.
 template <class F>
 TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, const auto& integer) {
-  IntOf<F> low = as_int(p.dice.low), high = as_int(p.dice.high);
+  IntOf<F> low = as_int(p.sampler.low), high = as_int(p.sampler.high);
   integer(0, low), integer(1, high), integer(2, p.slot), integer(3, p.depth), integer(4, p.ray.from);
-  p.dice.low = as_uint(low), p.dice.high = as_uint(high);
+  p.sampler.low = as_uint(low), p.sampler.high = as_uint(high);
   number(0, p.ray.origin.x), number(1, p.ray.origin.y), number(2, p.ray.origin.z);
   number(3, p.ray.direction.x), number(4, p.ray.direction.y), number(5, p.ray.direction.z);
-  number(6, p.ray.time), number(7, p.density);
+  number(6, p.ray.time), number(7, p.pdf);
   number(8, p.throughput.x), number(9, p.throughput.y), number(10, p.throughput.z);
   number(11, p.radiance.x), number(12, p.radiance.y), number(13, p.radiance.z);
-  if (s.has_chains()) {
+  if (s.has_specular_paths()) {
     number(14, p.trail.start.x), number(15, p.trail.start.y), number(16, p.trail.start.z);
-    number(17, p.trail.density), number(18, p.weight);
+    number(17, p.trail.pdf), number(18, p.weight);
     integer(5, p.trail.met.packed), integer(6, p.route.packed);
   }
-  if (s.has_lamps_in_fog()) {
-    FogFlight<F>& f = p.flight;
+  if (s.has_lights_in_media()) {
+    MediumFlight<F>& f = p.flight;
     number(19, f.origin.x), number(20, f.origin.y), number(21, f.origin.z);
     number(22, f.direction.x), number(23, f.direction.y), number(24, f.direction.z);
-    number(25, f.begin), number(26, f.end), number(27, f.distance), number(28, f.density);
+    number(25, f.begin), number(26, f.end), number(27, f.distance), number(28, f.pdf);
     integer(7, f.medium);
   }
-  if (s.has_reuse() || s.has_lamps()) {
+  if (s.has_reuse() || s.has_lights()) {
     IntOf<F> marks = marks_of(s, p);
     integer(8, marks);
     set_marks(s, marks, p);
@@ -75,7 +75,7 @@ TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, PathPool<F>& pool) 
   pool.count -= count;
   load_lanes<F>(s, pool, pool.count, p);
   const U events = as_uint(p.depth);
-  p.dice.event = (events * U(dimension::per_event) + U(dimension::camera_count)) * U(golden_ratio);
+  p.sampler.event = (events * U(dimension::per_event) + U(dimension::camera_count)) * U(golden_ratio);
   p.alive = first_lanes(count);
 }
 
@@ -84,17 +84,18 @@ template <class F>
 TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   const NewSamples<F> fresh = take_samples<F>(samples, s);
   p.ray = fresh.ray, p.slot = fresh.slot;
-  p.dice.low = fresh.low, p.dice.high = fresh.high;
-  p.dice.event = UintOf<F>(dimension::camera_count * golden_ratio);
+  p.sampler.low = fresh.low, p.sampler.high = fresh.high;
+  p.sampler.event = UintOf<F>(dimension::camera_count * golden_ratio);
   p.throughput = Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.radiance = zero3<F>();
-  p.depth = IntOf<F>(0), p.density = F(one_direction);
-  if (s.has_chains()) p.weight = fresh.glints.weight, p.route = fresh.glints.route, p.trail.met.packed = IntOf<F>(-1);
-  p.straight = s.has_lamps() ? ~0u : 0u, p.first = p.second = 0;
+  p.depth = IntOf<F>(0), p.pdf = F(one_direction);
+  if (s.has_specular_paths())
+    p.weight = fresh.subpixel_lights.weight, p.route = fresh.subpixel_lights.route, p.trail.met.packed = IntOf<F>(-1);
+  p.straight = s.has_lights() ? ~0u : 0u, p.first = p.second = 0;
   p.alive = first_lanes(fresh.count);
 }
 
 /// So many paths take the next step together, without waiting for more: idle lanes cost less than to store all paths
-/// and load them again. With 3/4 of the lanes in place of 7/8, fog takes 5 % more time, and next-week 2 %.
+/// and load them again. With 3/4 of the lanes in place of 7/8, media takes 5 % more time, and next-week 2 %.
 template <class F>
 inline constexpr int enough_lanes = lanes_of<F> - lanes_of<F> / 8;
 

@@ -1,7 +1,7 @@
 #pragma once
-#include "core/specular/chain_trail.h"
+#include "core/specular/specular_trail.h"
 #include "core/trace/flight.h"
-#include "core/trace/glints.h"
+#include "core/trace/subpixel_lights.h"
 
 /// The state of the paths in a group of lanes.
 namespace tyndall {
@@ -11,30 +11,31 @@ template <class F>
 struct Paths {
   Ray<F> ray;
   Vec3<F> throughput, radiance;
-  Dice<F> dice;
+  Sampler<F> sampler;
   IntOf<F> depth;  ///< scattering events so far
-  F density;       ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
-  FogFlight<F> flight;         ///< the flight to where the ray starts; only in scenes with lamps in fog
-  ChainTrail<F> trail;         ///< what it met since it scattered last; only in scenes with chains
-  IntOf<F> slot;               ///< 2 · pixel within the tile + half; place in SharedPaths in kernels that share
-  F weight;                    ///< of the sample, see glints.h; only in scenes with chains
-  GlassRoute<F> route;         ///< what is left of its route to a glint; only in scenes with chains
+  F pdf;           ///< of the ray's direction, per steradian; one_direction: light sampling could not have chosen it
+  MediumFlight<F> flight;      ///< the flight to where the ray starts; only in scenes with lights in media
+  SpecularTrail<F> trail;      ///< what it met since it scattered last; only in scenes with specular paths
+  IntOf<F> slot;               ///< 2 · pixel within the tile + half; place in ReusedPaths in kernels that share
+  F weight;                    ///< of the sample, see subpixel_lights.h; only in scenes with specular paths
+  GlassRoute<F> route;         ///< what is left of its route to a subpixel light; only in scenes with specular paths
   std::uint32_t alive = 0;     ///< bit i: lane i follows a path
-  std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lamps
-  /// Bit i: its first, its second vertex is one of those that are shared (share.h). 0 in kernels that do not share.
+  std::uint32_t straight = 0;  ///< bit i: it has met nothing yet but smooth glass and mirrors; 0 without lights
+  /// Bit i: its first, its second vertex is one of those that are shared (reuse.h). 0 in kernels that do not share.
   std::uint32_t first = 0, second = 0;
 };
 
-/// Lanes on the way to a glint: they were drawn in its box, and have met nothing yet but smooth glass and mirrors.
+/// Lanes on the way to a subpixel light: they were drawn in its box, and have met nothing yet but smooth glass and
+/// mirrors.
 template <class F>
-TYNDALL_INLINE MaskOf<F> seeks_glint(const Paths<F>& p) {
+TYNDALL_INLINE MaskOf<F> seeks_subpixel_light(const Paths<F>& p) {
   return mask_and(p.route.is_set(), mask_from_bits<F>(p.straight));
 }
 
-/// What a path has gathered or carries, times the weight of its sample (glints.h).
+/// What a path has gathered or carries, times the weight of its sample (subpixel_lights.h).
 template <class F>
 TYNDALL_INLINE Vec3<F> weighed(const auto& s, const Paths<F>& p, Vec3<F> colour) {
-  return s.has_chains() ? p.weight * colour : colour;
+  return s.has_specular_paths() ? p.weight * colour : colour;
 }
 
 /// Finds the lanes in which `part` of the path's state is not finite, and returns them. Their radiance is made not a

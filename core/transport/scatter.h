@@ -7,16 +7,17 @@ namespace tyndall {
 /// Whether light that arrives after an event counts as seen by way of a mirror: the event sends it into one direction,
 /// or into a lobe with a density above 8 per steradian, about 20 degrees wide.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_narrow(F density) {
-  return mask_not(mask_and(less(F(0.0f), density), less(density, F(8.0f))));
+TYNDALL_INLINE MaskOf<F> is_narrow_lobe(F pdf) {
+  return mask_not(mask_and(less(F(0.0f), pdf), less(pdf, F(8.0f))));
 }
 
-/// Steers the lanes that look for a glint through its glass: into it at first and out of it at last, and each order of
-/// the events between is as likely. Returns the weight of each lane: the share of the light that goes its way over the
-/// probability of taking it. Although it seldom runs it is no call, which would keep the paths and their events in
-/// memory.
+/// Steers the lanes that look for a subpixel light through its glass: into it at first and out of it at last, and each
+/// order of the events between is as likely. Returns the weight of each lane: the fraction of the light that goes its
+/// way over the probability of taking it. Although it seldom runs it is no call, which would keep the paths and their
+/// events in memory.
 template <class F>
-TYNDALL_INLINE F seek_glint(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, BsdfSample<F>& out) {
+TYNDALL_INLINE F seek_subpixel_light(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                                     BsdfSample<F>& out) {
   using I = IntOf<F>;
   const F zero = F(0.0f), one = F(1.0f);
   const Boundary<F> b = boundary_any(s, e.at.material, e.incident);
@@ -26,8 +27,8 @@ TYNDALL_INLINE F seek_glint(const auto& s, Paths<F>& p, const Event<F>& e, MaskO
   const auto enters = mask_and(equal(p.depth, I(0)), less(I(0), crossings));
   const F between = max(from_int<F>(crossings) - one, zero), left = max(from_int<F>(reflections) + between, one);
   const F wanted = select(enters, zero, from_int<F>(reflections) / left);
-  const F probability = mul_add(select(steered, F(glint_steering), zero), wanted - b.reflected, b.reflected);
-  const auto reflects = less(e.incident.dice.one(dimension::lobe), probability);
+  const F probability = mul_add(select(steered, F(subpixel_light_steering), zero), wanted - b.reflected, b.reflected);
+  const auto reflects = less(e.incident.sampler.next_1d(dimension::lobe), probability);
   const BsdfSample<F> steered_out = leave_boundary(b, e.incident, reflects);
   out.direction = select(lanes, steered_out.direction, out.direction);
   MaskOf<F>& transmitted = out.flags.transmitted;
@@ -38,9 +39,11 @@ TYNDALL_INLINE F seek_glint(const auto& s, Paths<F>& p, const Event<F>& e, MaskO
 }
 
 /// Gives the paths new directions. Returns which lanes go on; the others were absorbed. weight: by which each lane's
-/// throughput is to be multiplied; it is 1 unless it looks for a glint or its material has samples of other weights.
+/// throughput is to be multiplied; it is 1 unless it looks for a subpixel light or its material has samples of other
+/// weights.
 template <class F>
-TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit, Pair<F> u, F& weight) {
+TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit_vector, Pair<F> u,
+                                 F& weight) {
   const Vec3<F> before = p.ray.direction;
   const Ray<F> came = p.ray;
   MaskOf<F> transmitted = less(F(1.0f), F(0.0f));
@@ -51,49 +54,49 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
   if (any(e.surface)) {
     BsdfSample<F> out = sample_any(s, e.at.material, e.kind, e.surface, e.incident);
     weight = out.weight;
-    if (s.has_chains() && s.glint_count > 0) {
+    if (s.has_specular_paths() && s.subpixel_light_count > 0) {
       const auto glass = mask_and(e.surface, has_trait<&BsdfTraits::smooth_boundary>(s, e.kind));
-      const auto seeks = mask_and(glass, seeks_glint(p));
-      if (any(seeks)) weight = weight * seek_glint(s, p, e, seeks, out);
+      const auto seeks = mask_and(glass, seeks_subpixel_light(p));
+      if (any(seeks)) weight = weight * seek_subpixel_light(s, p, e, seeks, out);
     }
     p.ray.direction = select(e.surface, out.direction, p.ray.direction);
-    p.density = select(e.surface, out.pdf, p.density);
+    p.pdf = select(e.surface, out.pdf, p.pdf);
     transmitted = out.flags.transmitted;
     p.ray.from = select(mask_and(e.surface, transmitted), through_surface<F>(e.from), p.ray.from);
     goes_on = mask_or(goes_on, mask_and_not(e.surface, out.flags.absorbed));
   }
   if (s.has_media() && any(e.medium)) {
-    Vec3<F> direction = unit;
-    if (s.needs.phase_functions) direction = scatter_in_medium(e.g, before, unit, u);
+    Vec3<F> direction = unit_vector;
+    if (s.features.phase_functions) direction = scatter_in_medium(e.g, before, unit_vector, u);
     p.ray.direction = select(e.medium, direction, p.ray.direction);
-    p.density = select(e.medium, phase_density(s, e.g, before, direction), p.density);
+    p.pdf = select(e.medium, phase_pdf(s, e.g, before, direction), p.pdf);
   }
-  if (s.has_chains()) {
+  if (s.has_specular_paths()) {
     const auto spreads = accepts_specular_paths(s, e);
     extend_trail(s, p.trail, came, mask_and_not(e.surface, spreads), e.at.element, mask_not(transmitted));
-    restart_trail(p.trail, spreads, e.point, p.density, e.asks);
+    restart_trail(p.trail, spreads, e.point, p.pdf, e.connect_probability);
   }
   return goes_on;
 }
 
 /// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
 /// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
-/// Only paths whose throughput is below `least_carried` are at risk.
+/// Only paths whose throughput is below `min_carried` are at risk.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
-  const F survival = F(1 / least_carried) * max_component(p.throughput);
+  const F survival = F(1 / min_carried) * max_component(p.throughput);
   const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
   if (!any(at_risk)) return lanes;
-  const auto ended = mask_and_not(at_risk, less(p.dice.one(dimension::roulette), survival));
+  const auto ended = mask_and_not(at_risk, less(p.sampler.next_1d(dimension::roulette), survival));
   const F scale = F(1.0f) / select(at_risk, max(survival, F(1e-37f)), F(1.0f));
   p.throughput = select(at_risk, scale * p.throughput, p.throughput);
   return mask_and_not(lanes, ended);
 }
 
-/// Roulette that leaves the lanes in `spared` alone.
+/// Roulette that leaves the lanes in `exempt` alone.
 template <class F>
-TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> spared) {
-  return mask_or(roulette(p, mask_and_not(lanes, spared)), mask_and(lanes, spared));
+TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> exempt) {
+  return mask_or(roulette(p, mask_and_not(lanes, exempt)), mask_and(lanes, exempt));
 }
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/specular/chain_light.h"
+#include "core/specular/specular_light.h"
 #include "core/trace/lane_pool.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/work_film.h"
@@ -17,24 +17,24 @@ using SpecularQueue = LanePool<F, 11, 7>;
 /// Asks for specular paths, at random, from events at diffuse surfaces and in media. With one lane the answer is added
 /// to the path's radiance at once. slot: where the light belongs.
 template <class F>
-TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, IntOf<F> slot,
-                                   SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
+TYNDALL_INLINE void request_specular_paths(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, IntOf<F> slot,
+                                           SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
   const auto spreads = accepts_specular_paths(s, e);
-  if (any(spreads)) e.asks = chain_probability(s, e.point);
-  const auto drawn = less(p.dice.one_alone(dimension::chain_asked), e.asks);
-  const auto asking = mask_and(mask_and(scattering, drawn), spreads);
+  if (any(spreads)) e.connect_probability = connect_probability(s, e.point);
+  const auto drawn = less(p.sampler.independent_1d(dimension::specular_connect), e.connect_probability);
+  const auto receiver = mask_and(mask_and(scattering, drawn), spreads);
   Vec3<F> carried = p.throughput * e.colour;
   if constexpr (SpecularQueue<F>::waits) carried = p.weight * carried;
-  SpecularRequest<F> request{e.point, select(e.medium, p.ray.direction, e.incident.facing),
-                             carried, p.ray.time,
-                             e.g,     e.from,
-                             p.depth, slot,
-                             p.dice,  e.medium};
+  SpecularRequest<F> request{e.point,   select(e.medium, p.ray.direction, e.incident.facing),
+                             carried,   p.ray.time,
+                             e.g,       e.from,
+                             p.depth,   slot,
+                             p.sampler, e.medium};
   if constexpr (SpecularQueue<F>::waits) {
-    append_lanes<F>(s, request, asking, waiting);
-  } else if (any(asking)) {
-    const Vec3<F> light = chain_light(s, request, asking, shadow_rays);
-    recorder.on_chain_light(light);
+    append_lanes<F>(s, request, receiver, waiting);
+  } else if (any(receiver)) {
+    const Vec3<F> light = specular_light(s, request, receiver, shadow_rays);
+    recorder.on_specular_path_light(light);
     p.radiance = p.radiance + light;
   }
 }
@@ -42,14 +42,14 @@ TYNDALL_INLINE void ask_for_chains(const auto& s, Paths<F>& p, Event<F>& e, Mask
 /// Answers the first requests of the queue, as many as there are lanes, and removes them. Calls add(slot, light) for
 /// each in turn that brings some.
 template <class F>
-TYNDALL_INLINE void answer_requests(const auto& s, SpecularQueue<F>& waiting, UnitCounts& counts, const auto& add) {
+TYNDALL_INLINE void answer_requests(const auto& s, SpecularQueue<F>& waiting, TileCounts& counts, const auto& add) {
   constexpr int lanes = lanes_of<F>;
   const int count = waiting.count < lanes ? waiting.count : lanes;
   SpecularRequest<F> request{};
-  request.dice.sampler = s.sampler;
+  request.sampler.kind = s.sampler;
   load_lanes<F>(s, waiting, 0, request);
   std::uint32_t shadow_rays = 0;
-  const Vec3<F> light = chain_light(s, request, mask_from_bits<F>(first_lanes(count)), shadow_rays);
+  const Vec3<F> light = specular_light(s, request, mask_from_bits<F>(first_lanes(count)), shadow_rays);
   counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
   alignas(64) float r[lanes], g[lanes], b[lanes];
   store(r, light.x), store(g, light.y), store(b, light.z);

@@ -4,28 +4,28 @@
 #include "core/trace/work.h"
 #include "core/transport/direct_light.h"
 
-/// The samples of a unit of work whose paths go alone, and where their light goes.
+/// The samples of a tile job whose paths go alone, and where their light goes.
 namespace tyndall {
 
-/// Where the samples of a unit go.
-struct UnitFilm {
-  double per_unit;
+/// Where the samples of a tile job go.
+struct TileFilm {
+  double per_quantum;
   FilmPixel* pixels;
   EmissionSums* emission;  ///< null: not recorded
-  UnitCounts& counts;
+  TileCounts& counts;
 };
 
-/// The samples of a unit, each of which is a path of its own. It is what the path loop takes samples from and gives
+/// The samples of a tile job, each of which is a path of its own. It is what the path loop takes samples from and gives
 /// their light to; core/reuse has another one, for paths that share vertices.
 struct AloneSamples {
-  UnitSamples list;
-  UnitFilm film;
+  TileSamples list;
+  TileFilm film;
 
-  TYNDALL_INLINE AloneSamples(const SceneView& s, const Unit& unit, const UnitFilm& to) : film(to) {
-    list_samples(s, unit, list);
+  TYNDALL_INLINE AloneSamples(const SceneView& s, const TileJob& job, const TileFilm& to) : film(to) {
+    list_samples(s, job, list);
   }
   TYNDALL_INLINE bool empty() const { return list.empty(); }
-  TYNDALL_INLINE const Glints& glints() const { return list.glints; }
+  TYNDALL_INLINE const SubpixelLights& subpixel_lights() const { return list.subpixel_lights; }
   template <int lanes>
   TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
     list.take(to);
@@ -45,7 +45,7 @@ struct AloneSamples {
     return p.slot;
   }
 
-  /// Adds the samples of the lanes `ended` to the unit's pixels; max_depth ended those in `cut`.
+  /// Adds the samples of the lanes `ended` to the tile job's pixels; max_depth ended those in `cut`.
   template <class F>
   TYNDALL_INLINE void on_end(const auto& s, const Paths<F>& p, std::uint32_t ended, std::uint32_t cut) {
     if (!ended) return;
@@ -54,15 +54,15 @@ struct AloneSamples {
     const Vec3<F> sample = weighed(s, p, p.radiance);
     const F left = max_component(p.throughput);
     store(r, sample.x), store(g, sample.y), store(b, sample.z), store(slot, p.slot);
-    store(carried, s.has_chains() ? p.weight * left : left);
+    store(carried, s.has_specular_paths() ? p.weight * left : left);
     const std::uint32_t straight = film.emission ? p.straight : 0;
     for (; ended; ended &= ended - 1) {
       const int lane = __builtin_ctz(ended);
       FilmPixel& pixel = film.pixels[slot[lane] >> 1];
       const std::uint32_t half = static_cast<std::uint32_t>(slot[lane]) & 1u;
       const Vec3f radiance{r[lane], g[lane], b[lane]};
-      add_sample(pixel, half, radiance, film.per_unit);
-      if (straight >> lane & 1u) add_emission(film.emission[slot[lane] >> 1], half, radiance, film.per_unit);
+      add_sample(pixel, half, radiance, film.per_quantum);
+      if (straight >> lane & 1u) add_emission(film.emission[slot[lane] >> 1], half, radiance, film.per_quantum);
       ++pixel.taken;
       if (!(cut >> lane & 1u)) continue;
       ++pixel.truncated;
@@ -70,7 +70,7 @@ struct AloneSamples {
     }
   }
   TYNDALL_INLINE void add(std::int32_t slot, Vec3f light) {
-    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_unit);
+    add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_quantum);
   }
 };
 

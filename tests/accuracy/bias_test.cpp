@@ -20,7 +20,7 @@ Film noisy_film(unsigned seed, float factor) {
     const float truth = (1 + static_cast<float>(i % edge)) * (i % edge < edge / 2 ? 1.0f : factor) / edge;
     for (std::uint32_t s = 0; s < 16; ++s) {
       const float v = truth * noise(engine);
-      add_sample(pixel, s & 1, {v, v, v}, 1 / film.unit);
+      add_sample(pixel, s & 1, {v, v, v}, 1 / film.quantum);
     }
     pixel.taken = 16;
   }
@@ -52,8 +52,8 @@ TEST_CASE("block scores: films that are equal, of other regions, with empty halv
   Film flat = make_film(8, 8, {0, 0, 8, 8}, 0, 64), brighter = flat;
   for (std::size_t i = 0; i < 64; ++i)
     for (std::uint32_t s = 0; s < 2; ++s) {
-      add_sample(flat.pixels[i], s, {1, 1, 1}, 1 / flat.unit), ++flat.pixels[i].taken;
-      add_sample(brighter.pixels[i], s, {1.5f, 1.5f, 1.5f}, 1 / flat.unit), ++brighter.pixels[i].taken;
+      add_sample(flat.pixels[i], s, {1, 1, 1}, 1 / flat.quantum), ++flat.pixels[i].taken;
+      add_sample(brighter.pixels[i], s, {1.5f, 1.5f, 1.5f}, 1 / flat.quantum), ++brighter.pixels[i].taken;
     }
   CHECK(block_scores(flat, flat).noise());
   CHECK_FALSE(block_scores(flat, brighter).noise());

@@ -10,7 +10,7 @@ using namespace tyndall;
 TEST_CASE("film mean: by hand for two pixels that show different things") {
   Film film = make_film(2, 1, {0, 0, 2, 1}, 0, 8);
   const auto add = [&](int x, std::uint32_t half, float red) {
-    add_sample(film.at(x, 0), half, {red, 2, 3}, 1 / film.unit);
+    add_sample(film.at(x, 0), half, {red, 2, 3}, 1 / film.quantum);
     ++film.at(x, 0).taken;
   };
   add(0, 0, 1), add(0, 1, 4), add(1, 0, 7);

@@ -34,7 +34,7 @@ Film noisy_film(std::uint32_t spp, int right_divisor) {
     FilmPixel& pixel = film.pixels[static_cast<std::size_t>(i)];
     const float spread = x < width / 2 ? 1.0f : 1.0f / static_cast<float>(right_divisor);
     const auto draw = [&] { return truth(x) * (1 + spread * (noise(engine) - 1)); };
-    for (std::uint32_t s = 0; s < spp; ++s) add_sample(pixel, s & 1, {draw(), draw(), draw()}, 1 / film.unit);
+    for (std::uint32_t s = 0; s < spp; ++s) add_sample(pixel, s & 1, {draw(), draw(), draw()}, 1 / film.quantum);
     pixel.taken = spp;
   }
   return film;
@@ -128,7 +128,7 @@ TEST_CASE("estimated error: samples that are rare and bright do not hide how wro
   for (FilmPixel& pixel : film.pixels) {
     for (std::uint32_t s = 0; s < 16; ++s) {
       const float value = engine() % 20 == 0 ? 18.1f : 0.1f;
-      add_sample(pixel, s & 1, {value, value, value}, 1 / film.unit);
+      add_sample(pixel, s & 1, {value, value, value}, 1 / film.quantum);
     }
     pixel.taken = 16;
     sum += std::pow(static_cast<double>(mean(film, pixel).x) - 1, 2) / 1.01;
@@ -147,7 +147,7 @@ Film flat_film(float middle_a, float middle_b) {
     FilmPixel& pixel = film.pixels[static_cast<std::size_t>(i)];
     for (const std::uint32_t half : {0u, 1u}) {
       const float value = i != 40 ? 0.3f : half == 0 ? middle_a : middle_b;
-      add_sample(pixel, half, {value, value, value}, 1 / film.unit);
+      add_sample(pixel, half, {value, value, value}, 1 / film.quantum);
     }
     pixel.taken = 2;
   }
@@ -170,33 +170,33 @@ TEST_CASE("estimated error: the levels of the pixels that decide it are asked fo
   // 40,000 pixels without an error, one that one half shows bright, and one a hundred times as wrong.
   Film film = make_film(200, 200, {0, 0, 200, 200}, 0, 64);
   for (FilmPixel& pixel : film.pixels) {
-    for (const std::uint32_t half : {0u, 1u}) add_sample(pixel, half, {0.3f, 0.3f, 0.3f}, 1 / film.unit);
+    for (const std::uint32_t half : {0u, 1u}) add_sample(pixel, half, {0.3f, 0.3f, 0.3f}, 1 / film.quantum);
     pixel.taken = 2;
   }
-  add_sample(film.at(50, 60), 0, {8, 8, 8}, 1 / film.unit);
-  add_sample(film.at(150, 160), 1, {800, 800, 800}, 1 / film.unit);
+  add_sample(film.at(50, 60), 0, {8, 8, 8}, 1 / film.quantum);
+  add_sample(film.at(150, 160), 1, {800, 800, 800}, 1 / film.quantum);
   const std::size_t rare = film.index(50, 60), lamp = film.index(150, 160);
-  std::vector<std::vector<std::size_t>> asked;
-  const auto estimate = [&](Vec3f rare_level, Vec3f lamp_level) {
-    asked.clear();
+  std::vector<std::vector<std::size_t>> query;
+  const auto estimate = [&](Vec3f rare_level, Vec3f light_level) {
+    query.clear();
     return estimate_error(film, nullptr, [&](const std::vector<std::size_t>& pixels) {
-      asked.push_back(pixels);
+      query.push_back(pixels);
       std::vector<Vec3f> levels;
-      for (const std::size_t pixel : pixels) levels.push_back(pixel == lamp ? lamp_level : rare_level);
+      for (const std::size_t pixel : pixels) levels.push_back(pixel == lamp ? light_level : rare_level);
       return levels;
     });
   };
-  // With the level of a lamp its error is so small that the other one decides.
+  // With the level of a light its error is so small that the other one decides.
   const ErrorEstimate known = estimate({0.3f, 2, 0}, {400, 200, 100});
-  CHECK(asked == std::vector<std::vector<std::size_t>>{{lamp}, {rare}});
-  const double of_lamp = 400.0 * 400 * (1 / 160000.01 + 1 / 40000.01 + 1 / 10000.01) / 3;
+  CHECK(query == std::vector<std::vector<std::size_t>>{{lamp}, {rare}});
+  const double of_light = 400.0 * 400 * (1 / 160000.01 + 1 / 40000.01 + 1 / 10000.01) / 3;
   const double of_rare = 4.0 * 4 * (1 / 0.1 + 1 / 4.01 + 1 / 0.01) / 3;
-  CHECK(known.relative_error == doctest::Approx(std::sqrt((of_lamp + of_rare) / 40000)).epsilon(1e-5).scale(0));
+  CHECK(known.relative_error == doctest::Approx(std::sqrt((of_light + of_rare) / 40000)).epsilon(1e-5).scale(0));
   CHECK(known.rests_on_few_pixels);
   // A rare path's level hardly changes its error, and the rest stays hidden behind it.
   CHECK(estimate({}, {0.3f, 0.3f, 0.3f}).relative_error ==
         doctest::Approx(estimated_relative_error(film)).epsilon(1e-3).scale(0));
-  CHECK(asked == std::vector<std::vector<std::size_t>>{{lamp}});
+  CHECK(query == std::vector<std::vector<std::size_t>>{{lamp}});
   // Where levels cannot be had, the film alone tells.
   const auto never = [](const std::vector<std::size_t>&) { return std::vector<Vec3f>(); };
   CHECK(estimate_error(film, nullptr, never).relative_error == estimated_relative_error(film));
@@ -207,11 +207,11 @@ TEST_CASE("estimated error: pixels known to be rare are as wrong as their means"
   const std::size_t agreed = film.index(7, 5), plain = film.index(9, 20);
   film.pixels[agreed] = {};
   for (std::uint32_t half = 0; half < 2; ++half)
-    for (int i = 0; i < 8; ++i) add_sample(film.pixels[agreed], half, {9, 9, 9}, 1 / film.unit);
+    for (int i = 0; i < 8; ++i) add_sample(film.pixels[agreed], half, {9, 9, 9}, 1 / film.quantum);
   film.pixels[agreed].taken = 16;
-  std::vector<std::vector<std::size_t>> asked;
+  std::vector<std::vector<std::size_t>> query;
   const auto levels_of = [&](const std::vector<std::size_t>& pixels) {
-    asked.push_back(pixels);
+    query.push_back(pixels);
     return std::vector<Vec3f>(pixels.size(), Vec3f{1, 1, 1});
   };
   const std::vector<double> noise = squared_relative_errors(film);
@@ -224,7 +224,7 @@ TEST_CASE("estimated error: pixels known to be rare are as wrong as their means"
   const std::vector<std::size_t> rare{std::min(agreed, plain), std::max(agreed, plain)};
   const double expected = std::sqrt(sum / static_cast<double>(noise.size()));
   CHECK(estimate_error(film, nullptr, levels_of, rare).relative_error == doctest::Approx(expected).epsilon(1e-5));
-  CHECK(asked.front() == rare);
+  CHECK(query.front() == rare);
   // Without levels they are like all others.
   const auto never = [](const std::vector<std::size_t>&) { return std::vector<Vec3f>(); };
   CHECK(estimate_error(film, nullptr, never, rare).relative_error == estimated_relative_error(film));
@@ -259,7 +259,7 @@ TEST_CASE("estimated error: the same bits for any number of threads, and picture
       pixel.taken = static_cast<std::uint32_t>(2 + engine() % 5);  // unequal, as in the middle of a pass
       for (std::uint32_t s = 0; s < pixel.taken; ++s) {
         const auto value = static_cast<float>(engine() % 100) * 0.01f;
-        add_sample(pixel, s & 1, {value, 1 - value, 0.5f}, 1 / film.unit);
+        add_sample(pixel, s & 1, {value, 1 - value, 0.5f}, 1 / film.quantum);
       }
     }
     const ErrorEstimate alone = estimate_error(film);
@@ -269,18 +269,18 @@ TEST_CASE("estimated error: the same bits for any number of threads, and picture
     CHECK(std::isfinite(alone.relative_error));
     CHECK(alone.relative_error == doctest::Approx(std::sqrt(sum / static_cast<double>(errors.size()))));
     for (const int threads : {1, 2, 3}) {
-      Crew crew(threads);
-      CHECK(estimate_error(film, &crew).relative_error == alone.relative_error);
-      CHECK(squared_relative_errors(film, &crew) == errors);
+      ThreadPool thread_pool(threads);
+      CHECK(estimate_error(film, &thread_pool).relative_error == alone.relative_error);
+      CHECK(squared_relative_errors(film, &thread_pool) == errors);
     }
   }
 }
 
 TEST_CASE("estimated error: the unit of a film does not matter, however bright or dim its lamps") {
   double bright = 0;  // the error of a film whose levels are far above 0.1
-  for (const double unit : {0x1p20, 0x1p60, 0x1p126, 0x1p-20, 0x1p-100}) {
-    CAPTURE(unit);
-    Film film = make_film(8, 8, {0, 0, 8, 8}, 0, unit);
+  for (const double quantum : {0x1p20, 0x1p60, 0x1p126, 0x1p-20, 0x1p-100}) {
+    CAPTURE(quantum);
+    Film film = make_film(8, 8, {0, 0, 8, 8}, 0, quantum);
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
       film.pixels[i].taken = 2;
       for (const std::uint32_t half : {0u, 1u}) film.pixels[i].sum[half][0].add(i % 3 == half ? 0.5 : 0.25);
@@ -288,20 +288,20 @@ TEST_CASE("estimated error: the unit of a film does not matter, however bright o
     const double error = estimated_relative_error(film);
     CHECK(std::isfinite(error));
     if (bright == 0) bright = error;
-    if (unit > 1)
+    if (quantum > 1)
       CHECK(error == doctest::Approx(bright).epsilon(1e-6).scale(0));
     else
-      CHECK(error < unit);  // black against 0.1
+      CHECK(error < quantum);  // black against 0.1
   }
 }
 
 TEST_CASE("few pixels: the error of even noise does not rest on a few of them, that of one bright sample does") {
   Film film = noisy_film(16, 1);
   CHECK_FALSE(estimate_error(film).rests_on_few_pixels);
-  add_sample(film.at(100, 60), 0, {60 * 64, 60 * 64, 60 * 64}, 1 / film.unit);
+  add_sample(film.at(100, 60), 0, {60 * 64, 60 * 64, 60 * 64}, 1 / film.quantum);
   CHECK(estimate_error(film).rests_on_few_pixels);
-  Crew crew(2);
-  CHECK(estimate_error(film, &crew).rests_on_few_pixels);
+  ThreadPool thread_pool(2);
+  CHECK(estimate_error(film, &thread_pool).rests_on_few_pixels);
 }
 
 TEST_CASE("a black film has no error, but where there are lamps it is told that no light was found yet") {

@@ -165,14 +165,14 @@ TEST_CASE("FLIP grows with the contrast of a pixel and of a picture") {
 TEST_CASE("FLIP of mirrored and of transposed pictures is the map mirrored and transposed") {
   constexpr int size = 24;
   const std::vector<float> map = flip(picture(size, size, changed_pattern), picture(size, size, pattern));
-  const auto turned = [](auto where) {
+  const auto rotated = [](auto where) {
     const auto from = [where](auto colours) {
       return picture(size, size, [=](int x, int y) { return colours(where(x, y)[0], where(x, y)[1]); });
     };
     return flip(from(changed_pattern), from(pattern));
   };
-  const std::vector<float> mirrored = turned([](int x, int y) { return std::array{size - 1 - x, y}; });
-  const std::vector<float> transposed = turned([](int x, int y) { return std::array{y, x}; });
+  const std::vector<float> mirrored = rotated([](int x, int y) { return std::array{size - 1 - x, y}; });
+  const std::vector<float> transposed = rotated([](int x, int y) { return std::array{y, x}; });
   double mirror_gap = 0, transpose_gap = 0;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {

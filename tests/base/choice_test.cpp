@@ -6,7 +6,7 @@ namespace {
 
 enum class Fruit { apple, pear, quince };
 
-constexpr tyndall::Word word(Fruit fruit) {
+constexpr tyndall::Label label(Fruit fruit) {
   switch (fruit) {
     case Fruit::apple:
       return {"apple", "round"};
@@ -28,6 +28,6 @@ TEST_CASE("choices: values and names go back and forth") {
   for (int i = 0; i < 3; ++i) CHECK(value_named<Fruit>(name_of(static_cast<Fruit>(i))) == static_cast<Fruit>(i));
   CHECK_FALSE(value_named<Fruit>("plum"));
   CHECK_FALSE(value_named<Fruit>(""));
-  CHECK(word(Fruit::quince).approximation);
-  CHECK_FALSE(word(Fruit::apple).approximation);
+  CHECK(label(Fruit::quince).approximation);
+  CHECK_FALSE(label(Fruit::apple).approximation);
 }

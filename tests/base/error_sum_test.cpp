@@ -38,7 +38,7 @@ TEST_CASE("sum of errors: all are summed, and the largest can be asked for, in w
     CHECK(all.sum() == doctest::Approx(sum).epsilon(1e-12).scale(0));
     CHECK(all.squares() == doctest::Approx(squares).epsilon(1e-12).scale(0));
     const std::vector<PixelError> largest = all.largest();
-    REQUIRE(largest.size() == ErrorSum::most_apart);
+    REQUIRE(largest.size() == ErrorSum::max_apart);
     for (std::size_t i = 0; i < largest.size(); ++i) CHECK(largest[i].pixel == sorted[i].pixel);
   }
 }
@@ -47,7 +47,7 @@ TEST_CASE("sum of errors: of equal errors those of the first pixels are the larg
   ErrorSum all;
   for (std::size_t i = 200; i-- > 0;) all.add({i, 3});
   const std::vector<PixelError> largest = all.largest();
-  REQUIRE(largest.size() == ErrorSum::most_apart);
+  REQUIRE(largest.size() == ErrorSum::max_apart);
   for (std::size_t i = 0; i + 1 < largest.size(); ++i) CHECK(largest[i].pixel < largest[i + 1].pixel);
   ErrorSum three;
   for (std::size_t i = 0; i < 3; ++i) three.add({i, -1.0});
@@ -75,6 +75,6 @@ TEST_CASE("sum of errors: what is not a number is told by the sum, and is none o
   }
   CHECK(std::isnan(all.sum()));
   const std::vector<PixelError> largest = all.largest();
-  CHECK(largest.size() == ErrorSum::most_apart);
+  CHECK(largest.size() == ErrorSum::max_apart);
   for (const PixelError& one : largest) CHECK(one.pixel < 1000);
 }

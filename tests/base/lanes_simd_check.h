@@ -195,9 +195,9 @@ void check_lookup(Differences& d, const Inputs& in, const float* table, const st
     d.expect(whole, plain);
     check_append(d, in, table), check_append(d, in, whole_table);
     for (const int count : {1, 7, 16, 31, 32, 33, 48, 64, 65, 256}) check_lookup(d, in, table, whole_table, count);
-    float least = expected[0];
-    for (const float e : expected) least = e < least ? e : least;
-    d.count += least_lane(load<Wide>(expected)) != least;
+    float minimum = expected[0];
+    for (const float e : expected) minimum = e < minimum ? e : minimum;
+    d.count += min_lane(load<Wide>(expected)) != minimum;
     store(got, splat<Wide>(in.a[0]));
     for (float& e : expected) e = in.a[0];
     d.expect(got, expected);
@@ -211,13 +211,13 @@ void check_lookup(Differences& d, const Inputs& in, const float* table, const st
 /// Largest distances of the elementary functions from the plain ones, in units of what math.h promises.
 [[maybe_unused]] float worst_function(int rounds) {
   float worst = 0;
-  // The promise is relative to results of a size from `least` to `most`.
-  const auto compare = [&](auto f, const float* x, float promise, float least, float most) {
+  // The promise is relative to results of a size from `minimum` to `maximum`.
+  const auto compare = [&](auto f, const float* x, float promise, float minimum, float maximum) {
     float got[width];
     store(got, f(load<Wide>(x)));
     for (int k = 0; k < width; ++k) {
       const float plain = f(x[k]);
-      const float off = abs(got[k] - plain) / (promise * min(max(abs(plain), least), most));
+      const float off = abs(got[k] - plain) / (promise * min(max(abs(plain), minimum), maximum));
       worst = off <= worst ? worst : off;  // what is not a number counts
     }
   };
@@ -227,8 +227,8 @@ void check_lookup(Differences& d, const Inputs& in, const float* table, const st
       u[k] = unit_interval_open<float>(hash(static_cast<std::uint32_t>(round * width + k)));
       x[k] = 20 * u[k] - 10;
     }
-    compare([](auto t) { return sin_cos_turn(t).sin; }, u, 2.5e-7f, 1, 1);
-    compare([](auto t) { return sin_cos_turn(t).cos; }, u, 2.5e-7f, 1, 1);
+    compare([](auto t) { return sin_cos_2pi(t).sin; }, u, 2.5e-7f, 1, 1);
+    compare([](auto t) { return sin_cos_2pi(t).cos; }, u, 2.5e-7f, 1, 1);
     compare([](auto t) { return log(t); }, u, 2e-7f, 1, 100);
     compare([](auto t) { return exp(t); }, x, 4e-7f, 0, 1e9f);
     compare([](auto t) { return cube_root(t); }, u, 2e-6f, 0, 1);

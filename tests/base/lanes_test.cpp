@@ -86,7 +86,7 @@ TEST_CASE("vectors: products, reflection and points along a line") {
   CHECK(length(Vec3d{2, 3, 6}) == 7);
   CHECK(normalize(Vec3d{0, -4, 0}) == Vec3d{0, -1, 0});
   CHECK(reflect(Vec3d{1, -2, 3}, y) == Vec3d{1, 2, 3});
-  CHECK(along(Vec3d{1, 1, 1}, 2.0, Vec3d{1, 0, -1}) == Vec3d{3, 1, -1});
+  CHECK(point_at(Vec3d{1, 1, 1}, 2.0, Vec3d{1, 0, -1}) == Vec3d{3, 1, -1});
   CHECK(max_component(Vec3d{1, 7, 3}) == 7);
   CHECK(select(false, x, y) == y);
 }

@@ -16,22 +16,22 @@ double wide(float v) { return static_cast<double>(v); }
 /// Largest distance of f from reference over a grid of n steps from low to high, both ends included.
 template <class F, class Reference>
 double largest_error(F f, Reference reference, double low, double high, int n, bool relative = false) {
-  double most = 0;
+  double maximum = 0;
   for (int i = 0; i <= n; ++i) {
     const float x = static_cast<float>(low + (high - low) * i / n);
     const double expected = reference(wide(x));
     const double error = std::abs(wide(f(x)) - expected);
     if (!std::isfinite(error)) return error;
-    most = std::max(most, relative ? error / std::abs(expected) : error);
+    maximum = std::max(maximum, relative ? error / std::abs(expected) : error);
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace
 
 TEST_CASE("sin_cos_turn: absolute error below 2.5e-7 over the whole turn") {
-  const auto sine = [](float t) { return tyndall::sin_cos_turn(t).sin; };
-  const auto cosine = [](float t) { return tyndall::sin_cos_turn(t).cos; };
+  const auto sine = [](float t) { return tyndall::sin_cos_2pi(t).sin; };
+  const auto cosine = [](float t) { return tyndall::sin_cos_2pi(t).cos; };
   const auto std_sine = [](double t) { return std::sin(2 * pi * t); };
   const auto std_cosine = [](double t) { return std::cos(2 * pi * t); };
   const double last = 1 - 0x1p-24;
@@ -39,13 +39,13 @@ TEST_CASE("sin_cos_turn: absolute error below 2.5e-7 over the whole turn") {
   CHECK(largest_error(cosine, std_cosine, 0, last, 2000000) < 2.5e-7);
   CHECK(largest_error(sine, std_sine, 0, 1e-4, 10000) < 2.5e-7);
   CHECK(largest_error(sine, std_sine, 1 - 1e-4, last, 10000) < 2.5e-7);
-  CHECK(tyndall::sin_cos_turn(0.0f).cos == doctest::Approx(1).epsilon(2.5e-7).scale(0));
-  CHECK(std::abs(tyndall::sin_cos_turn(1.0f).sin) < 2.5e-7f);  // turn - floor(turn) can round to 1
+  CHECK(tyndall::sin_cos_2pi(0.0f).cos == doctest::Approx(1).epsilon(2.5e-7).scale(0));
+  CHECK(std::abs(tyndall::sin_cos_2pi(1.0f).sin) < 2.5e-7f);  // turn - floor(turn) can round to 1
 }
 
 TEST_CASE("sin_cos_turn: the point is on the unit circle to rounding") {
   for (int i = 0; i < 100000; ++i) {
-    const SinCos<float> a = tyndall::sin_cos_turn(static_cast<float>(i) / 100000.0f);
+    const SinCos<float> a = tyndall::sin_cos_2pi(static_cast<float>(i) / 100000.0f);
     CHECK_MESSAGE(std::abs(wide(a.sin) * wide(a.sin) + wide(a.cos) * wide(a.cos) - 1) < 4e-7, i);
   }
 }
@@ -87,14 +87,14 @@ TEST_CASE("cube_root: is right on [0, 1]; for 0 the result is below 1e-12") {
 }
 
 TEST_CASE("atan2: absolute error below 3e-7 in all directions and magnitudes") {
-  double most = 0;
+  double maximum = 0;
   for (const double size : {1e-30, 1e-3, 1.0, 1e3, 1e30})
     for (int i = 0; i < 400000; ++i) {
       const double angle = 2 * pi * i / 400000;
       const float x = static_cast<float>(size * std::cos(angle)), y = static_cast<float>(size * std::sin(angle));
-      most = std::max(most, std::abs(wide(tyndall::atan2(y, x)) - std::atan2(wide(y), wide(x))));
+      maximum = std::max(maximum, std::abs(wide(tyndall::atan2(y, x)) - std::atan2(wide(y), wide(x))));
     }
-  CHECK(most < 3e-7);
+  CHECK(maximum < 3e-7);
 }
 
 TEST_CASE("atan2: is right on the axes, for zeros of both signs and at the origin") {
@@ -117,7 +117,7 @@ TEST_CASE("acos: over [-1, 1], also next to the ends") {
 }
 
 TEST_CASE("in double the functions are the standard library's") {
-  CHECK(tyndall::sin_cos_turn(0.125).sin == std::sin(2 * pi * 0.125));
+  CHECK(tyndall::sin_cos_2pi(0.125).sin == std::sin(2 * pi * 0.125));
   CHECK(tyndall::log(0.3) == std::log(0.3));
   CHECK(tyndall::exp(-3.2) == std::exp(-3.2));
   CHECK(tyndall::exp(-100.0) == std::exp(-80.0));

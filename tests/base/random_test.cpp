@@ -15,13 +15,13 @@ using namespace tyndall;
 
 namespace {
 
-using FloatDice = Dice<float>;
+using FloatSampler = Sampler<float>;
 
 struct Key {
   std::uint32_t seed, x, y, sample;
 };
-FloatDice dice_of(Key k, bool sobol = false) {
-  return FloatDice::of(k.seed, k.x, k.y, k.sample, sobol ? SamplerKind::sobol : SamplerKind::random);
+FloatSampler sampler_of(Key k, bool sobol = false) {
+  return FloatSampler::of(k.seed, k.x, k.y, k.sample, sobol ? SamplerKind::sobol : SamplerKind::random);
 }
 
 constexpr std::uint32_t edge = 256;
@@ -38,11 +38,11 @@ std::vector<std::array<double, dimensions>> numbers(const Shift& by, bool sobol)
   std::vector<std::array<double, dimensions>> all;
   for (std::uint32_t y = 0; y < edge; ++y)
     for (std::uint32_t x = 0; x < edge; ++x) {
-      FloatDice dice = dice_of({5 + by.seed, x + by.dx, y + by.dy, by.sample}, sobol);
-      for (int e = 0; e < by.events; ++e) dice.next_event();
+      FloatSampler sampler = sampler_of({5 + by.seed, x + by.dx, y + by.dy, by.sample}, sobol);
+      for (int e = 0; e < by.events; ++e) sampler.next_event();
       auto& row = all.emplace_back();
       for (std::uint32_t d = 0; d < dimensions; d += 2) {
-        const Pair<float> pair = dice.pair(d);
+        const Pair<float> pair = sampler.next_2d(d);
         row[d] = static_cast<double>(pair.x) - 0.5, row[d + 1] = static_cast<double>(pair.y) - 0.5;
       }
     }
@@ -53,15 +53,15 @@ std::vector<std::array<double, dimensions>> numbers(const Shift& by, bool sobol)
 /// not compared with itself.
 double largest_correlation(const std::vector<std::array<double, dimensions>>& a,
                            const std::vector<std::array<double, dimensions>>& b, bool same = false) {
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < dimensions; ++i)
     for (std::size_t j = 0; j < dimensions; ++j) {
       if (same && i == j) continue;
       double sum = 0;
       for (std::size_t k = 0; k < a.size(); ++k) sum += a[k][i] * b[k][j];
-      most = std::max(most, std::abs(sum / (static_cast<double>(a.size()) / 12)));
+      maximum = std::max(maximum, std::abs(sum / (static_cast<double>(a.size()) / 12)));
     }
-  return most;
+  return maximum;
 }
 
 /// Chi-square of counts against equal shares, as a normal deviate (Wilson and Hilferty's cube root).
@@ -95,8 +95,8 @@ TEST_CASE("dice: no two samples share a stream, whatever the pixel, sample index
     for (std::uint32_t y = 0; y < 32; ++y)
       for (std::uint32_t x = 0; x < 32; ++x)
         for (std::uint32_t sample = 0; sample < 16; ++sample, ++count) {
-          const FloatDice dice = dice_of({seed, x, y, sample});
-          streams.insert({dice.low, dice.high});
+          const FloatSampler sampler = sampler_of({seed, x, y, sample});
+          streams.insert({sampler.low, sampler.high});
         }
   CHECK(streams.size() == count);
 }
@@ -108,7 +108,7 @@ TEST_CASE("dice: the mean over a picture scatters from seed to seed as independe
   for (std::uint32_t seed = 0; seed < runs; ++seed) {
     double mean = 0;
     for (std::uint32_t i = 0; i < pixels; ++i)
-      mean += static_cast<double>(dice_of({seed, i % 64, i / 64, 0}).one(dimension::lobe)) / pixels;
+      mean += static_cast<double>(sampler_of({seed, i % 64, i / 64, 0}).next_1d(dimension::lobe)) / pixels;
     sum += mean, squares += mean * mean;
   }
   const double variance = (squares - sum * sum / runs) / (runs - 1), expected = 1.0 / 12 / pixels;
@@ -121,8 +121,8 @@ TEST_CASE("dice: every dimension is uniform over a picture, alone and in pairs")
     const std::uint32_t d = k / 2;
     std::vector<int> bins(256), squares(256);
     for (std::uint32_t i = 0; i < 65536; ++i) {
-      FloatDice dice = dice_of({9, i % 256, i / 256, d % 5}, k % 2 == 1);
-      const Pair<float> u = dice.pair(d);
+      FloatSampler sampler = sampler_of({9, i % 256, i / 256, d % 5}, k % 2 == 1);
+      const Pair<float> u = sampler.next_2d(d);
       ++bins[static_cast<std::size_t>(u.x * 256)];
       ++squares[static_cast<std::size_t>(u.x * 16) * 16 + static_cast<std::size_t>(u.y * 16)];
     }
@@ -139,21 +139,21 @@ TEST_CASE("dice: every bit of a word is set half of the time, whichever coordina
       std::array<int, 32> set{};
       for (std::uint32_t i = 0; i < count; ++i) {
         const Key keys[4] = {{i, 3, 4, 5}, {7, i, 4, 5}, {7, 3, i, 5}, {7, 3, 4, i}};
-        const std::uint32_t word = dice_of(keys[which]).word(d);
-        for (std::size_t b = 0; b < 32; ++b) set[b] += static_cast<int>(word >> b & 1u);
+        const std::uint32_t random_bits = sampler_of(keys[which]).random_bits(d);
+        for (std::size_t b = 0; b < 32; ++b) set[b] += static_cast<int>(random_bits >> b & 1u);
       }
       for (const int n : set) CHECK(std::abs(n - count / 2) < 4.5 * std::sqrt(count / 4.0));
     }
 }
 
 TEST_CASE("dice: the numbers of a sample are the same whenever they are asked for") {
-  const FloatDice a = dice_of({1, 2, 3, 4});
-  FloatDice b = dice_of({1, 2, 3, 4});
-  CHECK(a.word(3) == b.word(3));
-  CHECK(b.pair(2).y == b.one(3));
+  const FloatSampler a = sampler_of({1, 2, 3, 4});
+  FloatSampler b = sampler_of({1, 2, 3, 4});
+  CHECK(a.random_bits(3) == b.random_bits(3));
+  CHECK(b.next_2d(2).y == b.next_1d(3));
   b.next_event();
-  CHECK(a.word(dimension::per_event + 3) == b.word(3));  // events follow each other in one table
-  CHECK(a.open(0, 0) != a.open(0, 1));                   // media that share an event have their own numbers
+  CHECK(a.random_bits(dimension::per_event + 3) == b.random_bits(3));  // events follow each other in one table
+  CHECK(a.open(0, 0) != a.open(0, 1));  // media that share an event have their own numbers
 }
 
 TEST_CASE("numbers from bits: [0, 1) and (0, 1], to the last bit") {

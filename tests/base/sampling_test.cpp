@@ -17,7 +17,7 @@ constexpr float largest = 1.0f - 0x1p-24f;
 constexpr float edges[] = {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, largest};
 
 Pair<float> numbers(int i) {
-  return Dice<float>::of(3, static_cast<std::uint32_t>(i), 0, 0).pair(dimension::direction);
+  return Sampler<float>::of(3, static_cast<std::uint32_t>(i), 0, 0).next_2d(dimension::direction);
 }
 
 /// Chi-square of counts against equal shares, as a normal deviate (Wilson and Hilferty's cube root).
@@ -110,10 +110,10 @@ TEST_CASE("around: unit, with the given cosine to the axis, for every axis") {
     if (i < 6) axis = {i / 2 == 0 ? 1.0f : 0.0f, i / 2 == 1 ? 1.0f : 0.0f, i / 2 == 2 ? 1.0f : 0.0f};
     if (i < 6 && i % 2) axis = -axis;
     for (const float cosine : {-1.0f, -0.99999994f, -0.3f, 0.0f, 0.5f, 0.99999994f, 1.0f})
-      for (const float turn : edges) {
-        const Vec3f v = around(axis, cosine, turn);
+      for (const float u : edges) {
+        const Vec3f v = around(axis, cosine, u);
         if (std::abs(length(v) - 1) < 1e-6f && std::abs(dot(v, axis) - cosine) < 1e-6f) continue;
-        CHECK_MESSAGE(false, axis.x << ' ' << axis.y << ' ' << axis.z << ' ' << cosine << ' ' << turn);
+        CHECK_MESSAGE(false, axis.x << ' ' << axis.y << ' ' << axis.z << ' ' << cosine << ' ' << u);
       }
   }
 }

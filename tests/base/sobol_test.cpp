@@ -10,8 +10,8 @@ using namespace tyndall;
 
 namespace {
 
-Dice<float> point(std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-  return Dice<float>::of(3, x, y, sample, SamplerKind::sobol);
+Sampler<float> point(std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+  return Sampler<float>::of(3, x, y, sample, SamplerKind::sobol);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ TEST_CASE("sobol: the points of each half fill every elementary interval of 2^k 
         for (int split = 0; split <= log; ++split) {
           std::set<int> cells;
           for (std::uint32_t i = 0; i < 1u << log; ++i) {
-            const Pair<float> p = point(17, 5, 2 * i + half).pair(dims);
+            const Pair<float> p = point(17, 5, 2 * i + half).next_2d(dims);
             const int across = static_cast<int>(p.x * static_cast<float>(1 << split));
             const int up = static_cast<int>(p.y * static_cast<float>(1 << (log - split)));
             cells.insert(across + (up << split));
@@ -47,18 +47,19 @@ TEST_CASE("sobol: the points of each half fill every elementary interval of 2^k 
 TEST_CASE("sobol: single dimensions are stratified, and halves, pixels and dimensions are independent") {
   const int n = 64;
   std::set<int> strata;
-  for (std::uint32_t i = 0; i < n; ++i) strata.insert(static_cast<int>(point(1, 2, 2 * i).one(dimension::lobe) * n));
+  for (std::uint32_t i = 0; i < n; ++i)
+    strata.insert(static_cast<int>(point(1, 2, 2 * i).next_1d(dimension::lobe) * n));
   CHECK(strata.size() == n);
   // Products of centred numbers, averaged over many pixels: variance 1/144.
   const int pixels = 20000;
   double halves = 0, neighbours = 0, dimensions = 0, pairs = 0;
   for (std::uint32_t k = 0; k < pixels; ++k) {
-    const Dice<float> a = point(k, 9, 6), b = point(k, 9, 7), c = point(k + 1, 9, 6);
+    const Sampler<float> a = point(k, 9, 6), b = point(k, 9, 7), c = point(k + 1, 9, 6);
     const auto centred = [](float u) { return static_cast<double>(u) - 0.5; };
-    halves += centred(a.one(1)) * centred(b.one(1));
-    neighbours += centred(a.one(1)) * centred(c.one(1));
-    dimensions += centred(a.one(1)) * centred(a.one(4));
-    pairs += centred(a.pair(2).x) * centred(a.pair(6).y);
+    halves += centred(a.next_1d(1)) * centred(b.next_1d(1));
+    neighbours += centred(a.next_1d(1)) * centred(c.next_1d(1));
+    dimensions += centred(a.next_1d(1)) * centred(a.next_1d(4));
+    pairs += centred(a.next_2d(2).x) * centred(a.next_2d(6).y);
   }
   const double limit = 4 * std::sqrt(pixels / 144.0);
   for (const double sum : {halves, neighbours, dimensions, pairs}) CHECK(std::abs(sum) < limit);
@@ -75,7 +76,7 @@ TEST_CASE("sobol: in 64 samples of a pixel, dimensions used together hardly corr
     double number[8][samples];
     for (std::uint32_t i = 0; i < samples; ++i)
       for (int k = 0; k < 4; ++k) {
-        const Pair<float> p = point(pixel, 11, i).pair(pairs[k]);
+        const Pair<float> p = point(pixel, 11, i).next_2d(pairs[k]);
         number[2 * k][i] = static_cast<double>(p.x) - 0.5, number[2 * k + 1][i] = static_cast<double>(p.y) - 0.5;
       }
     const auto correlation = [&](int a, int b) {
@@ -106,7 +107,7 @@ TEST_CASE("sobol: numbers are uniform over pixels for any one sample") {
   for (const std::uint32_t sample : {0u, 1u, 37u}) {
     std::vector<int> count(bins);
     for (std::uint32_t k = 0; k < pixels; ++k)
-      ++count[static_cast<std::size_t>(point(k % 317, k / 317, sample).pair(2).y * bins)];
+      ++count[static_cast<std::size_t>(point(k % 317, k / 317, sample).next_2d(2).y * bins)];
     double chi2 = 0;
     for (const int c : count) chi2 += std::pow(c - pixels / bins, 2) / (pixels / bins);
     CHECK(chi2 < bins - 1 + 4 * std::sqrt(2.0 * (bins - 1)));

@@ -69,11 +69,11 @@ struct Crossing {
 
 /// The smallest number of samples with an error of at most `target`, found by doubling, and then by bisection.
 Crossing find_crossing(const Contest& contest, double target) {
-  constexpr std::uint32_t most = 4096;
+  constexpr std::uint32_t maximum = 4096;
   std::uint32_t below = 0, spp = 1;
   Film film = contest.film(spp);
   double error = contest.rel_mse(film);
-  while (error > target && spp < most) {
+  while (error > target && spp < maximum) {
     below = spp;
     film = contest.film(spp *= 2, std::move(film));
     error = contest.rel_mse(film);

@@ -52,10 +52,10 @@ class Task {
 
   /// The smallest number of samples with an error of at most `target`; 0: there is none up to 4096.
   std::uint32_t crossing(const fs::path& program, double target) const {
-    constexpr std::uint32_t most = 4096;
+    constexpr std::uint32_t maximum = 4096;
     std::uint32_t below = 0, spp = 1;
     while (render(program, spp).rel_mse > target) {
-      if (spp >= most) return 0;
+      if (spp >= maximum) return 0;
       below = spp, spp *= 2;
     }
     while (spp - below > 1) {
@@ -87,7 +87,7 @@ std::vector<NamedScene> scenes() {
   list.push_back({"stress-white-room", built_in("stress-white-room", 200, 150)});
   list.push_back({"46-spheres", forty_six_spheres()});
   for (const int lamps : {10, 100, 1000, 10000})
-    list.push_back({"lamps-" + std::to_string(lamps), floor_beneath_lamps(lamps)});
+    list.push_back({"lamps-" + std::to_string(lamps), floor_beneath_lights(lamps)});
   return list;
 }
 

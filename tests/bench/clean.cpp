@@ -21,16 +21,16 @@ Json row_of(const std::string& name, std::uint32_t spp, int repeat) {
   options.threads = 2;
   options.spp = spp;
   const RenderResult result = render(scene, options);
-  Crew crew(options.threads);
+  ThreadPool thread_pool(options.threads);
   const SceneViewOf view(scene);
-  const RenderEngine engine{crew, result.kernels, view.view()};
+  const RenderEngine engine{thread_pool, result.kernels, view.view()};
   FilmCleaner whole(result.kernels);
   CleanPicture picture;
   CleanInput input;
   std::vector<double> read, seen, kept, anew;
   for (int i = 0; i <= repeat; ++i) {
     FirstSeenParts parts;
-    read.push_back(1000 * seconds_of([&] { read_film(result.film, crew, never, input); }));
+    read.push_back(1000 * seconds_of([&] { read_film(result.film, thread_pool, never, input); }));
     seen.push_back(1000 * seconds_of([&] { find_first_seen(result.film.region, engine, never, input, parts); }));
     whole.change_scene();
     PixelLevels levels;

@@ -28,12 +28,12 @@ bool agree(const TraceHit& a, const TraceHit& b, const Elements& elements) {
 
 /// Throws unless nearly all hits are the same in both. The rest are rays that graze a sphere or start where two meet.
 void check_agreement(const std::vector<TraceHit>& ours, const std::vector<TraceHit>& theirs, const RenderScene& scene) {
-  constexpr double least = 0.999;
+  constexpr double minimum = 0.999;
   std::size_t same = 0;
   for (std::size_t i = 0; i < ours.size(); ++i) same += agree(ours[i], theirs[i], scene.elements);
-  const double share = static_cast<double>(same) / static_cast<double>(ours.size());
-  if (share < least)
-    throw WrongResult(std::to_string(scene.primitives()) + " spheres: only " + std::to_string(100 * share) +
+  const double fraction = static_cast<double>(same) / static_cast<double>(ours.size());
+  if (fraction < minimum)
+    throw WrongResult(std::to_string(scene.primitives()) + " spheres: only " + std::to_string(100 * fraction) +
                       " % of the distances are Embree's");
 }
 

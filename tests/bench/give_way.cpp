@@ -14,7 +14,7 @@ namespace {
 
 /// Starts a pass of that many samples, asks it to give up after some time, and measures how long it goes on. The result
 /// is empty if the pass was done before. The film must have its first sample.
-std::vector<double> give_way(Crew& crew, const SceneView& view, Film& film, std::uint32_t samples,
+std::vector<double> give_way(ThreadPool& thread_pool, const SceneView& view, Film& film, std::uint32_t samples,
                              std::chrono::microseconds after) {
   const Kernels kernels = *choose_kernels("");
   std::atomic<bool> give_up = false;
@@ -22,15 +22,15 @@ std::vector<double> give_way(Crew& crew, const SceneView& view, Film& film, std:
   bool whole = false;
   Clock::time_point returned;
   std::thread runner([&] {
-    whole = pass.run(crew, kernels, view, film, give_up);
+    whole = pass.run(thread_pool, kernels, view, film, give_up);
     returned = Clock::now();
   });
   std::this_thread::sleep_for(after);
-  const Clock::time_point asked = Clock::now();
+  const Clock::time_point query = Clock::now();
   give_up = true;
   runner.join();
   if (whole) return {};
-  return {seconds_between(asked, returned)};
+  return {seconds_between(query, returned)};
 }
 
 }  // namespace
@@ -45,13 +45,13 @@ std::vector<double> compile_times(const Scene& from, const Scene& to, int repeat
 std::vector<double> give_way_times(const Scene& scene, int repeat) {
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
-  Crew crew(0);
+  ThreadPool thread_pool(0);
   Film film =
-      make_film(compiled.width, compiled.height, {0, 0, compiled.width, compiled.height}, 0, compiled.film_unit);
+      make_film(compiled.width, compiled.height, {0, 0, compiled.width, compiled.height}, 0, compiled.film_quantum);
   std::vector<double> seconds;
   for (int i = 0; i < repeat; ++i) {
     const std::chrono::microseconds after(5000 + 617 * (i % 16));
-    const auto one = give_way(crew, view.view(), film, i % 2 ? 16 : 1, after);
+    const auto one = give_way(thread_pool, view.view(), film, i % 2 ? 16 : 1, after);
     seconds.insert(seconds.end(), one.begin(), one.end());
   }
   return seconds;

@@ -40,6 +40,6 @@ Json machine() {
   return json;
 }
 
-int threads_up_to(int most) { return std::min(thread_count().count, std::max(most, 1)); }
+int threads_up_to(int maximum) { return std::min(thread_count().count, std::max(maximum, 1)); }
 
 }  // namespace tyndall::bench

@@ -67,9 +67,9 @@ int run(const Settings& settings) {
   return code;
 }
 
-int main(const std::vector<std::string>& words) {
+int main(const std::vector<std::string>& arguments) {
   try {
-    const auto settings = read_settings(words);
+    const auto settings = read_settings(arguments);
     return settings ? run(*settings) : 0;
   } catch (const UsageError& error) {
     complain(error.what());

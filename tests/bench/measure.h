@@ -19,9 +19,9 @@ double seconds_of(Call&& call) {
   return seconds_between(start, Clock::now());
 }
 
-/// The value that `share` (in [0, 1]) of the values do not exceed, interpolated between neighbours; not a number for
+/// The value that `fraction` (in [0, 1]) of the values do not exceed, interpolated between neighbours; not a number for
 /// none.
-double quantile(std::vector<double> values, double share);
+double quantile(std::vector<double> values, double fraction);
 double median(std::vector<double> values);
 
 }  // namespace tyndall::bench

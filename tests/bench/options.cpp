@@ -36,17 +36,17 @@ std::vector<std::string> chosen_parts(const std::vector<std::string>& names) {
 }
 
 int read_repeat(const std::string& text) {
-  constexpr int most = 1000;
+  constexpr int maximum = 1000;
   int value = 0;
   std::istringstream stream(text);
-  if (!(stream >> value) || !stream.eof() || value < 1 || value > most)
+  if (!(stream >> value) || !stream.eof() || value < 1 || value > maximum)
     throw UsageError("--repeat: found \"" + on_one_line(text) + "\", expected a whole number from 1 to 1000");
   return value;
 }
 
 }  // namespace
 
-std::optional<Settings> read_settings(std::vector<std::string> words) {
+std::optional<Settings> read_settings(std::vector<std::string> arguments) {
   Settings settings;
   std::vector<std::string> names;
   std::string repeat;
@@ -62,9 +62,9 @@ std::optional<Settings> read_settings(std::vector<std::string> words) {
   app.add_option("--against", settings.against,
                  "another program \"tyndall\", such as the last release, for the part against")
       ->type_name("FILE");
-  std::reverse(words.begin(), words.end());
+  std::reverse(arguments.begin(), arguments.end());
   try {
-    app.parse(words);
+    app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     std::printf("%s", app.help().c_str());
     return std::nullopt;

@@ -12,6 +12,6 @@ struct UsageError : std::runtime_error {
 };
 
 /// Reads the words after the program's name; nothing if help was asked for and printed. Throws UsageError.
-std::optional<Settings> read_settings(std::vector<std::string> words);
+std::optional<Settings> read_settings(std::vector<std::string> arguments);
 
 }  // namespace tyndall::bench

@@ -19,10 +19,10 @@ fs::path find_tyndall() {
   return {};
 }
 
-bool run_process(std::vector<std::string> words) {
+bool run_process(std::vector<std::string> arguments) {
   std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.reserve(arguments.size() + 1);
+  for (std::string& word : arguments) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

@@ -10,7 +10,7 @@ namespace tyndall::bench {
 std::filesystem::path find_tyndall();
 
 /// Runs a program with its output thrown away and waits for it; answers whether it ended well.
-bool run_process(std::vector<std::string> words);
+bool run_process(std::vector<std::string> arguments);
 
 /// A folder of our own that goes with its contents. Throws std::runtime_error if none can be made.
 class ScratchFolder {

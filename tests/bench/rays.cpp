@@ -11,7 +11,7 @@ namespace tyndall::bench {
 using namespace test;
 namespace {
 
-constexpr int tile = 32, samples_of_pixel = 2, most_bounces = 50;
+constexpr int tile = 32, samples_of_pixel = 2, max_bounces = 50;
 
 /// Follows paths; knows which comes next.
 class Walk {
@@ -32,11 +32,11 @@ class Walk {
     const Elements& e = scene_.elements;
     const auto i = static_cast<std::size_t>(hit.element);
     const Vec3f center{e.x[i], e.y[i], e.z[i]};
-    const Vec3f normal = normalize(e.inverse_radius[i] * (along(ray.origin, hit.t, ray.direction) - center));
+    const Vec3f normal = normalize(e.inverse_radius[i] * (point_at(ray.origin, hit.t, ray.direction) - center));
     const float radius = 1 / e.inverse_radius[i], lift = 4e-7f * (length(center) + radius);
     const float u = uniform(), v = uniform();
     const Vec3f direction = normal + 0.9999f * on_sphere(Pair<float>{u, v});  // never zero
-    return {along(center, radius + lift, normal), normalize(direction), 0,
+    return {point_at(center, radius + lift, normal), normalize(direction), 0,
             4 * hit.element + static_cast<std::int32_t>(Side::outward)};
   }
 
@@ -75,7 +75,7 @@ std::vector<TraceRay> rays_in_path_order(const RenderScene& scene, const Kernels
     rays.insert(rays.end(), group.begin(), group.end());
     kernels.trace(view.view(), group.data(), hits.data(), kernels.lanes, false);
     for (std::size_t k = 0; k < lanes; ++k) {
-      const bool on = hits[k].element >= 0 && ++bounces[k] <= most_bounces;
+      const bool on = hits[k].element >= 0 && ++bounces[k] <= max_bounces;
       if (!on) bounces[k] = 0;
       group[k] = on ? walk.bounce(group[k], hits[k]) : walk.start();
     }

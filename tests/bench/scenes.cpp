@@ -31,14 +31,14 @@ Object sphere(Vec3d center, double radius) {
 double uniform(std::mt19937& random) { return static_cast<double>(random()) * 0x1p-32; }
 
 /// Small spheres, one in each cell of a square of edge² cells, as far as they keep clear of the large ones.
-std::vector<Object> small_spheres(int edge, std::size_t most) {
+std::vector<Object> small_spheres(int edge, std::size_t maximum) {
   std::mt19937 random(7);
   std::vector<Object> spheres;
   for (int i = 0; i < edge; ++i)
     for (int j = 0; j < edge; ++j) {
       const double x = i - edge / 2 + 0.9 * uniform(random), z = j - edge / 2 + 0.9 * uniform(random);
       const bool clear = std::abs(z) > 1.3 || std::abs(x) > 5.3;
-      if (clear && spheres.size() < most) spheres.push_back(sphere({x, 0.2, z}, 0.2));
+      if (clear && spheres.size() < maximum) spheres.push_back(sphere({x, 0.2, z}, 0.2));
     }
   return spheres;
 }
@@ -103,7 +103,7 @@ Scene field_of_spheres(int count) {
   return scene;
 }
 
-Scene floor_beneath_lamps(int count) {
+Scene floor_beneath_lights(int count) {
   Scene scene;
   scene.width = 160, scene.height = 90;
   scene.camera = {.look_from = {0, 1.1, 9}, .look_at = {0, 0, 7}, .vfov = 50};

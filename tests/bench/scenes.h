@@ -12,7 +12,7 @@ struct NamedScene {
   Scene scene;
 };
 
-/// Built-in scenes of the books at small sizes, paths of at most 50 events: cornell-box, cornell-smoke, cover,
+/// Built-in scenes of the books at small sizes, paths of at most 50 events: cornell-box, cornell-media, cover,
 /// simple-light, the same with grey in place of its texture (simple-light-grey), hollow-glass. Throws SceneError.
 std::vector<NamedScene> book_scenes();
 
@@ -27,8 +27,8 @@ Scene forty_six_spheres();
 /// ones strewn around them, all apart, under the sky. A pure function of the count.
 Scene field_of_spheres(int count);
 
-/// A floor and twelve balls beneath `count` lamps as small as fireflies, which the camera does not see; they give about
-/// as much light for any count. 160x90.
-Scene floor_beneath_lamps(int count);
+/// A floor and twelve spheres beneath `count` lights as small as fireflies, which the camera does not see; they give
+/// about as much light for any count. 160x90.
+Scene floor_beneath_lights(int count);
 
 }  // namespace tyndall::bench

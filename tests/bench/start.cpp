@@ -16,10 +16,10 @@ Json measure_start(const Settings& settings) {
     return table.rows();
   }
   const ScratchFolder scratch;
-  const std::vector<std::string> words = {"render", "cornell-box", "--spp", "1", "--size", "64x64", "-o"};
+  const std::vector<std::string> arguments = {"render", "cornell-box", "--spp", "1", "--size", "64x64", "-o"};
   std::vector<std::string> command = {program.string()};
   std::string shown = "tyndall";
-  for (const std::string& word : words) command.push_back(word), shown += " " + word;
+  for (const std::string& word : arguments) command.push_back(word), shown += " " + word;
   command.push_back((scratch.path() / "x.png").string());
   std::vector<double> ms;
   for (int i = 0; i < repeat; ++i) {

@@ -52,17 +52,17 @@ Job make_job(Scene scene, Method method, const Kernels& kernels, double seconds)
   return job;
 }
 
-/// Share of the lanes that follow a path, on average over the steps that lanes take together.
+/// Fraction of the lanes that follow a path, on average over the steps that lanes take together.
 double lanes_alive(const Job& job) {
   constexpr int edge = 16;
   const SceneViewOf view(job.scene);
-  UnitCounts counts;
+  TileCounts counts;
   std::vector<FilmPixel> pixels;
   for (int y = 0; y < job.scene.height; y += edge)
     for (int x = 0; x < job.scene.width; x += edge) {
       const Region tile{x, y, std::min(x + edge, job.scene.width), std::min(y + edge, job.scene.height)};
       pixels.assign(static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height()), {});
-      job.kernels.render_unit(view.view(), {.tile = tile, .first = 0, .last = 8}, 1, pixels.data(), counts);
+      job.kernels.render_tile(view.view(), {.tile = tile, .first = 0, .last = 8}, 1, pixels.data(), counts);
     }
   return static_cast<double>(counts.rays - counts.shadow_rays) / static_cast<double>(counts.steps) / job.kernels.lanes;
 }

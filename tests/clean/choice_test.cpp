@@ -49,9 +49,9 @@ Picture picture(const Truth& truth, const Seen& seen, const Noise& noise) {
 }
 
 CleanPicture clean(const Picture& p) {
-  Crew crew(1);
+  ThreadPool thread_pool(1);
   CleanPicture picture;
-  REQUIRE(Cleaner(Target::scalar).run(p.input, crew, false, picture));
+  REQUIRE(Cleaner(Target::scalar).run(p.input, thread_pool, false, picture));
   return picture;
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("choice: the error is known where groups of pixels share their noise")
   std::normal_distribution<float> normal;
   for (int trial = 0; trial < 40; ++trial) {
     Picture p = picture(truth, grey_floor, [](int, int) { return 0.0f; });
-    p.input.shared = true;
+    p.input.grouped = true;
     for (int half = 0; half < 2; ++half)
       for (int by = 0; by < height; by += block_height)
         for (int bx = 0; bx < width; bx += block_width)

@@ -74,9 +74,9 @@ double relative_mse(const std::vector<float>& rgb, const std::vector<float>& tru
 }
 
 CleanPicture clean(const CleanInput& input, int threads = 2, Target target = available_targets().back()) {
-  Crew crew(threads);
+  ThreadPool thread_pool(threads);
   CleanPicture picture;
-  REQUIRE(Cleaner(target).run(input, crew, false, picture));
+  REQUIRE(Cleaner(target).run(input, thread_pool, false, picture));
   return picture;
 }
 
@@ -131,22 +131,22 @@ TEST_CASE("clean: the same bits for any number of threads, and once more after a
   const Known k = known_picture(203, 77, 0.7f), other = known_picture(64, 64, 0.3f);
   const CleanPicture one = clean(k.input, 1);
   CHECK(clean(k.input, 3).rgb == one.rgb);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   Cleaner cleaner(available_targets().back());
   CleanPicture picture;
   for (const CleanInput* input : {&k.input, &other.input, &k.input, &k.input})
-    REQUIRE(cleaner.run(*input, crew, false, picture));
+    REQUIRE(cleaner.run(*input, thread_pool, false, picture));
   CHECK(picture.rgb == one.rgb);
   CHECK(picture.pixel_error == one.pixel_error);
   CHECK(picture.relative_error == one.relative_error);
 }
 
 TEST_CASE("clean: keeps no memory of a larger picture") {
-  Crew crew(1);
+  ThreadPool thread_pool(1);
   Cleaner cleaner(available_targets().back());
   CleanPicture picture;
   for (const int edge : {96, 96, 24, 24})
-    REQUIRE(cleaner.run(known_picture(edge, edge, 0.5f).input, crew, false, picture));
+    REQUIRE(cleaner.run(known_picture(edge, edge, 0.5f).input, thread_pool, false, picture));
   CHECK(picture.rgb.capacity() == 3 * 24 * 24);
   CHECK(picture.pixel_error.capacity() == 24 * 24);
 }
@@ -219,7 +219,7 @@ TEST_CASE("clean: a lone bright pixel stays where it is") {
 
 namespace {
 
-/// Adds light that comes straight from a lamp to one pixel's half, as the film records it.
+/// Adds light that comes straight from a light to one pixel's half, as the film records it.
 void add_emission(CleanInput& input, int half, int x, int y, float value) {
   for (int c = 0; c < 3; ++c) {
     input.halves.plane(3 * half + c)[y * input.halves.stride() + x] += value;
@@ -233,20 +233,20 @@ TEST_CASE("clean: what a lone bright pixel means for the error depends on its le
   Known k = known_picture(96, 64, 0.2f);
   constexpr std::size_t speck = 30 * 96 + 40;
   for (int c = 0; c < 3; ++c) k.input.halves.plane(c)[30 * k.input.halves.stride() + 40] = 400;  // in one half alone
-  Crew crew(2);
-  std::vector<std::vector<std::size_t>> asked;
+  ThreadPool thread_pool(2);
+  std::vector<std::vector<std::size_t>> query;
   const auto with_level = [&](float level) {
     CleanPicture picture;
     const auto levels_of = [&](const std::vector<std::size_t>& pixels) {
-      asked.push_back(pixels);
+      query.push_back(pixels);
       return std::vector<Vec3f>(pixels.size(), {level, level, level});
     };
-    REQUIRE(Cleaner(available_targets().back()).run(k.input, crew, false, picture, levels_of));
+    REQUIRE(Cleaner(available_targets().back()).run(k.input, thread_pool, false, picture, levels_of));
     return picture;
   };
   const CleanPicture alone = clean(k.input), path = with_level(0.5f), lamp = with_level(200);
-  REQUIRE_FALSE(asked.empty());
-  CHECK(asked.front() == std::vector<std::size_t>{speck});
+  REQUIRE_FALSE(query.empty());
+  CHECK(query.front() == std::vector<std::size_t>{speck});
   for (const CleanPicture& picture : {path, lamp}) {
     CHECK(picture.rgb == alone.rgb);
     const double off = static_cast<double>(picture.rgb[3 * speck] - k.truth[3 * speck]);
@@ -325,7 +325,7 @@ TEST_CASE("clean: given up, it ends with the row that it is at, and leaves what 
   const Known k = known_picture(64, 64, 0.3f);
   constexpr int rows = 8 + 9 + 8 + 6 * 64;  // of cells, of blocks, of cells, and six times of pixels
   for (const int threads : {1, 3}) {
-    Crew crew(threads);
+    ThreadPool thread_pool(threads);
     Cleaner cleaner(counted_steps);
     for (int last : {1, 5, 8, 9, 20, 25, 26, 100, 200, rows - 1, rows}) {
       CAPTURE(threads);
@@ -333,13 +333,13 @@ TEST_CASE("clean: given up, it ends with the row that it is at, and leaves what 
       row_count.rows = 0, row_count.last = last, row_count.give_up = false;
       CleanPicture picture;
       picture.rgb = {1, 2, 3};
-      CHECK_FALSE(cleaner.run(k.input, crew, row_count.give_up, picture));
+      CHECK_FALSE(cleaner.run(k.input, thread_pool, row_count.give_up, picture));
       CHECK(row_count.rows - last <= threads - 1);  // those that other threads were at
       CHECK(picture.rgb == std::vector<float>{1, 2, 3});
     }
     row_count.rows = 0, row_count.last = 0, row_count.give_up = false;
     CleanPicture picture;
-    CHECK(cleaner.run(k.input, crew, row_count.give_up, picture));
+    CHECK(cleaner.run(k.input, thread_pool, row_count.give_up, picture));
     CHECK(row_count.rows == rows);
     CHECK(picture.rgb == clean(k.input, 1, Target::scalar).rgb);
   }
@@ -347,9 +347,9 @@ TEST_CASE("clean: given up, it ends with the row that it is at, and leaves what 
 
 TEST_CASE("clean: reading gives up, too") {
   Film film = make_film(8, 8, {0, 0, 8, 8}, 0, 1);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   CleanInput input;
-  CHECK_FALSE(read_film(film, crew, true, input));
+  CHECK_FALSE(read_film(film, thread_pool, true, input));
 }
 
 TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from the other") {
@@ -363,9 +363,9 @@ TEST_CASE("clean: reads a film's halves as they are, and fills an empty one from
   film.at(1, 0).taken = 1;
   add_sample(film.at(1, 0), 0, {4e11f, 5e11f, 6e11f}, 0x1p-40);
   film.at(2, 0) = {};
-  Crew crew(1);
+  ThreadPool thread_pool(1);
   CleanInput input;
-  REQUIRE(read_film(film, crew, false, input));
+  REQUIRE(read_film(film, thread_pool, false, input));
   CHECK(input.width == 3);
   CHECK(input.height == 1);
   CHECK(input.scale == 0x1p15f);
@@ -385,16 +385,16 @@ TEST_CASE("clean: rows without emission are known as dark, also after a picture 
   Film lit = make_film(3, 2, {0, 0, 3, 2}, 0, 1, true), dark = lit;
   lit.at(1, 1).taken = 2;
   lit.emission[4].sum[0][2] = std::int64_t{1} << 29;
-  Crew crew(1);
+  ThreadPool thread_pool(1);
   CleanInput input;
   const auto shine = [&] { return input.emission.plane(2)[input.emission.stride() + 1]; };
-  REQUIRE(read_film(lit, crew, false, input));
+  REQUIRE(read_film(lit, thread_pool, false, input));
   CHECK(input.dark_rows == std::vector<std::uint8_t>{1, 0});
   CHECK(shine() == 1);
-  REQUIRE(read_film(dark, crew, false, input));
+  REQUIRE(read_film(dark, thread_pool, false, input));
   CHECK(input.dark_rows == std::vector<std::uint8_t>{1, 1});
   CHECK(shine() == 0);
-  REQUIRE(read_film(lit, crew, false, input));
+  REQUIRE(read_film(lit, thread_pool, false, input));
   CHECK(shine() == 1);
 }
 

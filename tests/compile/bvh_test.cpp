@@ -44,8 +44,8 @@ struct Walk {
       int depth, open;
       Bounds bounds;
     };
-    constexpr float most = std::numeric_limits<float>::max();
-    std::vector<Task> tasks{{0, 1, 0, {{-most, -most, -most}, {most, most, most}}}};
+    constexpr float maximum = std::numeric_limits<float>::max();
+    std::vector<Task> tasks{{0, 1, 0, {{-maximum, -maximum, -maximum}, {maximum, maximum, maximum}}}};
     while (!tasks.empty()) {
       const Task task = tasks.back();
       tasks.pop_back();
@@ -182,7 +182,7 @@ TEST_CASE("bvh: of a hundred thousand equal spheres the first one is met, on eve
   std::vector<TraceRay> rays;
   for (int i = 0; i < 32; ++i) {
     const Vec3d from = 5.0 * direction(engine);
-    rays.push_back({rounded(from), unit(0.5 * direction(engine) - from), 0, from_nowhere});
+    rays.push_back({rounded(from), unit_vector(0.5 * direction(engine) - from), 0, from_nowhere});
   }
   for (const Kernels& kernels : available_kernels())
     for (const TraceHit& hit : traced(kernels, compiled, rays)) CHECK(hit.element == 0);
@@ -203,7 +203,7 @@ TEST_CASE("bvh: a thousand spheres around one centre, and spheres from 1e-6 to 1
     for (int i = 0; i < 6000; ++i) {
       const double size = concentric ? 2 : std::pow(10, uniform(engine, -6, 6));
       const Vec3d from = 2 * size * direction(engine);
-      rays.push_back({rounded(from - compiled.origin), unit(size * direction(engine) - from), 0, from_nowhere});
+      rays.push_back({rounded(from - compiled.origin), unit_vector(size * direction(engine) - from), 0, from_nowhere});
     }
     const std::vector<TraceRay> starts = rays;
     const auto leaving = rays_from_surfaces(engine, compiled, scalar_kernels(), starts);

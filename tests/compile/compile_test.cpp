@@ -29,10 +29,10 @@ Object fog(std::variant<Sphere<>, Box<>> boundary, double density = 1, double g 
 }
 
 /// Everything moved by the same way.
-Scene moved(Scene scene, Vec3d way) {
-  scene.objects = {{"", Group{scene.objects}, {Translate{way}}}};
-  scene.camera.look_from = scene.camera.look_from + way;
-  scene.camera.look_at = scene.camera.look_at + way;
+Scene moved(Scene scene, Vec3d direction) {
+  scene.objects = {{"", Group{scene.objects}, {Translate{direction}}}};
+  scene.camera.look_from = scene.camera.look_from + direction;
+  scene.camera.look_at = scene.camera.look_at + direction;
   return scene;
 }
 
@@ -72,13 +72,14 @@ TEST_CASE("compile: a scene 100,000 units away keeps its digits") {
   Engine engine(2);
   const Scene scene = mixed_scene(engine, {.count = 100, .middle = {}});
   const RenderScene here = compile(scene), there = compile(moved(scene, {1e5, 1e5, -1e5}));
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < here.spheres.x.size(); ++i)
-    most = std::max(most, std::abs(static_cast<double>(here.spheres.x[i]) - static_cast<double>(there.spheres.x[i])));
+    maximum =
+        std::max(maximum, std::abs(static_cast<double>(here.spheres.x[i]) - static_cast<double>(there.spheres.x[i])));
   for (std::size_t i = 0; i < here.quads.map.size(); ++i)
-    most = std::max(most, std::abs(static_cast<double>(here.quads.map[i].offset[2]) -
-                                   static_cast<double>(there.quads.map[i].offset[2])));
-  CHECK(most < 1e-6);
+    maximum = std::max(maximum, std::abs(static_cast<double>(here.quads.map[i].offset[2]) -
+                                         static_cast<double>(there.quads.map[i].offset[2])));
+  CHECK(maximum < 1e-6);
 }
 
 TEST_CASE("compile: the origin is the median of the centres, which outliers do not drag away") {
@@ -146,43 +147,43 @@ TEST_CASE("compile: few primitives are tested one by one, more get a tree") {
 }
 
 TEST_CASE("compile: needs name what is in the scene, and nothing else") {
-  const auto needs_of = [](const Scene& scene) {
+  const auto features_of = [](const Scene& scene) {
     std::string all;
-    for (const std::string& name : names_of(compile(scene).needs)) all += name + " ";
+    for (const std::string& name : names_of(compile(scene).features)) all += name + " ";
     return all;
   };
   Scene scene;
-  CHECK(needs_of(scene).empty());
+  CHECK(features_of(scene).empty());
   scene.background = Vec3d{0, 0, 0.1};
   scene.textures = {{"chess", Checker<>{}}, {"unused", Noise<>{}}};
   scene.materials = {{"unused", Vec3d{1, 1, 1}, Metal<>{}},
                      {"matt", Vec3d{1, 1, 1}, Lambertian<>{}},
                      {"lamp", TextureIndex{0}, Light<>{}},
                      {"glass", TextureIndex{0}, Dielectric<>{}}};  // glass has no colour: its texture is not needed
-  CHECK(needs_of(scene) == "background ");
+  CHECK(features_of(scene) == "background ");
   scene.objects = {ball({})};
   std::get<Solid3d>(scene.objects[0].kind).material = 3;
-  CHECK(needs_of(scene) == "spheres dielectric background ");
+  CHECK(features_of(scene) == "spheres dielectric background ");
   scene.objects.push_back({"", Solid3d{Quad<>{}, 2}, {}});
-  CHECK(needs_of(scene) == "spheres quads dielectric lights textures background ");
+  CHECK(features_of(scene) == "spheres quads dielectric lights textures background ");
   scene.camera.shutter_close = 1;  // the shutter is not needed, because nothing moves
-  CHECK(needs_of(scene) == "spheres quads dielectric lights textures background ");
+  CHECK(features_of(scene) == "spheres quads dielectric lights textures background ");
   scene.objects.push_back({"", Solid3d{Sphere<>{{}, 1, Vec3d{1, 0, 0}}, 1}, {}});
-  CHECK(needs_of(scene) == "spheres moving_spheres quads lambertian dielectric lights textures background shutter ");
+  CHECK(features_of(scene) == "spheres moving_spheres quads lambertian dielectric lights textures background shutter ");
   scene = {};
   scene.objects = {fog(Sphere<>{}, 0)};
-  CHECK(needs_of(scene).empty());
+  CHECK(features_of(scene).empty());
   scene.objects = {fog(Sphere<>{}, 2)};
-  CHECK(needs_of(scene) == "media ");
+  CHECK(features_of(scene) == "media ");
   scene.objects.push_back(fog(Box<>{}, 2, 0.5));
-  CHECK(needs_of(scene) == "media phase_functions ");
+  CHECK(features_of(scene) == "media phase_functions ");
   scene.camera.defocus_angle = 0.1;
-  CHECK(needs_of(scene) == "media phase_functions lens ");
+  CHECK(features_of(scene) == "media phase_functions lens ");
   scene.textures = {{"planet", Image{"planet.png", std::make_shared<Image::Pixels>(Image::Pixels{1, 1, {1, 2, 3}})}}};
   scene.materials = {{"planet", TextureIndex{0}, Lambertian<>{}}};
-  CHECK(needs_of(scene) == "media phase_functions lens ");
+  CHECK(features_of(scene) == "media phase_functions lens ");
   scene.objects.push_back(ball({}));
-  CHECK(needs_of(scene) == "spheres media phase_functions lambertian textures image_textures lens ");
+  CHECK(features_of(scene) == "spheres media phase_functions lambertian textures image_textures lens ");
 }
 
 TEST_CASE("compile: a medium's elements are those of the shape it fills, else its own") {
@@ -196,7 +197,7 @@ TEST_CASE("compile: a medium's elements are those of the shape it fills, else it
   const RenderScene compiled = compile(scene);
   REQUIRE(compiled.media.size() == 4);
   const auto& m = compiled.media;
-  CHECK(compiled.elements.count() == 7);  // the ball, the box's faces
+  CHECK(compiled.elements.count() == 7);  // the sphere, the box's faces
   CHECK((m[0].first == 1 && m[0].count == 6 && m[0].box && m[0].density == 3 && m[0].g == 0.25f));
   CHECK((m[1].first == 0 && m[1].count == 1 && !m[1].box));
   CHECK((m[2].first >= 7 && m[2].count == 1));
@@ -234,12 +235,12 @@ TEST_CASE("compile: settings and materials arrive, the film's unit covers the br
   CHECK(compiled.max_depth == 12);
   CHECK(compiled.seed == 99);
   CHECK(compiled.schlick);
-  CHECK(compiled.film_unit == 4);
+  CHECK(compiled.film_quantum == 4);
   CHECK(compiled.materials.parameter[0] == std::vector<float>{0.125f, 1.5f, 0});
   CHECK(compiled.materials.red == std::vector<float>{1, 1, 1});  // glass and textures: as they are
   CHECK(compiled.materials.blue == std::vector<float>{0.25f, 1, 1});
   CHECK(compiled.materials.texture == std::vector<std::int32_t>{-1, -1, 0});
   CHECK(compiled.materials.kind == std::vector<std::int32_t>{1, 2, 0});
   scene.materials.push_back({"lamp", Vec3d{7, 2, 33}, Light<>{}});
-  CHECK(compile(scene).film_unit == 64);
+  CHECK(compile(scene).film_quantum == 64);
 }

@@ -54,17 +54,17 @@ TEST_CASE("transforms: the list in its order; rotate_y in the books' sense") {
   CHECK(place(placement_of({RotateY{90}}), {0, 5, 1}) == Vec3d{1, 5, 0});
   CHECK(place(placement_of({RotateY{90}, Translate{x}}), x) == Vec3d{1, 0, -1});
   CHECK(place(placement_of({Translate{x}, RotateY{90}}), x) == Vec3d{0, 0, -2});
-  CHECK(turn(placement_of({Translate{x}, RotateY{90}}), x) == Vec3d{0, 0, -1});
+  CHECK(rotate(placement_of({Translate{x}, RotateY{90}}), x) == Vec3d{0, 0, -1});
   CHECK(place(placement_of({}), x) == x);
 }
 
 TEST_CASE("transforms: quarter turns are exact, whole turns nothing") {
   const Vec3d p{3, 4, 5};
-  for (const double turns : {-2.0, -1.0, 0.0, 1.0, 7.0}) {
-    CHECK(place({360 * turns, {}}, p) == p);
-    CHECK(place({360 * turns + 90, {}}, p) == Vec3d{5, 4, -3});
-    CHECK(place({360 * turns + 180, {}}, p) == Vec3d{-3, 4, -5});
-    CHECK(place({360 * turns - 90, {}}, p) == Vec3d{-5, 4, 3});
+  for (const double revolutions : {-2.0, -1.0, 0.0, 1.0, 7.0}) {
+    CHECK(place({360 * revolutions, {}}, p) == p);
+    CHECK(place({360 * revolutions + 90, {}}, p) == Vec3d{5, 4, -3});
+    CHECK(place({360 * revolutions + 180, {}}, p) == Vec3d{-3, 4, -5});
+    CHECK(place({360 * revolutions - 90, {}}, p) == Vec3d{-5, 4, 3});
   }
 }
 
@@ -150,17 +150,17 @@ TEST_CASE("flatten: a medium whose boundary is exactly a shape's is that shape's
   const Transform move{RotateY{30}, Translate{{1, 2, 3}}};
   const Box<> box{{0, 0, 0}, {1, 2, 3}};
   const Sphere<> ball{{1, 1, 1}, 0.5, {}};
-  const Object solid_box{"", Solid3d{box, 0}, move}, solid_ball{"", Solid3d{ball, 0}, {}};
+  const Object solid_box{"", Solid3d{box, 0}, move}, solid_sphere{"", Solid3d{ball, 0}, {}};
   const auto surface_of = [](const Scene& scene) { return flatten(scene).volumes.at(0).surface; };
   Scene scene;
-  scene.objects = {solid_ball, solid_box, fog(box, {}, move)};
+  scene.objects = {solid_sphere, solid_box, fog(box, {}, move)};
   CHECK(surface_of(scene) == 1);
   // However the same placement is written: on the boundary, on the object, on a group around it.
   scene.objects = {solid_box, fog(box, move)};
   CHECK(surface_of(scene) == 0);
   scene.objects = {fog(box, {RotateY{30}}, {Translate{{1, 2, 3}}}), solid_box};
   CHECK(surface_of(scene) == 0);
-  scene.objects = {{"", Group{{fog(ball), solid_ball}}, {Translate{{5, 0, 0}}}}};
+  scene.objects = {{"", Group{{fog(ball), solid_sphere}}, {Translate{{5, 0, 0}}}}};
   CHECK(surface_of(scene) == 0);
   // Another size, place, turn or kind is another shape.
   for (const Object& other :

@@ -241,7 +241,7 @@ TEST_CASE("images: on spheres by longitude and latitude of their own frame, also
       for (const FirstHit& hit : hits) {
         if (hit.element < 0) continue;
         const Vec3d n{hit.normal.x, hit.normal.y, hit.normal.z};
-        const Vec3d own = turn({-c.degrees, {}}, (c.radius < 0 ? -1.0 : 1.0) * n);
+        const Vec3d own = rotate({-c.degrees, {}}, (c.radius < 0 ? -1.0 : 1.0) * n);
         const double u = (std::atan2(-own.z, own.x) + pi) / (2 * pi), v = std::acos(-own.y) / pi;
         if (std::min({u, v, 1 - u, 1 - v}) < 0.02) continue;
         ++met;

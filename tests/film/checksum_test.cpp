@@ -25,7 +25,7 @@ TEST_CASE("checksum: every bit of a film and its text counts") {
   flip_all(&film.height, sizeof film.height);
   flip_all(&film.region, sizeof film.region);
   flip_all(&film.first_sample, sizeof film.first_sample);
-  flip_all(&film.unit, sizeof film.unit);
+  flip_all(&film.quantum, sizeof film.quantum);
   flip_all(&film.cut_throughput, sizeof film.cut_throughput);
   for (const char* text : {"", "texu", "tex", "texts", "Text"}) CHECK(seen.insert(film_checksum(film, text)).second);
   CHECK_FALSE(is_new());

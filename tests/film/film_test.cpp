@@ -11,8 +11,8 @@ using namespace tyndall;
 
 namespace {
 
-Film one_pixel(std::uint32_t first_sample = 0, double unit = 1) {
-  return make_film(1, 1, {0, 0, 1, 1}, first_sample, unit);
+Film one_pixel(std::uint32_t first_sample = 0, double quantum = 1) {
+  return make_film(1, 1, {0, 0, 1, 1}, first_sample, quantum);
 }
 
 /// Numbers of many magnitudes and both signs.
@@ -92,14 +92,14 @@ TEST_CASE("film: 2^25 samples of 0.3 lose nothing") {
 }
 
 TEST_CASE("film: the limit of the sums is 2^24 numbers of 1023 units in each half, or 15 of the brightest") {
-  ExactSum most, brightest;
-  most.add(1022.99999);
-  for (int doubling = 0; doubling < 24; ++doubling) most.add(ExactSum(most));
-  CHECK(most.value() == doctest::Approx(1022.99999 * 0x1p24).epsilon(1e-12).scale(0));
+  ExactSum maximum, brightest;
+  maximum.add(1022.99999);
+  for (int doubling = 0; doubling < 24; ++doubling) maximum.add(ExactSum(maximum));
+  CHECK(maximum.value() == doctest::Approx(1022.99999 * 0x1p24).epsilon(1e-12).scale(0));
   for (int i = 0; i < 15; ++i) brightest.add(0.99999 * sample_limit);
   CHECK(brightest.value() == doctest::Approx(15 * 0.99999 * sample_limit).epsilon(1e-12).scale(0));
-  CHECK(most.high > 0);
-  CHECK(most.low > 0);
+  CHECK(maximum.high > 0);
+  CHECK(maximum.low > 0);
 }
 
 TEST_CASE("film: a far small light keeps its radiance beside a unit of 2^20") {
@@ -162,14 +162,14 @@ TEST_CASE("film: the mean weighs every sample alike, also with halves of unequal
 }
 
 TEST_CASE("film: the unit is the power of two at or above the brightest") {
-  CHECK(film_unit(0) == 1);
-  CHECK(film_unit(1) == 1);
-  CHECK(film_unit(1.0001) == 2);
-  CHECK(film_unit(15) == 16);
-  CHECK(film_unit(16) == 16);
-  CHECK(film_unit(0.3) == 0.5);
-  CHECK(film_unit(1e38) == 0x1p127);
-  CHECK(std::isfinite(1 / film_unit(1e-320)));
+  CHECK(film_quantum(0) == 1);
+  CHECK(film_quantum(1) == 1);
+  CHECK(film_quantum(1.0001) == 2);
+  CHECK(film_quantum(15) == 16);
+  CHECK(film_quantum(16) == 16);
+  CHECK(film_quantum(0.3) == 0.5);
+  CHECK(film_quantum(1e38) == 0x1p127);
+  CHECK(std::isfinite(1 / film_quantum(1e-320)));
 }
 
 TEST_CASE("film: a region is addressed by the full image's coordinates") {
@@ -184,8 +184,8 @@ TEST_CASE("film: a region is addressed by the full image's coordinates") {
   CHECK(sum.samples == 8);
   CHECK(sum.rejected == 2);
   CHECK(sum.truncated == 5);
-  CHECK(sum.least_taken == 0);
-  CHECK(sum.most_taken == 7);
+  CHECK(sum.min_taken == 0);
+  CHECK(sum.max_taken == 7);
 }
 
 TEST_CASE("film: resolve gives the means, row by row") {
@@ -203,7 +203,7 @@ TEST_CASE("film: emission is summed apart, and rejected samples do not count in 
     add_sample(film.pixels[0], 1, radiance, 0.25);
     add_emission(film.emission[0], 1, radiance, 0.25);
   }
-  film.pixels[0].taken = 6;  // three of them are in half 0 and met no lamp
+  film.pixels[0].taken = 6;  // three of them are in half 0 and met no light
   CHECK(half_emission(film, 0, 0) == Vec3f{});
   CHECK(half_emission(film, 0, 1).x == 2);
   CHECK(half_emission(film, 0, 1).y == 1);

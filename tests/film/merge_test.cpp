@@ -17,7 +17,7 @@ void take(Film& film, int x, int y, std::uint32_t index) {
   FilmPixel& pixel = film.at(x, y);
   const auto value = static_cast<float>((x * 31 + y * 17 + static_cast<int>(index) * 7) % 101) / 37.0f;
   const bool bad = (index + static_cast<std::uint32_t>(x)) % 11 == 3;
-  add_sample(pixel, index & 1, {bad ? 1e9f : value, value * value, 1 / (1 + value)}, 1 / film.unit);
+  add_sample(pixel, index & 1, {bad ? 1e9f : value, value * value, 1 / (1 + value)}, 1 / film.quantum);
   if (index % 5 == 2) ++pixel.truncated;
   ++pixel.taken;
 }
@@ -27,7 +27,7 @@ Film film_of(std::uint32_t first, std::uint32_t last, bool emission = false) {
   Film film = make_film(6, 5, {1, 1, 5, 4}, first, 4, emission);
   for (std::size_t i = 0; i < film.emission.size(); ++i)
     for (std::uint32_t s = first; s < last; ++s)
-      add_emission(film.emission[i], s & 1u, {static_cast<float>(i + s), 1, 0.1f}, 1 / film.unit);
+      add_emission(film.emission[i], s & 1u, {static_cast<float>(i + s), 1, 0.1f}, 1 / film.quantum);
   for (int y = 1; y < 4; ++y) {
     for (int x = 1; x < 5; ++x) {
       for (std::uint32_t i = first; i < last; ++i) take(film, x, y, i);
@@ -143,12 +143,12 @@ TEST_CASE("merge: an interrupted part ends at other indices in other pixels") {
 
 TEST_CASE("merge: parts of another picture are refused") {
   const Film a = film_of(0, 4);
-  Film size = film_of(4, 8), region = film_of(4, 8), unit = film_of(4, 8);
+  Film size = film_of(4, 8), region = film_of(4, 8), quantum = film_of(4, 8);
   size.width = 7;
   CHECK_THROWS_WITH_AS(merged({{"a", a}, {"b", size}}), "b: found an image of 7x5, expected 6x5 as in a", MergeError);
   region.region = {0, 1, 4, 4};
   CHECK_THROWS_WITH_AS(merged({{"a", a}, {"b", region}}), "b: found the region 0,1,4,4, expected 1,1,5,4 as in a",
                        MergeError);
-  unit.unit = 8;
-  CHECK_THROWS_AS(merged({{"a", a}, {"b", unit}}), MergeError);
+  quantum.quantum = 8;
+  CHECK_THROWS_AS(merged({{"a", a}, {"b", quantum}}), MergeError);
 }

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::survives<ImageFileError>([&] {
     std::optional<Film> film = read_film(file.path());
     if (!film) return;
-    Film next = make_film(film->width, film->height, film->region, 4, film->unit, !film->emission.empty());
+    Film next = make_film(film->width, film->height, film->region, 4, film->quantum, !film->emission.empty());
     for (FilmPixel& pixel : next.pixels) pixel.taken = 3;
     const std::vector<FilmPart> parts = {{"fuzz", *film}, {"next", next}};
     fuzz::survives<MergeError>([&] { resolve(merge(parts, [&](std::size_t i) { return parts[i].film; })); });

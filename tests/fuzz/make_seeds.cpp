@@ -77,7 +77,7 @@ void write_foreign_exr(const fs::path& folder) {
 Film small_film(bool emission, bool planned) {
   Film film = make_film(6, 4, {1, 0, 5, 4}, 0, 2, emission);
   for (FilmPixel& pixel : film.pixels) {
-    for (std::uint32_t i = 0; i < 4; ++i) add_sample(pixel, i & 1u, {0.5f, 0.25f, 1}, 1 / film.unit);
+    for (std::uint32_t i = 0; i < 4; ++i) add_sample(pixel, i & 1u, {0.5f, 0.25f, 1}, 1 / film.quantum);
     pixel.taken = 4;
   }
   if (planned) film.planned.assign(1, {2, 8});

@@ -10,9 +10,9 @@ namespace {
 
 FilmPart part_of(const std::uint8_t* bytes) {
   const std::uint32_t first = bytes[0] % 8u == 7u ? 0xfffffff0u + bytes[1] % 16u : bytes[1];
-  const double unit = (bytes[2] & 1u) != 0 ? 2 : 1;
+  const double quantum = (bytes[2] & 1u) != 0 ? 2 : 1;
   const int right = (bytes[2] & 2u) != 0 ? 3 : 2;
-  Film film = make_film(3, 3, {right - 2, 0, right, 2}, first, unit, (bytes[2] & 4u) != 0);
+  Film film = make_film(3, 3, {right - 2, 0, right, 2}, first, quantum, (bytes[2] & 4u) != 0);
   for (FilmPixel& pixel : film.pixels) pixel.taken = bytes[3];
   film.pixels[bytes[4] % 4].taken = bytes[5];
   return {std::to_string(first), std::move(film)};

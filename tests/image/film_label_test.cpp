@@ -23,7 +23,7 @@ Film adaptive_film() {
   return film;
 }
 
-const FilmLabel label = {"1.2.3", "scalar", true};
+const FilmLabel film_label = {"1.2.3", "scalar", true};
 
 }  // namespace
 
@@ -31,11 +31,11 @@ TEST_CASE("film label: version, instruction set and whether it is unfinished com
           doctest::skip(!has_openexr())) {
   const fs::path folder = scratch_folder("film_label");
   const Film film = adaptive_film();
-  write_exr(folder / "whole.exr", film, {}, {"{}", "{\"spp\": 1}", label});
-  write_checkpoint(folder / "checkpoint.exr", film, {"{}", "", label});
+  write_exr(folder / "whole.exr", film, {}, {"{}", "{\"spp\": 1}", film_label});
+  write_checkpoint(folder / "checkpoint.exr", film, {"{}", "", film_label});
   for (const char* name : {"whole.exr", "checkpoint.exr"}) {
     CAPTURE(name);
-    CHECK(read_film_label(folder / name) == label);
+    CHECK(read_film_label(folder / name) == film_label);
     CHECK(read_film(folder / name) == film);
     CHECK(read_embedded_scene(folder / name) == "{}");
   }
@@ -53,7 +53,7 @@ TEST_CASE("film label: a film from before there were labels is read; one of a ne
   const auto film = read_film(old);
   REQUIRE(film);
   CHECK(totals(*film).samples == 2 * 8 * 6);
-  write_exr(folder / "new.exr", *film, {}, {"{}", "", label});
+  write_exr(folder / "new.exr", *film, {}, {"{}", "", film_label});
   std::string bytes = read_text(folder / "new.exr");
   const std::string name = std::string("tyndall:film_format") + '\0' + "int" + '\0';
   const std::size_t at = bytes.find(name);

@@ -198,8 +198,8 @@ TEST_SUITE("exr" * doctest::skip(!has_openexr())) {
     CHECK(message("film.B.G.low1", "film.B.G.lowX") ==
           ": cannot read: its film is damaged: no channel film.B.G.low1 of type uint");
     CHECK(message("film.taken", "film.Taken") == "none");  // another program's channels: no film
-    const std::string unit("tyndall:unit\0double\0\x08\0\0\0", 24);
-    CHECK(message(unit + std::string(6, '\0') + "\xf0\x3f", unit + std::string(6, '\0') + "\xf8\x3f") ==
+    const std::string quantum("tyndall:unit\0double\0\x08\0\0\0", 24);
+    CHECK(message(quantum + std::string(6, '\0') + "\xf0\x3f", quantum + std::string(6, '\0') + "\xf8\x3f") ==
           ": cannot read: its film is damaged: tyndall:unit is no power of two");
     const std::string cut("tyndall:cut_throughput\0string\0\3\0\0\0", 34);
     CHECK(message(cut + "0 0", cut + "0 x") == ": cannot read: its film is damaged: tyndall:cut_throughput is no sum");

@@ -57,13 +57,13 @@ TEST_CASE("hostile files: cut off at any length") {
   const fs::path folder = scratch_folder("hostile_cut");
   for (const fs::path& file : good_files(folder)) {
     const std::string whole = read_text(file);
-    const fs::path broken = folder / "broken";
+    const fs::path error = folder / "broken";
     for (std::size_t length = 0; length < whole.size(); length += length < 400 ? 7 : 97) {
-      write_text(broken, whole.substr(0, length));
-      survives(broken);
+      write_text(error, whole.substr(0, length));
+      survives(error);
     }
-    write_text(broken, whole.substr(0, whole.size() / 2));
-    CHECK_THROWS_AS(read_image(broken), ImageFileError);
+    write_text(error, whole.substr(0, whole.size() / 2));
+    CHECK_THROWS_AS(read_image(error), ImageFileError);
   }
 }
 

@@ -151,10 +151,10 @@ TEST_CASE("png: code points (cICP) go before all; curves that are not read are r
 TEST_CASE("png: an orientation (eXIf) turns the picture; an animation's still picture is read and told") {
   std::string tiff = std::string("MM\0\x2a\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0\6\0\0\0\0\0\0", 26);
   const std::string rows("\0\x01\0\x02", 4);  // one column of two
-  const PictureFile turned = picture_of(png_bytes({1, 2, 8, 0}, rows, png_chunk_bytes("eXIf", tiff)));
-  CHECK(turned.image.width == 2);
-  CHECK(turned.image.rgb[0] == decoded(2 / 255.0));
-  CHECK(turned.image.rgb[3] == decoded(1 / 255.0));
+  const PictureFile rotated = picture_of(png_bytes({1, 2, 8, 0}, rows, png_chunk_bytes("eXIf", tiff)));
+  CHECK(rotated.image.width == 2);
+  CHECK(rotated.image.rgb[0] == decoded(2 / 255.0));
+  CHECK(rotated.image.rgb[3] == decoded(1 / 255.0));
   const PictureFile animated = picture_of(pixel(png_chunk_bytes("acTL", std::string("\0\0\0\2\0\0\0\0", 8))));
   REQUIRE(animated.remarks.size() == 1);
   CHECK(animated.remarks[0].ends_with("it is animated (acTL); its still picture is read"));

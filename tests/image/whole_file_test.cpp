@@ -165,18 +165,18 @@ TEST_CASE("whole file: long files, and places written again") {
 TEST_CASE("whole file: what cannot be replaced is found beforehand, with the reason, and devices take bytes") {
   const fs::path folder = scratch_folder("whole_place");
   write_text(folder / "a", "old");
-  CHECK(find_place(folder / "a").way == WriteWay::replace);
-  CHECK(find_place(folder / "none").way == WriteWay::replace);
+  CHECK(find_place(folder / "a").method == WriteMethod::replace);
+  CHECK(find_place(folder / "none").method == WriteMethod::replace);
   CHECK_FALSE(find_place(folder / "none").exists);
-  CHECK(find_place("-").way == WriteWay::stream);
+  CHECK(find_place("-").method == WriteMethod::stream);
   for (const char* file : {"/dev/null", "/dev/fd/0"}) {
     if (!fs::exists(file)) continue;
     CAPTURE(file);
-    if (file == std::string("/dev/null")) CHECK(find_place(file).way == WriteWay::stream);
+    if (file == std::string("/dev/null")) CHECK(find_place(file).method == WriteMethod::stream);
     CHECK(is_stream(file));
   }
   fs::create_symlink("/dev/null", folder / "nowhere");
-  CHECK(find_place(folder / "nowhere").way == WriteWay::stream);
+  CHECK(find_place(folder / "nowhere").method == WriteMethod::stream);
   save(folder / "nowhere", "text");
   CHECK(fs::is_symlink(folder / "nowhere"));
   CHECK(fs::is_character_file("/dev/null"));
@@ -192,7 +192,7 @@ TEST_CASE("whole file: a file of a folder that takes no new ones is written into
     REQUIRE(chmod(folder.c_str(), 0555) == 0);
     {
       WholeFile out(file);
-      CHECK(out.place().way == WriteWay::in_place);
+      CHECK(out.place().method == WriteMethod::in_place);
       CHECK(out.place().folder_problem == "Permission denied");
       put(out, "new bytes");
       CHECK(read_text(file) == old);

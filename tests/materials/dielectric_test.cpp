@@ -16,10 +16,10 @@ double length_error(Vec3f v) {
 
 /// The books' refraction on leaving glass (Ray Tracing in One Weekend, section 11.2), without its fabs. Tells whether
 /// it takes the root of a negative number for a ray that passes the books' test for total reflection.
-bool root_of_negative(Vec3f way, Vec3f normal, float index) {
-  const float cosine = std::min(dot(way, normal), 1.0f), sine = std::sqrt(1.0f - cosine * cosine);
+bool root_of_negative(Vec3f direction, Vec3f normal, float index) {
+  const float cosine = std::min(dot(direction, normal), 1.0f), sine = std::sqrt(1.0f - cosine * cosine);
   if (index * sine > 1.0f) return false;
-  const Vec3f across = index * along(way, -cosine, normal);
+  const Vec3f across = index * point_at(direction, -cosine, normal);
   return 1.0f - dot(across, across) < 0.0f;
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("dielectric: refracts by Snell's law, reflects by the mirror's, in the
         const Vec3d normal = leaving ? -up<double> : up<double>, down = down_at<double>(angle * degrees);
         Moments reflected;
         for (int i = 0; i < 40000; ++i) {
-          const Dice<double> d = dice<double>(event_number++);
+          const Sampler<double> d = sampler<double>(event_number++);
           const BsdfSample<double> out = sample(Dielectric<double>{index}, event(d, down, normal));
           REQUIRE_FALSE(out.flags.absorbed);
           reflected.add(out.flags.transmitted ? 0 : 1);
@@ -59,10 +59,10 @@ TEST_CASE("dielectric: near critical angles and at normal incidence every direct
     const double critical = std::asin(1 / static_cast<double>(index));
     for (const double off : {0.0, 1e-8, -1e-8, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, -critical})
       for (std::uint32_t i = 0; i < 20000; ++i, ++rays) {
-        const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, critical + off);
-        const Dice<float> d = dice<float>(i);
-        naive += root_of_negative(way, normal, index) ? 1 : 0;
-        const BsdfSample<float> out = sample(Dielectric<float>{index}, event(d, way, normal));
+        const Vec3f normal = directions.next<float>(), direction = directions.at_angle(normal, critical + off);
+        const Sampler<float> d = sampler<float>(i);
+        naive += root_of_negative(direction, normal, index) ? 1 : 0;
+        const BsdfSample<float> out = sample(Dielectric<float>{index}, event(d, direction, normal));
         REQUIRE(length_error(out.direction) < 4e-7);  // also fails for what is not a number
         if (out.flags.transmitted) REQUIRE(dot(out.direction, normal) >= 0.0f);
         if (off > 1e-6 && index > 1.001f) REQUIRE_FALSE(out.flags.transmitted);
@@ -76,21 +76,22 @@ TEST_CASE("dielectric: matched to its surroundings it is not there, to the last 
   Directions directions;
   for (const double angle : {0.0, 0.5, 1.5, 1.5707, 1.570796, 1.57079632, pi / 2})
     for (std::uint32_t i = 0; i < 20000; ++i) {
-      const Vec3f normal = directions.next<float>(), way = directions.at_angle(normal, i % 2 ? angle : pi - angle);
-      const Dice<float> d = dice<float>(i);
-      const BsdfSample<float> out = sample(Dielectric<float>{1.0f}, event(d, way, normal));
+      const Vec3f normal = directions.next<float>(),
+                  direction = directions.at_angle(normal, i % 2 ? angle : pi - angle);
+      const Sampler<float> d = sampler<float>(i);
+      const BsdfSample<float> out = sample(Dielectric<float>{1.0f}, event(d, direction, normal));
       REQUIRE(out.flags.transmitted);
-      REQUIRE(out.direction == way);
+      REQUIRE(out.direction == direction);
     }
 }
 
 TEST_CASE("dielectric: a bubble is glass seen from the other side") {
   Directions directions;
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    const Vec3f normal = directions.next<float>(), way = directions.next<float>();
-    const Dice<float> d = dice<float>(i);
-    const BsdfSample<float> inward = sample(Dielectric<float>{1.5f}, event(d, way, -normal));
-    const BsdfSample<float> relative = sample(Dielectric<float>{1 / 1.5f}, event(d, way, normal));
+    const Vec3f normal = directions.next<float>(), direction = directions.next<float>();
+    const Sampler<float> d = sampler<float>(i);
+    const BsdfSample<float> inward = sample(Dielectric<float>{1.5f}, event(d, direction, -normal));
+    const BsdfSample<float> relative = sample(Dielectric<float>{1 / 1.5f}, event(d, direction, normal));
     REQUIRE(inward.flags.transmitted == relative.flags.transmitted);
     REQUIRE(inward.direction == relative.direction);
   }
@@ -98,7 +99,7 @@ TEST_CASE("dielectric: a bubble is glass seen from the other side") {
 
 TEST_CASE("dielectric: an enormous index is a mirror, a tiny one reflects all but the straight ray") {
   for (std::uint32_t i = 0; i < 2000; ++i) {
-    const Dice<float> d = dice<float>(i);
+    const Sampler<float> d = sampler<float>(i);
     const Vec3f slanted = down_at<float>(0.6);
     const BsdfSample<float> mirror = sample(Dielectric<float>{1e15f}, event(d, slanted, up<float>));
     CHECK(mirror.direction.z == doctest::Approx(-slanted.z));
@@ -110,7 +111,7 @@ TEST_CASE("dielectric: the books' rule is used where it is asked for") {
   const Vec3d down = down_at<double>(80 * degrees);
   Moments reflected;
   for (std::uint32_t i = 0; i < 100000; ++i) {
-    const Dice<double> d = dice<double>(i);
+    const Sampler<double> d = sampler<double>(i);
     Incident<double> in = event(d, down, up<double>);
     in.schlick = true;
     reflected.add(sample(Dielectric<double>{1.5}, in).flags.transmitted ? 0 : 1);

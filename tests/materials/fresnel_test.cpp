@@ -123,21 +123,21 @@ TEST_CASE("fresnel: continuous at the critical angle, finite and within [0, 1] e
     const double critical = std::asin(1 / static_cast<double>(index));
     float before = 0;
     for (int i = -4000; i <= 4000; ++i) {  // steps of 1e-9 radians, finer than float resolves
-      const float share = fresnel(static_cast<float>(std::cos(critical + 1e-9 * i)), 1 / index);
-      REQUIRE(share >= 0.0f);
-      REQUIRE(share <= 1.0f);
-      if (i > -4000 && index > 1.001f) REQUIRE(share - before < 0.01f);
-      before = share;
+      const float reflectance = fresnel(static_cast<float>(std::cos(critical + 1e-9 * i)), 1 / index);
+      REQUIRE(reflectance >= 0.0f);
+      REQUIRE(reflectance <= 1.0f);
+      if (i > -4000 && index > 1.001f) REQUIRE(reflectance - before < 0.01f);
+      before = reflectance;
     }
     CHECK(before == 1.0f);
   }
   for (const float index : {1e-3f, 0.5f, 0.999999f, 1.0f, 1.000001f, 3.0f, 1e3f, 1e6f, 1e15f})
     for (const float cosine : {0.0f, 1e-30f, 1e-20f, 1e-7f, 0.5f, 1.0f}) {
-      const float share = fresnel(cosine, index);
+      const float reflectance = fresnel(cosine, index);
       CAPTURE(index);
       CAPTURE(cosine);
-      CHECK(share >= 0.0f);
-      CHECK(share <= 1.0f);
+      CHECK(reflectance >= 0.0f);
+      CHECK(reflectance <= 1.0f);
     }
   CHECK(fresnel(0.5f, 1e6f) > 0.99999f);  // a mirror
 }
@@ -151,7 +151,7 @@ TEST_CASE("fresnel: nothing is reflected where both sides have the same index") 
 
 TEST_CASE("schlick: errs as the books' rule does, by these amounts") {
   struct Error {
-    double index, outside_most, outside_degrees, outside_mean, inside_most, inside_degrees, inside_mean;
+    double index, outside_max, outside_degrees, outside_mean, inside_max, inside_degrees, inside_mean;
   };
   constexpr Error errors[] = {
       {1.1, 0.21047092392005373, 83.133, 0.02462128426249932, 0.8559101434994882, 65.376, -0.012361462971215},
@@ -165,12 +165,12 @@ TEST_CASE("schlick: errs as the books' rule does, by these amounts") {
     for (const bool inside : {false, true}) {
       const double eta = inside ? 1 / e.index : e.index;
       const auto error = [&](double mu) { return schlick(mu, eta) - fresnel(mu, eta); };
-      double most = 0, at = 0;
+      double maximum = 0, at = 0;
       for (int i = 0; i <= 20000; ++i) {
         const double angle = 90.0 * i / 20000, here = std::abs(error(std::cos(angle * degrees)));
-        if (here > most) most = here, at = angle;
+        if (here > maximum) maximum = here, at = angle;
       }
-      CHECK(most == doctest::Approx(inside ? e.inside_most : e.outside_most).epsilon(1e-9).scale(0));
+      CHECK(maximum == doctest::Approx(inside ? e.inside_max : e.outside_max).epsilon(1e-9).scale(0));
       CHECK(at == doctest::Approx(inside ? e.inside_degrees : e.outside_degrees).epsilon(1e-9).scale(0));
       const double average = cosine_mean(error, inside ? total_angle_cosine(e.index) : 0);
       CHECK(std::abs(average - (inside ? e.inside_mean : e.outside_mean)) < 1e-8);

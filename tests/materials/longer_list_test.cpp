@@ -32,19 +32,19 @@ Estimate kernel_radiance(const Scene& scene, const RoughDielectric<>& glass, std
   std::vector<double> batches;
   for (std::uint32_t first = 0; first < samples; first += samples / 64) {
     FilmPixel pixel{};
-    UnitCounts counts;
-    const Unit unit{{0, 0, 1, 1}, 1, 0, first, first + samples / 64};
-    AloneSamples samples_of_unit(view, unit, {1 / columns.film_unit, &pixel, nullptr, counts});
+    TileCounts counts;
+    const TileJob job{{0, 0, 1, 1}, 1, 0, first, first + samples / 64};
+    AloneSamples samples_of_unit(view, job, {1 / columns.film_quantum, &pixel, nullptr, counts});
     NoRecorder recorder;
     follow_paths<float>(view, samples_of_unit, counts, recorder);
     CHECK(pixel.rejected[0] + pixel.rejected[1] == 0);
-    batches.push_back((pixel.sum[0][0].value() + pixel.sum[1][0].value()) * columns.film_unit / (samples / 64));
+    batches.push_back((pixel.sum[0][0].value() + pixel.sum[1][0].value()) * columns.film_quantum / (samples / 64));
   }
   return estimate(batches);
 }
 
-/// A large pane that is met at the row's angle: one event, after which paths leave the scene or meet a lamp.
-Scene pane_of(const GroundGlass& row, Vec3d background) {
+/// A large pane that is met at the row's angle: one event, after which paths leave the scene or meet a light.
+Scene slab_of(const GroundGlass& row, Vec3d background) {
   Scene scene = white_room();
   scene.width = scene.height = 1;
   scene.background = background;
@@ -76,7 +76,7 @@ TEST_CASE("materials: what a trait decides follows the list") {
 TEST_CASE("path loop: in a white room a pane of ground glass is as bright as its share of light") {
   ZScores scores;
   for (const GroundGlass& row : ground_glasses)
-    scores.add("pane", kernel_radiance(pane_of(row, {1, 1, 1}), {row.roughness}, 1 << 16),
+    scores.add("pane", kernel_radiance(slab_of(row, {1, 1, 1}), {row.roughness}, 1 << 16),
                row.reflected + row.refracted);
 }
 
@@ -88,19 +88,19 @@ TEST_CASE("path loop: light that ground glass reflects and refracts, found by sc
       CAPTURE(row.angle);
       CAPTURE(row.leaving);
       CAPTURE(behind);
-      Scene scene = pane_of(row, {0, 0, 0});
-      const Vec3d to_lamp = normalize(Vec3d{0.4, 0.3, behind ? -1.0 : 1.0});
+      Scene scene = slab_of(row, {0, 0, 0});
+      const Vec3d to_light = normalize(Vec3d{0.4, 0.3, behind ? -1.0 : 1.0});
       constexpr double distance = 20, radius = 6;
-      add(scene, sphere(distance * to_lamp, radius), lamp(2));
-      const CapCells seen(to_lamp, 1 - std::sqrt(1 - (radius / distance) * (radius / distance)));
+      add(scene, sphere(distance * to_light, radius), lamp(2));
+      const CapCells seen(to_light, 1 - std::sqrt(1 - (radius / distance) * (radius / distance)));
       const Incident<double> in = event_of(row, 0);
       const RoughDielectric<double> glass{row.roughness};
       const double expected = 2 * sum(seen.integrate([&](Vec3d l) { return eval(glass, in, l); }));
       ZScores scores;
       for (const Integrator integrator : {Integrator::path, Integrator::mis}) {
         scene.render.integrator = integrator;
-        const bool asks = integrator == Integrator::mis;
-        scores.add("lamp", kernel_radiance(scene, glass, 1 << 16), expected, asks ? 0.02 : 0.1);
+        const bool requests = integrator == Integrator::mis;
+        scores.add("lamp", kernel_radiance(scene, glass, 1 << 16), expected, requests ? 0.02 : 0.1);
       }
     }
 }

@@ -43,10 +43,10 @@ TYNDALL_INLINE F facet_density(F roughness, F cosine) {
   return a2 / (F(static_cast<float>(pi)) * d * d);
 }
 
-/// Share of the facets turned to a direction that is seen from there (Smith's masking function). cosine: of the
+/// Fraction of the facets turned to a direction that is seen from there (Smith's masking function). cosine: of the
 /// direction from the surface's normal, on either side.
 template <class F>
-TYNDALL_INLINE F seen_share(F roughness, F cosine) {
+TYNDALL_INLINE F seen_fraction(F roughness, F cosine) {
   const F c2 = max(cosine * cosine, F(1e-20f)), a2 = roughness * roughness;
   return F(2.0f) / (F(1.0f) + sqrt(mul_add(a2, (F(1.0f) - c2) / c2, F(1.0f))));
 }
@@ -69,9 +69,9 @@ TYNDALL_INLINE Vec3<F> visible_normal(F roughness, const Incident<F>& in, Pair<F
   const F s = F(0.5f) * (F(1.0f) + stretched.z);
   const F y = mul_add(F(1.0f) - s, sqrt(max(neg_mul_add(disc.x, disc.x, F(1.0f)), F(0.0f))), s * disc.y);
   const F z = sqrt(max(F(1.0f) - disc.x * disc.x - y * y, F(0.0f)));
-  const Vec3<F> round = along(along(disc.x * side, y, up), z, stretched);
+  const Vec3<F> round = point_at(point_at(disc.x * side, y, up), z, stretched);
   const Vec3<F> local = normalize(Vec3<F>{roughness * round.x, roughness * round.y, max(round.z, F(1e-6f))});
-  return along(along(local.z * in.facing, local.x, frame.s), local.y, frame.t);
+  return point_at(point_at(local.z * in.facing, local.x, frame.s), local.y, frame.t);
 }
 
 /// The event at a facet.
@@ -97,10 +97,10 @@ struct FacetLink {
 template <class F>
 TYNDALL_INLINE FacetLink<F> facet_link(const RoughDielectric<F>& m, const Incident<F>& in, Vec3<F> l) {
   FacetLink<F> link;
-  const F zero = F(0.0f), eta = select(in.along, F(1.0f) / m.refractive_index, m.refractive_index);
+  const F zero = F(0.0f), eta = select(in.exiting, F(1.0f) / m.refractive_index, m.refractive_index);
   link.surface_v = in.cosine, link.surface_l = dot(l, in.facing);
   link.transmitted = less(link.surface_l, zero);
-  const Vec3<F> between = along(-in.direction, select(link.transmitted, eta, F(1.0f)), l);
+  const Vec3<F> between = point_at(-in.direction, select(link.transmitted, eta, F(1.0f)), l);
   const Vec3<F> half = normalize(between);
   const Vec3<F> h = select(less(dot(half, in.facing), zero), -half, half);
   link.boundary = boundary_at(Dielectric<F>{m.refractive_index}, at_facet(in, h));
@@ -114,9 +114,9 @@ TYNDALL_INLINE FacetLink<F> facet_link(const RoughDielectric<F>& m, const Incide
   return link;
 }
 
-/// Share of the light that a facet sends from l to v.
+/// Fraction of the light that a facet sends from l to v.
 template <class F>
-TYNDALL_INLINE F facet_share(const FacetLink<F>& link) {
+TYNDALL_INLINE F facet_fraction(const FacetLink<F>& link) {
   const F reflected = link.boundary.reflected;
   return select(link.transmitted, F(1.0f) - reflected, reflected);
 }
@@ -126,8 +126,8 @@ TYNDALL_INLINE F facet_share(const FacetLink<F>& link) {
 template <class F>
 TYNDALL_INLINE F pdf(const RoughDielectric<F>& m, const Incident<F>& in, Vec3<F> direction) {
   const FacetLink<F> link = facet_link(m, in, direction);
-  const F seen = seen_share(m.roughness, link.surface_v) * link.cos_v * link.facets / max(link.surface_v, F(1e-15f));
-  return select(link.possible, facet_share(link) * seen * link.per_direction, F(0.0f));
+  const F seen = seen_fraction(m.roughness, link.surface_v) * link.cos_v * link.facets / max(link.surface_v, F(1e-15f));
+  return select(link.possible, facet_fraction(link) * seen * link.per_direction, F(0.0f));
 }
 
 /// Walter et al., equations 20 and 21, times the cosine of l; through the surface without their square of the index on
@@ -135,25 +135,25 @@ TYNDALL_INLINE F pdf(const RoughDielectric<F>& m, const Incident<F>& in, Vec3<F>
 template <class F>
 TYNDALL_INLINE F eval(const RoughDielectric<F>& m, const Incident<F>& in, Vec3<F> direction) {
   const FacetLink<F> link = facet_link(m, in, direction);
-  const F seen = seen_share(m.roughness, link.surface_v) * seen_share(m.roughness, link.surface_l);
+  const F seen = seen_fraction(m.roughness, link.surface_v) * seen_fraction(m.roughness, link.surface_l);
   const F eta = link.boundary.eta, root = mul_add(eta, link.cos_l, link.cos_v);
   const F through = link.cos_v * abs(link.cos_l) * eta * eta / max(root * root, F(1e-30f));
   const F geometry = select(link.transmitted, through, F(0.25f)) / max(link.surface_v, F(1e-15f));
-  return select(link.possible, facet_share(link) * seen * link.facets * geometry, F(0.0f));
+  return select(link.possible, facet_fraction(link) * seen * link.facets * geometry, F(0.0f));
 }
 
-/// Draws a facet that v sees, and reflects or refracts at it. What is left of eval over pdf is the share of the facet
-/// that l sees.
+/// Draws a facet that v sees, and reflects or refracts at it. What is left of eval over pdf is the fraction of the
+/// facet that l sees.
 template <class F>
 TYNDALL_INLINE BsdfSample<F> sample(const RoughDielectric<F>& m, const Incident<F>& in) {
-  const Vec3<F> h = visible_normal(m.roughness, in, in.dice.pair(dimension::direction));
+  const Vec3<F> h = visible_normal(m.roughness, in, in.sampler.next_2d(dimension::direction));
   const Incident<F> facet = at_facet(in, h);
   const Boundary<F> b = boundary_at(Dielectric<F>{m.refractive_index}, facet);
-  BsdfSample<F> out = leave_boundary(b, facet, less(in.dice.one(dimension::lobe), b.reflected));
+  BsdfSample<F> out = leave_boundary(b, facet, less(in.sampler.next_1d(dimension::lobe), b.reflected));
   const F cosine = dot(out.direction, in.facing);
   const F outward = select(out.flags.transmitted, -cosine, cosine);
   out.flags.absorbed = less_equal(outward, F(0.0f));
-  out.weight = seen_share(m.roughness, cosine);
+  out.weight = seen_fraction(m.roughness, cosine);
   out.pdf = pdf(m, in, out.direction);
   return out;
 }
@@ -168,9 +168,9 @@ struct WithRoughDielectric<std::variant<Kinds<F>...>> {
 template <class F>
 using LongerList = typename WithRoughDielectric<MaterialKinds<F>>::type;
 
-/// Share of the light that ground glass of index 1.5 sends on, by reflection and by refraction, and the share of the
-/// draws that meet a second facet. Integrated over the normals of facets by a program of its own, where tests integrate
-/// over directions.
+/// Fraction of the light that ground glass of index 1.5 sends on, by reflection and by refraction, and the fraction of
+/// the draws that meet a second facet. Integrated over the normals of facets by a program of its own, where tests
+/// integrate over directions.
 struct GroundGlass {
   double roughness, angle;
   bool leaving;
@@ -185,7 +185,7 @@ inline constexpr GroundGlass ground_glasses[] = {
 
 /// Light that comes down at `angle` and meets the glass from outside or from within.
 inline Incident<double> event_of(const GroundGlass& row, std::uint32_t number) {
-  return event(dice<double>(number), down_at<double>(row.angle), row.leaving ? -up<double> : up<double>);
+  return event(sampler<double>(number), down_at<double>(row.angle), row.leaving ? -up<double> : up<double>);
 }
 
 }  // namespace tyndall::test

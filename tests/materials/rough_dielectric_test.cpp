@@ -48,16 +48,16 @@ TEST_CASE("rough dielectric: directions are drawn with the density of pdf(), whi
       if (!out.flags.absorbed) sphere.count(out.direction);
     }
     const Incident<double> in = event_of(row, 0);
-    const auto density = [&](Vec3d l) { return pdf(glass, in, l); };
-    const Pair<double> share = integrals(row, density);
-    CHECK(share.x + share.y + row.lost == doctest::Approx(1).epsilon(1e-4).scale(0));
-    CHECK(std::abs(sphere.deviate(sphere.integrate(density), drawn)) < 4.5);
+    const auto pdf = [&](Vec3d l) { return pdf(glass, in, l); };
+    const Pair<double> fraction = integrals(row, pdf);
+    CHECK(fraction.x + fraction.y + row.lost == doctest::Approx(1).epsilon(1e-4).scale(0));
+    CHECK(std::abs(sphere.deviate(sphere.integrate(pdf), drawn)) < 4.5);
     lost.add("lost", absorbed.estimate(), row.lost, 0.03);
   }
 }
 
 TEST_CASE("rough dielectric: the weight of each sample is eval over pdf, not 1, and never above 1") {
-  double least = 1;
+  double minimum = 1;
   for (const GroundGlass& row : ground_glasses) {
     const RoughDielectric<double> glass{row.roughness};
     for (std::uint32_t i = 0; i < 20000; ++i) {
@@ -69,10 +69,10 @@ TEST_CASE("rough dielectric: the weight of each sample is eval over pdf, not 1, 
       REQUIRE(out.pdf == doctest::Approx(pdf(glass, in, out.direction)));
       REQUIRE(out.weight == doctest::Approx(eval(glass, in, out.direction) / out.pdf).epsilon(1e-6).scale(0));
       REQUIRE(out.weight <= 1);
-      least = std::min(least, out.weight);
+      minimum = std::min(minimum, out.weight);
     }
   }
-  CHECK(least < 0.3);
+  CHECK(minimum < 0.3);
 }
 
 TEST_CASE("rough dielectric: a furnace loses what meets a second facet and no more") {
@@ -91,9 +91,9 @@ TEST_CASE("rough dielectric: a furnace loses what meets a second facet and no mo
     CHECK(row.reflected + row.refracted <= 1 - row.lost);
     if (row.roughness < 0.4) continue;
     const Incident<double> in = event_of(row, 0);
-    const Pair<double> share = integrals(row, [&](Vec3d l) { return eval(glass, in, l); });
-    CHECK(share.x == doctest::Approx(row.reflected).epsilon(1e-4).scale(0));
-    CHECK(share.y == doctest::Approx(row.refracted).epsilon(1e-4).scale(0));
+    const Pair<double> fraction = integrals(row, [&](Vec3d l) { return eval(glass, in, l); });
+    CHECK(fraction.x == doctest::Approx(row.reflected).epsilon(1e-4).scale(0));
+    CHECK(fraction.y == doctest::Approx(row.refracted).epsilon(1e-4).scale(0));
   }
 }
 
@@ -104,8 +104,8 @@ TEST_CASE("rough dielectric: f(a, b) is f(b, a) times the square of the index on
     for (int i = 0; i < 20000; ++i) {
       const RoughDielectric<double> glass{0.5, index};
       const Vec3d a = directions.next<double>(), b = directions.next<double>();
-      const Incident<double> from_a = event(dice<double>(0), -a, up<double>);
-      const Incident<double> from_b = event(dice<double>(0), -b, up<double>);
+      const Incident<double> from_a = event(sampler<double>(0), -a, up<double>);
+      const Incident<double> from_b = event(sampler<double>(0), -b, up<double>);
       const double there = eval(glass, from_a, b) / std::abs(b.z), back = eval(glass, from_b, a) / std::abs(a.z);
       const double factor = a.z * b.z > 0 ? 1 : b.z < 0 ? index * index : 1 / (index * index);
       REQUIRE(there == doctest::Approx(factor * back).epsilon(1e-6).scale(1e-3));

@@ -19,7 +19,7 @@ double cumulative_cosine(double g, double c) {
 
 /// Means of the cosine's Legendre polynomials over evenly spaced u, which have no noise.
 struct CosineMoments {
-  double mean = 0, legendre2 = 0, forward = 0, least = 2, most = -2;
+  double mean = 0, legendre2 = 0, forward = 0, minimum = 2, maximum = -2;
 };
 template <class F>
 CosineMoments cosine_moments(double g, int count) {
@@ -30,7 +30,7 @@ CosineMoments cosine_moments(double g, int count) {
     m.mean += c / count;
     m.legendre2 += (1.5 * c * c - 0.5) / count;
     m.forward += (c > 0 ? 1.0 : 0.0) / count;
-    m.least = std::min(m.least, c), m.most = std::max(m.most, c);
+    m.minimum = std::min(m.minimum, c), m.maximum = std::max(m.maximum, c);
   }
   return m;
 }
@@ -44,7 +44,7 @@ TEST_CASE("medium: free flights follow the exponential law, in every stream") {
       Moments length, square;
       std::vector<double> flights;
       for (int i = 0; i < 500000; ++i) {
-        const float u = dice<float>(number++).open(dimension::free_flight, stream);
+        const float u = sampler<float>(number++).open(dimension::free_flight, stream);
         const auto t = static_cast<double>(free_flight(static_cast<float>(density), u));
         REQUIRE(t >= 0);
         REQUIRE(std::isfinite(t));
@@ -59,18 +59,18 @@ TEST_CASE("medium: free flights follow the exponential law, in every stream") {
 }
 
 TEST_CASE("medium: the generator's extreme numbers give finite flights; long flights are not cut short") {
-  const float least = unit_interval_open<float>(0u), most = unit_interval_open<float>(0xffffffffu);
-  CHECK(least > 0.0f);
-  CHECK(most == 1.0f);
-  CHECK(free_flight(1.0f, most) == 0.0f);
-  CHECK(free_flight(1.0f, least) > 22.0f);  // mean free paths: 2^-32 of all flights go farther
-  CHECK(std::isfinite(free_flight(1e-30f, least)));
+  const float minimum = unit_interval_open<float>(0u), maximum = unit_interval_open<float>(0xffffffffu);
+  CHECK(minimum > 0.0f);
+  CHECK(maximum == 1.0f);
+  CHECK(free_flight(1.0f, maximum) == 0.0f);
+  CHECK(free_flight(1.0f, minimum) > 22.0f);  // mean free paths: 2^-32 of all flights go farther
+  CHECK(std::isfinite(free_flight(1e-30f, minimum)));
 }
 
 TEST_CASE("medium: streams of one event are independent") {
   Moments product;
   for (std::uint32_t i = 0; i < 500000; ++i) {
-    const Dice<float> d = dice<float>(i);
+    const Sampler<float> d = sampler<float>(i);
     const auto centred = [&](std::uint32_t stream) {
       return static_cast<double>(d.open(dimension::free_flight, stream)) - 0.5;
     };
@@ -89,15 +89,15 @@ TEST_CASE("medium: transmittance is Beer's and Lambert's law") {
 TEST_CASE("henyey-greenstein: Legendre moments are powers of g") {
   constexpr double forward[][2] = {
       {-0.5, 0.1708204}, {0.3, 0.7139635}, {0.75, 0.9333333}, {0.95, 0.9891119}, {0.999, 0.9997927}};
-  for (const auto& [g, share] : forward) {
+  for (const auto& [g, fraction] : forward) {
     CAPTURE_BOUND(g);
     const CosineMoments m = cosine_moments<double>(g, 1000000), single = cosine_moments<float>(g, 1000000);
     CHECK(m.mean == doctest::Approx(g).epsilon(1e-6).scale(0));
     CHECK(m.legendre2 == doctest::Approx(g * g).epsilon(1e-5).scale(0));
-    CHECK(m.forward == doctest::Approx(share).epsilon(3e-6).scale(0));
+    CHECK(m.forward == doctest::Approx(fraction).epsilon(3e-6).scale(0));
     CHECK(single.mean == doctest::Approx(g).epsilon(1e-5).scale(0));
     CHECK(single.legendre2 == doctest::Approx(g * g).epsilon(1e-4).scale(0));
-    CHECK(single.forward == doctest::Approx(share).epsilon(1e-5).scale(0));
+    CHECK(single.forward == doctest::Approx(fraction).epsilon(1e-5).scale(0));
   }
 }
 
@@ -107,8 +107,8 @@ TEST_CASE("henyey-greenstein: cosines stay cosines and keep their mean down to g
     for (const double g : {size, -size}) {
       CAPTURE(g);
       const CosineMoments m = cosine_moments<float>(g, 200000);
-      CHECK(m.least >= -1);
-      CHECK(m.most <= 1);
+      CHECK(m.minimum >= -1);
+      CHECK(m.maximum <= 1);
       CHECK(std::abs(m.mean - static_cast<double>(static_cast<float>(g))) < 2e-6);
       CHECK(std::abs(m.legendre2 - g * g) < 2e-5);
     }
@@ -121,30 +121,30 @@ TEST_CASE("henyey-greenstein: the inverse has the law's distribution, whose dens
       const auto c = static_cast<double>(henyey_greenstein_cosine(static_cast<float>(g), u));
       CHECK(cumulative_cosine(g, c) == doctest::Approx(static_cast<double>(u)).epsilon(2e-5));
     }
-    const auto around = [&](double c) { return 2 * pi * henyey_greenstein_density(g, c); };
+    const auto around = [&](double c) { return 2 * pi * henyey_greenstein_pdf(g, c); };
     CHECK(integrate(around, -1, 1, 20000) == doctest::Approx(1).epsilon(1e-6).scale(0));
     CHECK(integrate([&](double c) { return around(c) * c; }, -1, 1, 20000) ==
           doctest::Approx(g).epsilon(1e-6).scale(0));
     CHECK(integrate(around, -1, 0.3) == doctest::Approx(cumulative_cosine(g, 0.3)).epsilon(1e-6).scale(0));
   }
-  CHECK(henyey_greenstein_density(0.0, 0.7) == doctest::Approx(0.25 / pi));
+  CHECK(henyey_greenstein_pdf(0.0, 0.7) == doctest::Approx(0.25 / pi));
 }
 
 TEST_CASE("henyey-greenstein: directions are as dense as the phase function says, which integrates to 1") {
   Directions directions;
   for (const double g : {0.0, 1e-7, 0.3, -0.6, 0.9}) {
     CAPTURE(g);
-    const auto way = directions.next<double>();
-    CapCells cap(way, 2);
+    const auto direction = directions.next<double>();
+    CapCells cap(direction, 2);
     constexpr int drawn = 200000;
     for (std::uint32_t i = 0; i < drawn; ++i) {
-      const Pair<double> u = dice<double>(i).pair(dimension::direction);
-      cap.count(scatter_in_medium(g, way, on_sphere(u), u));
+      const Pair<double> u = sampler<double>(i).next_2d(dimension::direction);
+      cap.count(scatter_in_medium(g, direction, on_sphere(u), u));
     }
-    const auto share =
-        cap.integrate([&](Vec3d d) { return henyey_greenstein_density(g, dot(way, d)); }, g > 0.8 ? 250 : 60);
-    CHECK(sum(share) == doctest::Approx(1).epsilon(1e-3).scale(0));
-    CHECK(std::abs(cap.deviate(share, drawn)) < 4.5);
+    const auto fraction =
+        cap.integrate([&](Vec3d d) { return henyey_greenstein_pdf(g, dot(direction, d)); }, g > 0.8 ? 250 : 60);
+    CHECK(sum(fraction) == doctest::Approx(1).epsilon(1e-3).scale(0));
+    CHECK(std::abs(cap.deviate(fraction, drawn)) < 4.5);
   }
 }
 
@@ -152,21 +152,21 @@ TEST_CASE("medium: scattered directions are unit vectors about the old one, all 
   Directions directions;
   ZScores scores;
   for (const float g : {0.0f, 0.6f, -0.6f, 0.99f}) {
-    const Vec3f way = directions.next<float>();
-    const Basis<float> basis = basis_around(way);
+    const Vec3f direction = directions.next<float>();
+    const Basis<float> basis = basis_around(direction);
     Moments cosine;
-    std::vector<double> turns;
+    std::vector<double> azimuths;
     for (std::uint32_t i = 0; i < 200000; ++i) {
-      const Dice<float> d = dice<float>(i);
-      const Pair<float> u = d.pair(dimension::direction);
-      const Vec3f out = scatter_in_medium(g, way, on_sphere(u), u);
+      const Sampler<float> d = sampler<float>(i);
+      const Pair<float> u = d.next_2d(dimension::direction);
+      const Vec3f out = scatter_in_medium(g, direction, on_sphere(u), u);
       REQUIRE(std::abs(length(out) - 1) < 4e-7f);
-      cosine.add(static_cast<double>(dot(out, way)));
+      cosine.add(static_cast<double>(dot(out, direction)));
       const auto x = static_cast<double>(dot(out, basis.s)), y = static_cast<double>(dot(out, basis.t));
-      turns.push_back(std::atan2(y, x) / (2 * pi) + 0.5);
+      azimuths.push_back(std::atan2(y, x) / (2 * pi) + 0.5);
     }
     if (g != 0) scores.add("mean cosine", cosine.estimate(), static_cast<double>(g));
     CHECK(std::abs(cosine.estimate().mean - static_cast<double>(g)) < 4 * cosine.estimate().error);
-    CHECK(kolmogorov_smirnov(turns, [](double t) { return t; }) < 2.23);
+    CHECK(kolmogorov_smirnov(azimuths, [](double t) { return t; }) < 2.23);
   }
 }

@@ -15,9 +15,9 @@ BUGS = [
     ("base", "one digit of a sine's coefficient", "core/base/math.h", "F(81.605225f)", "F(81.505225f)", "base/math"),
     ("base", "one digit of a logarithm's coefficient", "core/base/math.h", "F(0.33333313f)", "F(0.33323313f)", "base/math"),
     # The pause makes what two processors do by chance happen on one, too.
-    ("base", "an unlocked counter", "core/base/crew.cpp", "(i = next_.fetch_add(1, std::memory_order_relaxed)) < count",
-     "(i = next_.load(), std::this_thread::yield(), next_.store(i + 1), i) < count", "base/crew"),
-    ("base", "what a job throws is lost", "core/base/crew.cpp", "if (failure && !failure_) failure_ = failure;", "", "base/crew"),
+    ("base", "an unlocked counter", "core/base/thread_pool.cpp", "(i = next_.fetch_add(1, std::memory_order_relaxed)) < count",
+     "(i = next_.load(), std::this_thread::yield(), next_.store(i + 1), i) < count", "base/thread_pool"),
+    ("base", "what a job throws is lost", "core/base/thread_pool.cpp", "if (failure && !failure_) failure_ = failure;", "", "base/thread_pool"),
     # shapes
     ("shapes", "a sphere's far side is its near one", "core/shapes/sphere.h", "return {middle - half, middle + half, less", "return {middle - half, middle - half, less", "shapes/sphere"),
     ("shapes", "a ray that grazes a sphere from inside loses digits", "core/shapes/sphere.h", "equal(from & IntOf<F>(3), IntOf<F>(1))", "equal(from & IntOf<F>(3), IntOf<F>(0))", "shapes/sphere"),
@@ -26,13 +26,13 @@ BUGS = [
     ("shapes", "a box that is endless along z", "core/shapes/box.h", "max(near.x, max(near.y, near.z)), t1", "max(near.x, near.y), t1", "shapes/box"),
     # materials
     ("materials", "a lost cosine", "core/materials/bsdf.h", "return max(dot(direction, in.facing), F(0.0f)) * F(static_cast<float>(1 / pi));",
-     "return F(static_cast<float>(1 / pi));", "materials/lambertian materials/density"),
-    ("materials", "fuzz that crowds in the middle", "core/materials/metal.h", "cube_root(in.dice.one(dimension::radius))", "in.dice.one(dimension::radius)", "materials/metal materials/density"),
-    ("materials", "a wrong factor in the density of fuzz", "core/materials/metal.h", "mul_add(F(3.0f) * middle, middle, h * h)", "mul_add(F(2.0f) * middle, middle, h * h)", "materials/density"),
+     "return F(static_cast<float>(1 / pi));", "materials/lambertian materials/pdf"),
+    ("materials", "fuzz that crowds in the middle", "core/materials/metal.h", "cube_root(in.sampler.next_1d(dimension::radius))", "in.sampler.next_1d(dimension::radius)", "materials/metal materials/pdf"),
+    ("materials", "a wrong factor in the density of fuzz", "core/materials/metal.h", "mul_add(F(3.0f) * middle, middle, h * h)", "mul_add(F(2.0f) * middle, middle, h * h)", "materials/pdf"),
     ("materials", "fuzz below the surface shines", "core/materials/metal.h", "less_equal(dot(out, in.facing), F(0.0f))", "less(F(1.0f), F(0.0f))", "materials/metal"),
     ("materials", "a square lost in Fresnel's equations", "core/materials/dielectric.h", "const F e2 = eta * eta;", "const F e2 = eta;", "materials/fresnel"),
-    ("materials", "inside and outside of glass swapped", "core/materials/dielectric.h", "select(in.along, F(1.0f) / glass.refractive_index, glass.refractive_index)",
-     "select(in.along, glass.refractive_index, F(1.0f) / glass.refractive_index)", "materials/dielectric"),
+    ("materials", "inside and outside of glass swapped", "core/materials/dielectric.h", "select(in.exiting, F(1.0f) / glass.refractive_index, glass.refractive_index)",
+     "select(in.exiting, glass.refractive_index, F(1.0f) / glass.refractive_index)", "materials/dielectric"),
     # media
     ("media", "flights grow with the density", "core/media/medium.h", "return -log(u) / density;", "return -log(u) * density;", "media/medium"),
     ("media", "a wrong power in the phase function", "core/media/medium.h", "(d * sqrt(d))", "(d * d)", "media/medium"),
@@ -69,13 +69,13 @@ BUGS = [
     ("scene", "keys with a slash are not escaped", "core/scene/place.cpp", "out += \"~1\";", "out += \"~0\";", "scene/place scene/override"),
     ("scene", "the third component is not checked", "core/scene/check.cpp", "for (std::size_t i = 0; i < 3; ++i) check_value({at, i}, meaning, components[i]);", "for (std::size_t i = 0; i < 2; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
     # compile
-    ("compile", "faces of a closed pane are open", "core/compile/panes.cpp", "pane.closed |= 1 << i;", "pane.closed |= 0;", "render/chain_panes"),
-    ("compile", "a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(v);", "const double a = length(u), b = length(u);", "trace/light_density trace/lights"),
-    ("compile", "a spherical lamp of twice its radius", "core/compile/lights.cpp", "out.length_u.push_back(static_cast<float>(r));", "out.length_u.push_back(static_cast<float>(2 * r));", "trace/light_density trace/lights"),
+    ("compile", "faces of a closed pane are open", "core/compile/slabs.cpp", "slab.closed |= 1 << i;", "slab.closed |= 0;", "render/specular_slabs"),
+    ("compile", "a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(v);", "const double a = length(u), b = length(u);", "trace/light_pdf trace/lights"),
+    ("compile", "a spherical lamp of twice its radius", "core/compile/lights.cpp", "out.length_u.push_back(static_cast<float>(r));", "out.length_u.push_back(static_cast<float>(2 * r));", "trace/light_pdf trace/lights"),
     # kernel
-    ("kernel", "the inside of a closed pane is open", "core/specular/chain_pane.h", "return equal(met & pane.closed, I(0));", "return equal(pane.closed & I(0), I(0));", "specular/pane_faces"),
-    ("kernel", "a pane's faces in a wrong order", "core/specular/chain_pane.h", "select(less(F(0.0f), s.near.height), I(2), I(1))", "select(less(F(0.0f), s.near.height), I(1), I(2))", "specular/pane_faces"),
-    ("kernel", "the lens is a line", "core/trace/camera.h", "along(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v))", "along(lens.x * splat<F>(c.lens_u), lens.x, splat<F>(c.lens_v))", "trace/camera"),
+    ("kernel", "the inside of a closed pane is open", "core/specular/specular_slab.h", "return equal(met & slab.closed, I(0));", "return equal(slab.closed & I(0), I(0));", "specular/slab_faces"),
+    ("kernel", "a pane's faces in a wrong order", "core/specular/specular_slab.h", "select(less(F(0.0f), s.near.height), I(2), I(1))", "select(less(F(0.0f), s.near.height), I(1), I(2))", "specular/slab_faces"),
+    ("kernel", "the lens is a line", "core/trace/camera.h", "point_at(lens.x * splat<F>(c.lens_u), lens.y, splat<F>(c.lens_v))", "point_at(lens.x * splat<F>(c.lens_u), lens.x, splat<F>(c.lens_v))", "trace/camera"),
     ("kernel", "survivors of the roulette carry too little", "core/transport/scatter.h", "select(at_risk, scale * p.throughput, p.throughput)", "p.throughput", "render/depth", "core/targets/scalar.cpp"),
     ("kernel", "lamps that are found by chance count in full", "core/transport/direct_light.h", "select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f))", "F(1.0f)", "render/light_sampling", "core/targets/scalar.cpp"),
     # render

@@ -44,8 +44,8 @@ TEST_CASE("adaptive: the same film for any number of threads and any tiles, on e
       options.threads = 1;
       const RenderResult reference = render(scene_of(name), options);
       const FilmTotals sum = totals(reference.film);
-      CHECK(sum.least_taken < 40);
-      CHECK(sum.most_taken >= 64);
+      CHECK(sum.min_taken < 40);
+      CHECK(sum.max_taken >= 64);
       CHECK(sum.samples <= 40 * width * height);
       CHECK(labelled_spp(reference.film) == 40);
       for (const auto& [threads, tile] : {std::pair{2, 0}, {7, 5}, {2, 8}, {3, 1000}}) {
@@ -90,16 +90,16 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   plan_round(film);
   stop.real = available_kernels().back();
   Kernels stopping = stop.real;
-  for (RenderUnit& unit : stopping.render_alone) unit = stopping_unit;
-  for (RenderUnit& unit : stopping.render_shared) unit = stopping_unit;
-  Crew crew(2);
+  for (RenderTile& quantum : stopping.render_alone) quantum = stopping_tile;
+  for (RenderTile& quantum : stopping.render_reusing) quantum = stopping_tile;
+  ThreadPool thread_pool(2);
   const std::vector<std::uint32_t> wanted = counts_at(film, 128);
   Pass pass(film, wanted);
   int abandoned = 0;
   for (bool done = false; !done; ++abandoned) {
-    stop.units_left = 3;
+    stop.tiles_left = 3;
     stop.give_up = false;
-    done = pass.run(crew, stopping, view.view(), film, stop.give_up);
+    done = pass.run(thread_pool, stopping, view.view(), film, stop.give_up);
     for (std::size_t i = 0; i < wanted.size(); ++i) REQUIRE(film.pixels[i].taken <= wanted[i]);
   }
   CHECK(abandoned > 10);
@@ -126,12 +126,13 @@ TEST_CASE("adaptive: a region has its own samples, no more than asked for") {
   options.region = Region{0, 3, 61, 40};
   const Film film = render(scene_of("showroom"), options).film;
   CHECK(film.region == *options.region);
-  CHECK(totals(film).most_taken > totals(film).least_taken);
+  CHECK(totals(film).max_taken > totals(film).min_taken);
   CHECK(labelled_spp(film) == 64);
 }
 
 TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.1 %") {
-  // In this scene, of glass, metal and a lamp in fog, the errors that decide on the counts come from rare bright paths.
+  // In this scene, of glass, metal and a light in media, the errors that decide on the counts come from rare bright
+  // paths.
   Scene scene = small_scene("showroom", 40, 30, 64);
   std::vector<double> ratios;
   for (std::uint32_t seed = 0; seed < 48; ++seed) {

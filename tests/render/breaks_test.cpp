@@ -29,7 +29,7 @@ TEST_CASE("breaks: films and results that are taken in between change no bit, al
     int films = 0, results = 0;
     std::uint64_t last = 0;
     options.breaks.film_due = options.breaks.result_due = [] { return true; };
-    options.breaks.take_film = [&](const Film& film, Crew&) {
+    options.breaks.take_film = [&](const Film& film, ThreadPool&) {
       const FilmTotals sum = totals(film);
       CHECK(sum.samples >= last);
       last = sum.samples;
@@ -40,11 +40,11 @@ TEST_CASE("breaks: films and results that are taken in between change no bit, al
       CHECK_FALSE(result.interrupted);
       ++results;
     };
-    const RenderResult broken = render(scene, options);
+    const RenderResult error = render(scene, options);
     CHECK(films > 3);
     CHECK(results == films);
-    CHECK(broken.film == plain.film);
-    CHECK(broken.rays == plain.rays);
+    CHECK(error.film == plain.film);
+    CHECK(error.rays == plain.rays);
   }
 }
 
@@ -54,8 +54,8 @@ TEST_CASE("breaks: a time limit still ends a render between passes, so that all 
   options.threads = 2;
   options.time_limit = 0.3;
   options.breaks.film_due = [] { return true; };
-  options.breaks.take_film = [](const Film&, Crew&) {};
+  options.breaks.take_film = [](const Film&, ThreadPool&) {};
   const FilmTotals sum = totals(render(scene, options).film);
-  CHECK(sum.least_taken > 0);
-  CHECK(sum.least_taken == sum.most_taken);
+  CHECK(sum.min_taken > 0);
+  CHECK(sum.min_taken == sum.max_taken);
 }

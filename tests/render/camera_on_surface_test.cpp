@@ -21,26 +21,26 @@ struct Place {
   Vec3d point, normal;
 };
 
-Transform turned(Engine& engine, Vec3d to) { return {RotateY{uniform(engine, -180, 180)}, Translate{to}}; }
+Transform rotated(Engine& engine, Vec3d to) { return {RotateY{uniform(engine, -180, 180)}, Translate{to}}; }
 
 Place placed(const Object& object, Vec3d point, Vec3d normal) {
   const Placement p = placement_of(object.transform);
-  return {object, place(p, point), turn(p, normal)};
+  return {object, place(p, point), rotate(p, normal)};
 }
 
-Place on_ball(Engine& engine, double scale, double sign) {
+Place on_sphere(Engine& engine, double scale, double sign) {
   const Vec3d normal = direction(engine), center = in_cube(engine, 3 * scale);
-  return placed({"", Solid3d{Sphere<>{center, sign * scale, {}}, 0}, turned(engine, in_cube(engine, scale))},
+  return placed({"", Solid3d{Sphere<>{center, sign * scale, {}}, 0}, rotated(engine, in_cube(engine, scale))},
                 center + scale * normal, normal);
 }
 Place on_quad(Engine& engine, double scale) {
   const Vec3d corner = in_cube(engine, 3 * scale), u = scale * direction(engine), v = scale * direction(engine);
-  return placed({"", Solid3d{Quad<>{corner, u, v}, 0}, turned(engine, in_cube(engine, scale))},
+  return placed({"", Solid3d{Quad<>{corner, u, v}, 0}, rotated(engine, in_cube(engine, scale))},
                 corner + uniform(engine, 0.2, 0.8) * u + uniform(engine, 0.2, 0.8) * v, normalize(cross(u, v)));
 }
 Place on_box(Engine& engine, double scale) {
   const Vec3d low = in_cube(engine, 3 * scale), high = low + scale * Vec3d{1, uniform(engine, 0.1, 2), 0.5};
-  return placed({"", Solid3d{Box<>{low, high}, 0}, turned(engine, in_cube(engine, scale))},
+  return placed({"", Solid3d{Box<>{low, high}, 0}, rotated(engine, in_cube(engine, scale))},
                 {high.x, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)}, {1, 0, 0});
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("camera on a surface: whoever stands on a ball, quad or box and looks 
       const double heights[] = {0, 1e-9 * scale, 5e-8 * scale, 1e-5};
       const double height = heights[round] > 1e-2 * scale ? 1e-3 * scale : heights[round];
       for (const double sign : {1.0, -1.0}) {
-        const Place at = on_ball(engine, scale, sign);
+        const Place at = on_sphere(engine, scale, sign);
         CHECK(wrong_values(scene_at(at, height, scale * at.normal, black), 1) == 0);
         CHECK(wrong_values(scene_at(at, -std::min(height, 5e-8 * scale), scale * at.normal, black), 1) == 0);
       }
@@ -112,9 +112,9 @@ TEST_CASE("camera on a surface: with a lens, and far from the middle of the scen
   Engine engine(2);
   for (const double scale : scales) {
     CAPTURE(scale);
-    for (const Place& at : {on_ball(engine, scale, 1), on_box(engine, scale)}) {
+    for (const Place& at : {on_sphere(engine, scale, 1), on_box(engine, scale)}) {
       Scene scene = scene_at(at, 0, scale * at.normal, black);
-      scene.camera.defocus_angle = 0.2;  // all of the lens is above the ball, most of it within rounding
+      scene.camera.defocus_angle = 0.2;  // all of the lens is above the sphere, most of it within rounding
       CHECK(wrong_values(scene, 1) == 0);
       scene.camera.defocus_angle = 0;
       Place away = at;
@@ -129,7 +129,7 @@ TEST_CASE("camera on a surface: with a lens, and far from the middle of the scen
 
 TEST_CASE("camera on a surface: a ball that moves elsewhere while the shutter is closed") {
   Engine engine(3);
-  Place at = on_ball(engine, 1000, 1);
+  Place at = on_sphere(engine, 1000, 1);
   std::get<Sphere<>>(std::get<Solid3d>(at.object.kind).shape).center_end = Vec3d{9000, 0, 0};
   CHECK(wrong_values(scene_at(at, 0, at.normal, black), 1) == 0);
 }
@@ -139,7 +139,7 @@ TEST_CASE("camera on a surface: whoever stands on the wall of a room in a ball o
   const Material lamp{"", Vec3d{2, 2, 2}, Light<>{}};
   for (const double scale : scales) {
     CAPTURE(scale);
-    for (const Place& at : {on_ball(engine, scale, -1), on_box(engine, scale)}) {
+    for (const Place& at : {on_sphere(engine, scale, -1), on_box(engine, scale)}) {
       const Scene scene = scene_at(at, 0, -scale * at.normal, lamp);
       CHECK(wrong_values(scene, 2) == 0);
       const RenderScene compiled = compile(scene);
@@ -156,7 +156,7 @@ TEST_CASE("camera on a surface: a little farther away than rounding, whoever loo
   Engine engine(5);
   for (const double scale : {0.5, 1000.0})
     for (int round = 0; round < 20; ++round) {
-      const Place at = on_ball(engine, scale, 1);
+      const Place at = on_sphere(engine, scale, 1);
       const double height = 1e-5 * scale;
       const RenderScene compiled = compile(scene_at(at, height, -scale * at.normal, black));
       const SceneViewOf view(compiled);

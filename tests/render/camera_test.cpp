@@ -23,7 +23,7 @@ Pair<double> at_depth(const Scene& scene, Vec3d origin, Vec3d direction, double 
   const Vec3d w = normalize(c.look_at - c.look_from), right = normalize(cross(w, c.vup)),
               up_in_picture = cross(right, w);
   const Vec3d from = origin - (c.look_from - compile(scene).origin);
-  const Vec3d at = along(from, (depth - dot(from, w)) / dot(direction, w), direction);
+  const Vec3d at = point_at(from, (depth - dot(from, w)) / dot(direction, w), direction);
   return {dot(at, right), dot(at, up_in_picture)};
 }
 
@@ -37,8 +37,8 @@ Scene slanted_camera() {
   return scene;
 }
 
-/// A small lamp on the axis of a thin lens; the picture is `view` high in the plane of focus.
-Scene lamp_before_lens(double focus, double angle, double depth, double radius, double view) {
+/// A small light on the axis of a thin lens; the picture is `view` high in the plane of focus.
+Scene light_before_lens(double focus, double angle, double depth, double radius, double view) {
   Scene scene = dark_room();
   scene.camera.look_from = {0, 0, 0};
   scene.camera.look_at = {0, 0, -1};
@@ -107,7 +107,7 @@ TEST_CASE("camera: samples fill their pixel evenly and nothing else") {
   const SceneViewOf view(compiled);
   std::vector<double> xs, ys;
   for (std::uint32_t i = 0; i < 100000; ++i) {
-    const Ray<float> ray = sample_ray(view.view(), 2.0f, 1.0f, Dice<float>::of(0, 2, 1, i));
+    const Ray<float> ray = sample_ray(view.view(), 2.0f, 1.0f, Sampler<float>::of(0, 2, 1, i));
     const Pair<double> p = at_depth(scene, widen(ray.origin), widen(ray.direction), 1);
     const double x = p.x + 1.5, y = 1 - p.y;  // the picture is 2 units high: a pixel is one
     REQUIRE(std::abs(x - 2.5) < 0.500001);
@@ -126,18 +126,18 @@ TEST_CASE("lens: rays start evenly on a disc and meet in the plane of focus") {
   const SceneViewOf view(compiled);
   const double radius = 0.2974614559881416;
   const Vec3d middle = scene.camera.look_from - compiled.origin;
-  std::vector<double> squares, turns;
+  std::vector<double> squares, azimuths;
   for (std::uint32_t i = 0; i < 100000; ++i) {
-    const Ray<float> ray = sample_ray(view.view(), 20.0f, 11.0f, Dice<float>::of(0, 20, 11, i));
+    const Ray<float> ray = sample_ray(view.view(), 20.0f, 11.0f, Sampler<float>::of(0, 20, 11, i));
     const Vec3d start = widen(ray.origin) - middle;
     const Pair<double> on_lens = at_depth(scene, widen(ray.origin), widen(ray.direction), 0);
     REQUIRE(length(start) <= radius * 1.000001);
     REQUIRE(std::abs(length(start) - std::hypot(on_lens.x, on_lens.y)) < 1e-6);  // in the lens' plane
     squares.push_back(dot(start, start) / (radius * radius));
-    turns.push_back(std::atan2(on_lens.y, on_lens.x) / (2 * pi) + 0.5);
+    azimuths.push_back(std::atan2(on_lens.y, on_lens.x) / (2 * pi) + 0.5);
   }
   CHECK(kolmogorov_smirnov(squares, [](double v) { return v; }) < 2.23);
-  CHECK(kolmogorov_smirnov(turns, [](double v) { return v; }) < 2.23);
+  CHECK(kolmogorov_smirnov(azimuths, [](double v) { return v; }) < 2.23);
   const Pair<double> sharp =
       at_depth(scene, ray_through(scene, 20, 11).origin, ray_through(scene, 20, 11).direction, 3.4);
   for (const Pair<double> lens : {Pair<double>{1, 0}, Pair<double>{-0.6, 0.8}, Pair<double>{0, -0.5}}) {
@@ -156,8 +156,8 @@ TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right 
       {10, 0.6, 5, 0.03702436283324772}, {10, 0.6, 20, 0.01851218141662386}, {3.4, 10, 1, 0.5048088304100128}};
   ZScores scores;
   for (const Case& c : cases) {
-    const double view = 4 * c.rms * std::sqrt(2.0), pixel = view / 32, lamp_radius = 0.0125 * view * c.depth / c.focus;
-    Scene scene = lamp_before_lens(c.focus, c.angle, c.depth, lamp_radius, view);
+    const double view = 4 * c.rms * std::sqrt(2.0), pixel = view / 32, light_radius = 0.0125 * view * c.depth / c.focus;
+    Scene scene = light_before_lens(c.focus, c.angle, c.depth, light_radius, view);
     std::vector<double> squares, xs, ys;
     for (int run = 0; run < 24; ++run) {
       scene.render.seed = static_cast<std::uint32_t>(run);
@@ -165,8 +165,8 @@ TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right 
       squares.push_back(spot.square * pixel * pixel);
       xs.push_back(spot.x), ys.push_back(spot.y);
     }
-    // Three things widen the spot: the disc of the ball itself, the blur of the lens, and the size of a pixel.
-    const double seen = lamp_radius * c.focus / c.depth, disc = seen * seen / 2, box = pixel * pixel / 6;
+    // Three things widen the spot: the disc of the sphere itself, the blur of the lens, and the size of a pixel.
+    const double seen = light_radius * c.focus / c.depth, disc = seen * seen / 2, box = pixel * pixel / 6;
     const Estimate square = estimate(squares);
     scores.add("mean square", {square.mean - box - disc, square.error}, c.rms * c.rms, 0.02);
     CHECK(std::abs(estimate(xs).mean) <= 4 * estimate(xs).error);
@@ -175,10 +175,10 @@ TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right 
 }
 
 TEST_CASE("lens: a lamp in focus is as sharp as without a lens") {
-  const Spot spot = spot_of(film_of(lamp_before_lens(10, 5, 10, 0.01, 1), 64));
+  const Spot spot = spot_of(film_of(light_before_lens(10, 5, 10, 0.01, 1), 64));
   CHECK(spot.light > 0);
   CHECK(spot.square == doctest::Approx(0.5));  // all its light is in the four pixels in the middle
-  CHECK(spot_of(film_of(lamp_before_lens(10, 5, 9, 0.01, 1), 64)).square > 0.6);
+  CHECK(spot_of(film_of(light_before_lens(10, 5, 9, 0.01, 1), 64)).square > 0.6);
 }
 
 TEST_CASE("lens: without defocus the focus distance changes nothing; absent, it is the distance looked at") {

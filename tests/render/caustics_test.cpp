@@ -11,8 +11,8 @@ using namespace tyndall;
 
 namespace {
 
-/// A floor, a glass ball of radius 1, and a lamp `distance` above its centre.
-Scene ball_under_lamp(double radius, double distance) {
+/// A floor, a glass sphere of radius 1, and a light `distance` above its centre.
+Scene sphere_under_light(double radius, double distance) {
   Scene scene;
   scene.camera.look_from = {0, 2, 8};
   scene.materials = {{"floor", Vec3d{0.7, 0.7, 0.7}, Lambertian<>{}},
@@ -27,36 +27,36 @@ Scene ball_under_lamp(double radius, double distance) {
 }  // namespace
 
 TEST_CASE("caustics: the chance is the lamp's share of all directions, seen from the glass") {
-  CHECK(chance_of_caustics(ball_under_lamp(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
-  CHECK(chance_of_caustics(ball_under_lamp(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
-  CHECK(chance_of_caustics(ball_under_lamp(4, 3)) == 1);  // the lamp is around the ball and fills all directions
+  CHECK(chance_of_caustics(sphere_under_light(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
+  CHECK(chance_of_caustics(sphere_under_light(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
+  CHECK(chance_of_caustics(sphere_under_light(4, 3)) == 1);  // the light is around the sphere and fills all directions
 }
 
 TEST_CASE("caustics: a lamp within glass is seen from the floor below, or from the glass if that is farther") {
-  // The lamp hangs 0.3 above the middle of the ball, the floor 1 below it.
-  CHECK(chance_of_caustics(ball_under_lamp(0.05, 0.3)) ==
+  // The light hangs 0.3 above the middle of the sphere, the floor 1 below it.
+  CHECK(chance_of_caustics(sphere_under_light(0.05, 0.3)) ==
         doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 1.3, 2)))));
-  CHECK(chance_of_caustics(ball_under_lamp(0.05, 0)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.05 * 0.05))));
-  Scene scene = ball_under_lamp(0.05, 0.3);
+  CHECK(chance_of_caustics(sphere_under_light(0.05, 0)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.05 * 0.05))));
+  Scene scene = sphere_under_light(0.05, 0.3);
   scene.camera.look_from = {0.5, 0, 0};  // the camera is within the glass, too: a room, not a bulb
   CHECK(chance_of_caustics(scene) > 0.005);
-  scene = ball_under_lamp(0.05, 0.3);
-  scene.materials[0].kind = Metal<>{0.5};  // now only the fog shows the light, and it begins 4 units from the lamp
+  scene = sphere_under_light(0.05, 0.3);
+  scene.materials[0].kind = Metal<>{0.5};  // now only the medium shows the light, and it begins 4 units from the light
   CHECK(chance_of_caustics(scene) == 1);
   scene.objects.push_back({"", Volume{Box<>{{4, -1, -1}, {6, 1, 1}}, {}, Medium<>{0.1, 0}, Vec3d{1, 1, 1}}, {}});
   CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 4, 2)))));
 }
 
 TEST_CASE("caustics: the lobe of metal with a little fuzz makes the lamp larger") {
-  Scene scene = ball_under_lamp(0.03, 3);
+  Scene scene = sphere_under_light(0.03, 3);
   scene.materials[1].kind = Metal<>{0.01};
   CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.02 * 0.02))));
 }
 
 TEST_CASE("caustics: pairs that are found otherwise are left out") {
-  Scene scene = ball_under_lamp(0.03, 3);
+  Scene scene = sphere_under_light(0.03, 3);
   const double first = chance_of_caustics(scene);
-  scene.objects.push_back({"", Solid3d{Sphere<>{{0, 0, 5}, 0.1, {}}, 2}, {}});  // a second lamp: shape 3
+  scene.objects.push_back({"", Solid3d{Sphere<>{{0, 0, 5}, 0.1, {}}, 2}, {}});  // a second light: shape 3
   const double both = chance_of_caustics(scene);
   CHECK(both < first + 1e-12);
   const auto second_is_found = [](std::size_t lamp, std::size_t shape) { return lamp == 3 && shape == 1; };
@@ -65,33 +65,34 @@ TEST_CASE("caustics: pairs that are found otherwise are left out") {
 }
 
 TEST_CASE("caustics: none without something smooth that catches light, or something matt that shows it") {
-  Scene scene = ball_under_lamp(0.03, 3);
+  Scene scene = sphere_under_light(0.03, 3);
   const double chance = chance_of_caustics(scene);
   scene.materials[1].kind = Metal<>{0};
   CHECK(chance_of_caustics(scene) == chance);
   scene.materials[1].kind = Metal<>{0.1};  // metal of so much fuzz does not count as smooth
   CHECK(chance_of_caustics(scene) == 1);
-  scene = ball_under_lamp(0.03, 3);
+  scene = sphere_under_light(0.03, 3);
   scene.materials[0].kind = Metal<>{0.1};
   CHECK(chance_of_caustics(scene) == 1);
-  CHECK(chance_of_caustics(ball_under_lamp(0.03, 30)) == 1);  // the ball is too far to catch a hundredth of the light
+  CHECK(chance_of_caustics(sphere_under_light(0.03, 30)) ==
+        1);  // the sphere is too far to catch a hundredth of the light
   CHECK(chance_of_caustics(load_scene("cornell-box").scene) == 1);
 }
 
 TEST_CASE("caustics: pairs that chains find are left out, unless chains are switched off") {
-  Scene scene = ball_under_lamp(0.03, 3);
+  Scene scene = sphere_under_light(0.03, 3);
   CHECK(chance_of_caustics(scene, compile(scene)) == 1);
   scene.render.caustics = Caustics::scatter;
   CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
   scene.render.caustics = Caustics::chains;
-  scene.materials[1].kind = Metal<>{0.01};  // chains need a perfect mirror
+  scene.materials[1].kind = Metal<>{0.01};  // specular paths need a perfect mirror
   CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
 }
 
 TEST_CASE("caustics: chains find light off flat mirrors and through boxes of glass, and none through quads of glass") {
   const Material mirror{"", Vec3d{1, 1, 1}, Metal<>{0}}, clear{"", Vec3d{1, 1, 1}, Dielectric<>{1.5}};
   const auto chance_with = [](auto shape, const Material& material) {
-    Scene scene = ball_under_lamp(0.03, 3);
+    Scene scene = sphere_under_light(0.03, 3);
     scene.materials[1] = material;
     std::get<Solid3d>(scene.objects[1].kind).shape = shape;
     scene.objects.push_back(
@@ -102,9 +103,9 @@ TEST_CASE("caustics: chains find light off flat mirrors and through boxes of gla
   CHECK(chance_with(Quad<>{{-1, -0.5, -1}, {2, 0, 0}, {0, 0, 2}}, clear) < 0.001);
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, mirror) == 1);
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, clear) == 1);
-  const Scene pane = load_scene("stress-pane").scene;
-  CHECK(chance_of_caustics(pane) < 0.001);
-  CHECK(chance_of_caustics(pane, compile(pane)) == 1);
+  const Scene slab = load_scene("stress-pane").scene;
+  CHECK(chance_of_caustics(slab) < 0.001);
+  CHECK(chance_of_caustics(slab, compile(slab)) == 1);
   const Material water{"", Vec3d{1, 1, 1}, Dielectric<>{1.33}};  // light leaves by all faces
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, water) < 0.001);
 }

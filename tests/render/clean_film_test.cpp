@@ -43,7 +43,7 @@ Vec3f emission(const Film& film, int x, int y) {
 TEST_CASE("emission: is all that is seen of a lamp, also in a mirror, and nothing of what it shines on") {
   Scene scene = small("cornell-box", 96, 96);
   const Film box = rendered(scene, 8).film;
-  CHECK(emission(box, 48, 14).x > 20);  // the lamp, in both halves
+  CHECK(emission(box, 48, 14).x > 20);  // the light, in both halves
   CHECK(half_emission(box, box.index(48, 14), 0) == half_mean(box, box.at(48, 14), 0));
   CHECK(emission(box, 48, 90) == Vec3f{});
   CHECK(mean(box, box.at(48, 90)).x > 0);
@@ -134,23 +134,24 @@ TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any
     const Kernels kernels = *choose_kernels("");
     std::vector<CleanPicture> made;
     for (const int threads : {1, 3}) {
-      Crew crew(threads);
+      ThreadPool thread_pool(threads);
       CoarseCleaner cleaner(kernels);
-      CHECK_FALSE(cleaner.run(step, {crew, kernels, view.view()}, scene.film_unit, true, made.emplace_back()));
-      REQUIRE(cleaner.run(step, {crew, kernels, view.view()}, scene.film_unit, false, made.back()));
+      CHECK_FALSE(
+          cleaner.run(step, {thread_pool, kernels, view.view()}, scene.film_quantum, true, made.emplace_back()));
+      REQUIRE(cleaner.run(step, {thread_pool, kernels, view.view()}, scene.film_quantum, false, made.back()));
     }
     REQUIRE(made[0].width == 40);
     REQUIRE(made[0].height == 27);
     CHECK(made[0].rgb == made[1].rgb);
     const Film whole = rendered(small(name, 119, 80), 256).film;
     // Against the mean over the pixels around every third one, moved by so many pixels each way.
-    const auto off_by = [&](int way) {
+    const auto off_by = [&](int direction) {
       std::vector<float> truth;
       for (int i = 0; i < 40 * 27; ++i) {
         Vec3f sum{};
         for (int part = 0; part < step * step; ++part) {
-          const int x = std::clamp(step * (i % 40) + part % step - 1 + way, 0, 118);
-          const int y = std::clamp(step * (i / 40) + part / step - 1 + way, 0, 79);
+          const int x = std::clamp(step * (i % 40) + part % step - 1 + direction, 0, 118);
+          const int y = std::clamp(step * (i / 40) + part / step - 1 + direction, 0, 79);
           sum = sum + 1.0f / (step * step) * mean(whole, whole.at(x, y));
         }
         truth.insert(truth.end(), {sum.x, sum.y, sum.z});

@@ -39,7 +39,7 @@ struct Row {
   std::uint32_t spp;
   Errors raw, clean;
   double estimated = 0;   ///< over the true squared relative error
-  double worse = 0;       ///< share of blocks that are worse than raw
+  double worse = 0;       ///< fraction of blocks that are worse than raw
   double excess = 0;      ///< by how much together, of raw's whole error
   bool doubtful = false;  ///< users are warned that the estimate cannot be trusted
 };
@@ -115,8 +115,8 @@ void print_head() {
 
 /// Of the rows with so many samples that are good or (`or_doubtful`) are warned of, the share.
 template <class Good>
-double share_of(const std::vector<Row>& rows, std::uint32_t first, std::uint32_t last, bool or_doubtful,
-                const Good& good) {
+double throughput_of(const std::vector<Row>& rows, std::uint32_t first, std::uint32_t last, bool or_doubtful,
+                     const Good& good) {
   int all = 0, fit = 0;
   for (const Row& row : rows)
     if (row.spp >= first && row.spp <= last) ++all, fit += good(row) || (or_doubtful && row.doubtful) ? 1 : 0;
@@ -143,8 +143,9 @@ TEST_CASE("clean view: never worse than the raw picture in any built-in scene, a
     CHECK(row.clean.rel_mse <= 1.005 * row.raw.rel_mse + 1e-7);
     if (!row.doubtful) CHECK(row.excess < 0.05);
   }
-  const double known = share_of(rows, 16, 1024, false, band), told = share_of(rows, 16, 1024, true, band),
-               at_4 = share_of(rows, 4, 4, false, wide_band), blocks = share_of(rows, 2, 1024, true, few_worse);
+  const double known = throughput_of(rows, 16, 1024, false, band), told = throughput_of(rows, 16, 1024, true, band),
+               at_4 = throughput_of(rows, 4, 4, false, wide_band),
+               blocks = throughput_of(rows, 2, 1024, true, few_worse);
   MESSAGE("estimated over true error from 16 spp on within [0.8, 1.25]: "
           << 100 * known << " %, or warned of: " << 100 * told << " %; at 4 within [0.6, 1.4]: " << 100 * at_4
           << " %; few blocks worse: " << 100 * blocks << " %");

@@ -8,7 +8,7 @@ using namespace tyndall::test;
 
 namespace {
 
-/// A lamp of radius `light` in the middle of a matt ball of radius 1, seen from between them towards the wall.
+/// A light of radius `light` in the middle of a matt sphere of radius 1, seen from between them towards the wall.
 Scene integrating_sphere(double rho, double light) {
   Scene scene = dark_room();
   add(scene, sphere({0, 0, 0}, 1), lambertian(rho));
@@ -17,7 +17,7 @@ Scene integrating_sphere(double rho, double light) {
   return scene;
 }
 
-/// A wall point sees the lamp under the share f of its cosine-weighted sky, and the wall itself under the rest.
+/// A wall point sees the light under the share f of its cosine-weighted sky, and the wall itself under the rest.
 double wall_radiance(double rho, double light) {
   const double f = light * light;
   return rho * f / (1 - rho * (1 - f));
@@ -76,7 +76,7 @@ TEST_CASE("depth: light counts after at most max_depth events; the rest is cut a
       double expected = 0;
       for (int k = 0; k < depth; ++k) expected += rho * f * std::pow(rho * (1 - f), k);
       scores.add("truncated sum", estimate(batches), expected, 0.01);
-      // Roulette starts below an eighth of the full throughput: until then a path is cut if it never met the lamp.
+      // Roulette starts below an eighth of the full throughput: until then a path is cut if it never met the light.
       if (std::pow(rho, depth - 1) * 8 >= 1) scores.add("cut", estimate(cut), std::pow(1 - f, depth), 0.02);
     }
 }

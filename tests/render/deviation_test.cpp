@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-/// Paths of single rays through glass balls, stepped by the path loop itself with dice that choose the way.
+/// Paths of single rays through glass spheres, stepped by the path loop itself with dice that choose the way.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -14,11 +14,11 @@ namespace {
 
 /// Dice whose lobe number is near 0 (reflects wherever anything is reflected) or near 1 (refracts wherever possible).
 template <class F>
-Dice<F> choosing(bool reflection) {
+Sampler<F> choosing(bool reflection) {
   for (std::uint32_t i = 0;; ++i) {
-    Dice<F> d = dice<F>(i);
+    Sampler<F> d = sampler<F>(i);
     d.event = dimension::camera_count * golden_ratio;
-    const F lobe = d.one(dimension::lobe);
+    const F lobe = d.next_1d(dimension::lobe);
     if (reflection ? lobe < F(1e-4) : lobe > F(0.9999)) return d;
   }
 }
@@ -34,17 +34,17 @@ template <class F>
 Course follow(const Scene& scene, double impact, std::initializer_list<int> reflections) {
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
-  const Dice<F> refract = choosing<F>(false), reflect = choosing<F>(true);
+  const Sampler<F> refract = choosing<F>(false), reflect = choosing<F>(true);
   Paths<F> p{};
   p.ray = {{F(0), static_cast<F>(impact), F(5)}, {F(0), F(0), F(-1)}, F(0), from_nowhere};
   p.throughput = {F(1), F(1), F(1)};
   bool cut = false;
-  ChainQueue<F> chains{};
-  NoSharing alone;
+  SpecularQueue<F> specular_queue{};
+  NoReuse alone;
   std::uint32_t shadows = 0;
   for (int event = 0; event < 20; ++event) {
-    p.dice = std::find(reflections.begin(), reflections.end(), event) != reflections.end() ? reflect : refract;
-    if (!step(view.view(), p, true, cut, chains, alone, shadows))
+    p.sampler = std::find(reflections.begin(), reflections.end(), event) != reflections.end() ? reflect : refract;
+    if (!step(view.view(), p, true, cut, specular_queue, alone, shadows))
       return {{static_cast<double>(p.ray.direction.x), static_cast<double>(p.ray.direction.y),
                static_cast<double>(p.ray.direction.z)},
               event};
@@ -88,10 +88,10 @@ TEST_CASE("glass ball: turns a ray by Snell's law, straight through and after on
 
 TEST_CASE("glass ball: Descartes' rainbow is where the deviation is least") {
   const Scene scene = ball(1.333);
-  const auto turned = [&](double impact) { return deviation(follow<double>(scene, impact, {1})); };
-  CHECK(turned(0.8608350596949453) == doctest::Approx(137.92189261975645).epsilon(1e-7).scale(0));
-  CHECK(turned(0.84) > 137.9219);
-  CHECK(turned(0.88) > 137.9219);
+  const auto measured = [&](double impact) { return deviation(follow<double>(scene, impact, {1})); };
+  CHECK(measured(0.8608350596949453) == doctest::Approx(137.92189261975645).epsilon(1e-7).scale(0));
+  CHECK(measured(0.84) > 137.9219);
+  CHECK(measured(0.88) > 137.9219);
 }
 
 TEST_CASE("hollow glass ball: a negative radius and a relative index turn rays alike, as Bouguer's invariant says") {

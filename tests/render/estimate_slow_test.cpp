@@ -79,11 +79,11 @@ void print_table(const std::vector<Case>& cases) {
   }
 }
 
-/// Among the cases with at least least_spp samples, the share whose estimate is too far from the true error.
-double share_outside(const std::vector<Case>& cases, std::uint32_t least_spp) {
+/// Among the cases with at least min_spp samples, the share whose estimate is too far from the true error.
+double fraction_outside(const std::vector<Case>& cases, std::uint32_t min_spp) {
   double outside = 0, all = 0;
   for (const Case& one : cases)
-    if (one.spp >= least_spp) ++all, outside += one.outside() ? 1 : 0;
+    if (one.spp >= min_spp) ++all, outside += one.outside() ? 1 : 0;
   return outside / all;
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("estimated error: within a quarter of the true one in 98 of 100 built-
     add_cases(built_in.name, resized(load_scene(built_in.name).scene), 2048, cases);
   print_table(cases);
   CHECK(cases.size() >= 44 * counts.size());
-  CHECK(share_outside(cases, 0) <= 0.02);
+  CHECK(fraction_outside(cases, 0) <= 0.02);
   for (const std::uint32_t spp : counts) CHECK(median(cases, spp) == doctest::Approx(1).epsilon(0.05).scale(0));
   for (const Case& one : cases) {
     CAPTURE(one.name);
@@ -118,5 +118,5 @@ TEST_CASE("estimated error: within a quarter of the true one in 9 of 10 random r
   for (unsigned seed = 1; seed <= 30; ++seed)
     add_cases("room " + std::to_string(seed), RandomRoom(seed).scene(), 1024, cases);
   print_table(cases);
-  CHECK(share_outside(cases, 8) <= 0.1);
+  CHECK(fraction_outside(cases, 8) <= 0.1);
 }

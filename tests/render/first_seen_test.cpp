@@ -26,11 +26,11 @@ Seen seen_in(const char* name, double spp, const Region& region, int threads = 2
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
   const auto kernels = choose_kernels(isa);
-  Crew crew(threads);
+  ThreadPool thread_pool(threads);
   Seen seen;
   seen.input.spp = spp;
   const SceneView scene_view = view.view();
-  REQUIRE(find_first_seen(region, {crew, *kernels, scene_view}, false, seen.input, seen.made));
+  REQUIRE(find_first_seen(region, {thread_pool, *kernels, scene_view}, false, seen.input, seen.made));
   return seen;
 }
 
@@ -39,13 +39,13 @@ constexpr int nearness = 6;
 
 /// How much of a pixel is covered by what is seen there, where all that is seen is far from the camera alike.
 int partly_covered(const Seen& seen) {
-  float most = 0;
+  float maximum = 0;
   for (int y = 0; y < 54; ++y)
-    for (int x = 0; x < 96; ++x) most = std::max(most, seen.at(nearness, x, y));
+    for (int x = 0; x < 96; ++x) maximum = std::max(maximum, seen.at(nearness, x, y));
   int pixels = 0;
   for (int y = 0; y < 54; ++y)
     for (int x = 0; x < 96; ++x) {
-      const float covered = seen.at(nearness, x, y) / most;
+      const float covered = seen.at(nearness, x, y) / maximum;
       pixels += covered > 0.02f && covered < 0.4f ? 1 : 0;
     }
   return pixels;
@@ -98,8 +98,8 @@ TEST_CASE("first seen: gives up") {
   const SceneViewOf view(compiled);
   const SceneView scene_view = view.view();
   const auto kernels = choose_kernels("");
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   CleanInput input;
   FirstSeenParts made;
-  CHECK_FALSE(find_first_seen({0, 0, 16, 9}, {crew, *kernels, scene_view}, true, input, made));
+  CHECK_FALSE(find_first_seen({0, 0, 16, 9}, {thread_pool, *kernels, scene_view}, true, input, made));
 }

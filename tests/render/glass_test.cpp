@@ -9,8 +9,8 @@ using namespace tyndall::test;
 
 namespace {
 
-/// Ray of impact parameter `impact` on a ball of radius `scale`.
-Scene ball_seen_at(double impact, double scale) {
+/// Ray of impact parameter `impact` on a sphere of radius `scale`.
+Scene sphere_seen_at(double impact, double scale) {
   Scene scene = white_room();
   aim(scene, {impact * scale, 0, 5 * scale}, {impact * scale, 0, 0});
   return scene;
@@ -73,7 +73,7 @@ TEST_CASE("coloured glass: a ball that absorbs inside") {
       CAPTURE(scale);
       CAPTURE_BOUND(index);
       CAPTURE_BOUND(impact);
-      Scene scene = ball_seen_at(impact, scale);
+      Scene scene = sphere_seen_at(impact, scale);
       scene.render.seed = ++seed;
       add(scene, sphere({0, 0, 0}, scale), glass(index));
       add_medium(scene, sphere({0, 0, 0}, scale), {density / scale, 0}, 0);

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-/// Light sampling gives the same light as paths that meet lamps by chance, and as closed formulas.
+/// Light sampling gives the same light as paths that meet lights by chance, and as closed formulas.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -173,8 +173,8 @@ TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on
 }
 
 TEST_CASE("light sampling without weights: no sample is out of a film's range, and the mean is right") {
-  // Fog with a sharp forward peak under 16 lamps and a bright sphere around it all: samples of thousands of times the
-  // brightest lamp's radiance are rare, and a fifth of the mean.
+  // Media with a sharp forward peak under 16 lights and a bright sphere around it all: samples of thousands of times
+  // the brightest light's radiance are rare, and a fifth of the mean.
   Scene scene = white_room();
   scene.width = scene.height = 24;
   scene.background = Vec3d{0, 0, 0};

@@ -1,12 +1,12 @@
-#include "tests/support/chain_rooms.h"
 #include "tests/support/light_comparison.h"
+#include "tests/support/specular_rooms.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-/// Every kind of chain is compared with light tracing. In most rooms this would reveal a weight that is wrong by half a
-/// percent; with solid glass, whose caustics have bright edges, one that is wrong by a few percent.
+/// Every kind of specular path is compared with light tracing. In most rooms this would reveal a weight that is wrong
+/// by half a percent; with solid glass, whose caustics have bright edges, one that is wrong by a few percent.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -14,9 +14,9 @@ TEST_CASE("chains: each kind gives what light tracing gives, in the mean and blo
   constexpr int seeds = 8;
   double squares = 0;
   int count = 0;
-  for (const ChainRoom& room : chain_rooms()) {
+  for (const SpecularRoom& room : specular_rooms()) {
     CAPTURE(room.name);
-    REQUIRE(compile(room.scene).chains.ball.size() > 0);
+    REQUIRE(compile(room.scene).specular.sphere.size() > 0);
     LightTracing how;
     how.particles = static_cast<std::uint64_t>(room.particles);
     const LightTraced traced = trace_light(room.scene, how);

@@ -1,18 +1,18 @@
-#include "tests/support/chain_rooms.h"
 #include "tests/support/light_comparison.h"
 #include "tests/support/probe.h"
+#include "tests/support/specular_rooms.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-/// The light tracer of the tests, and chains held against it.
+/// The light tracer of the tests, and specular paths held against it.
 using namespace tyndall;
 using namespace tyndall::test;
 
 namespace {
 
-/// Checks that renders and light tracing agree. precision: largest standard error of each, as a share of the mean.
+/// Checks that renders and light tracing agree. precision: largest standard error of each, as a fraction of the mean.
 void check_agreement(const Scene& scene, int spp, double particles, double precision) {
   LightTracing how;
   how.particles = static_cast<std::uint64_t>(particles);
@@ -68,7 +68,7 @@ TEST_CASE("light tracer: what paths from the camera find, off fuzzy metal, throu
 }
 
 TEST_CASE("chains: the mean of what light tracing finds") {
-  for (const ChainRoom& room : chain_rooms()) {
+  for (const SpecularRoom& room : specular_rooms()) {
     const bool quick = room.name == "mirror" || room.name == "shell" || room.name == "bulb" ||
                        room.name == "mirror in fog" || room.name == "flat mirror";
     if (!quick) continue;

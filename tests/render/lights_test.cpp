@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-/// Irradiance of lamps of radiance 1 on a matt surface: its radiance is albedo · E / π.
+/// Irradiance of lights of radiance 1 on a matt surface: its radiance is albedo · E / π.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -48,7 +48,7 @@ TEST_CASE("light: square lamps above a floor, in the middle and at a corner") {
       const double from = corner ? 0 : -0.5;
       add(scene, Quad<>{{from, c.height, from}, {1, 0, 0}, {0, 0, 1}}, lamp(1));
       lamps.check(scene, corner ? c.corner : c.centred);
-      // Both of a lamp's sides shine alike.
+      // Both of a light's sides shine alike.
       scene.objects.pop_back();
       add(scene, Quad<>{{from, c.height, from}, {0, 0, 1}, {1, 0, 0}}, lamp(1));
       lamps.check(scene, corner ? c.corner : c.centred);

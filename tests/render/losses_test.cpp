@@ -16,7 +16,7 @@ using namespace tyndall::test;
 
 namespace {
 
-/// Fog in which one of two media has an albedo that is no number: some samples meet it.
+/// Media in which one of two media has an albedo that is no number: some samples meet it.
 RenderScene poisoned() {
   Scene scene = white_room();
   scene.width = 40, scene.height = 30;
@@ -49,14 +49,14 @@ std::vector<RejectedSample> all_rejected(const RenderScene& scene, const Kernels
     for (int x = 0; x < scene.width; ++x)
       for (std::uint32_t i = 0; i < spp; ++i) {
         FilmPixel pixel{};
-        UnitCounts counts;
-        kernels.render_unit(view.view(), {{x, y, x + 1, y + 1}, 1, 0, i, i + 1}, scene.film_unit, &pixel, counts);
+        TileCounts counts;
+        kernels.render_tile(view.view(), {{x, y, x + 1, y + 1}, 1, 0, i, i + 1}, scene.film_quantum, &pixel, counts);
         if (pixel.rejected[0] + pixel.rejected[1] > 0) all.push_back({x, y, i});
       }
   return all;
 }
 
-/// A matt hollow ball of albedo rho around the eye, without light.
+/// A matt hollow sphere of albedo rho around the eye, without light.
 Scene cave(double rho, int depth) {
   Scene scene = dark_room();
   add(scene, sphere({0, 0, 0}, 1), lambertian(rho));
@@ -103,11 +103,11 @@ TEST_CASE("rejected samples: shards find the ones of their own range") {
 TEST_CASE("rejected samples: a pass counts those of both halves") {
   const RenderScene scene = poisoned();
   const SceneViewOf view(scene);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const std::atomic<bool> no = false;
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_unit, false);
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum, false);
   Pass pass(film.region, 0, 16);
-  REQUIRE(pass.run(crew, scalar_kernels(), view.view(), film, no));
+  REQUIRE(pass.run(thread_pool, scalar_kernels(), view.view(), film, no));
   std::uint64_t rejected[2] = {0, 0};
   for (const FilmPixel& pixel : film.pixels)
     for (int half = 0; half < 2; ++half) rejected[half] += pixel.rejected[half];
@@ -159,20 +159,22 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
     CHECK(result_of(scene, kernels.isa, 7, 5, 0, 24).film == whole);
     CHECK(merged({{"b", result_of(scene, kernels.isa, 2, 9, 11, 13).film},
                   {"a", result_of(scene, kernels.isa, 3, 64, 0, 11).film}}) == whole);
-    Crew crew(2);
+    ThreadPool thread_pool(2);
     const SceneViewOf view(scene);
-    Film film = make_film(61, 43, whole.region, 0, scene.film_unit, !whole.emission.empty());
+    Film film = make_film(61, 43, whole.region, 0, scene.film_quantum, !whole.emission.empty());
     const std::atomic<bool> no = false, yes = true;
     Pass pass(whole.region, 0, 24, 1, 0, {16});
-    pass.run(crew, kernels, view.view(), film, yes);
-    for (int time = 0; time < 2; ++time) CHECK(pass.run(crew, kernels, view.view(), film, no));  // then nothing is left
+    pass.run(thread_pool, kernels, view.view(), film, yes);
+    for (int time = 0; time < 2; ++time)
+      CHECK(pass.run(thread_pool, kernels, view.view(), film, no));  // then nothing is left
     CHECK(film == whole);
-    Film uneven = make_film(61, 43, whole.region, 0, scene.film_unit, !whole.emission.empty());
+    Film uneven = make_film(61, 43, whole.region, 0, scene.film_quantum, !whole.emission.empty());
     Pass upper({0, 0, 61, 20}, 0, 24);
-    CHECK(upper.run(crew, kernels, view.view(), uneven, no));
+    CHECK(upper.run(thread_pool, kernels, view.view(), uneven, no));
     Progression picture;
     picture.go_on(std::move(uneven), {});
-    CHECK(picture.run_pass({crew, kernels, view.view()}, {}, no));  // gives all pixels the same number of samples
+    CHECK(
+        picture.run_pass({thread_pool, kernels, view.view()}, {}, no));  // gives all pixels the same number of samples
     CHECK(picture.film() == whole);
   }
 }

@@ -9,8 +9,8 @@ using namespace tyndall::test;
 
 namespace {
 
-/// A fog ball before a white room, seen whole: its pixels show different things.
-Scene fog_ball() {
+/// A media sphere before a white room, seen whole: its pixels show different things.
+Scene medium_sphere() {
   Scene scene = white_room();
   scene.width = scene.height = 16;
   scene.camera.look_from = {0, 0, 5};
@@ -28,13 +28,13 @@ TEST_CASE(
     "measuring: standard errors say how far measurements lie apart, also where pixels differ and points are even") {
   for (const SamplerKind sampler : {SamplerKind::random, SamplerKind::sobol}) {
     CAPTURE(static_cast<int>(sampler));
-    Scene scene = fog_ball();
+    Scene scene = medium_sphere();
     scene.render.sampler = sampler;
     const double truth = measure(scene, 2e-5).value.mean;
     ZScores scores;
     Moments z;
     for (std::uint32_t run = 1; run <= 100; ++run) {
-      scene.render.seed = run * most_rounds;
+      scene.render.seed = run * max_rounds;
       const FilmMean one = measure(scene, 5e-4).value;
       scores.add("fog ball", {one.mean, one.error}, truth, 5e-4 / truth);
       z.add(z_score(one, truth));
@@ -44,7 +44,7 @@ TEST_CASE(
 }
 
 TEST_CASE("measuring: the samples that planned the measurement are not part of it") {
-  Scene scene = fog_ball();
+  Scene scene = medium_sphere();
   const Measured measured = measure(scene, 1e-3);
   CHECK(measured.value.error <= 1e-3);
   const auto spp = static_cast<int>(measured.totals.samples / 256);
@@ -55,24 +55,25 @@ TEST_CASE("measuring: the samples that planned the measurement are not part of i
     found += one.mean == measured.value.mean && one.error == measured.value.error ? 1 : 0;
   }
   CHECK(found == 1);
-  CHECK(measure(fog_ball(), 1e-3).value.mean == measured.value.mean);
+  CHECK(measure(medium_sphere(), 1e-3).value.mean == measured.value.mean);
 }
 
 TEST_CASE("measuring: stops when it is told to") {
   int calls = 0;
-  const Measured measured = measure_mean(fog_ball(), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 2; });
+  const Measured measured =
+      measure_mean(medium_sphere(), {1, "", 1e-6}, [&](const RenderProgress&) { return ++calls < 2; });
   CHECK(measured.interrupted);
   CHECK(measured.totals.samples < 256 * 64);
 }
 
 TEST_CASE("measuring: ends early if the mean is clearly not the expected one") {
-  const Measured measured = measure_mean(fog_ball(), {1, "", 1e-7, 0.5});
+  const Measured measured = measure_mean(medium_sphere(), {1, "", 1e-7, 0.5});
   CHECK(measured.totals.samples == 256 * 64);
   CHECK(std::abs(z_score(measured.value, 0.5)) > 8);
 }
 
 TEST_CASE("measuring: a picture without noise takes no more samples than the pilot") {
-  Scene scene = fog_ball();
+  Scene scene = medium_sphere();
   scene.objects.clear();
   const Measured measured = measure(scene, 0);
   CHECK(measured.value.mean == 1);

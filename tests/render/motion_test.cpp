@@ -7,8 +7,8 @@ using namespace tyndall::test;
 
 namespace {
 
-/// A black ball of radius 1/2 that moves from the origin up by 2 while the shutter is open.
-Scene moving_ball(double y) {
+/// A black sphere of radius 1/2 that moves from the origin up by 2 while the shutter is open.
+Scene moving_sphere(double y) {
   Scene scene = white_room();
   add(scene, Sphere<>{{0, 0, 0}, 0.5, Vec3d{0, 2, 0}}, lambertian(0));
   aim(scene, {0, 0, 5}, {0, y, 0});
@@ -25,18 +25,18 @@ constexpr double coverage[][2] = {{-0.4, 0.05079872407968904}, {0.0, 0.25},
 TEST_CASE("motion: covers each point for its share of the time") {
   ZScores scores;
   std::uint32_t seed = 0;
-  for (const auto& [y, share] : coverage)
+  for (const auto& [y, fraction] : coverage)
     for (const int others : {0, 40}) {  // alone, and in a tree
-      Scene scene = moving_ball(y);
+      Scene scene = moving_sphere(y);
       for (int i = 0; i < others; ++i) add(scene, sphere({10.0 + i, 0, 0}, 0.3), lambertian(0.5));
       scene.render.seed = ++seed;
-      scores.add("seen past it", radiance(scene, 256), 1 - share, 5e-3);
-      if (others == 0) scores.add("scalar", radiance(scene, 32, "scalar"), 1 - share, 0.02);
+      scores.add("seen past it", radiance(scene, 256), 1 - fraction, 5e-3);
+      if (others == 0) scores.add("scalar", radiance(scene, 32, "scalar"), 1 - fraction, 0.02);
     }
 }
 
 TEST_CASE("motion: the shutter's times count, also a part, an instant and times beyond 1") {
-  Scene scene = moving_ball(1.0);
+  Scene scene = moving_sphere(1.0);
   ZScores scores;
   scene.camera.shutter_open = 0.25, scene.camera.shutter_close = 0.75;  // within 0.245 … 0.755 the centre covers it
   CHECK(common_value(scene) == 0);
@@ -52,14 +52,14 @@ TEST_CASE("motion: the shutter's times count, also a part, an instant and times 
 }
 
 TEST_CASE("motion: a mirror sees the ball where it is at the path's own time") {
-  // Seen in a mirror and directly at once, the ball covers both or neither: their product's mean is the coverage, not
+  // Seen in a mirror and directly at once, the sphere covers both or neither: their product's mean is the coverage, not
   // its square.
-  Scene scene = moving_ball(0.0);
+  Scene scene = moving_sphere(0.0);
   add(scene, Quad<>{{-50, -50, -5}, {100, 0, 0}, {0, 100, 0}}, metal(1, 0));
-  aim(scene, {0, 0.3, 5}, {0, 0.3, -5});  // past the ball, back from the mirror, past the ball again
+  aim(scene, {0, 0.3, 5}, {0, 0.3, -5});  // past the sphere, back from the mirror, past the sphere again
   scene.camera.shutter_close = 1;
   ZScores scores;
-  // The ball covers the ray while |2t - 0.3| < 0.5.
+  // The sphere covers the ray while |2t - 0.3| < 0.5.
   scores.add("there and back", radiance(scene, 8192), 0.6, 1e-3);
 }
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-/// Places where densities are zero or infinite, or where several lights share them: mirrors, shapes that touch, lamps
+/// Places where densities are zero or infinite, or where several lights share them: mirrors, shapes that touch, lights
 /// that overlap.
 using namespace tyndall;
 using namespace tyndall::test;
@@ -91,7 +91,7 @@ TEST_CASE("lights: two in exactly one place count as the first of them, by every
 
 TEST_CASE("contact: the shadow of a black ball that rests on a plane, down to a twentieth of its radius") {
   // At x radii from the contact, 1 - (1 + x^2)^(-3/2) of the sky is seen. If rays left surfaces by a least distance,
-  // light would leak in below the ball.
+  // light would leak in below the sphere.
   ZScores scores;
   std::uint32_t seed = 0;
   for (const double scale : {1e-3, 1.0, 1e3})

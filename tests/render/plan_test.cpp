@@ -132,9 +132,9 @@ TEST_CASE("plan: on the way through a round counts only grow, and fit into the m
 
 TEST_CASE("plan: a crew changes nothing; pixels without samples in a half have no say") {
   Film alone = film_of(warm_up, disc), shared = alone;
-  Crew crew(3);
+  ThreadPool thread_pool(3);
   plan_round(alone);
-  plan_round(shared, &crew);
+  plan_round(shared, &thread_pool);
   CHECK(alone == shared);
   Film lost = film_of(warm_up, disc);
   for (int x = 0; x < width; ++x) lost.at(x, 8).rejected[0] = warm_up / 2;

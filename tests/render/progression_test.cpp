@@ -44,8 +44,8 @@ TEST_CASE("an interrupted film that is continued is, bit for bit, the film of on
   for (const std::uint32_t first : {0u, 3u}) {
     const Film few = film_of(scene, first, 2), some = film_of(scene, first, 9), many = film_of(scene, first, 12);
     const Film uneven = mixed(few, some);
-    REQUIRE(totals(uneven).least_taken == 2);
-    REQUIRE(totals(uneven).most_taken == 9);
+    REQUIRE(totals(uneven).min_taken == 2);
+    REQUIRE(totals(uneven).max_taken == 9);
     CHECK(film_of(scene, first, 12, uneven) == many);
     CHECK(film_of(scene, first, 9, uneven) == some);
     CHECK(film_of(scene, first, 4, uneven) == some);  // no sample is thrown away
@@ -56,17 +56,17 @@ TEST_CASE("progression: making a film even can be interrupted, leaves whole pref
   const RenderScene scene = small_scene();
   const Film few = film_of(scene, 0, 2), some = film_of(scene, 0, 9);
   const Film before = mixed(few, some);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels kernels = *choose_kernels("");
   const SceneViewOf view(scene);
   Progression picture;
   picture.go_on(before, {});
   CHECK(picture.taken() == 2);
-  CHECK_FALSE(picture.run_pass({crew, kernels, view.view()}, {}, true));
+  CHECK_FALSE(picture.run_pass({thread_pool, kernels, view.view()}, {}, true));
   CHECK(picture.within_pass());
   CHECK(picture.film() == before);
   CHECK(picture.tally().rays == 0);
-  CHECK(picture.run_pass({crew, kernels, view.view()}, {}, false));
+  CHECK(picture.run_pass({thread_pool, kernels, view.view()}, {}, false));
   CHECK_FALSE(picture.within_pass());
   CHECK(picture.film() == some);
   CHECK(picture.taken() == 9);
@@ -75,10 +75,10 @@ TEST_CASE("progression: making a film even can be interrupted, leaves whole pref
 
 TEST_CASE("progression: a coarse pass, the rest of the first sample, then growing passes give the blocking film") {
   const RenderScene scene = small_scene();
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels kernels = *choose_kernels("");
   const SceneViewOf view(scene);
-  const RenderEngine engine{crew, kernels, view.view()};
+  const RenderEngine engine{thread_pool, kernels, view.view()};
   ProgressionOptions options;
   options.coarse_step = 4;
   Progression picture;
@@ -107,10 +107,10 @@ TEST_CASE("progression: a coarse pass of a scene that shares is replaced, with a
   scene.render.max_depth = 2;
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
-  REQUIRE(view.view().shares);
-  Crew crew(2);
+  REQUIRE(view.view().reuses_paths);
+  ThreadPool thread_pool(2);
   const Kernels kernels = *choose_kernels("");
-  const RenderEngine engine{crew, kernels, view.view()};
+  const RenderEngine engine{thread_pool, kernels, view.view()};
   ProgressionOptions options;
   options.coarse_step = 4;
   Progression picture;
@@ -143,10 +143,10 @@ TEST_CASE("progression: a coarse pass of a scene that shares is replaced, with a
 
 TEST_CASE("progression: ends at the first of the limits, but not before a pass") {
   const RenderScene scene = small_scene();
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels kernels = *choose_kernels("");
   const SceneViewOf view(scene);
-  const RenderEngine engine{crew, kernels, view.view()};
+  const RenderEngine engine{thread_pool, kernels, view.view()};
   Progression picture;
   picture.start(scene, {0, 0, scene.width, scene.height}, 0, {});
   const Limits no_time{.spp = {}, .seconds = 0}, rough{.spp = {}, .error = 1e6};
@@ -170,15 +170,15 @@ TEST_CASE("progression: levels that an estimate has asked for are not those of t
   Scene dim = lit;  // the same pixels decide, at half the level
   for (Material& material : dim.materials)
     if (std::holds_alternative<Light<>>(material.kind)) material.colour = 0.5 * std::get<Vec3d>(material.colour);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels kernels = *choose_kernels("");
   Progression picture;
   for (const Scene& scene : {lit, dim}) {
     const RenderScene compiled = compile(scene);
     const SceneViewOf view(compiled);
     picture.start(compiled, {0, 0, compiled.width, compiled.height}, 0, {});
-    while (!picture.reached({.spp = 4})) picture.run_pass({crew, kernels, view.view()}, {.spp = 4}, false);
-    picture.estimate_now({crew, kernels, view.view()}, false);
+    while (!picture.reached({.spp = 4})) picture.run_pass({thread_pool, kernels, view.view()}, {.spp = 4}, false);
+    picture.estimate_now({thread_pool, kernels, view.view()}, false);
     CHECK(picture.error() == estimate_error(compiled, kernels, picture.film()).relative_error);
     CHECK(picture.error() != estimated_relative_error(picture.film()));  // some were asked for
   }
@@ -186,10 +186,10 @@ TEST_CASE("progression: levels that an estimate has asked for are not those of t
 
 TEST_CASE("progression: the error is estimated when it is due, not after each pass") {
   const RenderScene scene = small_scene();
-  Crew crew(1);
+  ThreadPool thread_pool(1);
   const Kernels kernels = *choose_kernels("");
   const SceneViewOf view(scene);
-  const RenderEngine engine{crew, kernels, view.view()};
+  const RenderEngine engine{thread_pool, kernels, view.view()};
   const auto estimated_at = [&](const EstimateTimes& times) {
     ProgressionOptions options;
     options.estimates = times;
@@ -211,22 +211,22 @@ TEST_CASE("progression: the error is estimated when it is due, not after each pa
 
 TEST_CASE("pass length: doubles or adds a part, within the time and the most samples") {
   constexpr std::size_t full_hd = 1920 * 1080;
-  const PassLength doubling{.growth = 1, .most = 64, .seconds = 0.15};
+  const PassLength doubling{.growth = 1, .maximum = 64, .seconds = 0.15};
   CHECK(pass_samples(doubling, 0, full_hd, 0) == 1);
   CHECK(pass_samples(doubling, 1, full_hd, 1e12) == 1);
   CHECK(pass_samples(doubling, 2, full_hd, 1e12) == 2);
   CHECK(pass_samples(doubling, 40, full_hd, 1e12) == 40);
   CHECK(pass_samples(doubling, 1000, full_hd, 1e12) == 64);
-  CHECK(pass_samples({.growth = 1, .most = 64, .seconds = 0.5}, 1000, full_hd, 10.0 * full_hd) == 5);
+  CHECK(pass_samples({.growth = 1, .maximum = 64, .seconds = 0.5}, 1000, full_hd, 10.0 * full_hd) == 5);
   CHECK(pass_samples(doubling, 1000, full_hd, 1.0 * full_hd) == 1);
   CHECK(pass_samples(doubling, 1000, full_hd, 0) == 1);  // one, while the speed is not known
   CHECK(pass_samples(doubling, 3, 0, 1e6) == 3);
-  const PassLength few{.growth = 1, .most = 32, .least_seconds = 0.1};
+  const PassLength few{.growth = 1, .maximum = 32, .min_seconds = 0.1};
   CHECK(pass_samples(few, 0, full_hd, 0) == 1);
   CHECK(pass_samples(few, 1, full_hd, 70.0 * full_hd) == 7);
   CHECK(pass_samples(few, 12, full_hd, 70.0 * full_hd) == 12);
   CHECK(pass_samples(few, 1, full_hd, 7e5 * full_hd) == 32);
-  const PassLength quarter{.growth = 0.25, .most = 32};
+  const PassLength quarter{.growth = 0.25, .maximum = 32};
   CHECK(pass_samples(quarter, 1, full_hd, 0) == 1);
   CHECK(pass_samples(quarter, 15, full_hd, 0) == 3);
   CHECK(pass_samples(quarter, 1000, full_hd, 0) == 32);

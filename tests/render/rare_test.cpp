@@ -23,7 +23,7 @@ bool is_rare(Scene scene, std::uint32_t spp) {
   return has_rare_bright_paths(estimate_error(film), spp, chance_of_caustics(scene, compiled));
 }
 
-/// A glass ball under a lamp whose light only chance finds. The lamp has the same power at every radius.
+/// A glass sphere under a light whose light only chance finds. The light has the same power at every radius.
 Scene caustic(double radius) {
   Scene scene;
   scene.render.caustics = Caustics::scatter;

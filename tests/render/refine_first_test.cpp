@@ -30,10 +30,10 @@ TEST_CASE("a part that is refined first has prefixes of the same samples, and th
   // With light that groups of pixels share, and without.
   for (const char* name : {"cornell-box", "showroom"}) {
     const RenderScene scene = small(name);
-    Crew crew(2);
+    ThreadPool thread_pool(2);
     const Kernels kernels = *choose_kernels("");
     const SceneViewOf view(scene);
-    const RenderEngine engine{crew, kernels, view.view()};
+    const RenderEngine engine{thread_pool, kernels, view.view()};
     RenderOptions blocking;
     blocking.spp = 40;
     const Film whole = render(scene, blocking).film;
@@ -43,7 +43,7 @@ TEST_CASE("a part that is refined first has prefixes of the same samples, and th
     Progression picture;
     picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
     const Limits limits{.spp = 40};
-    while (picture.most_taken() < 40) REQUIRE(picture.run_pass(engine, limits, false));
+    while (picture.max_taken() < 40) REQUIRE(picture.run_pass(engine, limits, false));
     CHECK(picture.taken() == 1);
     CHECK(picture.film().at(25, 15) == whole.at(25, 15));
     CHECK(picture.film().at(60, 42).taken == 1);
@@ -71,10 +71,10 @@ TEST_CASE("a part that is refined first has prefixes of the same samples, and th
 
 TEST_CASE("a part that is refined first: beyond the picture it is nothing, and adaptive sampling knows better") {
   const RenderScene scene = small("cornell-smoke");
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels kernels = *choose_kernels("");
   const SceneViewOf view(scene);
-  const RenderEngine engine{crew, kernels, view.view()};
+  const RenderEngine engine{thread_pool, kernels, view.view()};
   for (const bool adaptive : {false, true}) {
     ProgressionOptions options;
     options.adaptive = adaptive;
@@ -83,7 +83,7 @@ TEST_CASE("a part that is refined first: beyond the picture it is nothing, and a
     picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
     for (int pass = 0; pass < 3; ++pass) REQUIRE(picture.run_pass(engine, {.spp = 64}, false));
     CHECK(picture.taken() == 4);
-    CHECK(picture.most_taken() == 4);
+    CHECK(picture.max_taken() == 4);
   }
 }
 
@@ -96,11 +96,11 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
   renderer.set(&RenderRequest::watched_pixel, std::pair{50, 50});
   const std::uint64_t edit = renderer.submit(scene);
   const FramePointer refined =
-      renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.most_spp == 64 && f.spp == 1; }, 0);
+      renderer.wait_for([&](const Frame& f) { return f.edit == edit && f.max_spp == 64 && f.spp == 1; }, 0);
   CHECK_FALSE(refined->finished);
   const FramePointer last = renderer.wait_finished(edit);
   CHECK(last->spp == 64);
-  CHECK(last->most_spp == 64);
+  CHECK(last->max_spp == 64);
   const auto report = renderer->pixel();
   REQUIRE(report);
   CHECK(report->x == 50);

@@ -14,8 +14,8 @@ using namespace tyndall::test;
 
 namespace {
 
-/// A red wall 4 away, on its left half a group with a green ball before it; beyond the wall's right edge blue sky.
-Scene wall_and_ball() {
+/// A red wall 4 away, on its left half a group with a green sphere before it; beyond the wall's right edge blue sky.
+Scene wall_and_sphere() {
   Scene scene;
   scene.width = 90, scene.height = 60;
   scene.background = Vec3d{0.1, 0.2, 0.9};
@@ -41,7 +41,7 @@ Vec3f pixel(const Frame& frame, int x, int y) {
 
 TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; they restart nothing") {
   WatchedRenderer renderer;
-  const std::uint64_t edit = renderer.submit(wall_and_ball());
+  const std::uint64_t edit = renderer.submit(wall_and_sphere());
   const FramePointer beauty = renderer.wait_finished(edit);
   const auto shown = [&](View view) {
     const std::size_t before = renderer.frames().size();
@@ -49,7 +49,7 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
     return renderer.wait_for([&](const Frame& f) { return f.view == view; }, before);
   };
   const FramePointer albedo = shown(View::albedo), normal = shown(View::normal), depth = shown(View::depth);
-  CHECK(pixel(*albedo, 27, 30) == Vec3f{0.1f, 0.7f, 0.1f});  // the ball
+  CHECK(pixel(*albedo, 27, 30) == Vec3f{0.1f, 0.7f, 0.1f});  // the sphere
   CHECK(pixel(*albedo, 50, 10) == Vec3f{0.8f, 0.1f, 0.1f});  // the wall
   CHECK(pixel(*albedo, 88, 30) == Vec3f{});                  // the sky
   CHECK(pixel(*normal, 50, 10) == Vec3f{0.5f, 0.5f, 1});
@@ -57,10 +57,10 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
   CHECK(pixel(*depth, 27, 30).x == doctest::Approx(2.5 / 4).epsilon(0.02).scale(0));
   CHECK(pixel(*shown(View::samples), 3, 3) == Vec3f{0.5f, 0.5f, 0.5f});  // all have as many
   const FramePointer cost = shown(View::cost);
-  float most = 0;
+  float maximum = 0;
   for (int y = 0; y < cost->height; ++y)
-    for (int x = 0; x < cost->width; ++x) most = std::max(most, pixel(*cost, x, y).x);
-  CHECK(most == 1);
+    for (int x = 0; x < cost->width; ++x) maximum = std::max(maximum, pixel(*cost, x, y).x);
+  CHECK(maximum == 1);
   CHECK(pixel(*cost, 88, 30).x > 0);
   CHECK(pixel(*cost, 88, 30).x < 0.7f * pixel(*cost, 50, 10).x);  // the sky and the wall
   CHECK(depth->white == doctest::Approx(4));                      // the wall is the farthest
@@ -85,7 +85,7 @@ TEST_CASE("views: albedo, normal, depth, samples and noise of what is there; the
 }
 
 TEST_CASE("views: the costs of the last scene stay until those of the new one are found") {
-  Scene scene = wall_and_ball();
+  Scene scene = wall_and_sphere();
   scene.width = 900, scene.height = 600;
   WatchedRenderer renderer;
   renderer.set_view(View::cost);
@@ -108,7 +108,7 @@ TEST_CASE("views: the costs of the last scene stay until those of the new one ar
 TEST_CASE("pick: the object's path, how deep it is, and where") {
   WatchedRenderer watched(1);
   const Renderer& renderer = *watched;
-  Scene scene = wall_and_ball();
+  Scene scene = wall_and_sphere();
   scene.objects[1].transform = {Translate{{-1 + 1e5, 0, -3}}};  // far from the origin the point keeps its digits
   scene.objects[2].transform = {Translate{{1e5, 0, 0}}};
   scene.camera.look_from.x = scene.camera.look_at.x = 1e5;
@@ -137,10 +137,10 @@ TEST_CASE("film: a copy of what was gathered, the same number of samples everywh
   for (int i = 0; i < 5; ++i) {
     const Film film = renderer.film();
     const FilmTotals t = totals(film);
-    CHECK(t.least_taken == t.most_taken);
-    REQUIRE(t.least_taken > 0);
+    CHECK(t.min_taken == t.max_taken);
+    REQUIRE(t.min_taken > 0);
     RenderOptions options;
-    options.spp = t.least_taken;
+    options.spp = t.min_taken;
     CHECK(film == render(compile(scene), options).film);
     if (i == 3) watched.pause(true);
   }

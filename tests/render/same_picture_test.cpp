@@ -25,8 +25,8 @@ const std::vector<RenderScene>& scenes() {
       list.push_back(compile(small_scene(name, width, height, 1)));
     for (const char* name : {"cornell-box", "cornell-smoke"}) list.push_back(compile(close_up(name, width, height)));
     list.push_back(compile(caustic_close_up(width, height)));
-    const auto shares = [](const RenderScene& scene) { return SceneViewOf(scene).view().shares; };
-    CHECK(std::count_if(list.begin(), list.end(), shares) == 4);
+    const auto reuses_paths = [](const RenderScene& scene) { return SceneViewOf(scene).view().reuses_paths; };
+    CHECK(std::count_if(list.begin(), list.end(), reuses_paths) == 4);
     return list;
   }();
   return all;
@@ -118,23 +118,23 @@ TEST_CASE("same picture: a region is cut from the whole") {
 }
 
 TEST_CASE("same picture: passes given up any number of times; every pixel's samples stay a prefix") {
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels real = available_kernels().back();
   Kernels stopping = real;
-  for (auto* kernels : {&stopping.render_alone, &stopping.render_shared})
-    std::fill(std::begin(*kernels), std::end(*kernels), stopping_unit);
+  for (auto* kernels : {&stopping.render_alone, &stopping.render_reusing})
+    std::fill(std::begin(*kernels), std::end(*kernels), stopping_tile);
   int abandoned = 0;
   for (const RenderScene& scene : scenes()) {
     const SceneViewOf view(scene);
     const Film whole = shard(scene, real, 0, 24);
     stop.real = real;
-    Film film = make_film(width, height, whole.region, 0, scene.film_unit, !whole.emission.empty());
+    Film film = make_film(width, height, whole.region, 0, scene.film_quantum, !whole.emission.empty());
     for (const auto& [first, last] : {std::pair{0u, 1u}, {1u, 3u}, {3u, 24u}}) {
       Pass pass(whole.region, first, last, 1, 0, {8});
       for (bool done = false; !done;) {
-        stop.units_left = 3;
+        stop.tiles_left = 3;
         stop.give_up = false;
-        done = pass.run(crew, stopping, view.view(), film, stop.give_up);
+        done = pass.run(thread_pool, stopping, view.view(), film, stop.give_up);
         abandoned += done ? 0 : 1;
         for (const FilmPixel& pixel : film.pixels) REQUIRE((pixel.taken == first || pixel.taken == last));
       }
@@ -145,19 +145,19 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
 }
 
 TEST_CASE("same picture: coarse passes and the rest of the first sample are the first sample") {
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Kernels kernels = available_kernels().back();
   for (const RenderScene& scene : scenes()) {
     const SceneViewOf view(scene);
-    if (view.view().shares) continue;  // a coarse pass takes samples without their groups, which are replaced
+    if (view.view().reuses_paths) continue;  // a coarse pass takes samples without their groups, which are replaced
     const Film whole = shard(scene, kernels, 0, 1);
     for (const int step : {8, 4, 2}) {
-      Film film = make_film(width, height, whole.region, 0, scene.film_unit, !whole.emission.empty());
+      Film film = make_film(width, height, whole.region, 0, scene.film_quantum, !whole.emission.empty());
       const std::atomic<bool> give_up = false;
       Pass coarse(whole.region, 0, 1, step), rest(whole.region, 0, 1, 1, step);
-      CHECK(coarse.run(crew, kernels, view.view(), film, give_up));
+      CHECK(coarse.run(thread_pool, kernels, view.view(), film, give_up));
       CHECK(coarse.paths() == static_cast<std::uint64_t>(((width + step - 1) / step) * ((height + step - 1) / step)));
-      CHECK(rest.run(crew, kernels, view.view(), film, give_up));
+      CHECK(rest.run(thread_pool, kernels, view.view(), film, give_up));
       CHECK(coarse.paths() + rest.paths() == width * height);
       CHECK(film == whole);
     }
@@ -173,13 +173,13 @@ TEST_CASE("render: stops where it is told to and says so") {
     return ++calls < 3;
   });
   CHECK(stopped.interrupted);
-  CHECK(totals(stopped.film).most_taken < 1000000);
+  CHECK(totals(stopped.film).max_taken < 1000000);
   options.spp.reset();
   options.time_limit = 0.05;
   const RenderResult timed = render(scene, options);
   CHECK_FALSE(timed.interrupted);
   CHECK(timed.seconds >= 0.05);
-  CHECK(totals(timed.film).least_taken == totals(timed.film).most_taken);
+  CHECK(totals(timed.film).min_taken == totals(timed.film).max_taken);
   CHECK(timed.rays > totals(timed.film).samples);
   options.isa = "no such set";
   CHECK_THROWS_AS(render(scene, options), std::invalid_argument);

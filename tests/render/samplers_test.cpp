@@ -22,11 +22,11 @@ std::vector<Known> known() {
   add(sky, Quad<>{{-100, 0, -100}, {0, 0, 200}, {200, 0, 0}}, lambertian(1));
   aim(sky, {0, 3, 1}, {0, 0, 0});
 
-  Scene lamp_above = dark_room();
-  lamp_above.render.integrator = Integrator::mis;
-  add(lamp_above, Quad<>{{-0.05, 0, -0.05}, {0, 0, 0.1}, {0.1, 0, 0}}, lambertian(0.8));
-  add(lamp_above, Quad<>{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}, lamp(1));
-  aim(lamp_above, {0.01, 0.02, 0.005}, {0, 0, 0});
+  Scene light_above = dark_room();
+  light_above.render.integrator = Integrator::mis;
+  add(light_above, Quad<>{{-0.05, 0, -0.05}, {0, 0, 0.1}, {0.1, 0, 0}}, lambertian(0.8));
+  add(light_above, Quad<>{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}, lamp(1));
+  aim(light_above, {0.01, 0.02, 0.005}, {0, 0, 0});
 
   Scene fog = white_room();
   add_medium(fog, sphere({0, 0, 0}, 1), {1, 0}, 0.9);
@@ -42,7 +42,7 @@ std::vector<Known> known() {
   shutter.camera.shutter_close = 1;
 
   return {{"matt plane under the sky", sky, 0.5833333333333333},
-          {"rectangular lamp", lamp_above, 0.8 * 0.4352098756835516 / pi},
+          {"rectangular lamp", light_above, 0.8 * 0.4352098756835516 / pi},
           {"fog ball", fog, 0.8580551818624801},
           {"smoke ball", smoke, 0.13533528323661267},
           {"moving ball", shutter, 1 - 0.4004495957273638}};

@@ -50,7 +50,7 @@ Difference difference(const Film& a, const Film& b) {
           squares > 0 ? std::abs(change) / std::sqrt(squares) : 0};
 }
 
-/// Balls of all materials, fog, a lamp and a turned box, in numbers that shifts by powers of two leave exact.
+/// Spheres of all materials, media, a light and a turned box, in numbers that shifts by powers of two leave exact.
 Scene shelf() {
   Scene scene = white_room();
   scene.background = Gradient{{0.2, 0.2, 0.25}, {0.5, 0.6, 0.8}};
@@ -125,15 +125,15 @@ TEST_CASE("scale: a scene more than a hundred thousand units away is the same pi
   const Scene scene = shelf();
   for (const Kernels& kernels : available_kernels()) {
     const Film film = small_film(scene, kernels.isa);
-    for (const Vec3d way : {Vec3d{131072, 0, 0}, Vec3d{-131072, 262144, 524288}, Vec3d{0, -0x1p30, 0}})
-      CHECK(small_film(moved(scene, way), kernels.isa) == film);
+    for (const Vec3d direction : {Vec3d{131072, 0, 0}, Vec3d{-131072, 262144, 524288}, Vec3d{0, -0x1p30, 0}})
+      CHECK(small_film(moved(scene, direction), kernels.isa) == film);
     CHECK_FALSE(small_film(moved(scene, {0.1, 0, 0}), kernels.isa) == small_film(scaled(scene, 1.1), kernels.isa));
   }
 }
 
 TEST_CASE("scale: the same seen from inside glass and from inside fog") {
   for (const Vec3d eye : {Vec3d{0.0625, 0.5, 0.9375}, Vec3d{0.25, 0.75, 0.5}, Vec3d{0.5, 1.5, 1.5}}) {
-    Scene scene = shelf();  // in the shell, in the hollow, in the fog
+    Scene scene = shelf();  // in the shell, in the hollow, in the media
     scene.camera.look_from = eye;
     scene.camera.look_at = eye + Vec3d{-0.5, -0.25, -1};
     const Film film = small_film(scene);

@@ -16,15 +16,15 @@ namespace {
 Film picture_of(Scene scene, bool sharing, std::uint32_t seed, std::uint32_t spp) {
   scene.render.seed = seed;
   const RenderScene compiled = compile(scene);
-  CHECK(compiled.may_share);
+  CHECK(compiled.may_reuse_paths);
   const SceneViewOf of_scene(compiled);
   SceneView view = of_scene.view();
-  view.shares = sharing;
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, compiled.film_unit);
+  view.reuses_paths = sharing;
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, compiled.film_quantum);
   Pass pass(film.region, 0, spp, 1, 0, {0, sharing});
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const std::atomic<bool> give_up = false;
-  CHECK(pass.run(crew, available_kernels().back(), view, film, give_up));
+  CHECK(pass.run(thread_pool, available_kernels().back(), view, film, give_up));
   return film;
 }
 
@@ -74,8 +74,8 @@ Scene room_with_posts() {
   return scene;
 }
 
-/// Fog in half of the room, so that groups see walls and fog together, and a wall that reflects no green.
-Scene room_with_fog() {
+/// Media in half of the room, so that groups see walls and media together, and a wall that reflects no green.
+Scene room_with_medium() {
   Scene scene = box(48);
   add_medium(scene, Box<>{{1, 1, 1}, {554, 300, 554}}, {2e-2}, 0.95);
   for (Material& m : scene.materials)
@@ -88,7 +88,7 @@ Scene room_with_fog() {
 TEST_CASE("sharing: what leaves the blocks of a picture is what separate paths find") {
   const std::pair<const char*, Scene> cases[] = {{"room", box(48)},
                                                  {"posts", room_with_posts()},
-                                                 {"fog", room_with_fog()},
+                                                 {"fog", room_with_medium()},
                                                  {"mirror ball", small_scene("stress-caustic-mirror", 64, 48, 1)},
                                                  {"glass ball", small_scene("stress-caustic-glass", 64, 48, 1)},
                                                  {"shell in fog", small_scene("stress-caustic-shell", 64, 48, 1)},
@@ -134,26 +134,27 @@ TEST_CASE("sharing: rooms have far less noise") {
 }
 
 TEST_CASE("sharing: a scene shares where a probe says that it pays, whatever its seed") {
-  const auto shares = [](const char* name, auto change) {
+  const auto reuses_paths = [](const char* name, auto change) {
     Scene scene = load_scene(name).scene;
     change(scene);
-    return SceneViewOf(compile(scene)).view().shares;
+    return SceneViewOf(compile(scene)).view().reuses_paths;
   };
   const auto as_it_is = [](Scene&) {};
   for (const char* name : {"cornell-box", "cornell-smoke", "stress-white-room", "stress-caustic-mirror"})
-    CHECK(shares(name, as_it_is));
+    CHECK(reuses_paths(name, as_it_is));
   for (const char* name : {"cover", "showroom", "next-week", "quads", "checkered-spheres", "stress-dense-fog"})
-    CHECK_FALSE(shares(name, as_it_is));
-  for (const std::uint32_t seed : {1u, 77u}) CHECK(shares("cornell-box", [&](Scene& s) { s.render.seed = seed; }));
-  CHECK_FALSE(shares("cornell-box", [](Scene& s) { s.render.sharing = false; }));
-  CHECK_FALSE(shares("cornell-box", [](Scene& s) { s.render.integrator = Integrator::path; }));
-  CHECK_FALSE(shares("cornell-box", [](Scene& s) { s.width = s.height = 1; }));
+    CHECK_FALSE(reuses_paths(name, as_it_is));
+  for (const std::uint32_t seed : {1u, 77u})
+    CHECK(reuses_paths("cornell-box", [&](Scene& s) { s.render.seed = seed; }));
+  CHECK_FALSE(reuses_paths("cornell-box", [](Scene& s) { s.render.sharing = false; }));
+  CHECK_FALSE(reuses_paths("cornell-box", [](Scene& s) { s.render.integrator = Integrator::path; }));
+  CHECK_FALSE(reuses_paths("cornell-box", [](Scene& s) { s.width = s.height = 1; }));
 }
 
 TEST_CASE("sharing: the probe is near to what sharing changes") {
   const Scene box = small_scene("cornell-box", 256, 256, 1);
   const RenderScene compiled = compile(box);
-  const SharingGain gain = probe_sharing(SceneViewOf(compiled).view(), trace_groups);
+  const ReuseGain gain = probe_reuse(SceneViewOf(compiled).view(), trace_groups);
   CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4).scale(0));
   CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2).scale(0));
 }
@@ -162,16 +163,16 @@ TEST_CASE("sharing: pixels that lack different numbers of samples get the sample
   const Scene scene = close_up("cornell-box", 37, 29);
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
-  REQUIRE(view.view().shares);
+  REQUIRE(view.view().reuses_paths);
   const Film few = picture_of(scene, true, 0, 2), whole = picture_of(scene, true, 0, 9);
   std::vector<std::uint32_t> wanted(few.pixels.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i % 3 == 0 ? 9 : i % 3 == 1 ? 5 : 2;
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const std::atomic<bool> give_up = false;
   for (const int edge : {0, 5, 16}) {
     Film film = few;
     Pass pass(film, wanted, Tiling{edge, true});
-    CHECK(pass.run(crew, available_kernels().back(), view.view(), film, give_up));
+    CHECK(pass.run(thread_pool, available_kernels().back(), view.view(), film, give_up));
     const Film middle = picture_of(scene, true, 0, 5);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const Film& expected = wanted[i] == 9 ? whole : wanted[i] == 5 ? middle : few;
@@ -188,8 +189,8 @@ TEST_CASE("sharing: the wall of an integrating sphere, where all pixels see the 
   add(scene, sphere({0, 0, 0}, light), lamp(1));
   aim(scene, {0, 0.2, 0.5}, {0, 0.5, 1});
   const RenderScene compiled = compile(scene);
-  REQUIRE(SceneViewOf(compiled).view().shares);
-  // A wall point sees the lamp under the share light² of its cosine-weighted sky, and the wall itself under the rest.
+  REQUIRE(SceneViewOf(compiled).view().reuses_paths);
+  // A wall point sees the light under the share light² of its cosine-weighted sky, and the wall itself under the rest.
   const double f = light * light;
   ZScores scores;
   scores.add("wall", radiance(scene, 1024), rho * f / (1 - rho * (1 - f)), 2e-3);

@@ -35,10 +35,10 @@ struct Ready {
   RenderScene scene;
   SceneViewOf view{scene};
   Kernels kernels = *choose_kernels("");
-  Crew crew;
-  RenderEngine engine{crew, kernels, view.view()};
+  ThreadPool thread_pool;
+  RenderEngine engine{thread_pool, kernels, view.view()};
 
-  Ready(const Scene& from, int threads) : scene(compile(from)), crew(threads) {}
+  Ready(const Scene& from, int threads) : scene(compile(from)), thread_pool(threads) {}
 };
 
 }  // namespace
@@ -95,25 +95,25 @@ TEST_CASE("levels: those of pixels with glints are known, where they are few") {
   scene.width = 111, scene.height = 83;
   Ready ready(scene, 2);
   const Film film = film_of(ready.scene, {0, 0, 111, 83}, 4), part = film_of(ready.scene, {53, 30, 90, 60}, 4);
-  const std::vector<std::size_t> pixels = pixels_with_glints(ready.view.view(), film);
+  const std::vector<std::size_t> pixels = pixels_with_subpixel_lights(ready.view.view(), film);
   REQUIRE(pixels.size() > 4);
   CHECK(std::is_sorted(pixels.begin(), pixels.end()));
   CHECK(std::count(pixels.begin(), pixels.end(), film.index(53, 35)) == 1);
-  const std::vector<std::size_t> in_part = pixels_with_glints(ready.view.view(), part);
+  const std::vector<std::size_t> in_part = pixels_with_subpixel_lights(ready.view.view(), part);
   CHECK(in_part.size() < pixels.size());
   CHECK(std::count(in_part.begin(), in_part.end(), part.index(53, 35)) == 1);
-  // Both halves of one pixel met the lamp, which one sample in 17 does.
+  // Both halves of one pixel met the light, which one sample in 17 does.
   PixelLevels levels;
   const std::atomic<bool> never = false;
   const ErrorEstimate by_noise = estimate_error(film, nullptr, levels_of(film, ready.engine, levels, never));
   const ErrorEstimate known = estimate_error(film, ready.engine, levels, never);
   CHECK(known.relative_error > 1.1 * by_noise.relative_error);
   const Ready plain(small("cornell-box"), 1);
-  CHECK(pixels_with_glints(plain.view.view(), film).empty());
+  CHECK(pixels_with_subpixel_lights(plain.view.view(), film).empty());
 }
 
 TEST_CASE("levels: the error of a picture with a lamp that is smaller than a pixel") {
-  // Single samples meet the lamp by chance: from the film alone it looks like a rare path.
+  // Single samples meet the light by chance: from the film alone it looks like a rare path.
   Scene scene = small("stress-light-and-fuzz");
   scene.width = 111, scene.height = 83;
   const RenderScene compiled = compile(scene);

@@ -74,7 +74,7 @@ void drag_each(const Owner& owner, const Use& use) {
   std::apply([&](const auto&... field) { (drag(field), ...); }, fields_of<Owner>());
 }
 
-/// A floor and a lamp, with room for the thing that is tested; light reaches every corner.
+/// A floor and a light, with room for the thing that is tested; light reaches every corner.
 Scene stage() {
   Scene scene = white_room();
   scene.width = 24, scene.height = 18;
@@ -112,15 +112,15 @@ void check_stage(const Scene& scene) {
     same += mean(film, pixel) == mean(film, film.pixels[0]) ? 1 : 0;
   }
   CHECK(mean_value > 1e-4);
-  CHECK(mean_value <= 3);  // the lamp
-  // A picture of one colour only where everything seen is the lamp, or all is hidden by a ball around the camera.
+  CHECK(mean_value <= 3);  // the light
+  // A picture of one colour only where everything seen is the light, or all is hidden by a sphere around the camera.
   CHECK((same < static_cast<int>(film.pixels.size()) || mean_value == 3 || mean_value < 1));
 }
 
 /// Checks that no pixel is above 1 when the same things are alone in a white room.
 void check_furnace(Scene scene) {
   scene.background = Vec3d{1, 1, 1};
-  scene.objects.erase(scene.objects.begin() + 1);  // the lamp
+  scene.objects.erase(scene.objects.begin() + 1);  // the light
   if (refused(scene)) return;
   ++pictures;
   const Film film = film_of(scene, 2);

@@ -30,8 +30,8 @@ template <class Edit>
 std::string where_after(const Edit& edit) {
   Scene scene = good();
   edit(scene);
-  const auto broken = check(scene);
-  return broken ? broken->where : "";
+  const auto error = check(scene);
+  return error ? error->where : "";
 }
 
 Solid3d& solid(Scene& scene) { return std::get<Solid3d>(scene.objects[0].kind); }

@@ -59,7 +59,7 @@ std::string choices(const T*) {
   std::string words;
   if constexpr (NamedEnum<T>)
     for (int i = 0; i < count_of<T>(); ++i) {
-      const Word choice = word(static_cast<T>(i));
+      const Label choice = label(static_cast<T>(i));
       words += std::string(i > 0 ? "; " : ": ") + choice.name + ", " + choice.help;
     }
   return words;

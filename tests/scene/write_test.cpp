@@ -86,9 +86,9 @@ TEST_CASE("write_scene: random scenes come back equal") {
   for (unsigned seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
     const Scene scene = random_scene(seed);
-    const Broken none;
-    const Broken broken = check(scene).value_or(none);
-    REQUIRE(broken.where + broken.found == "");
+    const ParseError none;
+    const ParseError error = check(scene).value_or(none);
+    REQUIRE(error.where + error.found == "");
     const std::string text = write_scene(scene);
     const Scene again = read_text(text);
     CHECK(again == scene);

@@ -103,14 +103,14 @@ TEST_CASE("box: turned and moved, hits are on its surface and the face's normal 
           place(placement, {half.x * uniform(engine, -0.99, 0.99), half.y * uniform(engine, -0.99, 0.99),
                             half.z * uniform(engine, -0.99, 0.99)});
       const Vec3d from = through + 8.0 * direction(engine);
-      const Vec3f o = rounded(from), d = unit(through - from);
+      const Vec3f o = rounded(from), d = unit_vector(through - from);
       const BoxSlabs<float> slabs = box_slabs(map, o, d);
       wrong += slabs.inside.hit && slabs.inside.near > 0 ? 0 : 1;
       for (const bool entering : {true, false}) {
         const auto face = static_cast<std::size_t>(box_face(slabs, entering));
         const Vec3f normal{elements.x[face], elements.y[face], elements.z[face]};
         wrong += (dot(normal, d) < 0) == entering ? 0 : 1;
-        const Vec3f p = along(o, entering ? slabs.inside.near : slabs.inside.far, d);
+        const Vec3f p = point_at(o, entering ? slabs.inside.near : slabs.inside.far, d);
         float edge[3];
         for (int row = 0; row < 3; ++row) edge[row] = affine_point(map, row, p);
         const float own = edge[face / 2] * (face % 2 ? 1.0f : -1.0f);
@@ -134,12 +134,12 @@ TEST_CASE("box: a ray that leaves outward never meets it again, one that starts 
     for (int i = 0; i < 20000; ++i) {
       const Vec3d from = placement.offset + 6 * scale * direction(engine);
       const Vec3f o = rounded(from);
-      const Vec3f way = unit(placement.offset + scale * in_cube(engine, 0.9) - from);
-      const BoxSlabs<float> slabs = box_slabs(map, o, way);
+      const Vec3f heading = unit_vector(placement.offset + scale * in_cube(engine, 0.9) - from);
+      const BoxSlabs<float> slabs = box_slabs(map, o, heading);
       if (!slabs.inside.hit) continue;
       const int face = box_face(slabs, true);
-      const Vec3f p = along(o, slabs.inside.near, way);
-      Vec3f d = unit(direction(engine));
+      const Vec3f p = point_at(o, slabs.inside.near, heading);
+      Vec3f d = unit_vector(direction(engine));
       const float rising = affine_direction(map, face / 2, d) * (face % 2 ? 1.0f : -1.0f);
       const bool out = rising > 0;
       const std::int32_t start = 4 * (first + face) + static_cast<std::int32_t>(out ? Side::outward : Side::inward);

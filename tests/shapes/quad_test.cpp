@@ -70,7 +70,7 @@ TEST_CASE("quad: a parallelogram is hit by the right share of rays, at every siz
         const Vec3d target{std::min(u.x, 0.0) + std::min(v.x, 0.0) + wide * uniform(engine, 0, 1),
                            std::min(u.y, 0.0) + std::min(v.y, 0.0) + high * uniform(engine, 0, 1), 0};
         const Vec3d from{target.x + size * uniform(engine, -1, 1), target.y + size * uniform(engine, -1, 1), size};
-        const QuadHit<float> hit = hit_quad(map, rounded(from), unit(target - from), infinity);
+        const QuadHit<float> hit = hit_quad(map, rounded(from), unit_vector(target - from), infinity);
         met += hit.hit;
         const double a = (target.x * v.y - target.y * v.x) / (u.x * v.y - u.y * v.x);
         const double b = (u.x * target.y - u.y * target.x) / (u.x * v.y - u.y * v.x);
@@ -78,8 +78,8 @@ TEST_CASE("quad: a parallelogram is hit by the right share of rays, at every siz
         if (std::abs(inside) > 1e-3) wrong += hit.hit == (inside > 0) ? 0 : 1;  // closer to an edge rounding decides
       }
       CAPTURE(size);
-      const double share = area / (wide * high);
-      CHECK(std::abs(met - share * count) <= 4 * std::sqrt(share * (1 - share) * count));
+      const double fraction = area / (wide * high);
+      CHECK(std::abs(met - fraction * count) <= 4 * std::sqrt(fraction * (1 - fraction) * count));
       CHECK(wrong == 0);
     }
 }
@@ -92,7 +92,7 @@ TEST_CASE("quad: a direction of any length meets it as the unit one does, and no
     int met = 0, wrong = 0, naive = 0;
     for (int i = 0; i < 5000; ++i) {
       const Vec3d from = size * (in_cube(engine, 2) + Vec3d{0, 0, 3});
-      const Vec3f origin = rounded(from), d = unit(size * in_cube(engine, 1) - from);
+      const Vec3f origin = rounded(from), d = unit_vector(size * in_cube(engine, 1) - from);
       const QuadHit<float> hit = hit_quad(map, origin, d, infinity);
       met += hit.hit ? 1 : 0;
       for (const int exponent : {-30, -10, -3, 3, 10, 30}) {  // 1e-9 to 1e9
@@ -113,7 +113,7 @@ TEST_CASE("quad: a grazing ray meets it where it should, down to a ten-thousandt
   const Quad<> floor{{-1, 0, -1}, {2, 0, 0}, {0, 0, 2}};
   for (const double slope : {0.1, 1e-2, 1e-3, 1e-4}) {
     const Vec3d from{-3, 3 * slope, 0.2};
-    const QuadHit<float> hit = meet(floor, rounded(from), unit({1, -slope, 0}));
+    const QuadHit<float> hit = meet(floor, rounded(from), unit_vector({1, -slope, 0}));
     CHECK(hit.hit);
     CHECK(static_cast<double>(hit.t) == doctest::Approx(3 * std::sqrt(1 + slope * slope)).epsilon(1e-5).scale(0));
   }

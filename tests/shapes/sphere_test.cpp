@@ -33,7 +33,7 @@ Misses shoot(double distance, double radius, int count) {
   Misses result;
   for (int i = 0; i < count;) {
     const Vec3f center = rounded(distance * direction(engine));
-    const Vec3f d = unit(exact(center) + 0.999 * radius * direction(engine));
+    const Vec3f d = unit_vector(exact(center) + 0.999 * radius * direction(engine));
     // The exact answer for the numbers that the function is given.
     const Vec3d c = exact(center), u = exact(d);
     const double length2 = dot(u, u), middle = dot(c, u) / length2;
@@ -100,17 +100,17 @@ TEST_CASE("sphere: rays that know where they start leave it rightly at every sca
   };
   const auto leave = [](double scale) {
     Engine engine(2);
-    Count identity, least;
+    Count identity, minimum;
     constexpr int count = 20000;
     for (int i = 0; i < count; ++i) {
       const float radius = static_cast<float>(scale);
       const Vec3f center = rounded(3 * scale * direction(engine)), eye = rounded(5 * scale * direction(engine));
-      const Vec3f way = unit(exact(center) + 0.9 * scale * direction(engine) - exact(eye));
-      const Interval<float> line = sphere_interval(center - eye, radius, way);
+      const Vec3f heading = unit_vector(exact(center) + 0.9 * scale * direction(engine) - exact(eye));
+      const Interval<float> line = sphere_interval(center - eye, radius, heading);
       if (!line.hit || line.near <= 0) continue;
-      const Vec3f p = along(eye, line.near, way), outward = p - center;
+      const Vec3f p = point_at(eye, line.near, heading), outward = p - center;
       for (const bool out : {true, false}) {
-        Vec3f d = unit(direction(engine));
+        Vec3f d = unit_vector(direction(engine));
         if ((dot(d, outward) > 0) != out) d = -d;
         const std::int32_t from = 4 * 17 + static_cast<std::int32_t>(out ? Side::outward : Side::inward);
         const Interval<float> plain = sphere_interval(center - p, radius, d);
@@ -121,13 +121,13 @@ TEST_CASE("sphere: rays that know where they start leave it rightly at every sca
                               64 * epsilon * 10 * scale;
         const bool met = plain.hit && (plain.near > 1e-3f || plain.far > 1e-3f);
         (out ? identity.self_hits : identity.lost_exits) += out ? known.hit : !good;
-        (out ? least.self_hits : least.lost_exits) += out ? met : !met;
+        (out ? minimum.self_hits : minimum.lost_exits) += out ? met : !met;
       }
     }
     CAPTURE(scale);
     CHECK(identity.self_hits == 0);
     CHECK(identity.lost_exits == 0);
-    return least;
+    return minimum;
   };
   constexpr int count = 20000;
   CHECK(leave(1e-4).lost_exits > 0.99 * count * 0.5);  // with a least distance rays would never leave the glass
@@ -144,7 +144,7 @@ TEST_CASE("sphere: the way through it keeps its digits where a ray on its inside
   for (int i = 0; i < 1000; ++i) {
     const Vec3d outward = direction(engine), other = direction(engine);
     const Vec3d across = other - dot(other, outward) * outward;
-    const Vec3f p = rounded(outward), d = unit((1 / length(across)) * across - 1e-3 * outward);
+    const Vec3f p = rounded(outward), d = unit_vector((1 / length(across)) * across - 1e-3 * outward);
     const double chord = -2 * dot(exact(d), exact(p)) / length(exact(p));
     const std::int32_t from = 4 * 17 + static_cast<std::int32_t>(Side::inward);
     const Interval<float> plain = sphere_interval(-p, 1.0f, d);

@@ -13,7 +13,7 @@ using namespace tyndall::test;
 
 namespace {
 
-/// Share of the sky's light that comes through the middle of a scene, seen along z from 10 sizes away.
+/// Fraction of the sky's light that comes through the middle of a scene, seen along z from 10 sizes away.
 double seen_through(const Kernels& kernels, Scene scene, Vec3d middle, double size) {
   scene.width = scene.height = 16;
   scene.background = Vec3d{1, 1, 1};
@@ -21,10 +21,10 @@ double seen_through(const Kernels& kernels, Scene scene, Vec3d middle, double si
   scene.camera.look_at = middle;
   scene.camera.vfov = 0.01;
   const RenderScene compiled = compile(scene);
-  Film film = make_film(16, 16, {0, 0, 16, 16}, 0, compiled.film_unit);
+  Film film = make_film(16, 16, {0, 0, 16, 16}, 0, compiled.film_quantum);
   const SceneViewOf view(compiled);
-  UnitCounts counts;
-  kernels.render_unit(view.view(), {film.region, 1, 0, 0, 64}, film.unit, film.pixels.data(), counts);
+  TileCounts counts;
+  kernels.render_tile(view.view(), {film.region, 1, 0, 0, 64}, film.quantum, film.pixels.data(), counts);
   CHECK(totals(film).rejected == 0);
   double sum = 0;
   for (const FilmPixel& pixel : film.pixels) sum += static_cast<double>(mean(film, pixel).x) / 256;

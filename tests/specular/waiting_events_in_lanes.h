@@ -10,7 +10,7 @@ namespace {
 template <class F>
 void light_of_events(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light) {
   SpecularQueue<F> queue{};
-  UnitCounts counts;
+  TileCounts counts;
   const int room = together < lanes_of<F> ? together : lanes_of<F>;
   for (int first = 0; first < count; first += room) {
     queue.count = count - first < room ? count - first : room;

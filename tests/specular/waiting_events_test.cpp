@@ -44,7 +44,7 @@ std::vector<WaitingEvent> random_events(Engine& engine, const RenderScene& scene
   std::vector<WaitingEvent> events;
   for (int i = 0; i < count; ++i) {
     const Vec3d place = Vec3d{0, 1.5, 0} + in_cube(engine, 1.5) + in_cube(engine, 2);
-    const Vec3f at = rounded(place - scene.origin), heading = unit(direction(engine));
+    const Vec3f at = rounded(place - scene.origin), heading = unit_vector(direction(engine));
     const bool in_medium = engine() % 4 == 0;
     const auto random_bits = [&] { return static_cast<std::int32_t>(engine()); };
     events.push_back({{at.x, at.y, at.z, heading.x, heading.y, heading.z, 1, 0.5f, 0.25f,
@@ -68,7 +68,7 @@ void compare_with_groups(LightOfEvents find, unsigned seed, int count, Found& fo
   Engine engine(seed);
   const RenderScene scene = compile(RandomGlass(seed).scene(32, 18));
   const SceneViewOf view(scene);
-  if (!view.view().has_chains()) return;
+  if (!view.view().has_specular_paths()) return;
   std::vector<WaitingEvent> events = random_events(engine, scene, count);
   std::vector<Vec3f> alone(events.size()), together(events.size());
   find(view.view(), events.data(), count, 1, alone.data());

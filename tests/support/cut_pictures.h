@@ -26,7 +26,7 @@ inline void compare_cuts(unsigned seed, const Kernels& kernels, CutPictures& fou
   Scene source = RandomGlass(seed).scene(24, 20);
   if (engine() % 2) source.render.sampler = SamplerKind::random;
   const RenderScene scene = compile(source);
-  found.chained += !scene.chains.ball.empty() ? 1 : 0;
+  found.chained += !scene.specular.sphere.empty() ? 1 : 0;
   RenderOptions options;
   options.threads = 1;
   options.isa = kernels.isa;

@@ -15,31 +15,31 @@ class CapCells {
 
   CapCells(Vec3d axis, double width) : axis_(axis), basis_(basis_around(axis)), width_(width) {}
 
-  /// The density's share of each cell, by a grid of points within it.
+  /// The density's fraction of each cell, by a grid of points within it.
   template <class Density>
-  std::vector<double> integrate(const Density& density, int points = 40) const {
-    std::vector<double> share(cells);
+  std::vector<double> integrate(const Density& pdf, int points = 40) const {
+    std::vector<double> fraction(cells);
     const double part = 2 * pi * width_ / (cells * points * points);
     for (int ring = 0; ring < rings * points; ++ring)
       for (int sector = 0; sector < sectors * points; ++sector) {
-        const double x = width_ * (ring + 0.5) / (rings * points), turn = (sector + 0.5) / (sectors * points);
-        share[cell(ring / points, sector / points)] += part * density(at(x, turn));
+        const double x = width_ * (ring + 0.5) / (rings * points), azimuth = (sector + 0.5) / (sectors * points);
+        fraction[cell(ring / points, sector / points)] += part * pdf(at(x, azimuth));
       }
-    return share;
+    return fraction;
   }
   void count(Vec3d direction) {
     const double c = dot(direction, axis_);
     const Vec3d across = direction - c * axis_;
     const double x = dot(across, across) / (1 + std::max(c, -0.999999)) / width_;
-    const double turn = std::atan2(dot(direction, basis_.t), dot(direction, basis_.s)) / (2 * pi);
+    const double azimuth = std::atan2(dot(direction, basis_.t), dot(direction, basis_.s)) / (2 * pi);
     const int ring = static_cast<int>((c > 0 ? x : (1 - c) / width_) * rings);
     if (ring > rings) ++outside_;  // the last ring's edge is rounded
-    const int sector = static_cast<int>((turn < 0 ? turn + 1 : turn) * sectors);
+    const int sector = static_cast<int>((azimuth < 0 ? azimuth + 1 : azimuth) * sectors);
     ++counts_[cell(std::min(ring, rings - 1), std::min(sector, sectors - 1))];
   }
   /// Chi-square of the counted directions among `drawn` against the shares, as a normal deviate (Wilson and
   /// Hilferty's cube root). Cells that expect few are put together.
-  double deviate(const std::vector<double>& share, int drawn) const {
+  double deviate(const std::vector<double>& fraction, int drawn) const {
     double chi = 0, few_expected = 0, few_counted = 0;
     int freedom = -1;
     const auto add = [&](double counted, double expected) {
@@ -47,7 +47,7 @@ class CapCells {
       ++freedom;
     };
     for (std::size_t i = 0; i < cells; ++i) {
-      const double expected = share[i] * drawn;
+      const double expected = fraction[i] * drawn;
       if (expected >= 20) {
         add(counts_[i], expected);
       } else {
@@ -62,8 +62,8 @@ class CapCells {
 
  private:
   static std::size_t cell(int ring, int sector) { return static_cast<std::size_t>(ring * sectors + sector); }
-  Vec3d at(double x, double turn) const {
-    const double sine = std::sqrt(x * (2 - x)), angle = 2 * pi * turn;
+  Vec3d at(double x, double azimuth) const {
+    const double sine = std::sqrt(x * (2 - x)), angle = 2 * pi * azimuth;
     return (1 - x) * axis_ + sine * (std::cos(angle) * basis_.s + std::sin(angle) * basis_.t);
   }
 

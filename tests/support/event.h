@@ -9,7 +9,7 @@ namespace tyndall::test {
 
 /// Event number `number` at a surface with this normal, as the path loop would give it to the material.
 template <class F>
-Incident<F> event(const Dice<F>& dice, Vec3<F> direction, Vec3<F> normal) {
+Incident<F> event(const Sampler<F>& sampler, Vec3<F> direction, Vec3<F> normal) {
   const F towards = dot(direction, normal);
   const bool along_normal = towards > 0;
   return {direction,
@@ -17,14 +17,14 @@ Incident<F> event(const Dice<F>& dice, Vec3<F> direction, Vec3<F> normal) {
           along_normal ? -normal : normal,
           min(abs(towards), F(1)),
           along_normal,
-          on_sphere(dice.pair(dimension::direction)),
+          on_sphere(sampler.next_2d(dimension::direction)),
           false,
-          dice};
+          sampler};
 }
 
 template <class F>
-Dice<F> dice(std::uint32_t number) {
-  return Dice<F>::of(7, number, number >> 16, number * 3u);
+Sampler<F> sampler(std::uint32_t number) {
+  return Sampler<F>::of(7, number, number >> 16, number * 3u);
 }
 
 /// Unit vectors in all directions.

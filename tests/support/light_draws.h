@@ -28,16 +28,16 @@ struct Axes {
 };
 
 /// Two unit vectors at right angles to a third and to each other.
-inline Axes axes_around(Vec3d unit) {
+inline Axes axes_around(Vec3d unit_vector) {
   const Vec3d s = normalize(cross(unit, std::abs(unit.x) > 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
   return {s, cross(unit, s)};
 }
 
 /// The unit vector at an angle to the axis whose cosine is 1 - versine.
-inline Vec3d lean(Vec3d axis, double versine, double turn) {
+inline Vec3d lean(Vec3d axis, double versine, double u) {
   const Axes a = axes_around(axis);
   const double sine = std::sqrt(std::max(versine * (2 - versine), 0.0));
-  return (1 - versine) * axis + (sine * std::cos(2 * pi * turn)) * a.s + (sine * std::sin(2 * pi * turn)) * a.t;
+  return (1 - versine) * axis + (sine * std::cos(2 * pi * u)) * a.s + (sine * std::sin(2 * pi * u)) * a.t;
 }
 
 inline Vec3d on_unit_sphere(SplitMix& random) { return lean({0, 0, 1}, 2 * random(), random()); }
@@ -45,8 +45,8 @@ inline Vec3d on_unit_sphere(SplitMix& random) { return lean({0, 0, 1}, 2 * rando
 /// In the directions of one side, with a density of the cosine over pi.
 inline Vec3d by_cosine(Vec3d normal, SplitMix& random) { return lean(normal, 1 - std::sqrt(random()), random()); }
 
-/// Reflected share of unpolarised light. Born & Wolf, Principles of Optics, section 1.5.2.
-inline double reflected_share(double cos_in, double index) {
+/// Reflected fraction of unpolarised light. Born & Wolf, Principles of Optics, section 1.5.2.
+inline double reflected_fraction(double cos_in, double index) {
   const double squared = 1 - (1 - cos_in * cos_in) / (index * index);
   if (squared <= 0) return 1;
   const double cos_out = std::sqrt(squared);

@@ -9,8 +9,8 @@
 namespace tyndall::test {
 namespace {
 
-constexpr double least_way = 1e-9;         // shortest way of a ray from one surface to another
-constexpr double least_way_to_own = 1e-7;  // shortest way of a ray within a sphere from one point of it to another
+constexpr double min_distance = 1e-9;         // shortest way of a ray from one surface to another
+constexpr double min_distance_to_own = 1e-7;  // shortest way of a ray within a sphere from one point of it to another
 
 /// Where a line is within something: from t0 to t1, if t0 < t1.
 struct Stretch {
@@ -29,7 +29,7 @@ Stretch cross_sphere(Vec3d center, double radius, Vec3d origin, Vec3d direction)
 
 Stretch cross_box(const Box<>& box, const Placement& placement, Vec3d origin, Vec3d direction) {
   const Placement back{-placement.degrees, {}};
-  const Vec3d o = turn(back, origin - placement.offset), d = turn(back, direction);
+  const Vec3d o = rotate(back, origin - placement.offset), d = rotate(back, direction);
   const double at[3] = {o.x, o.y, o.z}, step[3] = {d.x, d.y, d.z};
   const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
   Stretch inside{-1e300, 1e300};
@@ -125,7 +125,7 @@ void LightRoom::add(const PlacedShape& placed) {
                    RoomSurface out;
                    out.round = true, out.radius = s.radius, out.placement = placed.placement;
                    out.center = place(placed.placement, s.center);
-                   if (s.center_end) out.way = place(placed.placement, *s.center_end) - out.center;
+                   if (s.center_end) out.motion = place(placed.placement, *s.center_end) - out.center;
                    out.material = placed.material;
                    surfaces.push_back(out);
                  },
@@ -141,7 +141,8 @@ void LightRoom::add(const PlacedShape& placed) {
 
 void LightRoom::add_flat(const PlacedShape& placed, Vec3d corner, Vec3d u, Vec3d v) {
   RoomSurface out;
-  out.corner = place(placed.placement, corner), out.u = turn(placed.placement, u), out.v = turn(placed.placement, v);
+  out.corner = place(placed.placement, corner), out.u = rotate(placed.placement, u),
+  out.v = rotate(placed.placement, v);
   const Vec3d n = cross(out.u, out.v);
   out.normal = normalize(n);
   out.along_u = (1 / dot(n, n)) * cross(out.v, n), out.along_v = (1 / dot(n, n)) * cross(n, out.u);
@@ -163,15 +164,15 @@ RoomHit LightRoom::closest(Vec3d origin, Vec3d direction, double time, int last,
     double t = 0;
     if (s.round) {
       const Stretch line = cross_sphere(s.center_at(time), std::abs(s.radius), origin, direction);
-      const double least = own ? least_way_to_own : least_way;
-      t = line.t0 > least ? line.t0 : line.t1;
-      if (line.t0 >= line.t1 || t <= least || t >= hit.t) continue;
+      const double minimum = own ? min_distance_to_own : min_distance;
+      t = line.t0 > minimum ? line.t0 : line.t1;
+      if (line.t0 >= line.t1 || t <= minimum || t >= hit.t) continue;
       hit.normal = (1 / s.radius) * (origin + t * direction - s.center_at(time));
     } else {
       const double slope = dot(s.normal, direction);
       if (own || slope == 0) continue;
       t = dot(s.normal, s.corner - origin) / slope;
-      if (!(t > least_way && t < hit.t)) continue;
+      if (!(t > min_distance && t < hit.t)) continue;
       const Vec3d at = origin + t * direction - s.corner;
       const double a = dot(s.along_u, at), b = dot(s.along_v, at);
       if (a < 0 || a > 1 || b < 0 || b > 1) continue;
@@ -209,7 +210,7 @@ Vec3d LightRoom::colour(const RoomSurface& surface, Vec3d point, double time) co
       return SurfacePlace{dot(surface.along_u, at), dot(surface.along_v, at), false};
     }
     const Vec3d out =
-        (1 / std::abs(surface.radius)) * turn({-surface.placement.degrees, {}}, point - surface.center_at(time));
+        (1 / std::abs(surface.radius)) * rotate({-surface.placement.degrees, {}}, point - surface.center_at(time));
     return SurfacePlace{(std::atan2(-out.z, out.x) + pi) / (2 * pi), std::acos(std::clamp(-out.y, -1.0, 1.0)) / pi,
                         true};
   };

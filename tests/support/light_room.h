@@ -14,7 +14,7 @@ namespace tyndall::test {
 /// A sphere, or a parallelogram: a box is six of them.
 struct RoomSurface {
   bool round = false;
-  Vec3d center, way;       ///< spheres: at time 0, and from there to time 1
+  Vec3d center, motion;    ///< spheres: at time 0, and from there to time 1
   double radius = 0;       ///< spheres; below 0: the normal points inward
   Vec3d corner, u, v;      ///< parallelograms
   Vec3d normal;            ///< parallelograms: unit, outward
@@ -22,7 +22,7 @@ struct RoomSurface {
   Placement placement;     ///< spheres: turns textures
   int material = 0;
   double area() const;
-  Vec3d center_at(double time) const { return center + time * way; }
+  Vec3d center_at(double time) const { return center + time * direction; }
 };
 
 struct RoomHit {
@@ -34,12 +34,12 @@ struct RoomHit {
 class LightRoom {
  public:
   /// Throws std::invalid_argument for what is not covered: a lens, Schlick's rule, a background that is not black,
-  /// lamps whose colour is noise, an image on a box.
+  /// lights whose colour is noise, an image on a box.
   explicit LightRoom(const Scene& scene);
 
   /// The closest surface before `limit`. last: the surface that the ray starts on, or -1.
   RoomHit closest(Vec3d origin, Vec3d direction, double time, int last, double limit = 1e300) const;
-  /// Share of light that passes all media up to a distance.
+  /// Fraction of light that passes all media up to a distance.
   double transmittance(Vec3d origin, Vec3d direction, double distance) const;
   /// The medium that scatters first before `limit`, or -1; then its distance is put into `limit`.
   int fly(Vec3d origin, Vec3d direction, double& limit, SplitMix& random) const;

@@ -49,9 +49,9 @@ class Tracer {
     for (int i = 0; i <= steps; ++i)
       for (int j = 0; j <= steps; ++j)
         for (int k = 0; k <= steps; ++k) {
-          const double share = 1.0 / steps;
-          const double time = camera_.shutter_open + k * share * (camera_.shutter_close - camera_.shutter_open);
-          const RoomHit hit = room_.closest(eye_.eye, eye_.direction(x + i * share, y + j * share), time, -1);
+          const double fraction = 1.0 / steps;
+          const double time = camera_.shutter_open + k * fraction * (camera_.shutter_close - camera_.shutter_open);
+          const RoomHit hit = room_.closest(eye_.eye, eye_.direction(x + i * fraction, y + j * fraction), time, -1);
           if (hit.surface >= 0 && !is_matt(hit.surface)) return false;
         }
     return true;
@@ -59,8 +59,8 @@ class Tracer {
   bool is_matt(int surface) const { return std::holds_alternative<Lambertian<>>(room_.kind(at(surface))); }
   const RoomSurface& at(int surface) const { return room_.surfaces[static_cast<std::size_t>(surface)]; }
 
-  /// Half of the particles are sent in all directions, by the cosine, and half to the balls of glass and metal, so that
-  /// light by way of these is not rare.
+  /// Half of the particles are sent in all directions, by the cosine, and half to the spheres of glass and metal, so
+  /// that light by way of these is not rare.
   Particle emit(int lamp, SplitMix& random) const {
     const RoomSurface& surface = at(lamp);
     Particle p;
@@ -77,19 +77,19 @@ class Tracer {
       sides = 2;
     }
     const std::vector<Cone> cones = cones_from(p.at, p.time);
-    const double by_cosine_share = cones.empty() ? 1 : 0.5;
-    if (random() < by_cosine_share) {
+    const double by_cosine_fraction = cones.empty() ? 1 : 0.5;
+    if (random() < by_cosine_fraction) {
       p.direction = by_cosine(normal, random);
     } else {
       const Cone& cone = cones[static_cast<std::size_t>(random() * static_cast<double>(cones.size()))];
       p.direction = lean(cone.axis, random() * cone.versine, random());
     }
     const double cosine = std::max(dot(normal, p.direction), 0.0);
-    double density = by_cosine_share * cosine / pi;
+    double pdf = by_cosine_fraction * cosine / pi;
     for (const Cone& cone : cones)
       if (1 - dot(cone.axis, p.direction) < cone.versine)
-        density += (1 - by_cosine_share) / (static_cast<double>(cones.size()) * 2 * pi * cone.versine);
-    p.power = (surface.area() * sides * cosine / density) * room_.colour(surface, p.at, p.time);
+        pdf += (1 - by_cosine_fraction) / (static_cast<double>(cones.size()) * 2 * pi * cone.versine);
+    p.power = (surface.area() * sides * cosine / pdf) * room_.colour(surface, p.at, p.time);
     return p;
   }
 
@@ -100,9 +100,9 @@ class Tracer {
   std::vector<Cone> cones_from(Vec3d point, double time) const {
     std::vector<Cone> cones;
     for (const int ball : room_.balls) {
-      const Vec3d way = at(ball).center_at(time) - point;
-      const double sine2 = at(ball).radius * at(ball).radius / dot(way, way);
-      if (sine2 < 1) cones.push_back({normalize(way), sine2 / (1 + std::sqrt(1 - sine2))});
+      const Vec3d direction = at(ball).center_at(time) - point;
+      const double sine2 = at(ball).radius * at(ball).radius / dot(direction, direction);
+      if (sine2 < 1) cones.push_back({normalize(direction), sine2 / (1 + std::sqrt(1 - sine2))});
     }
     return cones;
   }
@@ -110,21 +110,21 @@ class Tracer {
   void follow(Particle p, std::vector<double>& picture, SplitMix& random) const {
     const double start = std::max({p.power.x, p.power.y, p.power.z});
     for (int events = 1; events <= max_depth_; ++events) {
-      const double most = std::max({p.power.x, p.power.y, p.power.z}), survival = 4 * most / start;
-      if (!(most > 0) || (survival < 1 && random() > survival)) return;
+      const double maximum = std::max({p.power.x, p.power.y, p.power.z}), survival = 4 * maximum / start;
+      if (!(maximum > 0) || (survival < 1 && random() > survival)) return;
       if (survival < 1) p.power = (1 / survival) * p.power;
       RoomHit hit = room_.closest(p.at, p.direction, p.time, p.last);
       const int medium = room_.fly(p.at, p.direction, hit.t, random);
       if (medium < 0 && hit.surface < 0) return;
       p.at = p.at + hit.t * p.direction;
       if (medium >= 0)
-        scatter_in_fog(p, room_.media[static_cast<std::size_t>(medium)], picture, random);
+        scatter_in_medium(p, room_.media[static_cast<std::size_t>(medium)], picture, random);
       else if (!meet(p, hit, picture, random))
         return;
     }
   }
 
-  void scatter_in_fog(Particle& p, const PlacedVolume& fog, std::vector<double>& picture, SplitMix& random) const {
+  void scatter_in_medium(Particle& p, const PlacedVolume& fog, std::vector<double>& picture, SplitMix& random) const {
     p.power = p.power * room_.colour(fog, p.at);
     p.last = -1;
     join(
@@ -159,7 +159,7 @@ class Tracer {
   }
 
   /// Reflects a particle at metal. The lobe has the same density both ways, and for paths from the camera that density
-  /// includes the cosine on the lamp's side. A particle needs the cosine on the camera's side in its place: hence the
+  /// includes the cosine on the light's side. A particle needs the cosine on the camera's side in its place: hence the
   /// ratio of the two.
   static bool mirror(Particle& p, Vec3d normal, double fuzz, SplitMix& random) {
     const double cos_in = -dot(p.direction, normal);
@@ -176,7 +176,7 @@ class Tracer {
   /// particles are divided by the square of the index.
   static void cross_glass(Particle& p, Vec3d normal, double index, SplitMix& random) {
     const double cos_in = std::min(-dot(p.direction, normal), 1.0);
-    if (random() < reflected_share(cos_in, index)) {
+    if (random() < reflected_fraction(cos_in, index)) {
       p.direction = normalize(p.direction + (2 * cos_in) * normal);
       return;
     }
@@ -187,19 +187,19 @@ class Tracer {
 
   /// Adds what the camera sees of the light that scatters here. scattered: density into a direction, with the cosine.
   void join(const Particle& p, auto scattered, std::vector<double>& picture) const {
-    const Vec3d way = eye_.eye - p.at;
-    const double distance = length(way);
-    const Vec3d to_eye = (1 / distance) * way;
+    const Vec3d direction = eye_.eye - p.at;
+    const double distance = length(direction);
+    const Vec3d to_eye = (1 / distance) * direction;
     const double cosine = dot(to_eye, eye_.back);
     if (cosine <= 0) return;
     const double x = (1 - dot(to_eye, eye_.right) / cosine / eye_.half_width) / 2 * eye_.width;
     const double y = (1 + dot(to_eye, eye_.up) / cosine / eye_.half_height) / 2 * eye_.height;
     if (!(x >= 0 && x < eye_.width && y >= 0 && y < eye_.height)) return;
-    const double density = scattered(to_eye);
-    if (density <= 0 || room_.closest(p.at, to_eye, p.time, p.last, distance).surface >= 0) return;
+    const double pdf = scattered(to_eye);
+    if (pdf <= 0 || room_.closest(p.at, to_eye, p.time, p.last, distance).surface >= 0) return;
     const double pixel = 4 * eye_.half_width * eye_.half_height / (eye_.width * eye_.height);
-    const double scale = density * room_.transmittance(p.at, to_eye, distance) /
-                         (distance * distance * pixel * cosine * cosine * cosine);
+    const double scale =
+        pdf * room_.transmittance(p.at, to_eye, distance) / (distance * distance * pixel * cosine * cosine * cosine);
     double* rgb = &picture[static_cast<std::size_t>(3 * (static_cast<int>(y) * eye_.width + static_cast<int>(x)))];
     rgb[0] += scale * p.power.x, rgb[1] += scale * p.power.y, rgb[2] += scale * p.power.z;
   }

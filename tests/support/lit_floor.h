@@ -7,32 +7,33 @@
 #include <cmath>
 #include <string>
 
-/// A floor under a lamp, and the check that chains find there the light that scattering alone finds in the end.
+/// A floor under a light, and the check that specular paths find there the light that scattering alone finds in the
+/// end.
 namespace tyndall::test {
 
-/// A floor, and a lamp above it.
-inline Scene lit_floor(double lamp_radius, Vec3d lamp_center, double radiance) {
+/// A floor, and a light above it.
+inline Scene lit_floor(double light_radius, Vec3d light_center, double radiance) {
   Scene scene = dark_room();
   scene.render.integrator = Integrator::mis;
   add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(0.73));
-  add(scene, sphere(lamp_center, lamp_radius), lamp(radiance));
+  add(scene, sphere(light_center, light_radius), lamp(radiance));
   return scene;
 }
 
-/// The same point by chains and by scattering alone: equal, and with far less noise.
+/// The same point by specular paths and by scattering alone: equal, and with far less noise.
 inline void check_against_scattering(const std::string& name, Scene scene, double less_noise) {
   CAPTURE(name);
-  REQUIRE(compile(scene).chains.ball.size() > 0);
-  const Estimate chains = radiance(scene, 64);
+  REQUIRE(compile(scene).specular.sphere.size() > 0);
+  const Estimate by_specular_paths = radiance(scene, 64);
   scene.render.caustics = Caustics::scatter;
-  REQUIRE(compile(scene).chains.ball.empty());
+  REQUIRE(compile(scene).specular.sphere.empty());
   const Estimate chance = radiance(scene, 1024);
-  CAPTURE(chains.mean);
-  CAPTURE(chains.error);
+  CAPTURE(by_specular_paths.mean);
+  CAPTURE(by_specular_paths.error);
   CAPTURE(chance.mean);
   CAPTURE(chance.error);
-  CHECK(std::abs(chains.mean - chance.mean) < 4 * std::hypot(chains.error, chance.error));
-  CHECK(chains.error < less_noise * chance.error * 4);  // sixteen times fewer samples
+  CHECK(std::abs(by_specular_paths.mean - chance.mean) < 4 * std::hypot(by_specular_paths.error, chance.error));
+  CHECK(by_specular_paths.error < less_noise * chance.error * 4);  // sixteen times fewer samples
 }
 
 /// The same for `point` of the floor, seen by a camera with the scene's shutter.
@@ -43,7 +44,7 @@ inline void check_point_of_floor(const std::string& name, Scene scene, Vec3d poi
   check_against_scattering(name, scene, less_noise);
 }
 
-/// A white floor in a white room, and a lamp as bright as all around it.
+/// A white floor in a white room, and a light as bright as all around it.
 inline Scene furnace_with_floor() {
   Scene scene = white_room();
   scene.render.integrator = Integrator::mis;

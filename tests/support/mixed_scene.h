@@ -27,7 +27,7 @@ inline Vec3d direction(Engine& engine) {
   }
 }
 /// To float, and of length 1 as far as float can.
-inline Vec3f unit(Vec3d v) {
+inline Vec3f unit_vector(Vec3d v) {
   const Vec3d n = normalize(v);
   return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
 }
@@ -82,7 +82,7 @@ inline Scene mixed_scene(Engine& engine, const Mixture& mix = {}) {
 inline std::vector<TraceRay> random_rays(Engine& engine, int count, double half_width) {
   std::vector<TraceRay> rays;
   for (int i = 0; i < count; ++i)
-    rays.push_back({rounded(in_cube(engine, half_width)), unit(direction(engine)),
+    rays.push_back({rounded(in_cube(engine, half_width)), unit_vector(direction(engine)),
                     static_cast<float>(uniform(engine, 0, 1)), from_nowhere});
   return rays;
 }
@@ -119,10 +119,12 @@ inline std::vector<TraceRay> rays_from_surfaces(Engine& engine, const RenderScen
     if (hits[i].element < 0) continue;
     const auto e = static_cast<std::size_t>(hits[i].element);
     const Elements& all = scene.elements;
-    TraceRay ray{along(rays[i].origin, hits[i].t, rays[i].direction), unit(direction(engine)), rays[i].time, 0};
+    TraceRay ray{point_at(rays[i].origin, hits[i].t, rays[i].direction), unit_vector(direction(engine)), rays[i].time,
+                 0};
     Vec3f outward{all.x[e], all.y[e], all.z[e]};
     if (all.inverse_radius[e] != 0) {
-      if (!all.move_x.empty()) outward = along(outward, ray.time, Vec3f{all.move_x[e], all.move_y[e], all.move_z[e]});
+      if (!all.move_x.empty())
+        outward = point_at(outward, ray.time, Vec3f{all.move_x[e], all.move_y[e], all.move_z[e]});
       outward = ray.origin - outward;
     }
     const Side side = dot(ray.direction, outward) > 0 ? Side::outward : Side::inward;

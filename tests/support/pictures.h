@@ -29,7 +29,7 @@ inline Scene close_up(const std::string& name, int width, int height) {
   return scene;
 }
 
-/// A corner of the room of a mirror ball under a small lamp: it shares second vertices and is lit by chains.
+/// A corner of the room of a mirror sphere under a small light: it shares second vertices and is lit by specular paths.
 inline Scene caustic_close_up(int width, int height) {
   Scene scene = small_scene("stress-caustic-mirror", width, height, 1);
   scene.camera.look_at = {2, 0, -4};

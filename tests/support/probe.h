@@ -46,7 +46,7 @@ Object& add_medium(Scene& scene, const Boundary& boundary, Medium<> medium, doub
   return scene.objects.back();
 }
 
-/// A dark room of lamps of radiance 3, as mis sees them; made by lamp_object.
+/// A dark room of lights of radiance 3, as mis sees them; made by light_object.
 inline RenderScene lit(const std::vector<Object>& lamps) {
   Scene scene = dark_room();
   scene.materials = {lamp(3)};
@@ -54,7 +54,7 @@ inline RenderScene lit(const std::vector<Object>& lamps) {
   scene.render.integrator = Integrator::mis;
   return compile(scene);
 }
-inline Object lamp_object(auto shape, Transform transform = {}) {
+inline Object light_object(auto shape, Transform transform = {}) {
   return {"", Solid3d{shape, 0}, std::move(transform)};
 }
 
@@ -63,8 +63,8 @@ inline void aim(Scene& scene, Vec3d from, Vec3d to) {
   scene.camera = {};
   scene.camera.look_from = from;
   scene.camera.look_at = to;
-  const Vec3d way = normalize(to - from);
-  scene.camera.vup = std::abs(way.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+  const Vec3d direction = normalize(to - from);
+  scene.camera.vup = std::abs(direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
   scene.camera.vfov = 1e-5;
 }
 

@@ -9,9 +9,9 @@
 /// Random scenes in which most light takes specular paths, for statements that must hold for every picture.
 namespace tyndall::test {
 
-/// A floor, sometimes walls, and 3 to 7 things: solid and hollow glass, some of it filled with fog or with a lamp,
+/// A floor, sometimes walls, and 3 to 7 things: solid and hollow glass, some of it filled with media or with a light,
 /// mirrors (spheres, quads, boxes), slabs of glass, matt and brushed spheres with textures, moving spheres; one to
-/// three lamps of all sizes; sometimes fog around all of it. A pure function of the seed.
+/// three lights of all sizes; sometimes media around all of it. A pure function of the seed.
 class RandomGlass : RandomDraws {
  public:
   explicit RandomGlass(unsigned seed) : RandomDraws(seed) {}
@@ -29,8 +29,8 @@ class RandomGlass : RandomDraws {
     add(Quad<>{{-20, 0, -20}, {40, 0, 0}, {0, 0, 40}}, matt());
     if (chance(0.4)) add(Quad<>{{-8, 0, -4}, {16, 0, 0}, {0, 8, 0}}, chance(0.3) ? mirror() : matt());
     for (int i = 3 + below(5); i > 0; --i) add_thing();
-    for (int i = 1 + below(3); i > 0; --i) add_lamp({between(-3, 3), between(1.5, 5), between(-3, 3)});
-    if (chance(0.25)) add_fog(Box<>{{-6, 0, -6}, {6, 6, 6}}, {}, between(0.01, 0.2));
+    for (int i = 1 + below(3); i > 0; --i) add_light({between(-3, 3), between(1.5, 5), between(-3, 3)});
+    if (chance(0.25)) add_medium(Box<>{{-6, 0, -6}, {6, 6, 6}}, {}, between(0.01, 0.2));
     return scene_;
   }
 
@@ -65,7 +65,7 @@ class RandomGlass : RandomDraws {
     scene_.objects.push_back({"", Solid3d{shape, index}, std::move(transform)});
   }
   template <class Shape>
-  void add_fog(const Shape& boundary, Transform transform, double density) {
+  void add_medium(const Shape& boundary, Transform transform, double density) {
     Volume fog;
     fog.boundary = boundary, fog.boundary_transform = std::move(transform);
     fog.medium = {density, chance(0.5) ? 0 : between(-0.8, 0.8)};
@@ -77,7 +77,7 @@ class RandomGlass : RandomDraws {
     const double size = between(0.2, 0.9);
     const Vec3d at{between(-3, 3), chance(0.7) ? size : between(size, 2), between(-3, 2)};
     const double kind = between(0, 1);
-    if (kind < 0.2) return add_ball(at, size);
+    if (kind < 0.2) return add_sphere(at, size);
     if (kind < 0.5) return add_shell(at, size);
     if (kind < 0.62) return add_mirror(at, size);
     if (kind < 0.8) return add_slab(at, size);
@@ -88,11 +88,11 @@ class RandomGlass : RandomDraws {
     if (scene_.camera.shutter_close == 0 || chance(0.5)) return std::nullopt;
     return at + Vec3d{between(-0.3, 0.3), between(0, 0.3), between(-0.3, 0.3)};
   }
-  void add_ball(Vec3d at, double size) {
+  void add_sphere(Vec3d at, double size) {
     const Sphere<> ball{at, size, moved(at)};
     add(ball, glass(an_index()));
-    if (!ball.center_end && chance(0.3)) add_fog(ball, {}, between(0.1, 5));
-    if (!ball.center_end && chance(0.15)) add_lamp(at, 0.2 * size);
+    if (!ball.center_end && chance(0.3)) add_medium(ball, {}, between(0.1, 5));
+    if (!ball.center_end && chance(0.15)) add_light(at, 0.2 * size);
   }
   /// The second sphere is as the books write hollow glass, or by a relative index, or of something else.
   void add_shell(Vec3d at, double size) {
@@ -103,25 +103,26 @@ class RandomGlass : RandomDraws {
       add(Sphere<>{at, -inner, end}, glass(index));
     else
       add(Sphere<>{at, inner, end}, glass(kind < 0.8 ? 1 / index : an_index()));
-    if (!end && chance(0.2)) add_lamp(at, 0.3 * inner);
+    if (!end && chance(0.2)) add_light(at, 0.3 * inner);
   }
   void add_mirror(Vec3d at, double size) {
-    const double kind = between(0, 1), turn = between(-180, 180);
+    const double kind = between(0, 1), degrees = between(-180, 180);
     if (kind < 0.4) return add(Sphere<>{at, size, moved(at)}, mirror());
-    if (kind < 0.8) return add(Quad<>{{-size, 0, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}}, mirror(), placed(turn, at));
-    add(Box<>{{-size, 0, -size}, {size, size, size}}, mirror(), placed(turn, at));
+    if (kind < 0.8)
+      return add(Quad<>{{-size, 0, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}}, mirror(), placed(degrees, at));
+    add(Box<>{{-size, 0, -size}, {size, size, size}}, mirror(), placed(degrees, at));
   }
   void add_slab(Vec3d at, double size) {
     const Box<> slab{{-size, 0, -between(0.02, 0.5) * size}, {size, between(0.5, 3) * size, size * between(0.02, 0.5)}};
     const Transform place = placed(chance(0.3) ? 0 : between(-180, 180), at);
     add(slab, glass(between(1.3, 2)), place);
-    if (chance(0.3)) add_fog(slab, place, between(0.1, 5));
+    if (chance(0.3)) add_medium(slab, place, between(0.1, 5));
   }
   static Transform placed(double degrees, Vec3d at) { return {RotateY{degrees}, Translate{at}}; }
 
-  /// All lamps have about the same power, however small they are.
-  void add_lamp(Vec3d at) { add_lamp(at, std::exp(between(std::log(0.01), std::log(0.8)))); }
-  void add_lamp(Vec3d at, double size) {
+  /// All lights have about the same power, however small they are.
+  void add_light(Vec3d at) { add_light(at, std::exp(between(std::log(0.01), std::log(0.8)))); }
+  void add_light(Vec3d at, double size) {
     const double radiance = between(1, 6) / (size * size);
     const Material lamp{"", Vec3d{radiance, between(0.6, 1) * radiance, between(0.4, 1) * radiance}, Light<>{}};
     if (chance(0.6)) return add(Sphere<>{at, size, {}}, lamp);

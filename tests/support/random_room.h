@@ -7,7 +7,7 @@
 /// Random rooms, for statements that must hold for every picture and not only for the built-in scenes.
 namespace tyndall::test {
 
-/// A floor with 3 to 9 balls and boxes of all materials, one to three lamps, sometimes walls, a sky or fog. A pure
+/// A floor with 3 to 9 spheres and boxes of all materials, one to three lights, sometimes walls, a sky or media. A pure
 /// function of the seed.
 class RandomRoom : RandomDraws {
  public:
@@ -24,8 +24,8 @@ class RandomRoom : RandomDraws {
     if (walls) add(Quad<>{{-8, 0, -4}, {16, 0, 0}, {0, 8, 0}}, matt());
     if (walls) add(Quad<>{{-5, 0, -4}, {0, 0, 9}, {0, 8, 0}}, matt());
     for (int i = 3 + below(7); i > 0; --i) add_thing();
-    for (int i = 1 + below(3); i > 0; --i) add_lamp();
-    if (chance(0.3)) add_fog();
+    for (int i = 1 + below(3); i > 0; --i) add_light();
+    if (chance(0.3)) add_medium();
     return scene_;
   }
 
@@ -55,15 +55,15 @@ class RandomRoom : RandomDraws {
     if (chance(0.6)) return add(Sphere<>{{x, size, z}, size, {}}, any_material());
     add(Box<>{{x - size, 0, z - size}, {x + size, between(0.3, 2), z + size}}, any_material());
   }
-  /// Adds a lamp; all have about the same power, however small they are.
-  void add_lamp() {
+  /// Adds a light; all have about the same power, however small they are.
+  void add_light() {
     const double size = std::exp(between(std::log(0.2), std::log(1.0))), radiance = between(1, 6) / (size * size);
     const Vec3d at{between(-3, 3), between(2.5, 5), between(-3, 3)};
     const Material lamp{"", Vec3d{radiance, between(0.6, 1) * radiance, between(0.4, 1) * radiance}, Light<>{}};
     if (chance(0.5)) return add(Sphere<>{at, size, {}}, lamp);
     add(Quad<>{at, {2 * size, 0, 0}, {0, 0, 2 * size}}, lamp);
   }
-  void add_fog() {
+  void add_medium() {
     Volume fog;
     fog.boundary = Box<>{{-6, 0, -6}, {6, 6, 6}};
     fog.medium = {between(0.01, 0.15), between(-0.5, 0.8)};

@@ -47,8 +47,9 @@ inline bool same_tree(const RenderScene& a, const RenderScene& b) {
 }
 inline bool same(const RenderScene& a, const RenderScene& b) {
   return same_geometry(a, b) && same_tree(a, b) && same(a.camera, b.camera) && same(a.materials, b.materials) &&
-         a.origin == b.origin && a.needs == b.needs && a.film_unit == b.film_unit && a.max_depth == b.max_depth &&
-         a.seed == b.seed && a.schlick == b.schlick && a.width == b.width && a.height == b.height;
+         a.origin == b.origin && a.features == b.features && a.film_quantum == b.film_quantum &&
+         a.max_depth == b.max_depth && a.seed == b.seed && a.schlick == b.schlick && a.width == b.width &&
+         a.height == b.height;
 }
 
 }  // namespace tyndall::test

@@ -51,11 +51,11 @@ class Scaled {
 
 inline Scene scaled(const Scene& scene, double scale) { return Scaled(scene, scale).scene(); }
 
-/// Everything shifted by `way`; textures in space stay where they are.
-inline Scene moved(Scene scene, Vec3d way) {
-  scene.camera.look_from = scene.camera.look_from + way;
-  scene.camera.look_at = scene.camera.look_at + way;
-  scene.objects = {{"", Group{scene.objects}, {Translate{way}}}};
+/// Everything shifted by `direction`; textures in space stay where they are.
+inline Scene moved(Scene scene, Vec3d direction) {
+  scene.camera.look_from = scene.camera.look_from + direction;
+  scene.camera.look_at = scene.camera.look_at + direction;
+  scene.objects = {{"", Group{scene.objects}, {Translate{direction}}}};
   return scene;
 }
 

@@ -40,7 +40,7 @@ struct Moments {
 /// wrong.
 class ZScores {
  public:
-  /// precision: the largest standard error with which the test still finds faults, as a share of the expected value.
+  /// precision: the largest standard error with which the test still finds faults, as a fraction of the expected value.
   void add(const std::string& what, Estimate measured, double expected, double precision = 0.01) {
     CAPTURE(what);
     CAPTURE(measured.mean);
@@ -80,12 +80,12 @@ template <class Cumulative>
 double kolmogorov_smirnov(std::vector<double> values, Cumulative cumulative) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double c = cumulative(values[i]), k = static_cast<double>(i);
-    most = std::max({most, c - k / n, (k + 1) / n - c});
+    maximum = std::max({maximum, c - k / n, (k + 1) / n - c});
   }
-  return most * std::sqrt(n);
+  return maximum * std::sqrt(n);
 }
 
 /// Composite Gauss-Legendre quadrature, 4 points in each of `parts` parts.

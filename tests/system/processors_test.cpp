@@ -1,5 +1,5 @@
 #include "core/system/processors.h"
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/system/cgroup.h"
 #include "tests/support/scratch.h"
 
@@ -124,9 +124,9 @@ TEST_CASE("processors: a thread that is bound to one processor gets one thread, 
   CPU_SET(first, &one);
   REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);
   const ThreadCount bound = thread_count();
-  const int crew = Crew(0).size();
+  const int thread_pool = ThreadPool(0).size();
   REQUIRE(sched_setaffinity(0, sizeof before, &before) == 0);
   CHECK(bound.count == 1);
   CHECK(bound.from == "affinity");
-  CHECK(crew == 1);
+  CHECK(thread_pool == 1);
 }

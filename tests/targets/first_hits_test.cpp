@@ -23,8 +23,8 @@ std::vector<FirstHit> seen(const Kernels& kernels, const RenderScene& scene, Reg
   return hits;
 }
 
-/// A ball of radius 1 at the centre, before a wall at z = -2; 90 degrees from (0, 0, 4).
-Scene ball_before_wall(double radius) {
+/// A sphere of radius 1 at the centre, before a wall at z = -2; 90 degrees from (0, 0, 4).
+Scene sphere_before_wall(double radius) {
   Scene scene;
   scene.width = 90, scene.height = 60;
   scene.camera.look_from = {0, 0, 4};
@@ -43,7 +43,7 @@ Vec3d through(int x, int y) { return normalize(Vec3d{(x + 0.5 - 45) / 30, (30 - 
 
 TEST_CASE("first_hits: what the middle of each pixel sees: element, depth along the axis, colour, own normal") {
   for (const double radius : {1.0, -1.0}) {
-    const RenderScene scene = compile(ball_before_wall(radius));
+    const RenderScene scene = compile(sphere_before_wall(radius));
     for (const Kernels& kernels : available_kernels()) {
       const Region region{7, 3, 84, 60};
       const std::vector<FirstHit> hits = seen(kernels, scene, region);
@@ -52,7 +52,7 @@ TEST_CASE("first_hits: what the middle of each pixel sees: element, depth along 
         for (int x = region.x0; x < region.x1; ++x) {
           const FirstHit& hit = hits[static_cast<std::size_t>((y - region.y0) * region.width() + x - region.x0)];
           const Vec3d d = through(x, y);
-          const double middle = -4 * d.z, inside = 1 - (16 - middle * middle);  // of the quadratic of the ball
+          const double middle = -4 * d.z, inside = 1 - (16 - middle * middle);  // of the quadratic of the sphere
           const Vec3d on_wall = Vec3d{0, 0, 4} + (6 / -d.z) * d;
           if (inside > 0) {
             const double t = middle - std::sqrt(inside);
@@ -80,11 +80,11 @@ TEST_CASE("first_hits: what the middle of each pixel sees: element, depth along 
 }
 
 TEST_CASE("first_hits: ignores the lens and stands in the middle of the shutter") {
-  Scene scene = ball_before_wall(1);
+  Scene scene = sphere_before_wall(1);
   scene.camera.defocus_angle = 20;
   const Region middle{45, 30, 46, 31};
   CHECK(seen(scalar_kernels(), compile(scene), middle)[0].element == 0);
-  // The ball is in the middle of the picture half-way through the shutter alone.
+  // The sphere is in the middle of the picture half-way through the shutter alone.
   std::get<Sphere<>>(std::get<Solid3d>(scene.objects[0].kind).shape) = {{-40, 0, 0}, 1, Vec3d{40, 0, 0}};
   scene.camera.shutter_open = 0.25;
   scene.camera.shutter_close = 0.75;

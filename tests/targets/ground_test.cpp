@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-/// The books' ground is a ball so large that single precision cannot tell exactly where its surface is.
+/// The books' ground is a sphere so large that single precision cannot tell exactly where its surface is.
 using namespace tyndall;
 using namespace tyndall::test;
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<float>::epsilon();
 
-/// A ground of the given radius below three small balls, which keep the scene's origin with them.
+/// A ground of the given radius below three small spheres, which keep the scene's origin with them.
 RenderScene ground(double radius) {
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
@@ -29,18 +29,18 @@ std::vector<TraceRay> seen_ground(Engine& engine, const RenderScene& scene, int 
   std::vector<TraceRay> rays;
   for (int i = 0; i < count; ++i) {
     const Vec3d at{uniform(engine, -20, 20), 0, uniform(engine, -20, 20)};
-    rays.push_back({rounded(eye - scene.origin), unit(at - eye), 0, from_nowhere});
+    rays.push_back({rounded(eye - scene.origin), unit_vector(at - eye), 0, from_nowhere});
   }
   return rays;
 }
 
-/// Whether a ray that starts on a ball would meet it again beyond a least distance: the books' rule.
-bool met_beyond(float least, Vec3f to_center, float radius, Vec3f d) {
+/// Whether a ray that starts on a sphere would meet it again beyond a least distance: the books' rule.
+bool met_beyond(float minimum, Vec3f to_center, float radius, Vec3f d) {
   const float a = dot(d, d), h = dot(d, to_center), c = dot(to_center, to_center) - radius * radius;
   const float discriminant = h * h - a * c;
   if (discriminant < 0) return false;
   const float root = std::sqrt(discriminant);
-  return (h - root) / a > least || (h + root) / a > least;
+  return (h - root) / a > minimum || (h + root) / a > minimum;
 }
 
 }  // namespace
@@ -57,9 +57,9 @@ TEST_CASE("ground: of a million diffuse bounces none meets the ground again, at 
     std::vector<TraceRay> leaving;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (hits[i].element != 0) continue;
-      const Vec3f point = along(rays[i].origin, hits[i].t, rays[i].direction);
+      const Vec3f point = point_at(rays[i].origin, hits[i].t, rays[i].direction);
       const Vec3d normal = normalize(exact(point) - exact(center));
-      const Vec3f out = unit(normal + 0.999999 * direction(engine));
+      const Vec3f out = unit_vector(normal + 0.999999 * direction(engine));
       leaving.push_back({point, out, 0, static_cast<std::int32_t>(Side::outward)});
       naive += met_beyond(1e-4f, center - point, static_cast<float>(radius), out) ? 1 : 0;
     }
@@ -80,17 +80,17 @@ TEST_CASE("ground: with radius 1000 it lies below a plane by its curvature, to r
     Engine engine(4);
     const std::vector<TraceRay> rays = seen_ground(engine, scene, 20000);
     const std::vector<TraceHit> hits = traced(kernels, scene, rays);
-    double most = 0;
+    double maximum = 0;
     int met = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (hits[i].element != 0) continue;
       ++met;
       const Vec3d p = exact(rays[i].origin) + static_cast<double>(hits[i].t) * exact(rays[i].direction) + scene.origin;
       const double sagitta = radius - std::sqrt(radius * radius - p.x * p.x - p.z * p.z);
-      most = std::max(most, std::abs(p.y + sagitta));
+      maximum = std::max(maximum, std::abs(p.y + sagitta));
     }
     CAPTURE(radius);
     CHECK(met > 19000);
-    CHECK(most < 2 * epsilon * radius);
+    CHECK(maximum < 2 * epsilon * radius);
   }
 }

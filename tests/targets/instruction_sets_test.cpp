@@ -26,10 +26,10 @@ RenderScene small(const std::string& name, std::uint32_t seed) {
 
 /// Means of the picture from samples first … last - 1.
 std::vector<float> picture(const Kernels& kernels, const RenderScene& scene, std::uint32_t first, std::uint32_t last) {
-  Film film = make_film(edge, edge, {0, 0, edge, edge}, first, scene.film_unit);
+  Film film = make_film(edge, edge, {0, 0, edge, edge}, first, scene.film_quantum);
   const SceneViewOf view(scene);
-  UnitCounts counts;
-  kernels.render_unit(view.view(), {film.region, 1, 0, first, last}, film.unit, film.pixels.data(), counts);
+  TileCounts counts;
+  kernels.render_tile(view.view(), {film.region, 1, 0, first, last}, film.quantum, film.pixels.data(), counts);
   CHECK(totals(film).rejected == 0);
   return resolve(film);
 }

@@ -17,10 +17,10 @@ using namespace tyndall::test;
 namespace {
 
 std::vector<float> picture(const Kernels& kernels, const RenderScene& scene) {
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_unit);
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum);
   const SceneViewOf view(scene);
-  UnitCounts counts;
-  kernels.render_unit(view.view(), {film.region, 1, 0, 0, 4}, film.unit, film.pixels.data(), counts);
+  TileCounts counts;
+  kernels.render_tile(view.view(), {film.region, 1, 0, 0, 4}, film.quantum, film.pixels.data(), counts);
   return resolve(film);
 }
 
@@ -50,12 +50,12 @@ TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others
     CAPTURE(isa);
     const bool wide = isa == "avx2" || isa == "avx512";
     for (int i = 0; i < kernel_sets; ++i) {
-      const KernelSet least = static_cast<KernelSet>(i);
-      CHECK(kernels.set_for(least) == (wide ? least : KernelSet::everything));
+      const KernelSet minimum = static_cast<KernelSet>(i);
+      CHECK(kernels.set_for(minimum) == (wide ? minimum : KernelSet::everything));
       for (int k = 0; k < i; ++k) CHECK((kernels.render_alone[k] == kernels.render_alone[i]) != wide);
     }
   }
-  CHECK(double_kernels().set_for(KernelSet::no_fog_nor_textures) == KernelSet::everything);
+  CHECK(double_kernels().set_for(KernelSet::no_media_no_textures) == KernelSet::everything);
 }
 
 TEST_CASE("kernel sets: wide instruction sets have three kernels that share, the others one") {
@@ -63,15 +63,15 @@ TEST_CASE("kernel sets: wide instruction sets have three kernels that share, the
     const std::string isa = kernels.isa;
     CAPTURE(isa);
     const bool wide = isa == "avx2" || isa == "avx512";
-    CHECK(std::set(std::begin(kernels.render_shared), std::end(kernels.render_shared)).size() == (wide ? 3 : 1));
+    CHECK(std::set(std::begin(kernels.render_reusing), std::end(kernels.render_reusing)).size() == (wide ? 3 : 1));
   }
 }
 
 TEST_CASE("kernel sets: a scene gets the least that holds its models") {
-  CHECK(compile(load_scene("cornell-box").scene).kernel == KernelSet::no_fog_nor_textures);
-  CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_chains);
-  CHECK(compile(load_scene("earth").scene).kernel == KernelSet::no_chains);
-  CHECK(compile(load_scene("stress-light-in-fog").scene).kernel == KernelSet::no_chains);
-  CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::chains_alone);
+  CHECK(compile(load_scene("cornell-box").scene).kernel == KernelSet::no_media_no_textures);
+  CHECK(compile(load_scene("cornell-smoke").scene).kernel == KernelSet::no_specular_paths);
+  CHECK(compile(load_scene("earth").scene).kernel == KernelSet::no_specular_paths);
+  CHECK(compile(load_scene("stress-light-in-fog").scene).kernel == KernelSet::no_specular_paths);
+  CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::specular_paths_only);
   CHECK(compile(load_scene("stress-caustic-shell").scene).kernel == KernelSet::everything);
 }

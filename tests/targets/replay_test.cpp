@@ -18,15 +18,16 @@ namespace {
 /// What the scalar kernel puts into the film for one sample.
 FilmPixel film_pixel(const RenderScene& scene, const SceneView& view, int x, int y, std::uint32_t sample) {
   FilmPixel pixel{};
-  UnitCounts counts;
-  scalar_kernels().render_unit(view, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, scene.film_unit, &pixel, counts);
+  TileCounts counts;
+  scalar_kernels().render_tile(view, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, scene.film_quantum, &pixel,
+                               counts);
   return pixel;
 }
 
 /// What a replayed sample would put there.
 FilmPixel replayed_pixel(const RenderScene& scene, const PathReplay& path, std::uint32_t sample) {
   FilmPixel pixel{};
-  add_sample(pixel, sample & 1u, path.radiance, 1 / scene.film_unit);
+  add_sample(pixel, sample & 1u, path.radiance, 1 / scene.film_quantum);
   pixel.taken = 1;
   pixel.truncated = path.vertices.back().fate == Fate::cut ? 1 : 0;
   return pixel;
@@ -41,14 +42,14 @@ TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
        {"showroom", "next-week", "close up", "caustic close up", "cornell-smoke", "bouncing-spheres", "hollow-glass",
         "earth", "stress-caustic-mirror", "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
     const std::string chosen = name;
-    const bool shares = chosen == "close up" || chosen == "caustic close up";
+    const bool reuses_paths = chosen == "close up" || chosen == "caustic close up";
     Scene settings = chosen == "close up" ? close_up("cornell-smoke", 24, 18)
-                     : shares             ? caustic_close_up(24, 18)
+                     : reuses_paths       ? caustic_close_up(24, 18)
                                           : small_scene(chosen, 24, 18, 1);
     settings.render.max_depth = 12;
     const RenderScene scene = compile(settings);
     const SceneViewOf view(scene);
-    CHECK(view.view().shares == shares);
+    CHECK(view.view().reuses_paths == reuses_paths);
     int wrong = 0;
     for (int y = 0; y < 18; ++y)
       for (int x = 0; x < 24; ++x)
@@ -70,7 +71,7 @@ TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
 }
 
 TEST_CASE("replay: names the surfaces in order, with the way between them and what is carried") {
-  // Through a ball of matched glass to a grey wall, and from there to the white sky or a second time to the wall.
+  // Through a sphere of matched glass to a grey wall, and from there to the white sky or a second time to the wall.
   Scene scene = white_room();
   add(scene, sphere({0, 0, 0}, 1), glass(1));
   add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
@@ -139,18 +140,18 @@ TEST_CASE("replay: says what chains add, and how much a lamp counts that they fi
   const auto tell = [](const Scene& told) {
     const RenderScene compiled = compile(told);
     const SceneViewOf view(compiled);
-    int by_chains = 0, shared = 0;
+    int by_specular_paths = 0, shared = 0;
     for (std::uint32_t sample = 0; sample < 400; ++sample) {
       const PathReplay path = replay(view.view(), 1, 2, sample);
       for (const PathVertex& v : path.vertices) {
-        by_chains += v.by_chains.x > 0 && v.by_chains.x <= v.radiance.x ? 1 : 0;
+        by_specular_paths += v.by_specular_paths.x > 0 && v.by_specular_paths.x <= v.radiance.x ? 1 : 0;
         shared += v.chance < 1 && v.fate == Fate::ends_at_light ? 1 : 0;
       }
     }
-    return std::pair{by_chains, shared};
+    return std::pair{by_specular_paths, shared};
   };
-  const auto [by_chains, shared] = tell(scene);
-  CHECK(by_chains > 50);
+  const auto [by_specular_paths, shared] = tell(scene);
+  CHECK(by_specular_paths > 50);
   CHECK(shared > 5);
   scene.render.caustics = Caustics::scatter;
   CHECK(tell(scene) == std::pair{0, 0});

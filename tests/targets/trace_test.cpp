@@ -43,7 +43,7 @@ int differences(const std::vector<TraceHit>& a, const std::vector<TraceHit>& b) 
   return count;
 }
 
-double share_of_hits(const std::vector<TraceHit>& hits) {
+double fraction_of_hits(const std::vector<TraceHit>& hits) {
   const auto met = std::count_if(hits.begin(), hits.end(), [](const TraceHit& h) { return h.element >= 0; });
   return static_cast<double>(met) / static_cast<double>(hits.size());
 }
@@ -63,8 +63,8 @@ TEST_CASE("trace: the tree finds what testing every primitive finds, to the last
       const auto by_tree = traced(kernels, scene, rays), by_force = traced(kernels, scene, rays, true);
       CAPTURE(std::string(kernels.isa));
       CHECK(differences(by_tree, by_force) == 0);
-      CHECK(share_of_hits(by_tree) > 0.05);
-      CHECK(share_of_hits(by_tree) < 0.95);
+      CHECK(fraction_of_hits(by_tree) > 0.05);
+      CHECK(fraction_of_hits(by_tree) < 0.95);
       total += rays.size();
     }
   }
@@ -92,7 +92,7 @@ TEST_CASE("trace: the tree loses nothing on small tilted flats far from the scen
   for (int i = 0; i < 300000; ++i) {
     const Vec3d to = targets[engine() % targets.size()] + in_cube(engine, 0.3);
     const Vec3d from = Vec3d{0, far, 0} + in_cube(engine, i % 3 ? 3 : 30);
-    rays.push_back({rounded(from - compiled.origin), unit(to - from), 0, from_nowhere});
+    rays.push_back({rounded(from - compiled.origin), unit_vector(to - from), 0, from_nowhere});
   }
   const Kernels kernels = available_kernels().back();
   CHECK(differences(traced(kernels, compiled, rays), traced(kernels, compiled, rays, true)) == 0);
@@ -109,7 +109,7 @@ std::vector<TraceRay> distant_rays(Engine& engine, double distance, int count, i
       if (i / together % 4 == 0) from = {i % 8 ? distance : -distance, uniform(engine, -1, 1), uniform(engine, -1, 1)};
       to = in_cube(engine, 1.2);
     }
-    rays.push_back({rounded(from), unit(to + in_cube(engine, 0.02) - from), 0.5f, from_nowhere});
+    rays.push_back({rounded(from), unit_vector(to + in_cube(engine, 0.02) - from), 0.5f, from_nowhere});
   }
   return rays;
 }
@@ -126,7 +126,7 @@ TEST_CASE("trace: seen from 1000 scene sizes away the tree loses nothing; from f
       const int differ = differences(by_tree, traced(kernels, scene, rays, true));
       CAPTURE(distance);
       CHECK(differ <= (distance > 1e4 ? 100 : 0));  // from so far the ray itself is rounded by 0.01
-      CHECK(share_of_hits(by_tree) > 0.3);
+      CHECK(fraction_of_hits(by_tree) > 0.3);
     }
   }
 }
@@ -142,7 +142,7 @@ TEST_CASE("trace: each ray alone and in random company meets the same, to the la
     // Also rays from so far away that some meet a primitive but, by rounding, miss its box, which their neighbours
     // meet.
     for (const TraceRay& ray : distant_rays(engine, 1e5, 100000, kernels.lanes)) rays.push_back(ray);
-    std::vector<TraceHit> alone(rays.size()), in_company(rays.size());
+    std::vector<TraceHit> alone(rays.size()), in_group(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) kernels.trace(view.view(), &rays[i], &alone[i], 1, false);
     CAPTURE(std::string(kernels.isa));
     CHECK(differences(alone, traced(kernels, scene, rays)) == 0);
@@ -152,8 +152,8 @@ TEST_CASE("trace: each ray alone and in random company meets the same, to the la
     std::vector<TraceRay> shuffled;
     for (const std::size_t i : order) shuffled.push_back(rays[i]);
     const std::vector<TraceHit> hits = traced(kernels, scene, shuffled);
-    for (std::size_t i = 0; i < order.size(); ++i) in_company[order[i]] = hits[i];
-    CHECK(differences(alone, in_company) == 0);
+    for (std::size_t i = 0; i < order.size(); ++i) in_group[order[i]] = hits[i];
+    CHECK(differences(alone, in_group) == 0);
     CHECK(rays.size() > 300000);
   }
 }

@@ -56,8 +56,8 @@ TEST_CASE("image: u wraps around, v ends at the edge rows") {
   CHECK(at(0.0625f, 0.75f).x == doctest::Approx(0.75));  // three quarters of the first column, a quarter of the last
   CHECK(at(0.9375f, 0.75f).x == doctest::Approx(2.25));
   for (const float u : {0.1f, 0.6f})
-    for (const float turns : {1.0f, -1.0f, 7.0f})
-      CHECK(at(u + turns, 0.3f).x == doctest::Approx(at(u, 0.3f).x).epsilon(1e-5).scale(0));
+    for (const float revolutions : {1.0f, -1.0f, 7.0f})
+      CHECK(at(u + revolutions, 0.3f).x == doctest::Approx(at(u, 0.3f).x).epsilon(1e-5).scale(0));
   for (const float v : {1.0f, 1.5f, 100.0f, 1e30f}) CHECK(at(0.125f, v).y == 0.0f);
   for (const float v : {0.0f, -0.5f, -1e30f}) CHECK(at(0.125f, v).y == 1.0f);
 }

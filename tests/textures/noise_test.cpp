@@ -75,10 +75,11 @@ TEST_CASE("noise: repeats every 256 cells and no sooner") {
   for (int i = 0; i < 5000; ++i) {
     const Vec3f p = points.next();
     const float here = gradient_noise(p, table());
-    for (const Vec3f way : {Vec3f{256, 0, 0}, Vec3f{0, -256, 0}, Vec3f{0, 0, 256}, Vec3f{-512, 256, 0}})
-      REQUIRE(gradient_noise(p + way, table()) == here);
-    for (const Vec3f way : {Vec3f{128, 0, 0}, Vec3f{0, 128, 0}, Vec3f{0, 0, 128}, Vec3f{1, -1, 0}, Vec3f{0, 1, -1}})
-      equal_sooner += here != 0 && gradient_noise(p + way, table()) == here ? 1 : 0;
+    for (const Vec3f direction : {Vec3f{256, 0, 0}, Vec3f{0, -256, 0}, Vec3f{0, 0, 256}, Vec3f{-512, 256, 0}})
+      REQUIRE(gradient_noise(p + direction, table()) == here);
+    for (const Vec3f direction :
+         {Vec3f{128, 0, 0}, Vec3f{0, 128, 0}, Vec3f{0, 0, 128}, Vec3f{1, -1, 0}, Vec3f{0, 1, -1}})
+      equal_sooner += here != 0 && gradient_noise(p + direction, table()) == here ? 1 : 0;
   }
   CHECK(equal_sooner < 25);
 }
@@ -105,22 +106,22 @@ TEST_CASE("noise: turbulence is the absolute sum of seven octaves, each half as 
 
 TEST_CASE("noise: styles are grey values; marble waves across z and stays within [0, 1]") {
   Points points;
-  float least = 1, most = 0;
+  float minimum = 1, maximum = 0;
   for (int i = 0; i < 100000; ++i) {
     const Vec3f p = points.next();
-    const float turn = 4 * p.z / static_cast<float>(2 * pi);
-    const float marble = noise_grey(Style::marble, p, turn, true, table());
+    const float phase = 4 * p.z / static_cast<float>(2 * pi);
+    const float marble = noise_grey(Style::marble, p, phase, true, table());
     const double expected =
         0.5 * (1 + std::sin(4 * static_cast<double>(p.z) + 10 * static_cast<double>(turbulence(p, true, table()))));
     REQUIRE(marble >= 0.0f);
     REQUIRE(marble <= 1.0f);
     REQUIRE(std::abs(static_cast<double>(marble) - expected) < 2e-4);  // of angles up to 256
-    least = std::min(least, marble), most = std::max(most, marble);
+    minimum = std::min(minimum, marble), maximum = std::max(maximum, marble);
     REQUIRE(noise_grey(Style::perlin, p, 0.0f, true, table()) ==
             doctest::Approx(0.5f + 0.5f * gradient_noise(p, table())));
     REQUIRE(noise_grey(Style::turbulence, p, 0.0f, true, table()) == turbulence(p, true, table()));
     REQUIRE(turbulence(p, true, table()) <= 1.0f);
   }
-  CHECK(least < 0.01f);
-  CHECK(most > 0.99f);
+  CHECK(minimum < 0.01f);
+  CHECK(maximum > 0.99f);
 }

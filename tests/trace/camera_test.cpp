@@ -25,14 +25,14 @@ Scene slanted() {
   return scene;
 }
 
-Vec3d way(const Ray<float>& ray) { return exact(ray.direction); }
+Vec3d direction(const Ray<float>& ray) { return exact(ray.direction); }
 
 }  // namespace
 
 TEST_CASE("camera: x to the right, y down, the field of view from edge to edge of the picture's height") {
   const Scene scene = slanted();
   const RenderScene compiled = compile(scene);
-  const auto through = [&](float x, float y) { return way(camera_ray<float>(compiled.camera, x, y, {0, 0}, 0)); };
+  const auto through = [&](float x, float y) { return direction(camera_ray<float>(compiled.camera, x, y, {0, 0}, 0)); };
   const Vec3d axis = normalize(scene.camera.look_at - scene.camera.look_from);
   const Vec3d right = normalize(cross(axis, scene.camera.vup)), up = cross(right, axis);
   CHECK(length(through(60, 40) - axis) < 1e-6);
@@ -63,7 +63,7 @@ TEST_CASE(
       const float x = static_cast<float>(uniform(engine, 0, 120)), y = static_cast<float>(uniform(engine, 0, 80));
       const auto in_focus = [&](Pair<float> lens) {
         const Ray<float> ray = camera_ray<float>(compiled.camera, x, y, lens, 0);
-        const Vec3d start = exact(ray.origin), d = way(ray);
+        const Vec3d start = exact(ray.origin), d = direction(ray);
         CHECK(std::abs(dot(start - center, axis)) < 1e-5 * distance);
         CHECK(length(start - center) == doctest::Approx(radius * std::hypot(lens.x, lens.y)).epsilon(1e-3).scale(0));
         return start + (distance - dot(start - center, axis)) / dot(d, axis) * d;
@@ -90,7 +90,7 @@ TEST_CASE("camera: samples fill the pixel, the lens and the shutter evenly") {
   const Vec3d center = scene.camera.look_from - compiled.origin;
   const double radius = length(scene.camera.look_from - scene.camera.look_at) * std::tan(2 * pi / 180);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Ray<float> ray = sample_ray(view.view(), 30.0f, 20.0f, Dice<float>::of(1, 30, 20, i));
+    const Ray<float> ray = sample_ray(view.view(), 30.0f, 20.0f, Sampler<float>::of(1, 30, 20, i));
     time += static_cast<double>(ray.time) / count, time2 += std::pow(static_cast<double>(ray.time) - 0.5, 2) / count;
     earliest = std::min(earliest, ray.time), latest = std::max(latest, ray.time);
     lens += std::pow(length(exact(ray.origin) - center) / radius, 2) / count;
@@ -108,24 +108,24 @@ TEST_CASE("camera: without a lens all samples start at the centre, without a shu
   scene.camera.shutter_open = scene.camera.shutter_close = 0.5;
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
-  double x = 0, y = 0, least = 9, most = -9;
+  double x = 0, y = 0, minimum = 9, maximum = -9;
   constexpr int count = 20000;
   const Vec3f corner = compiled.camera.corner, du = compiled.camera.du, dv = compiled.camera.dv;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Ray<float> ray = sample_ray(view.view(), 30.0f, 20.0f, Dice<float>::of(1, 30, 20, i));
+    const Ray<float> ray = sample_ray(view.view(), 30.0f, 20.0f, Sampler<float>::of(1, 30, 20, i));
     CHECK(ray.origin == compiled.camera.center);
     CHECK(ray.time == 0.5f);
     // Where in the pixel: the point of the focus plane in steps of pixels.
-    const Vec3d target =
-        length(scene.camera.look_from - scene.camera.look_at) / dot(way(ray), exact(compiled.camera.axis)) * way(ray) -
-        exact(corner);
+    const Vec3d target = length(scene.camera.look_from - scene.camera.look_at) /
+                             dot(direction(ray), exact(compiled.camera.axis)) * direction(ray) -
+                         exact(corner);
     const double px = dot(target, exact(du)) / dot(exact(du), exact(du)) - 30;
     const double py = dot(target, exact(dv)) / dot(exact(dv), exact(dv)) - 20;
     x += px / count, y += py / count;
-    least = std::min({least, px, py}), most = std::max({most, px, py});
+    minimum = std::min({minimum, px, py}), maximum = std::max({maximum, px, py});
   }
   const double sigma = 1 / std::sqrt(12.0 * count);
   CHECK(std::abs(x - 0.5) < 4 * sigma);
   CHECK(std::abs(y - 0.5) < 4 * sigma);
-  CHECK((least > -1e-3 && least < 1e-3 && most > 0.999 && most < 1.001));
+  CHECK((minimum > -1e-3 && minimum < 1e-3 && maximum > 0.999 && maximum < 1.001));
 }

@@ -12,7 +12,7 @@ using namespace tyndall::test;
 
 namespace {
 
-Dice<float> dice_of(std::uint32_t i) { return Dice<float>::of(1, i, i >> 12, i * 7u); }
+Sampler<float> sampler_of(std::uint32_t i) { return Sampler<float>::of(1, i, i >> 12, i * 7u); }
 
 /// Solid angle of a rectangle by quadrature over its area, and the mean direction over the solid angle.
 struct Seen {
@@ -25,9 +25,9 @@ Seen quadrature(const Quad<>& q, Vec3d point) {
   const Vec3d normal = normalize(cross(q.u, q.v));
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Vec3d way = q.corner + ((i + 0.5) / n) * q.u + ((j + 0.5) / n) * q.v - point;
-      const double d2 = dot(way, way);
-      const Vec3d direction = (1 / std::sqrt(d2)) * way;
+      const Vec3d direction = q.corner + ((i + 0.5) / n) * q.u + ((j + 0.5) / n) * q.v - point;
+      const double d2 = dot(direction, direction);
+      const Vec3d direction = (1 / std::sqrt(d2)) * direction;
       const double part = std::abs(dot(direction, normal)) * length(cross(q.u, q.v)) / (d2 * n * n);
       seen.solid_angle += part;
       seen.mean = seen.mean + part * direction;
@@ -45,7 +45,7 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
     const Vec3d u = size * direction(engine), helper = direction(engine);
     const Vec3d v = (k % 4 == 3 ? 1.0 : uniform(engine, 0.2, 3)) * (k % 4 == 3 ? size * helper : cross(u, helper));
     const Quad<> quad{size * in_cube(engine, 2), u, v};
-    const RenderScene scene = lit({lamp_object(quad)});
+    const RenderScene scene = lit({light_object(quad)});
     const SceneViewOf view(scene);
     const Vec3d from = size * in_cube(engine, k % 2 ? 2 : 20);
     if (std::abs(dot(normalize(cross(u, v)), from - quad.corner)) < 0.2 * size) continue;
@@ -53,7 +53,7 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
     const Vec3f point = rounded(from - scene.origin);
     Moments inverse, x, y, z;
     for (std::uint32_t i = 0; i < 20000; ++i) {
-      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, dice_of(i).pair(2));
+      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, sampler_of(i).next_2d(2));
       REQUIRE(s.density > 0);
       const double weight = 1 / static_cast<double>(s.density);
       inverse.add(weight);
@@ -61,7 +61,7 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
       y.add(weight * static_cast<double>(s.direction.y));
       z.add(weight * static_cast<double>(s.direction.z));
       // The same density is found for the direction by itself.
-      const float again = light_density<float>(view.view().lights, 0, point, 0.0f, s.direction, s.distance);
+      const float again = light_pdf<float>(view.view().lights, 0, point, 0.0f, s.direction, s.distance);
       REQUIRE(again == doctest::Approx(s.density).epsilon(1e-3).scale(0));
     }
     CAPTURE(k);
@@ -77,17 +77,17 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
 
 TEST_CASE("lights: a sphere is sampled over its cap, from touching to ten thousand radii away, and from inside") {
   for (const double distance : {0.0, 0.5, 0.999, 1.001, 1.01, 2.0, 100.0, 1e4}) {
-    const RenderScene scene = lit({lamp_object(sphere({0, 0, 0}, 1))});
+    const RenderScene scene = lit({light_object(sphere({0, 0, 0}, 1))});
     const SceneViewOf view(scene);
     const Vec3f point = rounded(Vec3d{0, 0, -distance} - scene.origin);
     const double cosine = distance <= 1 ? -1 : std::sqrt(1 - 1 / (distance * distance));
     const double part = distance <= 1 ? 2 : 1 / (distance * distance) / (1 + cosine);  // 1 - cos
     Moments angle;
     for (std::uint32_t i = 0; i < 20000; ++i) {
-      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, dice_of(i).pair(2));
+      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, sampler_of(i).next_2d(2));
       CHECK(static_cast<double>(s.density) == doctest::Approx(0.5 / pi / part).epsilon(1e-5).scale(0));
       CHECK(s.distance > 0);
-      CHECK(static_cast<double>(length(along(point, s.distance, s.direction))) ==
+      CHECK(static_cast<double>(length(point_at(point, s.distance, s.direction))) ==
             doctest::Approx(1).epsilon(1e-6 + 4e-7 * distance).scale(0));
       const double across2 = static_cast<double>(s.direction.x * s.direction.x + s.direction.y * s.direction.y);
       const double c = static_cast<double>(s.direction.z);
@@ -102,7 +102,7 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
   Engine engine(2);
   for (const int count : {1, 2, 16, 17, 1000}) {
     std::vector<Object> lamps;
-    for (int i = 0; i < count; ++i) lamps.push_back(lamp_object(sphere(in_cube(engine, 5), uniform(engine, 0.1, 1))));
+    for (int i = 0; i < count; ++i) lamps.push_back(light_object(sphere(in_cube(engine, 5), uniform(engine, 0.1, 1))));
     const RenderScene scene = lit(lamps);
     const SceneViewOf view(scene);
     const LightView& lights = view.view().lights;
@@ -111,7 +111,7 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
     const int draws = 200000;
     double sum = 0;
     for (std::uint32_t i = 0; i < draws; ++i) {
-      const LightChoice<float> choice = choose_light<float>(lights, point, dice_of(i).one(5));
+      const LightChoice<float> choice = choose_light<float>(lights, point, sampler_of(i).next_1d(5));
       REQUIRE(choice.probability ==
               doctest::Approx(choice_probability<float>(lights, point, choice.light)).epsilon(1e-5).scale(0));
       ++taken[static_cast<std::size_t>(choice.light)];
@@ -132,7 +132,7 @@ TEST_CASE("lights: of a thousand alike, the one beside the point is asked most o
   std::vector<Object> lamps;
   for (int i = 0; i < 1000; ++i) {
     const double x = i % 10, y = i / 10 % 10, z = i / 100;
-    lamps.push_back(lamp_object(sphere({2 * x, 2 * y, 2 * z}, 0.1)));
+    lamps.push_back(light_object(sphere({2 * x, 2 * y, 2 * z}, 0.1)));
   }
   const RenderScene scene = lit(lamps);
   const SceneViewOf view(scene);

@@ -45,9 +45,9 @@ TEST_CASE("slabs: rays through the inside of a box enter it where they should; t
   const BvhNode node = node_of({-1, -1, -1}, {1, 1, 1});
   int entered = 0, apart = 0, wrong = 0;
   for (int i = 0; i < 125 * 64; ++i) {
-    const float at[5] = {-3, -1, 0, 1, 3}, way[4] = {-1, -0.0f, 0, 1};
+    const float at[5] = {-3, -1, 0, 1, 3}, direction[4] = {-1, -0.0f, 0, 1};
     const float o[3] = {at[i % 5], at[i / 5 % 5], at[i / 25 % 5]};
-    const float d[3] = {way[i / 125 % 4], way[i / 500 % 4], way[i / 2000 % 4]};
+    const float d[3] = {direction[i / 125 % 4], direction[i / 500 % 4], direction[i / 2000 % 4]};
     if (d[0] == 0 && d[1] == 0 && d[2] == 0) continue;
     double near = -1e9, far = 1e9;
     bool touches = true, inside = true;
@@ -84,7 +84,7 @@ TEST_CASE("slabs: no ray misses a flat box that it goes through") {
     const auto between = [&](float a, float b) { return a + (b - a) * uniform(engine, 0.01, 0.99); };
     const Vec3d through{between(low.x, high.x), between(low.y, high.y), between(low.z, high.z)};
     const Vec3d from = in_cube(engine, 1000);
-    const Vec3f o = rounded(from), d = unit(through - from);
+    const Vec3f o = rounded(from), d = unit_vector(through - from);
     const float near = enter(node_of(low, high), o, d);
     const double distance = length(through - from);
     lost += std::abs(static_cast<double>(near) - distance) < 1e-3 * distance ? 0 : 1;
@@ -109,7 +109,8 @@ TEST_CASE("slabs: a box within another is never entered before it, nor left afte
     const Vec3f outer_high = a + size;
     const Vec3f inner_high{end(outer_high.x, b.x), end(outer_high.y, b.y), end(outer_high.z, b.z)};
     const Vec3f o = i % 4 ? rounded(in_cube(engine, 150)) : b;
-    const Vec3f d = i % 5 ? unit(exact(b) - exact(o) + in_cube(engine, 10)) : Vec3f{0, i % 2 ? 1.0f : -1.0f, -0.0f};
+    const Vec3f d =
+        i % 5 ? unit_vector(exact(b) - exact(o) + in_cube(engine, 10)) : Vec3f{0, i % 2 ? 1.0f : -1.0f, -0.0f};
     const float limit = i % 3 ? infinity : static_cast<float>(uniform(engine, 1, 200));
     const float outer = enter(node_of(a, outer_high), o, d, limit), inner = enter(node_of(b, inner_high), o, d, limit);
     wrong += outer <= inner ? 0 : 1;

@@ -12,7 +12,7 @@
 /// Which pictures are on the screen and what they are measured against.
 namespace tyndall {
 
-/// What is measured. Each has a share of the processors of its own.
+/// What is measured. Each has a fraction of the processors of its own.
 enum class Measurement { truth, kept_truth, pair, map, flip_map, flip };
 inline constexpr std::size_t measurement_count = 6;
 

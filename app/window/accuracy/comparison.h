@@ -37,19 +37,21 @@ bool can_compare(const ComparisonOrder& order);
 /// map has the colours of `tyndall compare --heatmap`.
 ComparisonResult compare(const ComparisonOrder& order);
 
-/// Limits work that comes again and again to a share of the processors' time: the more it took, the later it is due
+/// Limits work that comes again and again to a fraction of the processors' time: the more it took, the later it is due
 /// again. Times are seconds of one clock.
-class ProcessorShare {
+class ProcessorBudget {
  public:
-  explicit ProcessorShare(double share) : share_(share) {}
+  explicit ProcessorBudget(double fraction) : fraction_(fraction) {}
   bool due(double now) const { return now >= next_; }
   /// Work that began at the time `start` took `cpu_seconds` of one of `processors`.
-  void spent(double start, double cpu_seconds, int processors) { next_ = start + cpu_seconds / (share_ * processors); }
+  void spent(double start, double cpu_seconds, int processors) {
+    next_ = start + cpu_seconds / (fraction_ * processors);
+  }
   /// Makes the work due at once, because the user waits for it.
   void renew() { next_ = 0; }
 
  private:
-  double share_, next_ = 0;
+  double fraction_, next_ = 0;
 };
 
 }  // namespace tyndall

@@ -6,12 +6,12 @@ namespace tyndall {
 
 LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
     : clock_(std::move(clock)),
-      measured_{{{ProcessorShare(0.003)},
-                 {ProcessorShare(0.003)},
-                 {ProcessorShare(0.002)},
-                 {ProcessorShare(0.01)},
-                 {ProcessorShare(0.1)},
-                 {ProcessorShare(0.008)}}},
+      measured_{{{ProcessorBudget(0.003)},
+                 {ProcessorBudget(0.003)},
+                 {ProcessorBudget(0.002)},
+                 {ProcessorBudget(0.01)},
+                 {ProcessorBudget(0.1)},
+                 {ProcessorBudget(0.008)}}},
       quick_{JobQueue(on_result)},
       slow_{JobQueue(on_result)} {}
 
@@ -35,9 +35,9 @@ void LiveAccuracy::set_view(ErrorView view) {
   consider();
 }
 
-/// The user waits for a map after each edit, so its share of the processors does not hold it back.
+/// The user waits for a map after each edit, so its fraction of the processors does not hold it back.
 void LiveAccuracy::renew_maps() {
-  for (const Measurement what : {Measurement::map, Measurement::flip_map}) measured(what).share.renew();
+  for (const Measurement what : {Measurement::map, Measurement::flip_map}) measured(what).budget.renew();
 }
 
 void LiveAccuracy::set_split(bool split) {
@@ -54,7 +54,7 @@ void LiveAccuracy::forget_results() {
   ++generation_;
   pair_ = {};
   map_.reset();
-  for (Measured& one : measured_) one.share.renew(), one.newest = {}, one.seconds = 0;
+  for (Measured& one : measured_) one.budget.renew(), one.newest = {}, one.seconds = 0;
 }
 
 void LiveAccuracy::set_resting(bool resting) {
@@ -80,11 +80,11 @@ bool LiveAccuracy::due(Measurement what, double now) const {
   if (resting_) return true;
   // FLIP takes a second and says little about the noise of the first samples: it waits for 16.
   if (what == Measurement::flip && (order.frame->spp < 16 || !has_grown(what, order, 2))) return false;
-  return measured(what).share.due(now) || is_early(what, order);
+  return measured(what).budget.due(now) || is_early(what, order);
 }
 
-/// Whether a point is measured although measuring has used up its share of the processors. At the start of a curve the
-/// error falls fast, so points are wanted close to each other; over the first second they take little time in all.
+/// Whether a point is measured although measuring has used up its fraction of the processors. At the start of a curve
+/// the error falls fast, so points are wanted close to each other; over the first second they take little time in all.
 bool LiveAccuracy::is_early(Measurement what, const ComparisonOrder& order) const {
   return is_truth(what) && has_grown(what, order, 1.25);
 }
@@ -127,7 +127,7 @@ void LiveAccuracy::start(Measurement what, double now) {
     }
     return [this, what, order, now, &by, method, generation, result = std::move(found)]() mutable {
       by.busy = false;
-      if (result) measured(what).share.spent(now, result->cpu_seconds, threads_);
+      if (result) measured(what).budget.spent(now, result->cpu_seconds, threads_);
       if (result && generation == generation_) take(what, order, method, std::move(*result));
       consider();
     };

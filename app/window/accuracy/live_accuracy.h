@@ -77,7 +77,7 @@ class LiveAccuracy {
     bool operator==(const PairId&) const = default;
   };
   struct Measured {
-    ProcessorShare share;
+    ProcessorBudget budget;
     PairId newest{};     ///< the pictures that were measured last
     double seconds = 0;  ///< for which the first of them had been rendered by then
   };

@@ -19,7 +19,7 @@ struct ViewEntry {
   bool stops = false;                 ///< the picture's luminance in colours, a stop each: see stops.h
 };
 
-constexpr ViewEntry entry_of(View view) { return {word(view).name, view, ErrorView::none, word(view).help}; }
+constexpr ViewEntry entry_of(View view) { return {label(view).name, view, ErrorView::none, label(view).help}; }
 
 inline constexpr ViewEntry view_entries[] = {
     entry_of(View::beauty),

@@ -50,11 +50,11 @@ enum class Action {
   store_camera,
   next_camera,
   add_sphere,  // these in the order of Addition
-  add_hollow_ball,
+  add_hollow_sphere,
   add_box,
   add_quad,
-  add_lamp,
-  add_fog,
+  add_light,
+  add_medium,
   // From here on none is in actions(); most have an argument.
   view,              ///< number: see views.h
   section,           ///< of the column; number: see column_tabs()
@@ -72,7 +72,7 @@ enum class Action {
 };
 
 /// Whether the action adds an object.
-constexpr bool is_addition(Action action) { return action >= Action::add_sphere && action <= Action::add_fog; }
+constexpr bool is_addition(Action action) { return action >= Action::add_sphere && action <= Action::add_medium; }
 
 /// A key with the modifiers that must be held with it, and no others. code: GLFW's number, for letters and digits their
 /// capital ASCII; 0: no key.

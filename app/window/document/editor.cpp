@@ -31,8 +31,8 @@ Editor::Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, Ed
 
 void Editor::edit(Scene next, std::uint64_t gesture) {
   if (next == scene()) return;
-  if (const auto broken = check(next)) {
-    messages_.say(broken->where + ": found " + broken->found + ", expected " + broken->expected, true);
+  if (const auto error = check(next)) {
+    messages_.say(error->where + ": found " + error->found + ", expected " + error->expected, true);
     return;
   }
   const bool same = same_picture(next, scene());
@@ -102,7 +102,7 @@ void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
   std::string remarks;
   for (const std::string& remark : texture_remarks(scene())) remarks += "; " + remark;
   messages_.say((own_file ? "read again: " : "opened ") + document().origin->title +
-                (film.word.empty() ? "" : "; " + film.word) +
+                (film.remark.empty() ? "" : "; " + film.remark) +
                 (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left) + remarks +
                 (own_file || unwatched_.empty() ? "" : "; " + unwatched_));
   if (film.film) events_.film_opened(film.film);
@@ -128,8 +128,8 @@ void Editor::open(const std::string& what) {
 void Editor::open_film(const LoadedScene& scene) {
   read_in_background([this, scene, before = changes_]() -> JobQueue::Result {
     return [this, before, film = events_.film_of(scene)] {
-      if (changes_ != before || film.word.empty()) return;
-      messages_.say("opened " + document().origin->title + "; " + film.word);
+      if (changes_ != before || film.remark.empty()) return;
+      messages_.say("opened " + document().origin->title + "; " + film.remark);
       if (film.film) events_.film_opened(film.film);
     };
   });
@@ -159,7 +159,7 @@ void Editor::reload() {
 void Editor::take_reading(const Document* read, const std::string& wrong, const std::vector<fs::path>& needed) {
   const std::vector<fs::path> watched = watched_;
   const std::string before = std::exchange(unreadable_, wrong);
-  broken_files_ = needed;
+  unreadable_files_ = needed;
   if (read) {
     if (log_) log_->line("read " + (read->origin->file.empty() ? read->origin->what : read->origin->file.string()));
     take_file(*read);
@@ -192,10 +192,10 @@ void Editor::watch() {
   const std::string& what = document().origin->what;
   if (std::exchange(watched_scene_, what) != what) {
     unreadable_.clear();
-    broken_files_.clear();
+    unreadable_files_.clear();
   }
   std::vector<fs::path> files = watched_files(document());
-  files.insert(files.end(), broken_files_.begin(), broken_files_.end());
+  files.insert(files.end(), unreadable_files_.begin(), unreadable_files_.end());
   if (files == watched_) return;
   watch_.reset();
   watched_ = files;

@@ -80,7 +80,7 @@ class Editor {
   /// whether one has.
   bool collect();
   /// Another program has changed the file while there are edits of it: what the file holds now waits for an answer.
-  bool asks_about_file() const { return changed_file_.has_value(); }
+  bool offers_reload() const { return changed_file_.has_value(); }
   /// The answer: takes what the file holds, which can be undone, or keeps the edits.
   void answer_about_file(bool take);
   /// Whether one of these files was changed and collect() has not been called since.
@@ -108,7 +108,7 @@ class Editor {
   std::atomic<bool> file_changed_ = false;
   std::string watched_scene_;  ///< Origin::what
   std::vector<std::filesystem::path> watched_;
-  std::vector<std::filesystem::path> broken_files_;  ///< what a reading depends on that has failed; watched, too
+  std::vector<std::filesystem::path> unreadable_files_;  ///< what a reading depends on that has failed; watched, too
   std::string unwatched_;             ///< why changes of these files are not seen, for the user; empty: they are
   std::unique_ptr<FileWatch> watch_;  // declared last, because it uses the others
 };

@@ -27,7 +27,7 @@ bool History::record(Document next, std::uint64_t gesture) {
     return true;
   }
   steps_.push_back({std::move(next), {}});
-  if (steps_.size() > most_steps) steps_.erase(steps_.begin());
+  if (steps_.size() > max_steps) steps_.erase(steps_.begin());
   at_ = steps_.size() - 1;
   select(std::move(selected));
   gesture_ = gesture;

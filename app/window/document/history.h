@@ -40,7 +40,7 @@ class History {
   bool can_redo() const { return at_ + 1 < steps_.size(); }
 
   /// Older steps are forgotten.
-  static constexpr std::size_t most_steps = 200;
+  static constexpr std::size_t max_steps = 200;
 
  private:
   std::size_t unsaved_step() const;

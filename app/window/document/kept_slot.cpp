@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_windows = 1000;  // that keep edits at the same time
+constexpr int max_windows = 1000;  // that keep edits at the same time
 
 /// The number in a file's name; 0: it is not one of the place.
 int number_of(const KeepingPlace& place, const fs::path& file) {
@@ -85,7 +85,7 @@ bool KeptSlot::used() const {
 }
 
 KeptSlot free_slot(const KeepingPlace& place) {
-  for (int number = 1; number <= most_windows; ++number) {
+  for (int number = 1; number <= max_windows; ++number) {
     KeptSlot slot(place, number);
     if (slot.error() != 0)
       throw IoError(place.folder.string() + ": cannot write: " + std::generic_category().message(slot.error()));

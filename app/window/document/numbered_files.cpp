@@ -16,9 +16,9 @@ namespace tyndall {
 
 namespace fs = std::filesystem;
 
-fs::path numbered_base(const fs::path& folder, const std::string& stem, int least,
+fs::path numbered_base(const fs::path& folder, const std::string& stem, int minimum,
                        const std::vector<const char*>& endings) {
-  for (int number = least;; ++number) {
+  for (int number = minimum;; ++number) {
     fs::path base = folder / fmt::format("{}-{:03}", stem, number);
     std::error_code ignored;
     const auto taken = [&](const char* ending) {

@@ -11,9 +11,9 @@
 /// Files that the window writes without asking for a name: showroom-001.png, showroom-002.png, and so on.
 namespace tyndall {
 
-/// FOLDER/STEM-001, or with the first number from `least` on for which no file with one of the endings exists. Without
-/// its ending.
-std::filesystem::path numbered_base(const std::filesystem::path& folder, const std::string& stem, int least,
+/// FOLDER/STEM-001, or with the first number from `minimum` on for which no file with one of the endings exists.
+/// Without its ending.
+std::filesystem::path numbered_base(const std::filesystem::path& folder, const std::string& stem, int minimum,
                                     const std::vector<const char*>& endings);
 
 /// The number in a name from numbered_base().

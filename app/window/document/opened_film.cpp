@@ -41,7 +41,7 @@ OpenedFilm read_opened_film(const LoadedScene& loaded, const std::string& isa) {
     Scene scene = move_textures(loaded.scene, loaded.folder, ".");
     if (!same_samples(std::move(scene), stored.scene)) return {nullptr, "it starts over with the changed settings"};
     auto film = std::make_shared<Film>(std::move(stored.part.film));
-    const std::uint32_t spp = totals(*film).least_taken;
+    const std::uint32_t spp = totals(*film).min_taken;
     if (spp == 0) return {nullptr, "it starts over, as its film is empty"};
     return {std::move(film), "it goes on from " + format_count(spp) + " spp"};
   } catch (const std::exception& error) {

@@ -10,7 +10,7 @@ namespace tyndall {
 
 struct OpenedFilm {
   std::shared_ptr<Film> film;  ///< null: the picture starts over, or it is no snapshot
-  std::string word;            ///< what the user is told of it; "": nothing
+  std::string remark;          ///< what the user is told of it; "": nothing
 };
 
 /// Reads the film of a scene that was loaded from an image. It is only of use if it is whole and its samples are those

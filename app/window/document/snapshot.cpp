@@ -38,9 +38,9 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   const std::vector<std::string> problems = write_images(picture, files);
   if (!problems.empty()) throw ImageFileError(fmt::format("{}", fmt::join(problems, "; ")));
   const FilmTotals& sum = finished.totals;
-  const bool uneven = !scene.render.adaptive && sum.least_taken != sum.most_taken;  // within a pass, or refined first
+  const bool uneven = !scene.render.adaptive && sum.min_taken != sum.max_taken;  // within a pass, or refined first
   return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +
-         std::to_string(finished.spp) + (uneven ? " to " + std::to_string(sum.most_taken) : "") + " spp";
+         std::to_string(finished.spp) + (uneven ? " to " + std::to_string(sum.max_taken) : "") + " spp";
 }
 
 Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,
@@ -48,7 +48,7 @@ Film wait_for_film(const std::function<Film()>& film, const std::function<bool()
   for (const double end = clock_seconds() + 20; clock_seconds() < end;) {
     Film now = film();
     if (!current()) return {};
-    if (!now.pixels.empty() && totals(now).least_taken > 0) return now;
+    if (!now.pixels.empty() && totals(now).min_taken > 0) return now;
     if (!patient()) return {};
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -8,7 +8,7 @@
 namespace tyndall {
 
 /// What can be added.
-enum class Addition { sphere, hollow_ball, box, quad, lamp, fog };
+enum class Addition { sphere, hollow_sphere, box, quad, light, medium };
 
 struct AdditionEntry {
   Addition what;

@@ -48,8 +48,8 @@ Vec3d own_middle(const Object& object) {
     free.transform.clear();
     Scene alone;
     alone.objects.push_back(std::move(free));
-    const auto ball = ball_around(alone, {0});
-    return ball ? ball->center : result;
+    const auto sphere = bounding_sphere(alone, {0});
+    return sphere ? sphere->center : result;
   }
   with_shape(object, [&](const auto& shape) { result = middle(shape); });
   const Volume* volume = std::get_if<Volume>(&object.kind);
@@ -57,9 +57,9 @@ Vec3d own_middle(const Object& object) {
   return inner ? place(placement_of(volume->boundary_transform), result) : result;
 }
 
-double within_half_turn(double degrees) {
-  const double turns = std::round(degrees / 360);
-  return without_noise(degrees - 360 * turns);
+double within_180_degrees(double degrees) {
+  const double revolutions = std::round(degrees / 360);
+  return without_noise(degrees - 360 * revolutions);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ void set_anchor(Scene& scene, const ObjectPath& path, Vec3d anchor) {
   std::get<Translate>(transform.back()).offset = anchor;
 }
 
-void turn_object(Scene& scene, const ObjectPath& path, double degrees) {
+void rotate_object(Scene& scene, const ObjectPath& path, double degrees) {
   Object& object = *find_object(scene, path);
   Transform& transform = own_transform(object);
   const Placement before = placement_of(transform);
@@ -105,16 +105,16 @@ void turn_object(Scene& scene, const ObjectPath& path, double degrees) {
     const Vec3d at = without_noise(Vec3d{center.x, 0, center.z});
     with_shape(object, [&](auto& shape) { set_place(shape, without_noise(place_of(shape) - at)); });
   }
-  const Placement turned{within_half_turn(before.degrees + degrees), {}};
-  const Vec3d offset = without_noise(rounded(center - turn(turned, own_middle(object)),
+  const Placement rotated{within_180_degrees(before.degrees + degrees), {}};
+  const Vec3d offset = without_noise(rounded(center - rotate(rotated, own_middle(object)),
                                              {1, decimal_below(std::abs(length(center)) + 1).exponent - 6}));
   transform.clear();
-  if (turned.degrees != 0) transform.push_back(RotateY{turned.degrees});
+  if (rotated.degrees != 0) transform.push_back(RotateY{rotated.degrees});
   if (!(offset == Vec3d{}) || transform.empty()) transform.push_back(Translate{offset});
 }
 
 double angle_of(const Scene& scene, const ObjectPath& path) {
-  return within_half_turn(placement_of(own_transform(*find_object(scene, path))).degrees);
+  return within_180_degrees(placement_of(own_transform(*find_object(scene, path))).degrees);
 }
 
 Vec3d middle_of(const Scene& scene, const ObjectPath& path) {

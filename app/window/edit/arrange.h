@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/edit/grain.h"
+#include "app/window/edit/drag_rounding.h"
 #include "app/window/tools/selection.h"
 
 #include <vector>
@@ -23,7 +23,7 @@ Placement outer_placement(const Scene& scene, const ObjectPath& path);
 
 /// Turns an object about the vertical through its middle, by degrees in the sense of "rotate_y". A shape without a
 /// transform is put around the origin first, so that its transform holds its place and its angle.
-void turn_object(Scene& scene, const ObjectPath& path, double degrees);
+void rotate_object(Scene& scene, const ObjectPath& path, double degrees);
 /// Its present angle, degrees, without that of the groups around it.
 double angle_of(const Scene& scene, const ObjectPath& path);
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/edit/companions.h"
+#include "app/window/edit/linked_objects.h"
 
 #include <cstdint>
 
@@ -15,7 +15,7 @@ class GestureStart {
   void finish_edit(const Scene& now, Scene& next, std::uint64_t gesture) {
     if (next.objects == now.objects) return;
     if (gesture != gesture_ || start_.objects.empty()) start_ = now, gesture_ = gesture;
-    let_companions_follow(start_, now, next);
+    move_linked_objects(start_, now, next);
   }
 
  private:

@@ -1,7 +1,7 @@
 #include "app/window/edit/material_edits.h"
 
 #include "app/window/edit/arrange.h"
-#include "app/window/edit/companions.h"
+#include "app/window/edit/linked_objects.h"
 #include "core/base/kinds.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace tyndall {
 namespace {
 
 constexpr const char* types[] = {Lambertian<>::type, Metal<>::type, Dielectric<>::type, Light<>::type, "fog within"};
-constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, fog_within = 4;
+constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, medium_within = 4;
 constexpr double usual_power = 5;  // of what becomes a light
 constexpr Vec3d usual_albedo{0.8, 0.8, 0.8};
 
@@ -24,7 +24,7 @@ const Solid3d* solid_at(const Scene& scene, const ObjectPath& path) {
 ObjectPath filling(const Scene& scene, const ObjectPath& path) {
   const Solid3d* solid = solid_at(scene, path);
   if (!solid) return {};
-  for (const ObjectPath& other : companions(scene, path)) {
+  for (const ObjectPath& other : linked_objects(scene, path)) {
     const Volume* volume = std::get_if<Volume>(&find_object(scene, other)->kind);
     const bool same = volume && std::visit(
                                     [&]<class Shape>(const Shape& boundary) {
@@ -70,10 +70,10 @@ ColourOrTexture colour_for(int type, const Material& before, const KindsOfMateri
   if (!colour_name(before.kind)) return known_colour(known, type);
   const Vec3d* colour = std::get_if<Vec3d>(&before.colour);
   if (!colour || lit == lights) return before.colour;
-  const LampColour lamp = lamp_colour(*colour);
-  if (!lights) return without_noise(usual_albedo.x * lamp.colour);
+  const LightColour emission = light_colour(*colour);
+  if (!lights) return without_noise(usual_albedo.x * emission.colour);
   const Vec3d* radiance = known[light] ? std::get_if<Vec3d>(&known[light]->colour) : nullptr;
-  return lamp_radiance({lamp.colour, radiance ? lamp_colour(*radiance).power : usual_power});
+  return light_radiance({emission.colour, radiance ? light_colour(*radiance).power : usual_power});
 }
 
 void set_kind(Material& material, int type, MaterialMemory& memory) {
@@ -114,12 +114,12 @@ int surface_type(const Scene& scene, const ObjectPath& path) {
   if (!solid) return -1;
   const Material& material = scene.materials[static_cast<std::size_t>(solid->material)];
   const bool glass = std::holds_alternative<Dielectric<>>(material.kind);
-  return glass && !filling(scene, path).empty() ? fog_within : static_cast<int>(material.kind.index());
+  return glass && !filling(scene, path).empty() ? medium_within : static_cast<int>(material.kind.index());
 }
 
 std::string why_not(const Scene& scene, const ObjectPath& path, int type) {
   const Solid3d* solid = solid_at(scene, path);
-  if (!solid || type != fog_within) return solid ? "" : "it has no surface";
+  if (!solid || type != medium_within) return solid ? "" : "it has no surface";
   const Sphere<>* sphere = std::get_if<Sphere<>>(&solid->shape);
   if (std::holds_alternative<Quad<>>(solid->shape)) return "a quad has no inside for fog";
   if (sphere && sphere->radius < 0) return "fog cannot be within a sphere of negative radius";
@@ -130,24 +130,24 @@ std::string why_not(const Scene& scene, const ObjectPath& path, int type) {
 ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type, MaterialMemory& memory) {
   if (type == surface_type(scene, path) || !why_not(scene, path, type).empty()) return path;
   ObjectPath now = path;
-  if (const ObjectPath fog = filling(scene, path); !fog.empty()) {
-    std::vector<Object>& list = siblings(scene, fog);
-    list.erase(list.begin() + fog.back());
-    const std::size_t level = fog.size() - 1;  // what stood behind the fog in its list has moved
-    const bool same_list = now.size() > level && std::equal(fog.begin(), fog.end() - 1, now.begin());
-    if (same_list && now[level] > fog[level]) --now[level];
+  if (const ObjectPath medium = filling(scene, path); !medium.empty()) {
+    std::vector<Object>& list = siblings(scene, medium);
+    list.erase(list.begin() + medium.back());
+    const std::size_t level = medium.size() - 1;  // what stood behind the fog in its list has moved
+    const bool same_list = now.size() > level && std::equal(medium.begin(), medium.end() - 1, now.begin());
+    if (same_list && now[level] > medium[level]) --now[level];
   }
   const auto material = [&]() -> Material& {
     return scene.materials[static_cast<std::size_t>(std::get<Solid3d>(find_object(scene, now)->kind).material)];
   };
   const bool glass = std::holds_alternative<Dielectric<>>(material().kind);
-  if (type == fog_within && !glass) make_single_user(scene, now);
+  if (type == medium_within && !glass) make_single_user(scene, now);
   const Material before = material();
-  set_kind(material(), type == fog_within ? dielectric : type, memory);
+  set_kind(material(), type == medium_within ? dielectric : type, memory);
   const auto* texture = std::get_if<TextureIndex>(&material().colour);
   if (texture && static_cast<std::size_t>(texture->index) >= scene.textures.size())
     material().colour = usual_albedo;  // it was remembered from before the file was read again
-  if (type == fog_within) fill(scene, now, glass ? ColourOrTexture(Vec3d{1, 1, 1}) : before.colour);
+  if (type == medium_within) fill(scene, now, glass ? ColourOrTexture(Vec3d{1, 1, 1}) : before.colour);
   return now;
 }
 
@@ -160,19 +160,19 @@ void make_single_user(Scene& scene, const ObjectPath& path) {
   solid->material = static_cast<int>(scene.materials.size()) - 1;
 }
 
-LampColour lamp_colour(Vec3d radiance) {
+LightColour light_colour(Vec3d radiance) {
   const double power = max_component(radiance);
   if (!(power > 0)) return {{1, 1, 1}, 0};
   const auto part = [&](double x) { return rounded(x / power, {1, -7}); };
   return {{part(radiance.x), part(radiance.y), part(radiance.z)}, power};
 }
 
-Vec3d lamp_radiance(LampColour lamp) {
-  const double most = max_component(lamp.colour);
-  if (!(most > 0)) return {lamp.power, lamp.power, lamp.power};
-  const Vec3d radiance = (lamp.power / most) * lamp.colour;
-  const Grain grain{1, decimal_below(std::max(lamp.power, 1e-30)).exponent - 5};
-  return rounded(radiance, grain);
+Vec3d light_radiance(LightColour light) {
+  const double maximum = max_component(light.colour);
+  if (!(maximum > 0)) return {light.power, light.power, light.power};
+  const Vec3d radiance = (light.power / maximum) * light.colour;
+  const DragRounding drag_rounding{1, decimal_below(std::max(light.power, 1e-30)).exponent - 5};
+  return rounded(radiance, drag_rounding);
 }
 
 void set_background_kind(Background& background, int kind, BackgroundMemory& memory) {

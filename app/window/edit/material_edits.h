@@ -11,7 +11,7 @@
 /// Changing what objects are made of, and the background.
 namespace tyndall {
 
-/// What an object can be made of, as the window lists it: the kinds of materials, and glass with fog within.
+/// What an object can be made of, as the window lists it: the kinds of materials, and glass with media within.
 std::span<const char* const> surface_types();
 /// The number in surface_types() of an object with a surface; -1: it has none.
 int surface_type(const Scene& scene, const ObjectPath& path);
@@ -32,13 +32,13 @@ ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type, Mate
 void make_single_user(Scene& scene, const ObjectPath& path);
 
 /// A light's radiance as a colour, whose largest component is 1, times power.
-struct LampColour {
+struct LightColour {
   Vec3d colour{1, 1, 1};
   double power = 0;
 };
-LampColour lamp_colour(Vec3d radiance);
+LightColour light_colour(Vec3d radiance);
 /// The radiance of a colour and a power; only the proportions of the colour count.
-Vec3d lamp_radiance(LampColour lamp);
+Vec3d light_radiance(LightColour light);
 
 /// The backgrounds of each kind that the user has seen since the scene was opened.
 using BackgroundMemory = std::array<std::optional<Background>, std::variant_size_v<Background>>;

@@ -1,6 +1,6 @@
 #include "app/window/edit/object_list.h"
 
-#include "app/window/edit/companions.h"
+#include "app/window/edit/linked_objects.h"
 
 #include <algorithm>
 #include <cctype>
@@ -21,10 +21,10 @@ std::vector<Object>& list_of(Scene& scene, const ObjectPath& path) {
   return std::get<Group>(group.kind).objects;
 }
 
-ObjectPaths with_companions(const Scene& scene, const ObjectPaths& paths) {
+ObjectPaths with_linked_objects(const Scene& scene, const ObjectPaths& paths) {
   ObjectPaths all = paths;
   for (const ObjectPath& path : paths)
-    for (const ObjectPath& other : companions(scene, path)) all.push_back(other);
+    for (const ObjectPath& other : linked_objects(scene, path)) all.push_back(other);
   return outermost(std::move(all));
 }
 
@@ -83,7 +83,7 @@ std::string free_name(const Scene& scene, const std::string& wish) {
 }
 
 ObjectPaths duplicate_objects(Scene& scene, const ObjectPaths& paths) {
-  const ObjectPaths sources = with_companions(scene, outermost(paths));
+  const ObjectPaths sources = with_linked_objects(scene, outermost(paths));
   ObjectPaths copies;
   for (std::size_t k = sources.size(); k-- > 0;) {  // from behind: the paths before stay as they are
     const ObjectPath& path = sources[k];
@@ -105,7 +105,7 @@ ObjectPaths duplicate_objects(Scene& scene, const ObjectPaths& paths) {
 }
 
 int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Material>& kept) {
-  const ObjectPaths all = with_companions(scene, outermost(paths));
+  const ObjectPaths all = with_linked_objects(scene, outermost(paths));
   for (std::size_t k = all.size(); k-- > 0;) {
     std::vector<Object>& list = list_of(scene, all[k]);
     list.erase(list.begin() + all[k].back());

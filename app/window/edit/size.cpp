@@ -16,8 +16,8 @@ Grips grips_of(const Sphere<>& sphere, const Placement& at, Vec3d across) {
 }
 
 Grips grips_of(const Quad<>& quad, const Placement& at, Vec3d /*across*/) {
-  return {{place(at, quad.corner + quad.u + 0.5 * quad.v), normalize(turn(at, quad.u)), length(quad.u), "u"},
-          {place(at, quad.corner + quad.v + 0.5 * quad.u), normalize(turn(at, quad.v)), length(quad.v), "v"}};
+  return {{place(at, quad.corner + quad.u + 0.5 * quad.v), normalize(rotate(at, quad.u)), length(quad.u), "u"},
+          {place(at, quad.corner + quad.v + 0.5 * quad.u), normalize(rotate(at, quad.v)), length(quad.v), "v"}};
 }
 
 Grips grips_of(const Box<>& box, const Placement& at, Vec3d /*across*/) {
@@ -28,29 +28,29 @@ Grips grips_of(const Box<>& box, const Placement& at, Vec3d /*across*/) {
   for (int face = 0; face < 6; ++face) {
     const Vec3d axis = axes[face / 2];
     const double value = face % 2 == 0 ? dot(box.max, axis) : -dot(box.min, axis);
-    const Vec3d way = face % 2 == 0 ? axis : -1.0 * axis;
-    grips.push_back({place(at, middle + (value - dot(middle, way)) * way), turn(at, way), value, names[face]});
+    const Vec3d pull = face % 2 == 0 ? axis : -1.0 * axis;
+    grips.push_back({place(at, middle + (value - dot(middle, pull)) * pull), rotate(at, pull), value, names[face]});
   }
   return grips;
 }
 
-void set_value(Sphere<>& sphere, std::size_t /*grip*/, double value, double least) {
-  sphere.radius = std::copysign(std::max(value, least), sphere.radius);
+void set_value(Sphere<>& sphere, std::size_t /*grip*/, double value, double minimum) {
+  sphere.radius = std::copysign(std::max(value, minimum), sphere.radius);
 }
 
-void set_value(Quad<>& quad, std::size_t grip, double value, double least) {
+void set_value(Quad<>& quad, std::size_t grip, double value, double minimum) {
   Vec3d& edge = grip == 0 ? quad.u : quad.v;
-  edge = without_noise((std::max(value, least) / length(edge)) * edge);
+  edge = without_noise((std::max(value, minimum) / length(edge)) * edge);
 }
 
-void set_value(Box<>& box, std::size_t grip, double value, double least) {
+void set_value(Box<>& box, std::size_t grip, double value, double minimum) {
   double* const low[3] = {&box.min.x, &box.min.y, &box.min.z};
   double* const high[3] = {&box.max.x, &box.max.y, &box.max.z};
   double &from = *low[grip / 2], &to = *high[grip / 2];
   if (grip % 2 == 0)
-    to = value - from >= least ? value : without_noise(from + least);
+    to = value - from >= minimum ? value : without_noise(from + minimum);
   else
-    from = to + value >= least ? -value + 0.0 : without_noise(to - least);
+    from = to + value >= minimum ? -value + 0.0 : without_noise(to - minimum);
 }
 
 }  // namespace
@@ -64,9 +64,9 @@ Grips size_grips(const Scene& scene, const ObjectPath& path, Vec3d across) {
   return {};
 }
 
-void set_size(Scene& scene, const ObjectPath& path, std::size_t grip, double value, double least) {
+void set_size(Scene& scene, const ObjectPath& path, std::size_t grip, double value, double minimum) {
   Object& object = *find_object(scene, path);
-  const auto set = [&](auto& shape) { set_value(shape, grip, value, least); };
+  const auto set = [&](auto& shape) { set_value(shape, grip, value, minimum); };
   if (Solid3d* solid = std::get_if<Solid3d>(&object.kind)) std::visit(set, solid->shape);
   if (Volume* volume = std::get_if<Volume>(&object.kind)) std::visit(set, volume->boundary);
 }

@@ -1,7 +1,7 @@
 #include "app/window/gallery/recent_files.h"
 
 #include "app/files/outputs.h"
-#include "app/window/document/kept_edits.h"
+#include "app/window/document/autosave.h"
 
 #include <algorithm>
 #include <exception>
@@ -20,7 +20,7 @@ std::vector<fs::path> read_recent_files(const fs::path& list) {
   std::vector<fs::path> files;
   std::ifstream in(list);
   std::error_code ignored;
-  for (std::string line; files.size() < most_recent_files && std::getline(in, line);) {
+  for (std::string line; files.size() < max_recent_files && std::getline(in, line);) {
     const fs::path file(line);
     const bool known = std::find(files.begin(), files.end(), file) != files.end();
     if (!known && file.is_absolute() && fs::is_regular_file(file, ignored)) files.push_back(file);
@@ -35,7 +35,7 @@ void add_recent_file(const fs::path& list, const fs::path& file) {
   std::vector<fs::path> files = read_recent_files(list);
   std::erase(files, newest);
   files.insert(files.begin(), newest);
-  files.resize(std::min(files.size(), most_recent_files));
+  files.resize(std::min(files.size(), max_recent_files));
   std::string text;
   for (const fs::path& one : files) text += one.string() + "\n";
   fs::create_directories(list.parent_path(), ignored);

@@ -6,7 +6,7 @@
 /// The files that were opened last, which a small file keeps from one start to the next.
 namespace tyndall {
 
-inline constexpr std::size_t most_recent_files = 8;
+inline constexpr std::size_t max_recent_files = 8;
 
 /// $XDG_STATE_HOME/tyndall/recent.txt, else ~/.local/state/tyndall/recent.txt; empty where neither variable is an
 /// absolute path.

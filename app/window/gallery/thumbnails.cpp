@@ -10,7 +10,7 @@ namespace {
 
 /// From now on the calling thread, and those that it starts, give way to all others. (On Linux a priority belongs to
 /// one thread; elsewhere this changes nothing.)
-void give_way() {
+void yield() {
 #ifdef __linux__
   setpriority(PRIO_PROCESS, 0, 15);
 #endif
@@ -43,7 +43,7 @@ void Thumbnails::begin_next() {
   for (const std::string& scene : wanted_) {
     if (!known_.insert(scene).second) continue;
     return jobs_.run([this, scene]() -> JobQueue::Result {
-      give_way();
+      yield();
       auto picture = make(scene, folder_, [this] { return !closing_; });
       if (!picture) return {};
       return [this, scene, made = std::move(*picture)] { came_[scene] = made; };

@@ -15,7 +15,7 @@ Tone colour_of(HandleKind kind) {
     case HandleKind::along_x:
       return red;
     case HandleKind::along_y:
-    case HandleKind::turn:
+    case HandleKind::rotate:
       return green;
     case HandleKind::along_z:
       return blue;
@@ -32,8 +32,8 @@ ImVec2 at(WindowPoint p) {
 void draw_arrow(ImDrawList& draw, const Handle& handle, ImU32 colour, float scale) {
   const ImVec2 from = at(handle.points[0]), to = at(handle.points[1]);
   const float dx = to.x - from.x, dy = to.y - from.y, length = std::max(1.0f, std::hypot(dx, dy));
-  const ImVec2 way{dx / length, dy / length}, head{11 * scale * way.x, 11 * scale * way.y};
-  const ImVec2 side{-4.5f * scale * way.y, 4.5f * scale * way.x};
+  const ImVec2 direction{dx / length, dy / length}, head{11 * scale * direction.x, 11 * scale * direction.y};
+  const ImVec2 side{-4.5f * scale * direction.y, 4.5f * scale * direction.x};
   draw.AddLine(from, {to.x - head.x, to.y - head.y}, colour, 2.5f * scale);
   draw.AddTriangleFilled(to, {to.x - head.x + side.x, to.y - head.y + side.y},
                          {to.x - head.x - side.x, to.y - head.y - side.y}, colour);
@@ -43,7 +43,7 @@ void draw_handle(ImDrawList& draw, const Handle& handle, Tone tone, float scale)
   const ImU32 colour = shade(tone), dark = shade(palette::ink, 0.8f);
   const ImVec2 first = at(handle.points[0]);
   if (handle.points.size() == 2) return draw_arrow(draw, handle, colour, scale);
-  if (handle.kind == HandleKind::turn) {
+  if (handle.kind == HandleKind::rotate) {
     std::vector<ImVec2> ring;
     for (const WindowPoint& p : handle.points) ring.push_back(at(p));
     return draw.AddPolyline(ring.data(), static_cast<int>(ring.size()), colour, ImDrawFlags_Closed, 2 * scale);
@@ -89,7 +89,7 @@ void log_handles(UiLog& log, const std::vector<Handle>& handles, const std::vect
     // Of an arrow its head, of the ring its point that is nearest to the viewer.
     const auto lowest = std::max_element(handles[k].points.begin(), handles[k].points.end(),
                                          [](const WindowPoint& a, const WindowPoint& b) { return a.y < b.y; });
-    const WindowPoint p = handles[k].kind == HandleKind::turn ? *lowest : handles[k].points.back();
+    const WindowPoint p = handles[k].kind == HandleKind::rotate ? *lowest : handles[k].points.back();
     const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y), half = static_cast<float>(5 * scale);
     log.widget("handle." + names[k], {x - half, y - half, x + half, y + half}, "handle");
   }

@@ -12,8 +12,8 @@ namespace {
 
 // GLFW's numbers of keys.
 constexpr int key_enter = 257, key_backspace = 259, key_keypad_enter = 335;
-constexpr double click_way = 4;     // units of the design; a press that goes less far is a click
-constexpr double fine_share = 0.1;  // of the mouse's way that counts while Shift is held
+constexpr double click_distance = 4;   // units of the design; a press that goes less far is a click
+constexpr double fine_fraction = 0.1;  // of the mouse's way that counts while Shift is held
 
 }  // namespace
 
@@ -80,12 +80,12 @@ void HandleTool::end() {
 }
 
 void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, Scene& scene) {
-  const double share = mouse.shift ? fine_share : 1.0;
-  drag_->to.x += share * static_cast<double>(mouse.dx);
-  drag_->to.y += share * static_cast<double>(mouse.dy);
+  const double fraction = mouse.shift ? fine_fraction : 1.0;
+  drag_->to.x += fraction * static_cast<double>(mouse.dx);
+  drag_->to.y += fraction * static_cast<double>(mouse.dy);
   drag_->snap = mouse.control, drag_->fine = mouse.shift;
-  const double way = std::hypot(drag_->to.x - drag_->from.x, drag_->to.y - drag_->from.y);
-  moved_ = moved_ || drag_->typed || way > click_way * frame.scale;
+  const double moved = std::hypot(drag_->to.x - drag_->from.x, drag_->to.y - drag_->from.y);
+  moved_ = moved_ || drag_->typed || moved > click_distance * frame.scale;
   if (!moved_) return;
   scene.objects = start_;
   said_ = apply_drag(scene, frame, *drag_).said;

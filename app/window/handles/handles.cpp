@@ -12,12 +12,12 @@ namespace tyndall {
 namespace {
 
 // Units of the design.
-constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius = 82, least_grip = 26, reach = 9,
+constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius = 82, min_grip = 26, reach = 9,
                  grip_room = 16;
-constexpr double least_seen = 0.05;  // of PictureFrame::seen_way(): with less, it has no direction
+constexpr double min_seen = 0.05;  // of PictureFrame::seen_direction(): with less, it has no direction
 constexpr int ring_points = 64;
 
-bool can_turn(const Scene& scene, const ObjectPath& path) {
+bool can_rotate(const Scene& scene, const ObjectPath& path) {
   const Object& object = *find_object(scene, path);
   const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
   const Volume* volume = std::get_if<Volume>(&object.kind);
@@ -38,20 +38,21 @@ double distance_to_line(WindowPoint p, WindowPoint a, WindowPoint b) {
 void add_arrow(const PictureFrame& frame, Vec3d origin, WindowPoint middle, HandleKind kind, std::vector<Handle>& out) {
   const Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Vec3d axis = axes[static_cast<int>(kind) - static_cast<int>(HandleKind::along_x)];
-  const WindowPoint way = frame.seen_way(origin, axis);
-  const double seen = std::hypot(way.x, way.y);
-  if (seen < least_seen) return;
+  const WindowPoint direction = frame.seen_direction(origin, axis);
+  const double seen = std::hypot(direction.x, direction.y);
+  if (seen < min_seen) return;
   const double from = arrow_start,
-               to = seen < PictureFrame::least_followed ? short_arrow_end : arrow_start + arrow * seen;
-  const auto at = [&](double along) {
-    return WindowPoint{middle.x + along * frame.scale / seen * way.x, middle.y + along * frame.scale / seen * way.y};
+               to = seen < PictureFrame::min_followed ? short_arrow_end : arrow_start + arrow * seen;
+  const auto at = [&](double distance) {
+    return WindowPoint{middle.x + distance * frame.scale / seen * direction.x,
+                       middle.y + distance * frame.scale / seen * direction.y};
   };
   out.push_back({kind, 0, {at(from), at(to)}});
 }
 
 void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out) {
   const double radius = ring_radius * frame.scale * frame.unit_at(origin);
-  Handle ring{HandleKind::turn, 0, {}};
+  Handle ring{HandleKind::rotate, 0, {}};
   for (int k = 0; k < ring_points; ++k) {
     const double angle = 2 * pi * k / ring_points;
     const auto point = frame.point(origin + radius * Vec3d{std::cos(angle), 0, std::sin(angle)});
@@ -71,11 +72,11 @@ std::optional<WindowPoint> place_of_grip(const PictureFrame& frame, const SizeGr
     const auto near = [&](const Handle& other) {
       return is_arrow(other) && distance_to_line(at, other.points[0], other.points[1]) < grip_room * frame.scale;
     };
-    return distance(at, middle) >= least_grip * frame.scale && std::none_of(handles.begin(), handles.end(), near);
+    return distance(at, middle) >= min_grip * frame.scale && std::none_of(handles.begin(), handles.end(), near);
   };
   const double step = frame.scale * frame.unit_at(grip.at);  // a unit of the design, across the line of sight
   for (double outside = 0; outside <= arrow_start + arrow + grip_room; ++outside)
-    if (const auto at = frame.point(grip.at + outside * step * grip.way); at && free(*at)) return at;
+    if (const auto at = frame.point(grip.at + outside * step * grip.pull); at && free(*at)) return at;
   return frame.point(grip.at);
 }
 
@@ -98,20 +99,20 @@ std::optional<WindowPoint> PictureFrame::point(Vec3d p) const {
                      static_cast<double>(image.y0) + at->y * static_cast<double>(image.height())};
 }
 
-Sight PictureFrame::sight(WindowPoint at) const {
-  return projection.sight({(at.x - static_cast<double>(image.x0)) / static_cast<double>(image.width()),
-                           (at.y - static_cast<double>(image.y0)) / static_cast<double>(image.height())});
+ViewRay PictureFrame::view_ray(WindowPoint at) const {
+  return projection.view_ray({(at.x - static_cast<double>(image.x0)) / static_cast<double>(image.width()),
+                              (at.y - static_cast<double>(image.y0)) / static_cast<double>(image.height())});
 }
 
 double PictureFrame::unit_at(Vec3d p) const {
-  const double least = 1e-3 * target_distance(projection.camera());
-  return projection.height_at(std::max(projection.depth_of(p), least)) /
+  const double minimum = 1e-3 * target_distance(projection.camera());
+  return projection.height_at(std::max(projection.depth_of(p), minimum)) /
          std::max(1.0, static_cast<double>(image.height()));
 }
 
-WindowPoint PictureFrame::seen_way(Vec3d p, Vec3d way) const {
+WindowPoint PictureFrame::seen_direction(Vec3d p, Vec3d direction) const {
   const double step = 1e-3 * static_cast<double>(image.height());
-  const auto from = point(p), to = point(p + (step * unit_at(p)) * way);
+  const auto from = point(p), to = point(p + (step * unit_at(p)) * direction);
   if (!from || !to) return {};
   return {(to->x - from->x) / step, (to->y - from->y) / step};
 }
@@ -130,8 +131,9 @@ std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, co
     handles.push_back({HandleKind::plane, 0, {*middle}});
     for (const HandleKind kind : {HandleKind::along_x, HandleKind::along_y, HandleKind::along_z})
       add_arrow(frame, origin, *middle, kind, handles);
-    const bool turns = std::all_of(selected.begin(), selected.end(), [&](const auto& p) { return can_turn(scene, p); });
-    if (turns) add_ring(frame, origin, handles);
+    const bool rotates =
+        std::all_of(selected.begin(), selected.end(), [&](const auto& p) { return can_rotate(scene, p); });
+    if (rotates) add_ring(frame, origin, handles);
   }
   if (selected.size() == 1) add_grips(scene, frame, selected.front(), handles);
   return handles;
@@ -139,15 +141,15 @@ std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, co
 
 std::optional<Handle> handle_at(const std::vector<Handle>& handles, WindowPoint at, double scale) {
   const Handle* best = nullptr;
-  double least = reach * scale;
+  double minimum = reach * scale;
   for (const Handle& handle : handles) {
     double away = handle.points.size() == 1 ? distance(at, handle.points[0]) : 1e9;
     const std::size_t lines = handle.points.size() == 2 ? 1 : handle.points.size() > 2 ? handle.points.size() : 0;
     for (std::size_t k = 0; k < lines; ++k)
       away = std::min(away, distance_to_line(at, handle.points[k], handle.points[(k + 1) % handle.points.size()]));
     if (handle.kind == HandleKind::size) away -= 2 * scale;  // a grip on an arrow is meant
-    if (handle.kind == HandleKind::turn) away += 3 * scale;
-    if (away < least) least = away, best = &handle;
+    if (handle.kind == HandleKind::rotate) away += 3 * scale;
+    if (away < minimum) minimum = away, best = &handle;
   }
   return best ? std::optional(*best) : std::nullopt;
 }

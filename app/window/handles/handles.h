@@ -16,7 +16,7 @@ struct WindowPoint {
 };
 
 /// What a handle does.
-enum class HandleKind { plane, along_x, along_y, along_z, turn, size };
+enum class HandleKind { plane, along_x, along_y, along_z, rotate, size };
 
 /// A handle on the selection.
 struct Handle {
@@ -34,13 +34,13 @@ struct PictureFrame {
   double scale = 1;  ///< window units per unit of the design
 
   std::optional<WindowPoint> point(Vec3d p) const;
-  Sight sight(WindowPoint at) const;
+  ViewRay view_ray(WindowPoint at) const;
   /// Scene units per window unit at the depth of a point.
   double unit_at(Vec3d p) const;
   /// Where a unit vector at a point leads in the picture: its length is 1 across the line of sight and 0 along it.
-  WindowPoint seen_way(Vec3d p, Vec3d way) const;
-  /// Below this length of seen_way() a way is seen so much from its end that the mouse could hardly follow it.
-  static constexpr double least_followed = 0.3;
+  WindowPoint seen_direction(Vec3d p, Vec3d direction) const;
+  /// Below this length of seen_direction() a way is seen so much from its end that the mouse could hardly follow it.
+  static constexpr double min_followed = 0.3;
 };
 PictureFrame frame_of(const Scene& scene, const Rect& image, double scale);
 

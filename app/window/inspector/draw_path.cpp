@@ -11,7 +11,7 @@
 namespace tyndall {
 namespace {
 
-constexpr std::size_t most_told = 18;  // stops of a path
+constexpr std::size_t max_told = 18;  // stops of a path
 
 ImVec2 in_window(const Rect& image, ImagePoint p) {
   const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
@@ -34,8 +34,8 @@ std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<Pa
   std::vector<std::string> lines{fmt::format("path of sample {} of pixel {}, {}", found.sample, found.x, found.y),
                                  sentence_of(found)};
   for (std::size_t k = 0; k < stops.size(); ++k) {
-    const bool left_out = stops.size() > most_told && k >= most_told - 1 && k + 1 < stops.size();
-    if (left_out && k == most_told - 1) lines.push_back(fmt::format("    … {} more", stops.size() - most_told));
+    const bool left_out = stops.size() > max_told && k >= max_told - 1 && k + 1 < stops.size();
+    if (left_out && k == max_told - 1) lines.push_back(fmt::format("    … {} more", stops.size() - max_told));
     if (!left_out) lines.push_back(fmt::format("{:>2}  {}", k + 1, stops[k].text));
   }
   return lines;

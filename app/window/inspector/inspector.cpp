@@ -13,8 +13,8 @@
 namespace tyndall {
 namespace {
 
-constexpr std::uint32_t most_followed = 4096;  // samples of a pixel
-constexpr double longest_search = 0.5;         // seconds
+constexpr std::uint32_t max_followed = 4096;  // samples of a pixel
+constexpr double longest_search = 0.5;        // seconds
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void Inspector::find_path(const RendererPair& renderers, const std::shared_ptr<c
   const auto frame = renderers.latest(Half::current);
   if (!at_ || !scene || !frame) return;
   const bool known = report_ && report_->x == at_->x && report_->y == at_->y;
-  const std::uint32_t samples = std::clamp(known ? report_->samples : frame->spp, 1u, most_followed);
+  const std::uint32_t samples = std::clamp(known ? report_->samples : frame->spp, 1u, max_followed);
   jobs_.run([this, at = *at_, scene, samples, wanted = ++wanted_]() -> JobQueue::Result {
     std::shared_ptr<Shown> shown;
     try {
@@ -88,15 +88,15 @@ void Inspector::draw(Ui& ui, const View& view, const RendererPair& renderers) {
     if (change_between(*path_->scene, *view.sent).others) drop_path();  // the camera may look from elsewhere
   }
   if (path_) tyndall::draw_path(ui, view.scene, view.image, view.visible, path_->eye, path_->stops);
-  PixelFacts facts;
+  PixelReadout model;
   const bool pixel = on_ && at_ && view.frame;
   if (pixel) {
     look(view.scene, renderers);
     const bool known = report_ && report_->x == at_->x && report_->y == at_->y;
-    facts =
-        pixel_facts(*view.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, seen_, view.scene.display);
+    model =
+        pixel_readout(*view.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, seen_, view.scene.display);
   }
-  std::vector<std::string> lines = facts.lines;
+  std::vector<std::string> lines = model.lines;
   if (path_) {
     const std::vector<std::string> told = path_lines(path_->found, path_->stops);
     if (!lines.empty()) lines.emplace_back();
@@ -106,7 +106,7 @@ void Inspector::draw(Ui& ui, const View& view, const RendererPair& renderers) {
   } else if (on_ && lines.empty()) {
     lines.emplace_back("point at the picture");
   }
-  if (!lines.empty()) draw_lines(ui, view.visible, lines, pixel ? &facts.shown : nullptr);
+  if (!lines.empty()) draw_lines(ui, view.visible, lines, pixel ? &model.shown : nullptr);
 }
 
 }  // namespace tyndall

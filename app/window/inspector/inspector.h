@@ -1,7 +1,7 @@
 #pragma once
 #include "app/report/noisy_path.h"
 #include "app/window/document/job_queue.h"
-#include "app/window/inspector/pixel_facts.h"
+#include "app/window/inspector/pixel_readout.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/rendering/renderer_pair.h"
 #include "app/window/tools/pointer.h"

@@ -23,7 +23,8 @@ Legend bar(const std::string& title, double white, const char* unit, const Colou
     for (float& c : colour) c = srgb_encode(std::clamp(c, 0.0f, 1.0f));
     legend.colours.push_back(colour);
   }
-  for (const double share : {0.0, 0.5, 1.0}) legend.numbers.push_back(fmt::format("{:.3g}{}", share * white, unit));
+  for (const double fraction : {0.0, 0.5, 1.0})
+    legend.numbers.push_back(fmt::format("{:.3g}{}", fraction * white, unit));
   return legend;
 }
 

@@ -16,16 +16,16 @@ bool RectangleTool::cancel() {
 
 std::optional<Region> RectangleTool::update(const Mouse& mouse, const Rect& image, bool free, int width, int height) {
   if (image.width() <= 0 || image.height() <= 0) return {};
-  const auto share = [&](float x, float y) {
-    return Share{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
-                 std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
+  const auto relative = [&](float x, float y) {
+    return RelativePoint{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
+                         std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
   };
   if (waits_ && free && mouse.clicked[0]) {
-    from_ = share(mouse.pressed_x[0], mouse.pressed_y[0]);
+    from_ = relative(mouse.pressed_x[0], mouse.pressed_y[0]);
     waits_ = false;
   }
   if (!from_) return {};
-  to_ = share(mouse.x, mouse.y);
+  to_ = relative(mouse.x, mouse.y);
   if (mouse.down[0]) return {};
   constexpr float rounding = 0.01f;  // of a pixel
   const auto low = [](float a, float b, int size) {
@@ -34,7 +34,7 @@ std::optional<Region> RectangleTool::update(const Mouse& mouse, const Rect& imag
   const auto high = [](float a, float b, int size) {
     return static_cast<int>(std::ceil(std::max(a, b) * static_cast<float>(size) - rounding));
   };
-  const Share from = *std::exchange(from_, std::nullopt);
+  const RelativePoint from = *std::exchange(from_, std::nullopt);
   if (std::abs(from.x - to_.x) * image.width() < 3 || std::abs(from.y - to_.y) * image.height() < 3) return Region{};
   return Region{low(from.x, to_.x, width), low(from.y, to_.y, height), high(from.x, to_.x, width),
                 high(from.y, to_.y, height)};
@@ -42,10 +42,10 @@ std::optional<Region> RectangleTool::update(const Mouse& mouse, const Rect& imag
 
 void RectangleTool::draw(Ui& ui, const Rect& image, const Rect& visible, const Region& region, int width, int height,
                          const std::string& text) const {
-  Share low{static_cast<float>(region.x0) / static_cast<float>(width),
-            static_cast<float>(region.y0) / static_cast<float>(height)};
-  Share high{static_cast<float>(region.x1) / static_cast<float>(width),
-             static_cast<float>(region.y1) / static_cast<float>(height)};
+  RelativePoint low{static_cast<float>(region.x0) / static_cast<float>(width),
+                    static_cast<float>(region.y0) / static_cast<float>(height)};
+  RelativePoint high{static_cast<float>(region.x1) / static_cast<float>(width),
+                     static_cast<float>(region.y1) / static_cast<float>(height)};
   if (from_) {
     low = {std::min(from_->x, to_.x), std::min(from_->y, to_.y)};
     high = {std::max(from_->x, to_.x), std::max(from_->y, to_.y)};

@@ -26,13 +26,13 @@ class RectangleTool {
             const std::string& text) const;
 
  private:
-  /// A point of the picture, as shares of it.
-  struct Share {
+  /// A point of the picture, as fractions of it.
+  struct RelativePoint {
     float x = 0, y = 0;
   };
   bool waits_ = false;
-  std::optional<Share> from_;
-  Share to_;
+  std::optional<RelativePoint> from_;
+  RelativePoint to_;
 };
 
 }  // namespace tyndall

@@ -11,7 +11,7 @@ namespace tyndall {
 namespace {
 
 constexpr int key_down_arrow = 264, key_up_arrow = 265;  // GLFW's numbers
-constexpr int most_lines = 12;
+constexpr int max_lines = 12;
 
 constexpr ImGuiWindowFlags palette_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
@@ -129,7 +129,7 @@ int Palette::draw(Ui& ui, const Rect& area) {
   const std::string before = text_;
   const ImVec2 from{(area.x0 + area.x1 - width) / 2, area.y0 + std::min(60 * s, area.height() / 8)};
   ImGui::SetNextWindowPos(from);
-  ImGui::SetNextWindowSize({width, 28 * s + ImGui::GetFrameHeight() + line * most_lines});
+  ImGui::SetNextWindowSize({width, 28 * s + ImGui::GetFrameHeight() + line * max_lines});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * s);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * s, 6 * s});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::panel);

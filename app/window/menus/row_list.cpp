@@ -137,7 +137,7 @@ bool is_plain_light(const Scene& scene, const Object& object) {
 bool is_textured_light(const Scene& scene, const Object& object) {
   return is_of<Light<>>(scene, object) && texture_of(scene, object);
 }
-bool is_metal_ball(const Scene& scene, const Object& object) {
+bool is_metal_sphere(const Scene& scene, const Object& object) {
   return is_of<Metal<>>(scene, object) && has_shape<Sphere<>>(scene, object);
 }
 bool moves(const Scene&, const Object& object) {
@@ -156,8 +156,8 @@ struct ObjectRows {
 /// In the order in which the column shows them.
 const std::vector<ObjectRows>& object_rows() {
   static const std::vector<ObjectRows> all = [] {
-    std::vector<std::string_view> ball = names<Sphere<>>();
-    std::erase(ball, "center_end");
+    std::vector<std::string_view> sphere = names<Sphere<>>();
+    std::erase(sphere, "center_end");
     return std::vector<ObjectRows>{
         {"an object of metal", names<Metal<>>(), is_of<Metal<>>, true},
         {"an object of glass", names<Dielectric<>>(), is_of<Dielectric<>>, true},
@@ -171,8 +171,8 @@ const std::vector<ObjectRows>& object_rows() {
         {"an object with a surface", {"type", "material"}, is_solid},
         {"fog", names<Medium<>>(), is_volume, true},
         {"fog", {"albedo"}, is_volume},
-        {"a sphere", ball, has_shape<Sphere<>>},
-        {"a sphere", {"radius"}, is_metal_ball, true},
+        {"a sphere", sphere, has_shape<Sphere<>>},
+        {"a sphere", {"radius"}, is_metal_sphere, true},
         {"a sphere that moves", {"center_end"}, moves},
         {"a quad", names<Quad<>>(), has_shape<Quad<>>},
         {"a box", names<Box<>>(), has_shape<Box<>>},

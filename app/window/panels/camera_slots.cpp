@@ -8,7 +8,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int most_width = 96, most_height = 60;
+constexpr int max_width = 96, max_height = 60;
 constexpr float slot_width = 58, slot_height = 37;  // units of the design
 
 /// One slot's picture as a button. Returns whether it was clicked; right: whether by the right button.
@@ -45,8 +45,7 @@ std::vector<std::uint8_t> small_picture(const Frame& frame, const Display& displ
   const auto [columns, rows, spacing] = clean ? frame.clean->grid : beauty ? frame.grid : every_pixel;
   width = height = 0;
   if (from.empty() || columns <= 0 || rows <= 0) return {};
-  const double fit =
-      std::min({1.0, static_cast<double>(most_width) / columns, static_cast<double>(most_height) / rows});
+  const double fit = std::min({1.0, static_cast<double>(max_width) / columns, static_cast<double>(max_height) / rows});
   width = std::max(1, static_cast<int>(std::lround(fit * columns)));
   height = std::max(1, static_cast<int>(std::lround(fit * rows)));
   std::vector<float> rgb;
@@ -74,7 +73,7 @@ void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, 
       frame ? small_picture(*frame, display, width, height) : std::vector<std::uint8_t>{};
   if (!rgb.empty()) slot.picture = std::make_shared<const PictureTexture>(width, height, rgb);
   std::erase_if(slots, [&](const CameraSlot& other) { return other.camera == camera; });
-  if (slots.size() >= most_camera_slots) slots.erase(slots.begin());
+  if (slots.size() >= max_camera_slots) slots.erase(slots.begin());
   slots.push_back(std::move(slot));
 }
 

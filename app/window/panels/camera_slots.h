@@ -19,7 +19,7 @@ struct CameraSlot {
 };
 using CameraSlots = std::vector<CameraSlot>;
 
-inline constexpr std::size_t most_camera_slots = 8;
+inline constexpr std::size_t max_camera_slots = 8;
 
 /// A frame as a small picture of at most 96 x 60 pixels, 3 bytes each; its size is returned in width and height.
 std::vector<std::uint8_t> small_picture(const Frame& frame, const Display& display, int& width, int& height);

@@ -22,10 +22,10 @@ struct ChartLine {
 };
 
 /// Of the curves of earlier edits, each in a hue of its own.
-constexpr ThemeTone earlier_tones[Convergence::most_earlier]{{{0.50f, 0.72f, 0.52f, 1}, {0.20f, 0.47f, 0.23f, 1}},
-                                                             {{0.68f, 0.58f, 0.84f, 1}, {0.42f, 0.30f, 0.62f, 1}},
-                                                             {{0.82f, 0.51f, 0.62f, 1}, {0.62f, 0.25f, 0.38f, 1}},
-                                                             {{0.68f, 0.66f, 0.42f, 1}, {0.43f, 0.41f, 0.12f, 1}}};
+constexpr ThemeTone earlier_tones[Convergence::max_earlier]{{{0.50f, 0.72f, 0.52f, 1}, {0.20f, 0.47f, 0.23f, 1}},
+                                                            {{0.68f, 0.58f, 0.84f, 1}, {0.42f, 0.30f, 0.62f, 1}},
+                                                            {{0.82f, 0.51f, 0.62f, 1}, {0.62f, 0.25f, 0.38f, 1}},
+                                                            {{0.68f, 0.66f, 0.42f, 1}, {0.43f, 0.41f, 0.12f, 1}}};
 
 ChartLine line_of(const NamedCurve& named, std::size_t index) {
   switch (named.role) {
@@ -102,7 +102,7 @@ void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   plot.draw->AddLine({f.x0, y}, {f.x1, y}, target_colour());
   if (curve.points.empty()) return;
   const ErrorPoint last = curve.points.back();
-  const double end = 10 * plot.axes.times.most();
+  const double end = 10 * plot.axes.times.maximum();
   const ImVec2 a = plot.at(last), b = plot.at({end, last.rel_mse * last.seconds / end});
   const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 4 * plot.ui.scale;
   for (float s = 0; s < length; s += 2 * dash) {
@@ -211,10 +211,10 @@ std::string flip_text(const PairErrors& pair) {
 AccuracyLine reference_line(const LiveAccuracy& accuracy) {
   const std::string& name = accuracy.reference()->about;
   const ReferenceFit fit = *accuracy.fit(Half::current);
-  const bool shared = fit == ReferenceFit::same_samples || accuracy.fit(Half::kept) == ReferenceFit::same_samples;
+  const bool same_numbers = fit == ReferenceFit::same_samples || accuracy.fit(Half::kept) == ReferenceFit::same_samples;
   if (fit == ReferenceFit::other_scene) return {"reference of another scene: " + name, true};
   if (fit == ReferenceFit::other_size) return {"reference of another size: " + name, true};
-  if (shared) return {"same random numbers, noise looks too small: " + name, true};
+  if (same_numbers) return {"same random numbers, noise looks too small: " + name, true};
   return {"against " + name + (accuracy.split() ? "" : flip_text(accuracy.pair())), false};
 }
 

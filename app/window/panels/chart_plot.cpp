@@ -8,14 +8,14 @@ namespace tyndall {
 ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame) {
   ChartAxes axes;
   axes.frame = frame;
-  double first = 1e300, last = 0, least = target_rel_mse, most = target_rel_mse;
+  double first = 1e300, last = 0, minimum = target_rel_mse, maximum = target_rel_mse;
   for (const ErrorCurve* curve : curves)
     for (const ErrorPoint& p : curve->points) {
       first = std::min(first, p.seconds), last = std::max(last, p.seconds);
-      least = std::min(least, p.rel_mse), most = std::max(most, p.rel_mse);
+      minimum = std::min(minimum, p.rel_mse), maximum = std::max(maximum, p.rel_mse);
     }
   if (last > 0) axes.times = decades_around(std::max(first, 1e-3), last, 2);
-  axes.errors = decades_around(std::min(least * 0.7, 1e-5), most, 3);
+  axes.errors = decades_around(std::min(minimum * 0.7, 1e-5), maximum, 3);
   return axes;
 }
 
@@ -33,7 +33,7 @@ double ChartAxes::rel_mse(float y) const {
 std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
                                           float y, float reach) {
   std::optional<CurveReading> nearest;
-  float least = 0;
+  float minimum = 0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const ErrorCurve& curve = *curves[i];
     if (curve.points.empty()) continue;
@@ -41,7 +41,7 @@ std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> cur
     if (x < axes.x(first.seconds) - reach || x > axes.x(last.seconds) + reach) continue;
     const auto at = point_at(curve, std::clamp(axes.seconds(x), first.seconds, last.seconds));
     const float distance = std::abs(axes.y(at->rel_mse) - y);
-    if (!nearest || distance < least) nearest = CurveReading{i, *at}, least = distance;
+    if (!nearest || distance < minimum) nearest = CurveReading{i, *at}, minimum = distance;
   }
   return nearest;
 }

@@ -9,7 +9,7 @@ namespace {
 
 /// The arrow keys go through the choices of a row that the column was sent to.
 bool choose_by_keys(Ui& ui, std::span<const Choice> choices, int& chosen) {
-  if (!ui.sought.here || !ui.sought.has_keys || ImGui::GetIO().WantTextInput || ui.asks) return false;
+  if (!ui.sought.here || !ui.sought.has_keys || ImGui::GetIO().WantTextInput || ui.has_question) return false;
   if (compat::key_pressed(ImGuiKey_Enter)) ui.sought.has_keys = false;
   const bool on = compat::key_pressed(ImGuiKey_RightArrow) || compat::key_pressed(ImGuiKey_DownArrow);
   const bool back = compat::key_pressed(ImGuiKey_LeftArrow) || compat::key_pressed(ImGuiKey_UpArrow);

@@ -27,7 +27,7 @@ constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus
 bool begin_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more) {
   ImGui::SetNextWindowPos({where.x0, where.y0});
   ImGui::SetNextWindowSize({where.width(), where.height()});
-  return ImGui::Begin(name, nullptr, part_flags | more | (ui.asks ? ImGuiWindowFlags_NoInputs : 0));
+  return ImGui::Begin(name, nullptr, part_flags | more | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0));
 }
 
 /// The row of tabs, and a button for all actions.
@@ -36,11 +36,11 @@ void draw_tabs(Ui& ui, PanelState& state) {
   compat::push_font(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * s, 4 * s});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
-  float words = ImGui::CalcTextSize("...").x;
-  for (const Tab& tab : tabs) words += ImGui::CalcTextSize(tab.name).x;
+  float text_width = ImGui::CalcTextSize("...").x;
+  for (const Tab& tab : tabs) text_width += ImGui::CalcTextSize(tab.name).x;
   const auto count = static_cast<float>(std::size(tabs));
   const float room = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX() - count * space;
-  const float spare = std::max(0.0f, std::floor((room - words) / (count + 1)));
+  const float spare = std::max(0.0f, std::floor((room - text_width) / (count + 1)));
   for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
     const bool lit = k == state.tabs.lit;
     ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::chosen : palette::panel);

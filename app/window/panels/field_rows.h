@@ -58,10 +58,10 @@ template <NamedEnum E>
 bool value_row(Ui& ui, Row row, E& value) {
   std::vector<Choice> choices;
   for (int k = 0; k < count_of<E>(); ++k)
-    choices.push_back({name_of(static_cast<E>(k)), nullptr, word(static_cast<E>(k)).help});
+    choices.push_back({name_of(static_cast<E>(k)), nullptr, label(static_cast<E>(k)).help});
   int chosen = static_cast<int>(value);
-  row.warning = word(value).approximation;
-  if (row.warning) row.meaning = std::string("approximation: ") + word(value).help;
+  row.warning = label(value).approximation;
+  if (row.warning) row.meaning = std::string("approximation: ") + label(value).help;
   if (!choice_row(ui, row, choices, chosen)) return false;
   value = static_cast<E>(chosen);
   return true;

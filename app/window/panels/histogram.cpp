@@ -10,17 +10,17 @@
 namespace tyndall {
 namespace {
 
-constexpr std::size_t most_counted = 16384;
+constexpr std::size_t max_counted = 16384;
 
-std::string share(double part) { return part == 0 ? "0 %" : fmt::format("{:.2g} %", 100 * part); }
+std::string percent_of(double part) { return part == 0 ? "0 %" : fmt::format("{:.2g} %", 100 * part); }
 
 void draw_bars(ImDrawList& draw, const Rect& frame, const Histogram& histogram) {
   constexpr Tone tones[3] = {{1, 0.35f, 0.3f, 1}, {0.35f, 0.9f, 0.4f, 1}, {0.4f, 0.55f, 1, 1}};
-  const double most = std::log1p(static_cast<double>(histogram.pixels));
+  const double maximum = std::log1p(static_cast<double>(histogram.pixels));
   const float step = frame.width() / static_cast<float>(Histogram::bins);
   for (std::size_t channel = 0; channel < 3; ++channel)
     for (std::size_t bin = 0; bin < Histogram::bins; ++bin) {
-      const double part = std::log1p(static_cast<double>(histogram.counts[channel][bin])) / std::max(most, 1e-9);
+      const double part = std::log1p(static_cast<double>(histogram.counts[channel][bin])) / std::max(maximum, 1e-9);
       const float x = frame.x0 + step * static_cast<float>(bin),
                   top = frame.y1 - static_cast<float>(part) * frame.height();
       draw.AddRectFilled({x, top}, {x + step, frame.y1}, shade(tones[channel], 0.4f));
@@ -30,7 +30,7 @@ void draw_bars(ImDrawList& draw, const Rect& frame, const Histogram& histogram) 
 }  // namespace
 
 Histogram histogram_of(const std::vector<float>& rgba, const Display& display) {
-  const std::size_t pixels = rgba.size() / 4, stride = std::max<std::size_t>(1, pixels / most_counted) | 1;
+  const std::size_t pixels = rgba.size() / 4, stride = std::max<std::size_t>(1, pixels / max_counted) | 1;
   std::vector<float> rgb;
   for (std::size_t i = 0; i < pixels; i += stride)
     rgb.insert(rgb.end(), rgba.begin() + static_cast<std::ptrdiff_t>(4 * i),
@@ -66,7 +66,7 @@ void histogram_section(Ui& ui, LiveHistogram& live, const Frame* frame, const Di
   const ImVec2 at = ImGui::GetCursorScreenPos(), size{std::max(width, 1.0f), 64 * s};
   ImGui::InvisibleButton("histogram", size);
   const std::string said =
-      "white, clipped: " + share(histogram.white) + " of the pixels; black: " + share(histogram.black);
+      "white, clipped: " + percent_of(histogram.white) + " of the pixels; black: " + percent_of(histogram.black);
   log_item(ui, "histogram", said);
   tooltip(ui, "values on the screen from black to white; heights are logarithms of how many pixels have them");
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -15,8 +15,8 @@ struct Histogram {
   static constexpr std::size_t bins = 64;
   std::array<std::array<std::uint32_t, bins>, 3> counts{};  ///< of red, green, blue: from black to white
   std::uint32_t pixels = 0;                                 ///< that were counted
-  double white = 0;  ///< share of the pixels with a channel that the screen cannot show brighter
-  double black = 0;  ///< share of the pixels that are shown black
+  double white = 0;  ///< fraction of the pixels with a channel that the screen cannot show brighter
+  double black = 0;  ///< fraction of the pixels that are shown black
 };
 
 /// rgba: linear, 4 floats a pixel. Counts about 16,000 pixels, evenly spread.

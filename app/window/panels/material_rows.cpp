@@ -1,6 +1,6 @@
 #include "app/window/panels/material_rows.h"
 
-#include "app/window/edit/grain.h"
+#include "app/window/edit/drag_rounding.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/panels/field_rows.h"
 #include "core/base/kinds.h"
@@ -27,7 +27,7 @@ std::string stops_text(double power) {
   return fmt::format("{:.3g} stops {} 1", std::abs(stops), stops < 0 ? "below" : "above");
 }
 
-/// Buttons that make a lamp brighter or darker by stops.
+/// Buttons that make a light brighter or darker by stops.
 void stops_row(Ui& ui, double& power) {
   static constexpr struct {
     const char* name;
@@ -45,20 +45,20 @@ void stops_row(Ui& ui, double& power) {
 }
 
 /// A light's radiance as colour times power.
-void lamp_rows(Ui& ui, Vec3d& radiance, const ColourOrTexture* saved) {
+void light_rows(Ui& ui, Vec3d& radiance, const ColourOrTexture* saved) {
   const Vec3d* original = saved ? std::get_if<Vec3d>(saved) : nullptr;
-  const LampColour before = lamp_colour(radiance), was = lamp_colour(original ? *original : Vec3d{1, 1, 1});
-  LampColour lamp = before;
+  const LightColour before = light_colour(radiance), was = light_colour(original ? *original : Vec3d{1, 1, 1});
+  LightColour light = before;
   Row colour{"color", "Colour", at_least(0), {0, 1}, "", "the proportions of red, green and blue", ""};
   colour.original = was.colour;
   Row power{"power", "Power", at_least(0), {0.01, 1000, true}, "", "radiance of the strongest of red, green and blue",
             ""};
   power.original = Vec3d{was.power, 0, 0};
-  power.meaning = stops_text(lamp.power);
-  colour_row(ui, colour, lamp.colour);
-  slider_row(ui, power, lamp.power);
-  stops_row(ui, lamp.power);
-  if (lamp.power != before.power || !(lamp.colour == before.colour)) radiance = lamp_radiance(lamp);
+  power.meaning = stops_text(light.power);
+  colour_row(ui, colour, light.colour);
+  slider_row(ui, power, light.power);
+  stops_row(ui, light.power);
+  if (light.power != before.power || !(light.colour == before.colour)) radiance = light_radiance(light);
 }
 
 void texture_rows(Ui& ui, PanelState& state, Texture& texture) {
@@ -116,7 +116,7 @@ void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
   if (!name) return;
   Vec3d* colour = std::get_if<Vec3d>(&material.colour);
   const ColourOrTexture* original = saved && colour_name(saved->kind) ? &saved->colour : nullptr;
-  if (colour && std::holds_alternative<Light<>>(material.kind)) return lamp_rows(ui, *colour, original);
+  if (colour && std::holds_alternative<Light<>>(material.kind)) return light_rows(ui, *colour, original);
   Row row = row_of(name, colour_meaning(name), "");
   if (colour && !brief) row.meaning = colour_meaning(material, *colour);
   colour_rows(ui, state, material.colour, original, std::move(row));

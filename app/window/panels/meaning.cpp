@@ -17,8 +17,8 @@ namespace {
 constexpr double degree = pi / 180;
 
 /// 0.0032 -> "0.3 %", 0.47 -> "47 %".
-std::string percent(double share) {
-  const double value = 100 * share;
+std::string percent(double fraction) {
+  const double value = 100 * fraction;
   const double unit = value < 9.95 ? 10 : 1;
   const double shown = std::round(value * unit) / unit;
   std::string text = format_short(shown);
@@ -68,7 +68,7 @@ std::string label_of(std::string_view field) {
 
 double fuzz_loss(double fuzz) { return 0.1 * fuzz * fuzz; }
 
-double forward_share(double g) {
+double forward_fraction(double g) {
   if (std::abs(g) < 1e-3) return 0.5 + 0.75 * g;  // here the formula below cancels; the next term is of third order
   return (1 - g * g) / (2 * g) * (1 / (1 - g) - 1 / std::sqrt(1 + g * g));
 }
@@ -100,7 +100,7 @@ std::string meaning(const Medium<>& medium, std::string_view field) {
   if (field == "density")
     return medium.density > 0 ? "mean free path " + format_three(1 / medium.density) : "empty: light passes";
   if (medium.g == 0) return "isotropic: scatters evenly";
-  const double forward = forward_share(medium.g);
+  const double forward = forward_fraction(medium.g);
   return medium.g > 0 ? percent(forward) + " goes on forward" : percent(1 - forward) + " goes back";
 }
 

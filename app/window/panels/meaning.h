@@ -10,11 +10,11 @@ namespace tyndall {
 /// "refractive_index" -> "Refractive index"; names that need it get better words.
 std::string label_of(std::string_view field);
 
-/// Share of white light, spread over directions as from a bright sky, that a fuzzy metal loses below its surface:
+/// Fraction of white light, spread over directions as from a bright sky, that a fuzzy metal loses below its surface:
 /// 1 - metal_survival averaged over the cosine, which is fuzz² / 10. In [0, 0.1].
 double fuzz_loss(double fuzz);
 /// Share that Henyey and Greenstein's law sends into the forward half, in [0, 1]; g in (-1, 1).
-double forward_share(double g);
+double forward_fraction(double g);
 
 /// The range of depths that one pixel shows sharp: blur discs of at most a pixel. far is infinite beyond the hyperfocal
 /// distance.

@@ -44,7 +44,7 @@ std::string kinds_of(const Scene& scene, const Object& object) {
   return kind_name(object) + (material ? std::string(" · ") + material_name(*material) : "");
 }
 
-/// The rows that are shown of an object while nothing is selected: its material, and a metal ball's radius.
+/// The rows that are shown of an object while nothing is selected: its material, and a metal sphere's radius.
 void brief_section(Ui& ui, PanelState& state, const ObjectPath& path) {
   Object& object = *find_object(state.scene, path);
   const Object* saved = saved_object(state, path);

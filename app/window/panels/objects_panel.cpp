@@ -8,12 +8,12 @@
 namespace tyndall {
 namespace {
 
-constexpr std::size_t searched = 9;        // lists of at least so many objects can be searched
-constexpr std::size_t most_unfolded = 20;  // larger groups are folded at first
+constexpr std::size_t searched = 9;       // lists of at least so many objects can be searched
+constexpr std::size_t max_unfolded = 20;  // larger groups are folded at first
 
 struct ObjectLine {
   ObjectPath path;
-  std::string label, word;
+  std::string label, note;
   bool group = false, open = false;
 };
 
@@ -23,7 +23,7 @@ std::string lower(std::string text) {
 }
 
 bool is_open(const ObjectsView& view, const ObjectPath& path, std::size_t size) {
-  return (size <= most_unfolded) != view.turned.contains(path);
+  return (size <= max_unfolded) != view.toggled.contains(path);
 }
 
 /// The lines that are shown: what is in folded groups is left out; while a text is searched for, only what holds it is
@@ -38,8 +38,8 @@ void add_lines(const PanelState& state, const std::vector<Object>& objects, Obje
     ObjectLine line{path, title_of(state.scene, path), material ? material->name : kind_name(objects[i]),
                     group != nullptr,
                     group && (!wanted.empty() || is_open(state.objects, path, group->objects.size()))};
-    if (group) line.word = std::to_string(group->objects.size()) + " in " + line.word;
-    const bool found = wanted.empty() || lower(line.label + " " + line.word).find(wanted) != std::string::npos;
+    if (group) line.note = std::to_string(group->objects.size()) + " in " + line.note;
+    const bool found = wanted.empty() || lower(line.label + " " + line.note).find(wanted) != std::string::npos;
     const bool open = line.open;
     if (found) out.push_back(std::move(line));
     if (open) add_lines(state, group->objects, path, out);
@@ -54,7 +54,7 @@ void unfold_around(PanelState& state, const ObjectPath& path) {
     group.push_back(path[k]);
     const auto size = std::get<Group>(find_object(state.scene, group)->kind).objects.size();
     if (is_open(state.objects, group, size)) continue;
-    if (!state.objects.turned.erase(group)) state.objects.turned.insert(group);
+    if (!state.objects.toggled.erase(group)) state.objects.toggled.insert(group);
   }
 }
 
@@ -80,11 +80,11 @@ void draw_line(Ui& ui, PanelState& state, const ObjectLine& line, std::size_t nu
   const std::string fold = line.group ? (line.open ? "- " : "+ ") : "";
   const std::string label = std::string(2 * (line.path.size() - 1), ' ') + fold + line.label;
   const float left = ImGui::GetCursorScreenPos().x;
-  if (!list_line(ui, std::to_string(number), label, line.word, on)) return;
+  if (!list_line(ui, std::to_string(number), label, line.note, on)) return;
   const bool on_sign = ImGui::GetIO().MousePos.x <
                        left + ImGui::CalcTextSize(label.substr(0, label.size() - line.label.size()).c_str()).x;
   if (line.group && on_sign) {
-    if (!state.objects.turned.erase(line.path)) state.objects.turned.insert(line.path);
+    if (!state.objects.toggled.erase(line.path)) state.objects.toggled.insert(line.path);
   } else {
     choose(state, line.path, on && !also);
   }

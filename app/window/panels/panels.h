@@ -40,9 +40,9 @@ struct PanelModel {
 
 /// How the list of objects is shown.
 struct ObjectsView {
-  std::string search;           ///< only objects with this text are listed; "": all
-  std::set<ObjectPath> turned;  ///< groups that are folded though they are small, or open though they are large
-  ObjectPath shown;             ///< the selected object that the list has scrolled to
+  std::string search;            ///< only objects with this text are listed; "": all
+  std::set<ObjectPath> toggled;  ///< groups that are folded though they are small, or open though they are large
+  ObjectPath shown;              ///< the selected object that the list has scrolled to
 };
 
 /// The parts of the column that its tabs lead to.

@@ -4,7 +4,7 @@
 #include "app/window/accuracy/views.h"
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/panels.h"
-#include "core/base/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/system/processors.h"
 
 #include <fmt/core.h>
@@ -15,12 +15,12 @@
 namespace tyndall {
 namespace {
 
-std::string share_cut_off(const Frame* frame) {
+std::string fraction_cut_off(const Frame* frame) {
   if (!frame || frame->spp == 0) return "scattering events of the longest path";
-  const double share = static_cast<double>(frame->truncated) / static_cast<double>(frame->samples);
-  if (share == 0) return "no path was cut off";
-  if (share < 1e-5) return "cuts off less than 0.001 % of the paths";
-  return fmt::format("cuts off {:.2g} % of the paths", 100 * share);
+  const double fraction = static_cast<double>(frame->truncated) / static_cast<double>(frame->samples);
+  if (fraction == 0) return "no path was cut off";
+  if (fraction < 1e-5) return "cuts off less than 0.001 % of the paths";
+  return fmt::format("cuts off {:.2g} % of the paths", 100 * fraction);
 }
 
 const char* view_meaning(const PanelState& state) {
@@ -31,17 +31,17 @@ const char* view_meaning(const PanelState& state) {
 std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
   if (!render.sharing) return "each pixel by itself";
   if (render.integrator != Integrator::mis) return "a part of integrator mis";
-  return frame && frame->shares ? "pays here: groups of eight pixels share" : "does not pay in this scene";
+  return frame && frame->reuses_paths ? "pays here: groups of eight pixels share" : "does not pay in this scene";
 }
 
 /// The grey line beneath a setting's row.
 std::string setting_meaning(const PanelState& state, std::string_view name) {
   const RenderSettings& render = state.scene.render;
-  if (name == "integrator") return word(render.integrator).help;
+  if (name == "integrator") return label(render.integrator).help;
   if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
   if (name == "adaptive")
     return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";
-  if (name == "max_depth") return share_cut_off(state.model.frame.get());
+  if (name == "max_depth") return fraction_cut_off(state.model.frame.get());
   if (name == "spp") return render.spp ? "samples a pixel at which it stops" : "0: goes on for ever";
   return "";
 }
@@ -49,7 +49,7 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 void threads_row(Ui& ui, PanelState& state) {
   int threads = state.model.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  const Row row{"threads", "Threads", between(1, most_threads), {1, cores}, "", "never changes the picture", ""};
+  const Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
   if (value_row(ui, row, threads)) state.requests.push_back({Action::threads, threads});
 }
 
@@ -72,7 +72,7 @@ void pixels_row(Ui& ui, PanelState& state) {
   scene.width = static_cast<int>(width), scene.height = static_cast<int>(height);
   try {
     const bool clean = state.model.clean > 0;
-    check_memory(WindowPlan{scene.width, scene.height, has_lamps(scene), clean}, free_memory(),
+    check_memory(WindowPlan{scene.width, scene.height, has_lights(scene), clean}, free_memory(),
                  "switch the clean view off");
   } catch (const UsageError& error) {
     ui.problem = error.what();

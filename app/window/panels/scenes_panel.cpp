@@ -88,8 +88,8 @@ std::vector<SceneRow> rows_of(const std::vector<std::filesystem::path>& files) {
 }
 
 /// A list of so many rows at most; those that are not to be seen cost nothing.
-void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<SceneRow>& rows, std::size_t most) {
-  if (begin_list(ui, name, row_height * ui.scale, rows.size(), most)) {
+void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<SceneRow>& rows, std::size_t maximum) {
+  if (begin_list(ui, name, row_height * ui.scale, rows.size(), maximum)) {
     scroll_list(ui);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(rows.size()), row_height * ui.scale);

@@ -32,8 +32,8 @@ bool accept(const Row& row, double wanted, double& value) {
 }
 
 std::string shown_text(const Row& row, double value, bool fixed_digits) {
-  const bool word = std::isalpha(static_cast<unsigned char>(*row.unit)) != 0;
-  const std::string unit = (word ? " " : "") + std::string(row.unit);
+  const bool spelled = std::isalpha(static_cast<unsigned char>(*row.unit)) != 0;
+  const std::string unit = (spelled ? " " : "") + std::string(row.unit);
   if (row.whole) return std::to_string(std::llround(value)) + unit;
   return (fixed_digits ? format_value(row.slider, value) : format_short(value)) + unit;
 }
@@ -128,8 +128,8 @@ bool reset_by_double_click(Ui& ui, const Row& row, double& value) {
 bool follow_mouse(Ui& ui, double& value) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto mouse = static_cast<double>(io.MousePos.x);
-  if (ImGui::IsItemActivated()) ui.drag.last = mouse, ui.drag.way = 0, ui.drag.reset = false, ui.drag.before = value;
-  ui.drag.way += (mouse - ui.drag.last) * (io.KeyShift ? 0.1 : 1.0);
+  if (ImGui::IsItemActivated()) ui.drag.last = mouse, ui.drag.travel = 0, ui.drag.reset = false, ui.drag.before = value;
+  ui.drag.travel += (mouse - ui.drag.last) * (io.KeyShift ? 0.1 : 1.0);
   ui.drag.last = mouse;
   ui.drag.active = !ui.drag.reset;
   if (!ui.drag.cancel || ui.drag.reset) return false;
@@ -166,10 +166,11 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   const float height = ImGui::GetFrameHeight();
   ImGui::InvisibleButton("slider", {std::max(width, 8.0f), height});
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-  const float grab = 14 * ui.scale, pad = 2 * ui.scale, first = a.x + pad + grab / 2, way = b.x - a.x - 2 * pad - grab;
+  const float grab = 14 * ui.scale, pad = 2 * ui.scale, first = a.x + pad + grab / 2,
+              track = b.x - a.x - 2 * pad - grab;
   const Slider range =
       ImGui::IsItemActive() && !ImGui::IsItemActivated() ? ui.drag.range : widened(row.slider, row.valid, value);
-  const auto place_of = [&](double v) { return first + way * static_cast<float>(slider_position(range, v)); };
+  const auto place_of = [&](double v) { return first + track * static_cast<float>(slider_position(range, v)); };
   const float mouse = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemActivated()) {
     ui.drag.range = range;
@@ -179,10 +180,10 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
   bool changed = ImGui::IsItemActive() && follow_mouse(ui, value);
   changed = reset_by_double_click(ui, row, value) || changed;
   // A press on the grab moves nothing until the mouse does.
-  const bool moved = ui.drag.offset == 0 || ui.drag.way != 0;
-  if (ImGui::IsItemActive() && moved && way > 0 && !ui.drag.reset) {
+  const bool moved = ui.drag.offset == 0 || ui.drag.travel != 0;
+  if (ImGui::IsItemActive() && moved && track > 0 && !ui.drag.reset) {
     const double place =
-        (ui.drag.start + ui.drag.way - static_cast<double>(ui.drag.offset + first)) / static_cast<double>(way);
+        (ui.drag.start + ui.drag.travel - static_cast<double>(ui.drag.offset + first)) / static_cast<double>(track);
     changed = accept(row, snapped_by_keys(range, slider_value(range, place, value, finer_by_keys())), value);
   }
   draw_frame(ui);
@@ -213,7 +214,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   bool changed = ImGui::IsItemActive() && follow_mouse(ui, value);
   if (ImGui::IsItemActive() && !ui.drag.reset && (ui.drag.moved || ImGui::IsMouseDragging(0, 3 * ui.scale))) {
     ui.drag.moved = true;
-    const double steps = ui.drag.way / static_cast<double>(ui.scale);
+    const double steps = ui.drag.travel / static_cast<double>(ui.scale);
     const double wanted = dragged(row.slider, ui.drag.start, steps, finer_by_keys());
     changed = accept(row, snapped_by_keys(row.slider, wanted), value);
   }

@@ -27,11 +27,11 @@ struct TextEdit {
 
 /// The number that is being dragged.
 struct NumberDrag {
-  double start = 0;  ///< its value when the drag began; on a slider where the mouse was
-  Slider range;      ///< of the slider
-  float offset = 0;  ///< from the mouse to the middle of the slider's grab
-  double last = 0;   ///< where the mouse was in the drawing before
-  double way = 0;    ///< how far the mouse went, window units; with Shift a tenth of it counts
+  double start = 0;   ///< its value when the drag began; on a slider where the mouse was
+  Slider range;       ///< of the slider
+  float offset = 0;   ///< from the mouse to the middle of the slider's grab
+  double last = 0;    ///< where the mouse was in the drawing before
+  double travel = 0;  ///< how far the mouse went, window units; with Shift a tenth of it counts
   bool moved = false;
   bool reset = false;   ///< the value was set back: the mouse changes nothing until it is let go
   double before = 0;    ///< the value when the button went down
@@ -84,7 +84,7 @@ struct Ui {
   SoughtRow sought;
   RowPlace drawn;                ///< the part of the column that is being drawn, and its section
   double wake_in = 1e300;        ///< seconds until something appears by itself
-  bool asks = false;             ///< a dialog waits for an answer: the column takes no input
+  bool has_question = false;     ///< a dialog waits for an answer: the column takes no input
   bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
   std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed

@@ -41,9 +41,9 @@ void ImageZoom::limit() {
 }
 
 void ImageZoom::enlarge(float factor, float x, float y) {
-  const float wanted = shown_ * factor, least = std::min(1.0f, fit_);
-  if (wanted <= least * 1.001f && fit_ <= 1) return fit();
-  set(std::clamp(wanted, least, std::max(most, fit_)), x, y);
+  const float wanted = shown_ * factor, minimum = std::min(1.0f, fit_);
+  if (wanted <= minimum * 1.001f && fit_ <= 1) return fit();
+  set(std::clamp(wanted, minimum, std::max(maximum, fit_)), x, y);
 }
 
 void ImageZoom::move(float dx, float dy) {

@@ -24,11 +24,11 @@ class ImageZoom {
   void toggle(float x, float y);
   void fit() { scale_ = 0; }
 
-  static constexpr float most = 64;  ///< dots a pixel
+  static constexpr float maximum = 64;  ///< dots a pixel
 
  private:
   float scale_ = 0;                  ///< dots a pixel; 0: as the area allows
-  float at_x_ = 0.5f, at_y_ = 0.5f;  ///< the point of the picture, as shares of it, in the middle of the area
+  float at_x_ = 0.5f, at_y_ = 0.5f;  ///< the point of the picture, as fractions of it, in the middle of the area
   float shown_ = 1, fit_ = 1;        ///< dots a pixel, now and when all is shown
   Rect image_, area_;                ///< as place() has found them
   void set(float scale, float x, float y);

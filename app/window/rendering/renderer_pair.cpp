@@ -15,7 +15,7 @@ RendererPair::RendererPair(int threads, std::string isa, std::function<void()> o
       renderer_({threads, isa_}, on_frame_) {}
 
 RendererPair::~RendererPair() {
-  budget_.share_with(nullptr);  // before the second renderer is destroyed
+  budget_.split_with(nullptr);  // before the second renderer is destroyed
 }
 
 RendererPair::Begun RendererPair::request(const RenderRequest& current, const RenderRequest& kept) {
@@ -28,9 +28,9 @@ RendererPair::Begun RendererPair::request(const RenderRequest& current, const Re
   if (kept.scene && !second_) {
     second_ = std::make_shared<Renderer>(Renderer::Options{current.threads, isa_}, on_frame_);
     kept_edit_ = 0;
-    budget_.share_with(second_.get());
+    budget_.split_with(second_.get());
   } else if (!kept.scene && second_) {
-    budget_.share_with(nullptr);
+    budget_.split_with(nullptr);
     begun.ended = std::exchange(second_, nullptr);
   }
   const ThreadBudget::Edits edits = budget_.request(current, kept);
@@ -55,7 +55,7 @@ bool RendererPair::finished() const {
   const auto ended = [this](Half half) {
     const auto frame = latest(half);
     return frame && frame->edit == edit(half) && frame->finished && frame->view == current_.view &&
-           (!current_.clean || frame->clean || frame->spp < least_clean_spp);
+           (!current_.clean || frame->clean || frame->spp < min_clean_spp);
   };
   const bool current = ended(Half::current) && renderer_.latest()->pass > restarted_after_;
   return current && (!second_ || ended(Half::kept));

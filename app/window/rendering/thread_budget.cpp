@@ -14,23 +14,23 @@ RenderingTime time_of(const Renderer& renderer) {
 
 }  // namespace
 
-Turn next_turn(Turn now, RenderingTime first, RenderingTime second, bool together) {
-  if (first.finished || second.finished) return Turn::both;  // one that has finished takes no time from the other
+Active next_active(Active now, RenderingTime first, RenderingTime second, bool together) {
+  if (first.finished || second.finished) return Active::both;  // one that has finished takes no time from the other
   const double lead = first.seconds - second.seconds;
   if (together) {
-    if (now == Turn::second && lead > 0) return Turn::second;
-    if (now == Turn::first && lead < 0) return Turn::first;
-    return lead > slack ? Turn::second : lead < -slack ? Turn::first : Turn::both;
+    if (now == Active::second && lead > 0) return Active::second;
+    if (now == Active::first && lead < 0) return Active::first;
+    return lead > slack ? Active::second : lead < -slack ? Active::first : Active::both;
   }
-  if (now == Turn::both) return lead > 0 ? Turn::second : Turn::first;
-  if (now == Turn::first) return lead > slice ? Turn::second : Turn::first;
-  return lead < -slice ? Turn::first : Turn::second;
+  if (now == Active::both) return lead > 0 ? Active::second : Active::first;
+  if (now == Active::first) return lead > slice ? Active::second : Active::first;
+  return lead < -slice ? Active::first : Active::second;
 }
 
-void ThreadBudget::share_with(Renderer* second) {
+void ThreadBudget::split_with(Renderer* second) {
   const std::lock_guard lock(mutex_);
   second_ = second;
-  turn_ = first_turn();
+  active_ = first_turn();
 }
 
 ThreadBudget::Edits ThreadBudget::request(RenderRequest first, RenderRequest second) {
@@ -38,15 +38,15 @@ ThreadBudget::Edits ThreadBudget::request(RenderRequest first, RenderRequest sec
   const bool other_threads = first.threads != first_wanted_.threads;
   first_wanted_ = std::move(first);
   second_wanted_ = std::move(second);
-  if (other_threads) turn_ = first_turn();
+  if (other_threads) active_ = first_turn();
   return ask();
 }
 
 void ThreadBudget::on_frame() {
   const std::lock_guard lock(mutex_);
   if (!second_) return;
-  const Turn turn = next_turn(turn_, time_of(first_), time_of(*second_), together());
-  if (std::exchange(turn_, turn) != turn) ask();
+  const Active active = next_active(active_, time_of(first_), time_of(*second_), together());
+  if (std::exchange(active_, active) != active) ask();
 }
 
 /// waits: it is the other one's turn.
@@ -59,8 +59,8 @@ RenderRequest ThreadBudget::part_of(const RenderRequest& wanted, bool waits) con
 
 ThreadBudget::Edits ThreadBudget::ask() {
   Edits edits;
-  edits.first = first_.request(part_of(first_wanted_, turn_ == Turn::second));
-  if (second_) edits.second = second_->request(part_of(second_wanted_, turn_ == Turn::first));
+  edits.first = first_.request(part_of(first_wanted_, active_ == Active::second));
+  if (second_) edits.second = second_->request(part_of(second_wanted_, active_ == Active::first));
   return edits;
 }
 

@@ -13,11 +13,11 @@ struct RenderingTime {
 };
 
 /// Which of two renderers may work.
-enum class Turn { both, first, second };
+enum class Active { both, first, second };
 
 /// Which renderer works next, so that both get equal seconds. together: both have threads of their own, and one waits
 /// only when it is well ahead; otherwise they take turns.
-Turn next_turn(Turn now, RenderingTime first, RenderingTime second, bool together);
+Active next_active(Active now, RenderingTime first, RenderingTime second, bool together);
 
 /// Asks the window's renderer and, in a split view, a second one for what is wanted, and shares threads between them in
 /// equal core-seconds: half of the threads each where their number is even, else in turns of a third of a second.
@@ -29,7 +29,7 @@ class ThreadBudget {
   ThreadBudget& operator=(const ThreadBudget&) = delete;
 
   /// second: null when it is about to go; stays with the caller. What it is asked for comes with request().
-  void share_with(Renderer* second);
+  void split_with(Renderer* second);
   /// Numbers of the edits that renderers were asked for.
   struct Edits {
     std::uint64_t first = 0, second = 0;
@@ -43,13 +43,13 @@ class ThreadBudget {
   Edits ask();
   RenderRequest part_of(const RenderRequest& wanted, bool waits) const;
   bool together() const { return first_wanted_.threads >= 2 && first_wanted_.threads % 2 == 0; }
-  Turn first_turn() const { return second_ && !together() ? Turn::first : Turn::both; }
+  Active first_turn() const { return second_ && !together() ? Active::first : Active::both; }
 
   std::mutex mutex_;
   Renderer& first_;
   Renderer* second_ = nullptr;
   RenderRequest first_wanted_, second_wanted_;
-  Turn turn_ = Turn::both;
+  Active active_ = Active::both;
 };
 
 }  // namespace tyndall

@@ -139,9 +139,9 @@ unsigned next_character(const std::string& text, std::size_t& at) {
 }  // namespace
 
 bool add_characters(const std::string& text, Characters& more) {
-  constexpr std::size_t most = 4000;  // more would make the atlas too large for some displays
+  constexpr std::size_t maximum = 4000;  // more would make the atlas too large for some displays
   bool added = false;
-  for (std::size_t at = 0; at < text.size() && more.size() < most;) {
+  for (std::size_t at = 0; at < text.size() && more.size() < maximum;) {
     const unsigned code = next_character(text, at);
     if (code > 0xffff || code == 0xfffd || is_always_loaded(static_cast<ImWchar>(code))) continue;
     added = more.insert(static_cast<ImWchar>(code)).second || added;

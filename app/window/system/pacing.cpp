@@ -32,7 +32,7 @@ void Pacing::on_drawn(double now) {
 void Pacing::wake_at(double time) { wake_ = std::min(wake_, time); }
 
 double Pacing::wait(double now) const {
-  const double earliest = drawn_ + least_frame_interval;
+  const double earliest = drawn_ + min_frame_interval;
   const double next = frames_ == event_frames ? now : frames_ > 0 ? std::min(wake_, drawn_ + echo_interval) : wake_;
   if (next > 1e299) return std::numeric_limits<double>::infinity();
   return std::max({next - now, earliest - now, 0.0});

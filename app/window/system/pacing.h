@@ -4,7 +4,7 @@
 namespace tyndall {
 
 /// Least time between two drawings.
-inline constexpr double least_frame_interval = 0.016;
+inline constexpr double min_frame_interval = 0.016;
 
 /// Time between the drawings after an event: they show what appears one drawing later and must not keep pictures
 /// waiting where drawing is slow.
@@ -37,7 +37,7 @@ class Pacing {
   /// When a newer picture may be shown; a finished one always may.
   double picture_due() const { return due_; }
   /// The earliest time at which it may be drawn again.
-  double next_drawing() const { return drawn_ + least_frame_interval; }
+  double next_drawing() const { return drawn_ + min_frame_interval; }
   /// Seconds to wait for events before drawing: 0 draw now; infinite: until something happens.
   double wait(double now) const;
 

@@ -48,12 +48,12 @@ GLFWwindow* open_window(int image_width, int image_height) {
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &sx, &sy);
   const auto [room_width, room_height] = screen_room();
   // Room for the column and the status line, though the image may be smaller.
-  constexpr float least_width = 640, least_height = 720;
-  const auto room = [&](int image, float least, float more) {
-    return std::max(image, static_cast<int>(std::lround(least * sx))) + static_cast<int>(std::lround(more * sx));
+  constexpr float min_width = 640, min_height = 720;
+  const auto room = [&](int image, float minimum, float more) {
+    return std::max(image, static_cast<int>(std::lround(minimum * sx))) + static_cast<int>(std::lround(more * sx));
   };
-  const int width = room(image_width, least_width, column_width);
-  const int height = room(image_height, least_height, status_height);
+  const int width = room(image_width, min_width, column_width);
+  const int height = room(image_height, min_height, status_height);
   return glfwCreateWindow(std::min(width, room_width), std::min(height, room_height), "Tyndall", nullptr, nullptr);
 }
 

@@ -11,7 +11,7 @@
 /// Settings of the window that a small file keeps from one start to the next.
 namespace tyndall {
 
-/// The sizes that texts, and with them all controls, can have: shares of the usual one.
+/// The sizes that texts, and with them all controls, can have: fractions of the usual one.
 inline constexpr std::array<double, 8> text_sizes{0.8, 0.9, 1, 1.1, 1.25, 1.5, 1.75, 2};
 
 /// What the window remembers from one start to the next.

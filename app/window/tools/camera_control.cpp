@@ -33,7 +33,7 @@ Camera tidy(Camera camera) {
 }
 
 /// v turned about the unit axis by an angle in radians (Rodrigues' formula).
-Vec3d turned(Vec3d v, Vec3d axis, double angle) {
+Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;
 }
@@ -60,7 +60,7 @@ Camera orbit(const Camera& camera, double yaw, double pitch) {
   const double wanted = std::clamp(from_pole - pitch, degree, pi - degree);
   // The eye itself may start closer to a pole than it may be turned to.
   const double allowed = pitch == 0 ? 0.0 : from_pole - wanted;
-  eye = turned(turned(eye, axes.right, -allowed), pole, -yaw);
+  eye = rotated(rotated(eye, axes.right, -allowed), pole, -yaw);
   Camera result = camera;
   result.look_from = camera.look_at + eye;
   return tidy(result);
@@ -74,8 +74,9 @@ Camera pan(const Camera& camera, double right, double up) {
 Camera dolly(const Camera& camera, double factor) {
   Camera result = camera;
   result.look_from = camera.look_at + factor * (camera.look_from - camera.look_at);
-  const double distance = target_distance(result), least = 1e-9 * std::max(1.0, length(camera.look_at)), most = 1e12;
-  if (distance < least || distance > most) return camera;
+  const double distance = target_distance(result), minimum = 1e-9 * std::max(1.0, length(camera.look_at)),
+               maximum = 1e12;
+  if (distance < minimum || distance > maximum) return camera;
   return tidy(result);
 }
 
@@ -107,7 +108,7 @@ Camera focus(const Camera& camera, double depth, bool keep_blur) {
   return result;
 }
 
-Camera frame_ball(const Camera& camera, Vec3d center, double radius, double aspect) {
+Camera frame_sphere(const Camera& camera, Vec3d center, double radius, double aspect) {
   const double tangent = half_tangent(camera) * std::min(1.0, aspect);
   const double distance = 1.15 * radius * std::sqrt(1 + 1 / (tangent * tangent));
   const Vec3d forward = axes_of(camera).forward;

@@ -30,8 +30,8 @@ Camera fly(const Camera& camera, double right, double up, double forward);
 /// Puts the plane in focus at `depth` > 0 along the axis. The lens stays as it is, so the defocus angle follows;
 /// keep_blur: the angle stays, and with it the blur of what is far away.
 Camera focus(const Camera& camera, double depth, bool keep_blur);
-/// Looks at a ball from the same direction and from so far that it fills the picture. aspect: width over height.
-Camera frame_ball(const Camera& camera, Vec3d center, double radius, double aspect);
+/// Looks at a sphere from the same direction and from so far that it fills the picture. aspect: width over height.
+Camera frame_sphere(const Camera& camera, Vec3d center, double radius, double aspect);
 
 /// A point in the camera's frame: right, up, and depth along the axis.
 Vec3d in_camera_frame(const Camera& camera, Vec3d point);

@@ -30,19 +30,19 @@ bool holds_fly_key(const std::set<int>& held) {
 }
 
 bool Flight::update(const std::set<int>& held, bool fast, double now, Camera& camera) {
-  Vec3d way;
-  double* const axes[3] = {&way.x, &way.y, &way.z};
+  Vec3d heading;
+  double* const axes[3] = {&heading.x, &heading.y, &heading.z};
   for (const int key : held)
     if (const auto direction = fly_key(key)) *axes[direction->axis] += direction->sign;
-  const bool flies = !(way == Vec3d{}), tapped = !flies && last_ >= 0 && !moved_;
+  const bool flies = !(heading == Vec3d{}), tapped = !flies && last_ >= 0 && !moved_;
   const double seconds = tapped ? tap : flies && last_ >= 0 ? std::min(now - last_, 0.1) : 0;
   if (seconds > 0) {
     const double speed = (fast ? 3.0 : 0.75) * target_distance(camera);  // scene units a second
-    const Vec3d step = seconds * speed * (tapped ? way_ : way);
+    const Vec3d step = seconds * speed * (tapped ? heading_ : heading);
     camera = fly(camera, step.x, step.y, step.z);
   }
   moved_ = flies && last_ >= 0;
-  way_ = way;
+  heading_ = heading;
   last_ = flies ? now : -1;
   return flies;
 }

@@ -26,7 +26,7 @@ class Flight {
   static constexpr double tap = 1 / 60.0;
 
   double last_ = -1;    ///< second of the last drawing in flight; < 0: it does not fly
-  Vec3d way_;           ///< where it flew to then: right, up, forward
+  Vec3d heading_;       ///< where it flew to then: right, up, forward
   bool moved_ = false;  ///< the camera has moved in this flight
 };
 

@@ -14,7 +14,7 @@ struct ObjectUnder {
   bool medium = false;
 };
 
-/// The objects that a line of sight meets, nearest first; groups count as what is in them. Fog and boxes of fog that
+/// The objects that a line of sight meets, nearest first; groups count as what is in them. Fog and boxes of media that
 /// hold the eye are not met: they cannot be seen from there. Moving spheres are where they are at time 0.
 std::vector<ObjectUnder> objects_under(const Scene& scene, ImagePoint at);
 

@@ -10,7 +10,7 @@ namespace tyndall {
 namespace {
 
 constexpr int circle_points = 96;
-constexpr std::size_t most_lines = 4000;
+constexpr std::size_t max_lines = 4000;
 
 /// Turns lines in space into lines of the image.
 class Projector {
@@ -19,7 +19,7 @@ class Projector {
 
   void add(Vec3d from, Vec3d to) {
     const auto line = projection_.line(from, to);
-    if (line && lines.size() < most_lines) lines.push_back(*line);
+    if (line && lines.size() < max_lines) lines.push_back(*line);
   }
   Vec3d eye() const { return projection_.camera().look_from; }
 
@@ -58,7 +58,7 @@ void add_shape(Projector& out, const Quad<>& quad, const Placement& at) {
 void add_shape(Projector& out, const Box<>& box, const Placement& at) {
   const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
   const Vec3d centre = place(at, {0, 0, 0});
-  const Vec3d rows[3] = {turn(at, {1, 0, 0}), turn(at, {0, 1, 0}), turn(at, {0, 0, 1})};
+  const Vec3d rows[3] = {rotate(at, {1, 0, 0}), rotate(at, {0, 1, 0}), rotate(at, {0, 0, 1})};
   const auto in_front = [&](int axis, bool plus) {
     const double eye = dot(out.eye() - centre, rows[axis]);
     return plus ? eye > high[axis] : eye < low[axis];
@@ -78,7 +78,7 @@ void add_shape(Projector& out, const Box<>& box, const Placement& at) {
 
 void add_object(Projector& out, const Scene& scene, const ObjectPath& path) {
   const Object* object = find_object(scene, path);
-  if (!object || out.lines.size() >= most_lines) return;
+  if (!object || out.lines.size() >= max_lines) return;
   if (const Group* group = std::get_if<Group>(&object->kind)) {
     ObjectPath child = path;
     for (child.push_back(0); child.back() < static_cast<int>(group->objects.size()); ++child.back())

@@ -15,7 +15,7 @@ PressedButton PointerTool::update(const Mouse& mouse, const Layout& layout, floa
   if (button_ < 0 && over && free)
     for (int button = 0; button < 3; ++button)
       if (mouse.clicked[button]) button_ = button, moved_ = false;
-  if (over) turn_wheel(mouse, now, camera);
+  if (over) scroll(mouse, now, camera);
   if (button_ < 0) return PressedButton::none;
   float dx = mouse.dx, dy = mouse.dy;
   if (!moved_) {
@@ -38,7 +38,7 @@ void PointerTool::drag(const Layout& layout, double dx, double dy, Camera& camer
   if (button_ == 2) camera = pan(camera, -x, y);
 }
 
-void PointerTool::turn_wheel(const Mouse& mouse, double now, Camera& camera) {
+void PointerTool::scroll(const Mouse& mouse, double now, Camera& camera) {
   if (mouse.wheel == 0) return;
   wheel_time_ = now;
   const double notches = static_cast<double>(mouse.wheel);

@@ -32,7 +32,7 @@ std::optional<ImageLine> Projection::line(Vec3d from, Vec3d to) const {
   return ImageLine{seen(a), seen(b)};
 }
 
-Sight Projection::sight(ImagePoint at) const {
+ViewRay Projection::view_ray(ImagePoint at) const {
   const CameraAxes axes = axes_of(camera_);
   const double x = (at.x - 0.5) * width_, y = (0.5 - at.y) * height_;
   return {camera_.look_from, normalize(x * axes.right + y * axes.up + axes.forward)};

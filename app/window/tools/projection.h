@@ -16,7 +16,7 @@ struct ImageLine {
 };
 
 /// A line of sight. direction: unit.
-struct Sight {
+struct ViewRay {
   Vec3d origin, direction;
 };
 
@@ -31,7 +31,7 @@ class Projection {
   /// The part of a line that is before the eye; nothing where there is none.
   std::optional<ImageLine> line(Vec3d from, Vec3d to) const;
   /// The line of sight through a point of the image.
-  Sight sight(ImagePoint at) const;
+  ViewRay view_ray(ImagePoint at) const;
   /// Height of the picture in scene units, at a depth along the camera's axis.
   double height_at(double depth) const { return height_ * depth; }
   /// Depth of a point along the camera's axis.

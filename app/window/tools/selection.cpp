@@ -15,24 +15,26 @@ Shape shape_of(const Volume& volume) {
   return std::visit([](const auto& boundary) { return Shape{boundary}; }, volume.boundary);
 }
 
-Ball own_ball(const Sphere<>& sphere) {
+BoundingSphere own_bounding_sphere(const Sphere<>& sphere) {
   if (!sphere.center_end) return {sphere.center, std::abs(sphere.radius)};
-  const Vec3d way = *sphere.center_end - sphere.center;
-  return {sphere.center + 0.5 * way, std::abs(sphere.radius) + 0.5 * length(way)};
+  const Vec3d motion = *sphere.center_end - sphere.center;
+  return {sphere.center + 0.5 * motion, std::abs(sphere.radius) + 0.5 * length(motion)};
 }
-Ball own_ball(const Quad<>& quad) {
+BoundingSphere own_bounding_sphere(const Quad<>& quad) {
   return {quad.corner + 0.5 * (quad.u + quad.v), 0.5 * std::max(length(quad.u + quad.v), length(quad.u - quad.v))};
 }
-Ball own_ball(const Box<>& box) { return {0.5 * (box.min + box.max), 0.5 * length(box.max - box.min)}; }
-
-Ball ball_of(const Shape& shape, const Placement& placement) {
-  Ball ball = std::visit([](const auto& s) { return own_ball(s); }, shape);
-  ball.center = place(placement, ball.center);
-  return ball;
+BoundingSphere own_bounding_sphere(const Box<>& box) {
+  return {0.5 * (box.min + box.max), 0.5 * length(box.max - box.min)};
 }
 
-/// A ball that holds both balls.
-Ball joined(const Ball& a, const Ball& b) {
+BoundingSphere sphere_of(const Shape& shape, const Placement& placement) {
+  BoundingSphere sphere = std::visit([](const auto& s) { return own_bounding_sphere(s); }, shape);
+  sphere.center = place(placement, sphere.center);
+  return sphere;
+}
+
+/// A sphere that holds both spheres.
+BoundingSphere joined(const BoundingSphere& a, const BoundingSphere& b) {
   const double apart = length(b.center - a.center);
   if (apart + b.radius <= a.radius) return a;
   if (apart + a.radius <= b.radius) return b;
@@ -106,19 +108,19 @@ Placement placement_at(const Scene& scene, const ObjectPath& path) {
   return result;
 }
 
-std::optional<Ball> ball_around(const Scene& scene, const ObjectPath& path) {
+std::optional<BoundingSphere> bounding_sphere(const Scene& scene, const ObjectPath& path) {
   const Object* object = find_object(scene, path);
   if (!object) return {};
   if (const Solid3d* solid = std::get_if<Solid3d>(&object->kind))
-    return ball_of(solid->shape, placement_at(scene, path));
+    return sphere_of(solid->shape, placement_at(scene, path));
   if (const Volume* volume = std::get_if<Volume>(&object->kind))
-    return ball_of(shape_of(*volume), placement_at(scene, path));
-  std::optional<Ball> all;
+    return sphere_of(shape_of(*volume), placement_at(scene, path));
+  std::optional<BoundingSphere> all;
   ObjectPath child = path;
   child.push_back(0);
   const auto count = static_cast<int>(std::get<Group>(object->kind).objects.size());
   for (; child.back() < count; ++child.back())
-    if (const auto ball = ball_around(scene, child)) all = all ? joined(*all, *ball) : *ball;
+    if (const auto sphere = bounding_sphere(scene, child)) all = all ? joined(*all, *sphere) : *sphere;
   return all;
 }
 

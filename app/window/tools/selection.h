@@ -27,15 +27,15 @@ std::vector<ObjectPath> leaves(const Scene& scene);
 /// Where the object's own frame is in the world (a medium: its boundary's).
 Placement placement_at(const Scene& scene, const ObjectPath& path);
 
-/// A ball around an object; nothing for an empty group.
-struct Ball {
+/// A sphere around an object; nothing for an empty group.
+struct BoundingSphere {
   Vec3d center;
   double radius = 0;
 };
-std::optional<Ball> ball_around(const Scene& scene, const ObjectPath& path);
+std::optional<BoundingSphere> bounding_sphere(const Scene& scene, const ObjectPath& path);
 
-/// What a new user should touch first: the first object of fuzzy or plain metal, of glass and of fog; without them the
-/// first lamp and the first matt object.
+/// What a new user should touch first: the first object of fuzzy or plain metal, of glass and of media; without them
+/// the first light and the first matt object.
 std::vector<ObjectPath> interesting(const Scene& scene);
 
 }  // namespace tyndall

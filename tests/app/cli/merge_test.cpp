@@ -35,7 +35,7 @@ fs::path write_shard(const fs::path& file, const Shard& shard) {
   Film film = make_film(shard.width, 5, {0, 0, shard.width, 5}, shard.first, 2);
   for (FilmPixel& pixel : film.pixels) {
     for (std::uint32_t i = shard.first; i < shard.last; ++i)
-      add_sample(pixel, i & 1u, {0.25f * static_cast<float>(i % 7), 0.5f, 1}, 1 / film.unit);
+      add_sample(pixel, i & 1u, {0.25f * static_cast<float>(i % 7), 0.5f, 1}, 1 / film.quantum);
     pixel.taken = shard.last - shard.first;
   }
   write_exr(file, film, {}, {scene_of(shard), "", {shard.version, shard.isa, false}, shard.with_film});

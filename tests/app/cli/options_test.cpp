@@ -10,24 +10,24 @@ using namespace tyndall;
 
 namespace {
 
-using Words = std::vector<std::string>;
+using Arguments = std::vector<std::string>;
 
-RenderCommand render_command(const Words& more) {
-  Words words = {"render", "box.json", "-o", "a.png"};
-  words.insert(words.end(), more.begin(), more.end());
-  return std::get<RenderCommand>(read_command(words));
+RenderCommand render_command(const Arguments& more) {
+  Arguments arguments = {"render", "box.json", "-o", "a.png"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return std::get<RenderCommand>(read_command(arguments));
 }
 
-std::string refusal(const Words& words) {
+std::string refusal(const Arguments& arguments) {
   try {
-    read_command(words);
+    read_command(arguments);
   } catch (const UsageError& error) {
     return error.what();
   }
   return "";
 }
 
-std::string printed(const Words& words) { return std::get<PrintCommand>(read_command(words)).text; }
+std::string printed(const Arguments& arguments) { return std::get<PrintCommand>(read_command(arguments)).text; }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -62,10 +62,10 @@ TEST_CASE("the help of view, compare and inspect has examples, which are read") 
     REQUIRE_MESSAGE(at != std::string::npos, name);
     int count = 0;
     for (at = help.find("  tyndall ", at); at != std::string::npos; at = help.find("  tyndall ", at + 1), ++count) {
-      Words words;
+      Arguments arguments;
       std::istringstream line(help.substr(at + 10, help.find('\n', at) - at - 10));
-      for (std::string word; line >> word;) words.push_back(word);
-      CHECK_MESSAGE(refusal(words).empty(), help.substr(at, 60));
+      for (std::string argument; line >> argument;) arguments.push_back(argument);
+      CHECK_MESSAGE(refusal(arguments).empty(), help.substr(at, 60));
     }
     CHECK(count == 3);
   }
@@ -157,10 +157,10 @@ TEST_CASE("unknown options and commands get a suggestion") {
 }
 
 TEST_CASE("limits that exclude each other are named") {
-  for (const Words& other : std::vector<Words>{{"--spp", "4"}, {"--time", "1"}, {"--target-error", "0.1"}}) {
-    Words words = {"render", "b", "-o", "a.png", "--samples", "0:4"};
-    words.insert(words.end(), other.begin(), other.end());
-    CHECK(has(refusal(words), "--samples and " + other[0]));
+  for (const Arguments& other : std::vector<Arguments>{{"--spp", "4"}, {"--time", "1"}, {"--target-error", "0.1"}}) {
+    Arguments arguments = {"render", "b", "-o", "a.png", "--samples", "0:4"};
+    arguments.insert(arguments.end(), other.begin(), other.end());
+    CHECK(has(refusal(arguments), "--samples and " + other[0]));
   }
   CHECK(render_command({"--samples", "4:8"}).samples->first == 4);
 }
@@ -222,7 +222,7 @@ TEST_CASE("help names every command and option, with units and defaults") {
   for (const char* name : {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
     CHECK(has(overview, std::string("\n  ") + name + " "));
   CHECK(printed({"-h"}) == overview);
-  for (const char* word : {"--version", "-V", "version"}) CHECK(has(printed({word}), "tyndall "));
+  for (const char* argument : {"--version", "-V", "version"}) CHECK(has(printed({argument}), "tyndall "));
   const std::string render = printed({"render", "--help"});
   for (const char* option : {"--output FILE",
                              "--size WxH",

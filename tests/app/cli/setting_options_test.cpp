@@ -24,17 +24,17 @@ constexpr auto fields(const Example*) {
                     Field{"open", &Example::open, between(1, 9), no_slider(), "", "may be absent"}};
 }
 
-Changes<Example> parsed(const std::vector<std::string>& words) {
+Changes<Example> parsed(const std::vector<std::string>& arguments) {
   Changes<Example> changes;
   const auto app = new_command("example", "");
   add_settings(*app, changes);
-  parse(*app, words);
+  parse(*app, arguments);
   return changes;
 }
 
-std::string refusal(const std::vector<std::string>& words) {
+std::string refusal(const std::vector<std::string>& arguments) {
   try {
-    parsed(words);
+    parsed(arguments);
   } catch (const UsageError& error) {
     return error.what();
   }

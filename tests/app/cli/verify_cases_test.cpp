@@ -61,7 +61,7 @@ TEST_CASE("cases: a group's overrides and source, then the case's own") {
   REQUIRE(cases[1].overrides.size() == 2);
   CHECK(cases[1].overrides[1].pointer == "/camera");
   CHECK(has(cases[1].overrides[1].value, "20"));
-  CHECK_FALSE(cases[1].needs_light_sampling);
+  CHECK_FALSE(cases[1].requires_light_sampling);
 }
 
 TEST_CASE("cases: what is wrong with a table is one line that says where") {

@@ -27,7 +27,7 @@ TEST_CASE("runs that lasted for a while are kept, the short ones of a drag are n
 TEST_CASE("the newest run of each method stays, and not more than a few") {
   Convergence runs;
   for (std::uint64_t edit = 1; edit < 20; ++edit) run(runs, edit, "method " + std::to_string(edit % 7), 2);
-  CHECK(runs.earlier().size() == Convergence::most_earlier);
+  CHECK(runs.earlier().size() == Convergence::max_earlier);
   CHECK(runs.earlier().back().edit == 18);
   for (std::uint64_t edit = 20; edit < 24; ++edit) run(runs, edit, "same", 2);
   int same = 0;

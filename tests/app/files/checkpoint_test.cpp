@@ -29,15 +29,15 @@ TEST_CASE("checkpoints: the film as it was when it was taken is written, unfinis
           doctest::skip(!has_openexr())) {
   const fs::path folder = scratch_folder("checkpoints"), file = folder / "a.exr";
   Checkpoints checkpoints(file, 0, embedded);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   Film film = film_of(3);
   CHECK(checkpoints.due());
-  checkpoints.take(film, crew);
+  checkpoints.take(film, thread_pool);
   film = film_of(9);  // the render goes on at once
   checkpoints.finish();
   CHECK(read_film(file) == film_of(3));
   CHECK(read_film_label(file)->unfinished);
-  checkpoints.take(film, crew);
+  checkpoints.take(film, thread_pool);
   checkpoints.finish();
   CHECK(read_film(file) == film_of(9));
   CHECK_FALSE(checkpoints.problem());
@@ -48,11 +48,11 @@ TEST_CASE("checkpoints: without memory for a copy the film itself is written, be
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_memory") / "a.exr";
   Checkpoints checkpoints(file, 0, embedded);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   const Film film = film_of(4);
   {
     const auto refusal = test::AllocationRefusal::of_size(film.pixels.size() * sizeof(FilmPixel));
-    checkpoints.take(film, crew);
+    checkpoints.take(film, thread_pool);
     CHECK(refusal.refused() == 1);
     CHECK(checkpoints.due());
   }
@@ -64,12 +64,12 @@ TEST_CASE("checkpoints: the first one is due after half of the interval, without
           doctest::skip(!has_openexr())) {
   const fs::path file = scratch_folder("checkpoint_times") / "a.exr";
   Checkpoints often(file, 2, embedded), usual(file, std::nullopt, embedded);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   CHECK_FALSE(often.due());
   std::this_thread::sleep_for(std::chrono::milliseconds(1000));
   CHECK(often.due());
   CHECK_FALSE(usual.due());
-  often.take(film_of(1), crew);
+  often.take(film_of(1), thread_pool);
   often.finish();
   CHECK_FALSE(often.due());
 }
@@ -83,13 +83,13 @@ TEST_CASE("checkpoints: later ones begin earlier than the interval by twice what
     return embedded(film);
   };
   Checkpoints checkpoints(file, 2, slowly);
-  Crew crew(2);
-  checkpoints.take(film_of(1), crew);
+  ThreadPool thread_pool(2);
+  checkpoints.take(film_of(1), thread_pool);
   CHECK_FALSE(checkpoints.due());  // it is being written
   checkpoints.finish();
   slow = false;
   const auto begun = std::chrono::steady_clock::now();
-  checkpoints.take(film_of(1), crew);
+  checkpoints.take(film_of(1), thread_pool);
   while (!checkpoints.due() && seconds_since(begun) < 20) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   CHECK(seconds_since(begun) > 0.99);
   CHECK(seconds_since(begun) < 1.7);
@@ -103,9 +103,9 @@ TEST_CASE("checkpoints: it is told once that they take longer than half of the i
     return embedded(film);
   };
   Checkpoints checkpoints(scratch_folder("checkpoint_slow") / "a.exr", 0.05, slowly);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   for (const bool first : {true, false}) {
-    checkpoints.take(film_of(1), crew);
+    checkpoints.take(film_of(1), thread_pool);
     checkpoints.finish();
     const auto problem = checkpoints.problem();
     CHECK(problem.has_value() == first);
@@ -127,8 +127,8 @@ TEST_CASE("checkpoints: a film is copied whole, whatever the number of its pixel
     }
     for (const int threads : {1, 3}) {
       Checkpoints checkpoints(file, 0, embedded);
-      Crew crew(threads);
-      checkpoints.take(film, crew);
+      ThreadPool thread_pool(threads);
+      checkpoints.take(film, thread_pool);
       checkpoints.finish();
       CHECK(read_film(file) == film);
       film.planned.assign(static_cast<std::size_t>((width + 3) / 4), PlannedSamples{0, film.pixels.back().taken});
@@ -140,9 +140,9 @@ TEST_CASE("checkpoints: one that fails is told once, leaves the one before it, a
           doctest::skip(!has_openexr())) {
   const fs::path folder = scratch_folder("checkpoint_fails"), file = folder / "sub" / "a.exr";
   Checkpoints checkpoints(file, 0, embedded);
-  Crew crew(2);
+  ThreadPool thread_pool(2);
   for (int i = 0; i < 2; ++i) {
-    checkpoints.take(film_of(1), crew);
+    checkpoints.take(film_of(1), thread_pool);
     checkpoints.finish();
     CHECK(checkpoints.due());
     const auto problem = checkpoints.problem();
@@ -150,7 +150,7 @@ TEST_CASE("checkpoints: one that fails is told once, leaves the one before it, a
     if (problem) CHECK(problem->find("No such file or directory") != std::string::npos);
   }
   fs::create_directory(folder / "sub");
-  checkpoints.take(film_of(2), crew);
+  checkpoints.take(film_of(2), thread_pool);
   checkpoints.finish();
   CHECK_FALSE(checkpoints.problem());
   CHECK(read_film(file) == film_of(2));

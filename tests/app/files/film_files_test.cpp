@@ -25,12 +25,12 @@ Film small_film() {
 
 TEST_CASE("films with and without chains are told apart, where chains would be looked for") {
   const auto both = [](const char* name) {
-    Scene chains = small_scene(name, 2, 1, 1), scatter = chains;
+    Scene by_specular_paths = small_scene(name, 2, 1, 1), scatter = by_specular_paths;
     scatter.render.caustics = Caustics::scatter;
-    return same_samples(chains, scatter);
+    return same_samples(by_specular_paths, scatter);
   };
   CHECK_FALSE(both("stress-caustic-glass"));
-  CHECK(both("cornell-box"));  // no balls: the samples are the same
+  CHECK(both("cornell-box"));  // no spheres: the samples are the same
   Scene path = small_scene("stress-caustic-glass", 2, 1, 1), other = path;
   path.render.integrator = other.render.integrator = Integrator::path;
   other.render.caustics = Caustics::scatter;

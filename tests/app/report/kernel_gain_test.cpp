@@ -36,6 +36,6 @@ TEST_CASE("kernel gain: a set's own kernel is compared with the full one and giv
   CHECK(gain.isa == best.isa);
   CHECK(gain.pairs > 0);
   CHECK(gain.same_picture);
-  CHECK(gain.least <= gain.gain);
-  CHECK(gain.gain <= gain.most);
+  CHECK(gain.minimum <= gain.gain);
+  CHECK(gain.gain <= gain.maximum);
 }

@@ -63,7 +63,7 @@ class RandomEdits {
         set_anchor(scene, any_object(scene), in_cube(engine_, 2));
         break;
       case 3:
-        turn_object(scene, any_object(scene), between(-180, 180));
+        rotate_object(scene, any_object(scene), between(-180, 180));
         break;
       case 4:
         duplicate_or_delete(scene);

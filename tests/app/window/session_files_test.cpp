@@ -36,13 +36,13 @@ TEST_CASE("the file is read again when it changes; with edits the user is asked 
   opened.set_fuzz(0.5);
   Editor& editor = opened.session->editor();
   OpenedSession::write(0.75);
-  REQUIRE(opened.comes_true([&] { return editor.asks_about_file(); }));
+  REQUIRE(opened.comes_true([&] { return editor.offers_reload(); }));
   CHECK(opened.fuzz() == 0.5);
   editor.answer_about_file(false);
   CHECK(opened.fuzz() == 0.5);
   CHECK(std::get<Metal<>>(editor.document().origin->saved.materials[0].kind).fuzz == 0.75);
   OpenedSession::write(0.875);
-  REQUIRE(opened.comes_true([&] { return editor.asks_about_file(); }));
+  REQUIRE(opened.comes_true([&] { return editor.offers_reload(); }));
   editor.answer_about_file(true);
   CHECK(opened.fuzz() == 0.875);
   CHECK_FALSE(edited(editor.document()));
@@ -80,7 +80,7 @@ TEST_CASE("restored edits of a file that another program has changed since wait 
   opened.open();
   Editor& editor = opened.session->editor();
   CHECK(opened.fuzz() == 0.5);
-  REQUIRE(editor.asks_about_file());
+  REQUIRE(editor.offers_reload());
   editor.answer_about_file(true);
   CHECK(opened.fuzz() == 0.75);
   CHECK_FALSE(edited(editor.document()));
@@ -171,7 +171,7 @@ TEST_CASE("a texture that is painted anew is no edit: edits of the scene stay, a
   opened.editor().edit(scene, 0);
   opened.paint("map.png", 0.5f);
   REQUIRE(opened.shows(188));
-  CHECK_FALSE(opened.editor().asks_about_file());
+  CHECK_FALSE(opened.editor().offers_reload());
   CHECK(opened.editor().scene().camera.vfov == 30);
   opened.editor().undo();
   CHECK(opened.red() == 188);
@@ -230,18 +230,18 @@ TEST_CASE("a scene with textures can be saved to other folders again and again")
   editor.open("in/scene.json");
   REQUIRE(opened.comes_true(
       [&] { return editor.document().origin->title == "scene.json" && editor.scene().textures.size() == 1; }));
-  const auto turn = [&](double vfov) {
+  const auto set_vfov = [&](double vfov) {
     Scene scene = editor.scene();
     scene.camera.vfov = vfov;
     editor.edit(scene, 0);
   };
-  turn(50);
+  set_vfov(50);
   for (const char* file : {"copy.json", "copy.json", "in/deep/copy.json", "in/scene.json"}) {
-    turn(editor.scene().camera.vfov + 1);
+    set_vfov(editor.scene().camera.vfov + 1);
     editor.save(file);
     CHECK_FALSE(edited(editor.document()));
     CHECK(load_scene(file).scene == editor.scene());
-    turn(editor.scene().camera.vfov + 1);
+    set_vfov(editor.scene().camera.vfov + 1);
     opened.session->keep_edits();
     opened.session->flush_edits();
   }

@@ -87,12 +87,12 @@ TEST_CASE("pictures are compared only if both are whole and of one size") {
 }
 
 TEST_CASE("work keeps to its share of the processors") {
-  ProcessorShare share(0.02);
-  CHECK(share.due(0));
+  ProcessorBudget fraction(0.02);
+  CHECK(fraction.due(0));
   double used = 0;
   for (double now = 0; now < 100; now += 0.01)
-    if (share.due(now)) share.spent(now, 0.05, 4), used += 0.05;
+    if (fraction.due(now)) fraction.spent(now, 0.05, 4), used += 0.05;
   CHECK(used / (100 * 4) == doctest::Approx(0.02).epsilon(0.05).scale(0));
-  share.renew();
-  CHECK(share.due(0));
+  fraction.renew();
+  CHECK(fraction.due(0));
 }

@@ -185,7 +185,8 @@ TEST_CASE("while it renders, a new picture is not always measured at once") {
     return w.points().size();
   };
   CHECK(show_and_measure(1) == 1);
-  for (int k = 1; k < 250; ++k) CHECK(show_and_measure(1 + 0.001 * k) == 1);  // measuring has used up its share of time
+  for (int k = 1; k < 250; ++k)
+    CHECK(show_and_measure(1 + 0.001 * k) == 1);  // measuring has used up its fraction of time
   CHECK(show_and_measure(1.3) == 2);  // a curve gets its first points early, whenever its time has grown by a quarter
   w.now += 1000;
   CHECK(show_and_measure(1.6) == 3);

@@ -36,7 +36,7 @@ TEST_CASE("no two actions of the list have the same key, and the first nine view
     for (const Key& key : {entry.key, entry.other_key})
       if (key.code != 0) CHECK(request_of_key(key.code, {key.control, key.shift, false}) == Request{entry.action});
   }
-  CHECK(seen.size() == static_cast<std::size_t>(Action::add_fog) + 1);  // the others have lists or arguments
+  CHECK(seen.size() == static_cast<std::size_t>(Action::add_medium) + 1);  // the others have lists or arguments
   for (int k = 0; k < keyed_views; ++k) CHECK(request_of_key('1' + k, {}) == Request{Action::view, k});
   CHECK_FALSE(request_of_key('1' + keyed_views, {}).has_value());
 }

@@ -73,7 +73,7 @@ TEST_CASE("the oldest steps are forgotten") {
   for (int n = 1; n <= 1000; ++n) history.record(numbered(n), static_cast<std::uint64_t>(n));
   int steps = 0;
   while (history.undo()) ++steps;
-  CHECK(steps == static_cast<int>(History::most_steps) - 1);
+  CHECK(steps == static_cast<int>(History::max_steps) - 1);
   CHECK(number(history) == 1000 - steps);
 }
 

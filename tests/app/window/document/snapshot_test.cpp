@@ -35,16 +35,16 @@ TEST_CASE("a snapshot opens again as the scene that made it") {
 }
 
 TEST_CASE("a film is waited for, but not when the picture changed or the window closes") {
-  int asked = 0;
+  int requested = 0;
   const auto yes = [] { return true; };
   const auto no = [] { return false; };
   const auto late = [&] {
     Film film = make_film(2, 2, {0, 0, 2, 2}, 0, 1);
-    for (FilmPixel& pixel : film.pixels) pixel.taken = ++asked > 8 ? 1 : 0;
+    for (FilmPixel& pixel : film.pixels) pixel.taken = ++requested > 8 ? 1 : 0;
     return film;
   };
   CHECK(wait_for_film(late, yes, yes).pixels.size() == 4);
   CHECK(wait_for_film(late, no, yes).pixels.empty());
-  asked = 0;
+  requested = 0;
   CHECK(wait_for_film(late, yes, no).pixels.empty());
 }

@@ -1,6 +1,6 @@
 #include "app/window/edit/add_object.h"
 
-#include "app/window/edit/companions.h"
+#include "app/window/edit/linked_objects.h"
 #include "core/scene/check.h"
 #include "core/scene/json.h"
 
@@ -58,9 +58,9 @@ TEST_CASE("a material of the usual name but with other values is left alone") {
 
 TEST_CASE("a hollow ball's inside goes along with it") {
   Scene scene = example();
-  const ObjectPaths added = add_object(scene, Addition::hollow_ball, {});
+  const ObjectPaths added = add_object(scene, Addition::hollow_sphere, {});
   REQUIRE(added.size() == 2);
-  CHECK(companions(scene, added[0]) == ObjectPaths{added[1]});
+  CHECK(linked_objects(scene, added[0]) == ObjectPaths{added[1]});
 }
 
 TEST_CASE("a spot is on the side of the surface that is seen, and as large as suits the distance") {

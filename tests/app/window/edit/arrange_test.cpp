@@ -56,15 +56,15 @@ TEST_CASE("moving changes the numbers that a person would change") {
 TEST_CASE("turning keeps the middle where it is, and puts a plain shape around the origin first") {
   Scene scene = scene_of({box({1, 0, 2}, {3, 1, 6})});
   const Vec3d middle = middle_of(scene, {0});
-  turn_object(scene, {0}, 30);
+  rotate_object(scene, {0}, 30);
   CHECK(scene.objects[0].transform == Transform{RotateY{30}, Translate{{2, 0, 4}}});
   CHECK(box_of(scene).min == Vec3d{-1, 0, -2});
   CHECK(box_of(scene).max == Vec3d{1, 1, 2});
   CHECK(length(middle_of(scene, {0}) - middle) < 1e-12);
-  turn_object(scene, {0}, 340);
+  rotate_object(scene, {0}, 340);
   CHECK(angle_of(scene, {0}) == 10);
   CHECK(length(middle_of(scene, {0}) - middle) < 1e-12);
-  turn_object(scene, {0}, -10);
+  rotate_object(scene, {0}, -10);
   CHECK(scene.objects[0].transform == Transform{Translate{{2, 0, 4}}});
 }
 
@@ -72,11 +72,11 @@ TEST_CASE("a shape that is not in the middle of its frame turns about its own mi
   Scene scene = scene_of(
       {{"", Group{{box({0, 0, 0}, {165, 330, 165}, {RotateY{15}, Translate{{265, 0, 295}}})}}, {RotateY{40}}}});
   const Vec3d middle = middle_of(scene, {0, 0});
-  turn_object(scene, {0, 0}, 25);
+  rotate_object(scene, {0, 0}, 25);
   CHECK(angle_of(scene, {0, 0}) == 40);
   CHECK(length(middle_of(scene, {0, 0}) - middle) < 1e-3);
   const Vec3d whole = middle_of(scene, {0});
-  turn_object(scene, {0}, 90);
+  rotate_object(scene, {0}, 90);
   CHECK(length(middle_of(scene, {0}) - whole) < 1e-3);
   CHECK(angle_of(scene, {0}) == 130);
 }

@@ -1,6 +1,6 @@
 #include "app/window/edit/material_edits.h"
 
-#include "app/window/edit/companions.h"
+#include "app/window/edit/linked_objects.h"
 #include "core/base/kinds.h"
 #include "core/scene/check.h"
 
@@ -10,7 +10,7 @@ using namespace tyndall;
 
 namespace {
 
-constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, fog_within = 4;
+constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, medium_within = 4;
 
 Scene example() {
   Scene scene;
@@ -56,7 +56,7 @@ TEST_CASE("a type that a material had before is as it was, but for its colour if
   gold().kind = Metal<>{0.8};
   set_surface_type(scene, {0}, dielectric, memory);
   std::get<Dielectric<>>(gold().kind).refractive_index = 1.7;
-  set_surface_type(scene, {0}, fog_within, memory);
+  set_surface_type(scene, {0}, medium_within, memory);
   set_surface_type(scene, {0}, metal, memory);
   CHECK(gold() == Material{"gold", Vec3d{0.8, 0.6, 0.2}, Metal<>{0.8}});
   set_surface_type(scene, {0}, lambertian, memory);
@@ -90,13 +90,13 @@ TEST_CASE("a texture that is not there any more is not remembered") {
 TEST_CASE("fog within a ball is glass with a medium of its very shape, which another type takes out again") {
   MaterialMemory memory;
   Scene scene = example();
-  CHECK(set_surface_type(scene, {1}, fog_within, memory) == ObjectPath{1});
-  CHECK(surface_type(scene, {1}) == fog_within);
+  CHECK(set_surface_type(scene, {1}, medium_within, memory) == ObjectPath{1});
+  CHECK(surface_type(scene, {1}) == medium_within);
   CHECK(surface_type(scene, {0}) == metal);  // it had the same material
   REQUIRE(scene.objects.size() == 5);
   const Volume& fog = std::get<Volume>(scene.objects[2].kind);
   CHECK(std::get<Vec3d>(fog.albedo) == Vec3d{0.8, 0.6, 0.2});
-  CHECK(companions(scene, {1}) == ObjectPaths{{2}});
+  CHECK(linked_objects(scene, {1}) == ObjectPaths{{2}});
   CHECK_FALSE(check(scene).has_value());
   set_surface_type(scene, {1}, dielectric, memory);
   CHECK(scene.objects.size() == 4);
@@ -106,9 +106,9 @@ TEST_CASE("fog within a ball is glass with a medium of its very shape, which ano
 TEST_CASE("fog that stands before its ball is found, and the ball with its new place") {
   MaterialMemory memory;
   Scene scene = example();
-  set_surface_type(scene, {2}, fog_within, memory);
+  set_surface_type(scene, {2}, medium_within, memory);
   std::swap(scene.objects[2], scene.objects[3]);
-  CHECK(surface_type(scene, {3}) == fog_within);
+  CHECK(surface_type(scene, {3}) == medium_within);
   CHECK(set_surface_type(scene, {3}, metal, memory) == ObjectPath{2});
   CHECK(surface_type(scene, {2}) == metal);
 }
@@ -116,12 +116,12 @@ TEST_CASE("fog that stands before its ball is found, and the ball with its new p
 TEST_CASE("what cannot hold fog says why") {
   MaterialMemory memory;
   Scene scene = example();
-  CHECK(why_not(scene, {0}, fog_within).empty());
-  CHECK(why_not(scene, {3}, fog_within) == "a quad has no inside for fog");
+  CHECK(why_not(scene, {0}, medium_within).empty());
+  CHECK(why_not(scene, {3}, medium_within) == "a quad has no inside for fog");
   std::get<Sphere<>>(std::get<Solid3d>(scene.objects[0].kind).shape).radius = -1;
-  CHECK_FALSE(why_not(scene, {0}, fog_within).empty());
+  CHECK_FALSE(why_not(scene, {0}, medium_within).empty());
   const Scene before = scene;
-  set_surface_type(scene, {0}, fog_within, memory);
+  set_surface_type(scene, {0}, medium_within, memory);
   CHECK(scene == before);
 }
 
@@ -137,13 +137,13 @@ TEST_CASE("a single user has a copy with a new name; others keep theirs") {
 }
 
 TEST_CASE("a lamp's colour times its power is its radiance") {
-  const LampColour lamp = lamp_colour({7, 6.2, 5});
+  const LightColour lamp = light_colour({7, 6.2, 5});
   CHECK(lamp.power == 7);
   CHECK(lamp.colour.x == 1);
-  CHECK(lamp_radiance(lamp) == Vec3d{7, 6.2, 5});
-  CHECK(lamp_radiance({{0.5, 0.25, 0.5}, 10}) == Vec3d{10, 5, 10});
-  CHECK(lamp_radiance({{0, 0, 0}, 3}) == Vec3d{3, 3, 3});
-  CHECK(lamp_colour({0, 0, 0}).power == 0);
+  CHECK(light_radiance(lamp) == Vec3d{7, 6.2, 5});
+  CHECK(light_radiance({{0.5, 0.25, 0.5}, 10}) == Vec3d{10, 5, 10});
+  CHECK(light_radiance({{0, 0, 0}, 3}) == Vec3d{3, 3, 3});
+  CHECK(light_colour({0, 0, 0}).power == 0);
 }
 
 TEST_CASE("a background of another kind has the present colours, and its own when it was there before") {

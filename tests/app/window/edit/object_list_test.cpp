@@ -65,7 +65,7 @@ TEST_CASE("deleting takes companions along, and materials that only the window h
   CHECK(names(scene.objects) == std::vector<std::string>{"a", "pair", "e"});
   CHECK(scene.materials.size() == 1);  // nothing is of glass any more
   Scene other = example();
-  std::swap(other.materials[0], other.materials[1]);  // the balls are of glass, the shells grey
+  std::swap(other.materials[0], other.materials[1]);  // the spheres are of glass, the shells grey
   CHECK(delete_objects(other, {{0}, {3}, {4}}, {}) == 3);
   CHECK(other.materials.size() == 1);
   CHECK(std::get<Solid3d>(other.objects[0].kind).material == 0);

@@ -37,7 +37,7 @@ TEST_CASE("a box's grips are its faces, turned with it; the face opposite stays"
   Scene scene = scene_of(Box<>{{0, 0, 0}, {2, 1, 1}}, {RotateY{90}, Translate{{0, 5, 0}}});
   const auto grips = size_grips(scene, {0}, {0, 1, 0});
   REQUIRE(grips.size() == 6);
-  CHECK(length(grips[0].way - Vec3d{0, 0, -1}) < 1e-12);
+  CHECK(length(grips[0].pull - Vec3d{0, 0, -1}) < 1e-12);
   CHECK(length(grips[0].at - Vec3d{0.5, 5.5, -2}) < 1e-12);
   for (std::size_t k = 0; k < 6; ++k) {
     Scene larger = scene;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void write_ball(const fs::path& file, double red) {
+void write_sphere(const fs::path& file, double red) {
   std::ofstream(file) << R"({ "tyndall": 1, "image": { "width": 64, "height": 20 }, "background": [0.5, 0.5, 0.5],
     "materials": { "ball": { "type": "lambertian", "albedo": [)"
                       << red << R"(, 0.2, 0.2] } },
@@ -46,7 +46,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what the scene's file holds") {
   const fs::path folder = scratch_folder("gallery_test"), cache = folder / "a" / "cache";
   const std::string scene = folder / "ball.json";
-  write_ball(scene, 0.9);
+  write_sphere(scene, 0.9);
   const Thumbnail first = pictures_of(cache, {scene})[scene];
   CHECK(first.width == 128);
   CHECK(first.height == 40);
@@ -64,7 +64,7 @@ TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what t
   CHECK(again.rgb.size() == first.rgb.size());
   CHECK(read_thumbnail(file)->rgb == again.rgb);
 
-  write_ball(scene, 0.1);
+  write_sphere(scene, 0.1);
   CHECK(pictures_of(cache, {scene})[scene].rgb != first.rgb);
   CHECK(files_in(cache).size() == 2);
 }
@@ -72,7 +72,7 @@ TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what t
 TEST_CASE("a scene that cannot be read has an empty picture; without a cache folder pictures come all the same") {
   const fs::path folder = scratch_folder("gallery_test");
   const std::string good = folder / "ball.json", bad = folder / "bad.json";
-  write_ball(good, 0.9);
+  write_sphere(good, 0.9);
   std::ofstream(bad) << "{ broken";
   std::ofstream(folder / "file") << "no folder";
   for (const fs::path& cache : {fs::path(), folder / "file" / "cache"}) {
@@ -108,12 +108,12 @@ TEST_CASE("recent files: the newest first, each once, only those that are there;
     std::ofstream(files.back()) << "{}";
     add_recent_file(list, files.back());
   }
-  CHECK(read_recent_files(list).size() == most_recent_files);
+  CHECK(read_recent_files(list).size() == max_recent_files);
   CHECK(read_recent_files(list)[0] == files[9]);
   add_recent_file(list, files[5]);
   CHECK(read_recent_files(list)[0] == files[5]);
   CHECK(read_recent_files(list)[1] == files[9]);
-  CHECK(read_recent_files(list).size() == most_recent_files);
+  CHECK(read_recent_files(list).size() == max_recent_files);
   fs::remove(files[9]);
   CHECK(read_recent_files(list)[1] == files[8]);
   std::ofstream(list) << "\x01\xff\n/no/such/file\nrelative.json\n" << files[3].string() << "\n";

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Rect image{100, 0, 900, 600};
 
-/// A ball in the middle of a picture, 10 units before the eye, and a turned box elsewhere.
+/// A sphere in the middle of a picture, 10 units before the eye, and a turned box elsewhere.
 Scene example() {
   Scene scene;
   scene.width = 800, scene.height = 600;
@@ -29,13 +29,13 @@ Scene example() {
 }
 const Sphere<>& ball(const Scene& scene) { return std::get<Sphere<>>(std::get<Solid3d>(scene.objects[0].kind).shape); }
 
-/// A drag of the ball's handle of a kind, from its middle by so much.
+/// A drag of the sphere's handle of a kind, from its middle by so much.
 HandleDrag drag_by(HandleKind kind, double dx, double dy) {
   return {{kind, 0, {}}, {{0}}, {0, 0, 0}, {500, 300}, {500 + dx, 300 + dy}, false, false, {}};
 }
 DragResult dragged(Scene& scene, const HandleDrag& drag) { return apply_drag(scene, frame_of(scene, image, 1), drag); }
 
-/// Where the ball is seen afterwards, from the middle of the picture.
+/// Where the sphere is seen afterwards, from the middle of the picture.
 WindowPoint seen(const Scene& scene) {
   const WindowPoint p = *frame_of(scene, image, 1).point(ball(scene).center);
   return {p.x - 500, p.y - 300};
@@ -68,7 +68,7 @@ TEST_CASE("along an axis only that number changes, and prints short") {
 }
 
 TEST_CASE("a drag that goes nowhere changes nothing, also with numbers of many digits") {
-  for (const HandleKind kind : {HandleKind::plane, HandleKind::along_x, HandleKind::size, HandleKind::turn}) {
+  for (const HandleKind kind : {HandleKind::plane, HandleKind::along_x, HandleKind::size, HandleKind::rotate}) {
     Scene scene = example();
     std::get<Sphere<>>(std::get<Solid3d>(scene.objects[0].kind).shape) = {{1.0 / 3, 0, 0}, 2.0 / 3, {}};
     const Scene before = scene;
@@ -134,10 +134,10 @@ TEST_CASE("all selected objects go the same way, each by the numbers that it has
 TEST_CASE("turning goes with the mouse around the vertical, in steps of half a degree, or of 5 when it snaps") {
   Scene scene = example();
   scene.camera.look_from = {0, 10, 0.001};  // from above: x to the right, z downwards
-  HandleDrag drag{{HandleKind::turn, 0, {}}, {{1}}, {0, 0, 0}, {600, 300}, {500, 200}, false, false, {}};
-  Scene turned = scene;
-  dragged(turned, drag);
-  CHECK(angle_of(turned, {1}) == doctest::Approx(110));  // a quarter against the clock, as rotate_y counts
+  HandleDrag drag{{HandleKind::rotate, 0, {}}, {{1}}, {0, 0, 0}, {600, 300}, {500, 200}, false, false, {}};
+  Scene rotated = scene;
+  dragged(rotated, drag);
+  CHECK(angle_of(rotated, {1}) == doctest::Approx(110));  // a quarter against the clock, as rotate_y counts
   drag.to = {599, 282};
   drag.snap = true;
   dragged(scene, drag);
@@ -172,11 +172,11 @@ TEST_CASE("the handle under the mouse is the one that is meant") {
   }
   CHECK_FALSE(handle_at(handles, {300, 100}, 1).has_value());
   CHECK(handles_of(scene, frame, {}, {}).empty());
-  // Seen along z, the arrow of z is but a point and is left out; a ball has no ring, a box has.
+  // Seen along z, the arrow of z is but a point and is left out; a sphere has no ring, a box has.
   CHECK_FALSE(std::count_if(handles.begin(), handles.end(), [](auto& h) { return h.kind == HandleKind::along_z; }));
-  CHECK_FALSE(std::count_if(handles.begin(), handles.end(), [](auto& h) { return h.kind == HandleKind::turn; }));
+  CHECK_FALSE(std::count_if(handles.begin(), handles.end(), [](auto& h) { return h.kind == HandleKind::rotate; }));
   const auto of_box = handles_of(scene, frame, {{1}}, {3, 1, 0});
-  CHECK(std::count_if(of_box.begin(), of_box.end(), [](auto& h) { return h.kind == HandleKind::turn; }) == 1);
+  CHECK(std::count_if(of_box.begin(), of_box.end(), [](auto& h) { return h.kind == HandleKind::rotate; }) == 1);
   CHECK(std::count_if(of_box.begin(), of_box.end(), [](auto& h) { return h.kind == HandleKind::size; }) == 6);
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("from wherever a box is seen, its grips keep off the arrows, and both 
         scene.camera.look_from = {10 * std::cos(angle), height, 10 * std::sin(angle)};
         const auto handles = handles_of(scene, frame_of(scene, image, 1), {{1}}, {0, 0, 0});
         for (const Handle& handle : handles) {
-          if (handle.kind == HandleKind::turn || handle.kind == HandleKind::plane) continue;
+          if (handle.kind == HandleKind::rotate || handle.kind == HandleKind::plane) continue;
           const auto found = handle_at(handles, handle.points.back(), 1);
           INFO(size, " ", height, " ", degrees, " ", static_cast<int>(handle.kind), " ", handle.grip);
           REQUIRE(found);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int key_enter = 257;
 
-/// A ball in the middle of a picture of 400 x 300, selected, and a mouse.
+/// A sphere in the middle of a picture of 400 x 300, selected, and a mouse.
 struct Hand {
   HandleTool tool;
   Mouse mouse;

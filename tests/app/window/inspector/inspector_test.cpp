@@ -1,7 +1,7 @@
 #include "app/report/noisy_path.h"
 #include "app/window/inspector/draw_path.h"
 #include "app/window/inspector/legend.h"
-#include "app/window/inspector/pixel_facts.h"
+#include "app/window/inspector/pixel_readout.h"
 #include "app/window/inspector/rectangle_tool.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
@@ -24,16 +24,16 @@ TEST_CASE("the noisy path of a pixel is its brightest sample, and its stops lead
   const SceneViewOf view(compiled);
   const NoisyPath found = find_noisy_path(view.view(), 4, 30, 64, [] { return false; });
   CHECK(found.samples == 64);
-  double sum = 0, most = 0;
+  double sum = 0, maximum = 0;
   for (std::uint32_t k = 0; k < 64; ++k) {
     const Vec3f light = replay(view.view(), 4, 30, k).radiance;
     const double y = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
                      0.0722 * static_cast<double>(light.z);
     sum += y;
-    most = std::max(most, y);
+    maximum = std::max(maximum, y);
   }
-  CHECK(found.share == doctest::Approx(most / sum));
-  CHECK(found.times_mean == doctest::Approx(64 * most / sum));
+  CHECK(found.fraction == doctest::Approx(maximum / sum));
+  CHECK(found.times_mean == doctest::Approx(64 * maximum / sum));
   const std::vector<PathStop> stops = stops_of(scene, compiled, found.path);
   REQUIRE(!stops.empty());
   CHECK(std::any_of(stops.begin(), stops.end(), [](const PathStop& stop) { return stop.light; }));
@@ -42,8 +42,8 @@ TEST_CASE("the noisy path of a pixel is its brightest sample, and its stops lead
   const auto lines = path_lines(found, stops);
   CHECK(lines.size() == stops.size() + 2);
   CHECK(lines[1].find("of 64 samples") != std::string::npos);
-  int asked = 0;
-  CHECK(find_noisy_path(view.view(), 4, 30, 64, [&] { return ++asked == 3; }).samples == 3);
+  int requested = 0;
+  CHECK(find_noisy_path(view.view(), 4, 30, 64, [&] { return ++requested == 3; }).samples == 3);
 }
 
 TEST_CASE("a long path is told with its first stops and its last one") {
@@ -62,19 +62,19 @@ TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   PixelReport report{.x = 1, .y = 1, .edit = 1, .samples = 64};
   report.mean = {0.5f, 0.25f, 0};
   report.standard_error = {0.05f, 0.025f, 0};
-  const auto has = [](const PixelFacts& facts, const std::string& line) {
-    return std::find(facts.lines.begin(), facts.lines.end(), line) != facts.lines.end();
+  const auto has = [](const PixelReadout& model, const std::string& line) {
+    return std::find(model.lines.begin(), model.lines.end(), line) != model.lines.end();
   };
-  PixelFacts facts = pixel_facts(frame, report, {"Ball", "gold", 3.25}, {});
-  CHECK(has(facts, "pixel    1, 1"));
-  CHECK(has(facts, "red      0.5      ± 0.05"));
-  CHECK(has(facts, "error    13 %"));
-  CHECK(has(facts, "shown    188 137 0"));
-  CHECK(has(facts, "samples  64"));
-  CHECK(has(facts, "object   Ball"));
-  CHECK(has(facts, "material gold"));
-  CHECK(has(facts, "depth    3.25"));
-  const auto tells_clean = [](const PixelFacts& told) {
+  PixelReadout model = pixel_readout(frame, report, {"Ball", "gold", 3.25}, {});
+  CHECK(has(model, "pixel    1, 1"));
+  CHECK(has(model, "red      0.5      ± 0.05"));
+  CHECK(has(model, "error    13 %"));
+  CHECK(has(model, "shown    188 137 0"));
+  CHECK(has(model, "samples  64"));
+  CHECK(has(model, "object   Ball"));
+  CHECK(has(model, "material gold"));
+  CHECK(has(model, "depth    3.25"));
+  const auto tells_clean = [](const PixelReadout& told) {
     return std::any_of(told.lines.begin(), told.lines.end(),
                        [](const std::string& line) { return line.rfind("clean", 0) == 0; });
   };
@@ -82,16 +82,16 @@ TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   clean.spp = 64;
   clean.rgba.assign(4 * 8, 0.25f);
   frame.clean = std::make_shared<const CleanFrame>(clean);
-  CHECK(has(pixel_facts(frame, report, {}, {}), "clean    0.25 0.25 0.25"));
+  CHECK(has(pixel_readout(frame, report, {}, {}), "clean    0.25 0.25 0.25"));
   PixelReport beyond = report;  // of a larger picture that was there before
   beyond.y = 2;
-  CHECK_FALSE(tells_clean(pixel_facts(frame, beyond, {}, {})));
+  CHECK_FALSE(tells_clean(pixel_readout(frame, beyond, {}, {})));
   clean.spp = 0;  // coarse: its numbers are not those of this pixel
   frame.clean = std::make_shared<const CleanFrame>(clean);
-  CHECK_FALSE(tells_clean(pixel_facts(frame, report, {}, {})));
+  CHECK_FALSE(tells_clean(pixel_readout(frame, report, {}, {})));
   frame.view = View::cost, frame.white = 12;
-  CHECK(has(pixel_facts(frame, report, {}, {}), "cost     6 rays a path"));
-  CHECK(has(pixel_facts(frame, {.x = 0, .y = 0}, {}, {}), "no samples yet"));
+  CHECK(has(pixel_readout(frame, report, {}, {}), "cost     6 rays a path"));
+  CHECK(has(pixel_readout(frame, {.x = 0, .y = 0}, {}, {}), "no samples yet"));
 }
 
 TEST_CASE("legends: numbers where a view shows numbers, none where it shows colours") {

@@ -23,11 +23,11 @@ TEST_CASE("stored cameras: without a picture as many as there is room for, each 
     camera.vfov = 20 + k;
     store_camera(slots, camera, nullptr, {});
   }
-  CHECK(slots.size() == most_camera_slots);
+  CHECK(slots.size() == max_camera_slots);
   CHECK(slots.back().camera.vfov == 31);
   CHECK(slots.front().camera.vfov == 24);
   store_camera(slots, slots[2].camera, nullptr, {});
-  CHECK(slots.size() == most_camera_slots);
+  CHECK(slots.size() == max_camera_slots);
   CHECK(slots.back().camera.vfov == 26);
 }
 

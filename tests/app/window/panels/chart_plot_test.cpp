@@ -53,8 +53,8 @@ TEST_CASE("the axes hold all curves and the target") {
   CHECK(found.times.last == 2);
   CHECK(found.errors.first <= -7);
   CHECK(found.errors.last == 2);
-  CHECK(found.x(found.times.most()) == axes.frame.x1);
-  CHECK(axes_for({}, axes.frame).errors.least() < target_rel_mse);
+  CHECK(found.x(found.times.maximum()) == axes.frame.x1);
+  CHECK(axes_for({}, axes.frame).errors.minimum() < target_rel_mse);
 }
 
 TEST_CASE("names stand side by side while there is room, then in rows beneath") {

@@ -44,12 +44,12 @@ class Column {
       if (!ui.problem.empty()) problem = ui.problem;
       for (const Request& request : std::exchange(state.requests, {})) {
         if (request.action == Action::view) state.model.view = request.number;
-        asked.push_back(request);
+        requested.push_back(request);
       }
     });
   }
-  bool has_asked_for(const Request& request) const {
-    return std::find(asked.begin(), asked.end(), request) != asked.end();
+  bool has_query_for(const Request& request) const {
+    return std::find(requested.begin(), requested.end(), request) != requested.end();
   }
   bool has(const std::string& name) const { return log_.find(name).has_value(); }
   Rect rect(const std::string& name) const { return *log_.find(name); }
@@ -100,7 +100,7 @@ class Column {
   Scene saved;  ///< what the file holds
   float height = 2400;
   std::string problem;
-  std::vector<Request> asked;  ///< all that it has asked for
+  std::vector<Request> requested;  ///< all that it has asked for
 
  private:
   NullImGui imgui_{372, 2400};

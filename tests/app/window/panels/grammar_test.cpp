@@ -1,4 +1,4 @@
-#include "app/window/edit/companions.h"
+#include "app/window/edit/linked_objects.h"
 #include "core/scene/check.h"
 #include "tests/app/window/panels/column.h"
 
@@ -41,7 +41,7 @@ TEST_CASE("what the file does not have goes back to its default") {
 
 TEST_CASE("Shift drags a tenth as far, on sliders and on numbers") {
   for (const char* name : {"gold.fuzz", "gold.fuzz.value"}) {
-    double way[2];
+    double direction[2];
     for (const bool shift : {false, true}) {
       Column column;
       column.gold().fuzz = 0.5;
@@ -51,11 +51,11 @@ TEST_CASE("Shift drags a tenth as far, on sliders and on numbers") {
       const double before = column.gold().fuzz;
       ImGui::GetIO().KeyShift = shift;
       column.aim(name, 0.9);
-      way[shift ? 1 : 0] = column.gold().fuzz - before;
+      direction[shift ? 1 : 0] = column.gold().fuzz - before;
       column.button(false);
     }
-    CHECK(way[0] > 0.03);
-    CHECK(way[1] == doctest::Approx(way[0] / 10).epsilon(0.1).scale(0));
+    CHECK(direction[0] > 0.03);
+    CHECK(direction[1] == doctest::Approx(direction[0] / 10).epsilon(0.1).scale(0));
   }
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("the type of a material is chosen from a list, and fog within makes a 
   CHECK(std::holds_alternative<Lambertian<>>(column.state.scene.materials[0].kind));
   column.click("Ball.type");
   column.click("Ball.type.fog within");
-  CHECK(companions(column.state.scene, {0}) == std::vector<ObjectPath>{{1}});
+  CHECK(linked_objects(column.state.scene, {0}) == std::vector<ObjectPath>{{1}});
   CHECK_FALSE(check(column.state.scene));
   column.state.selected = {2};  // the bubble
   column.draw();

@@ -26,10 +26,10 @@ TEST_CASE("the forward share is Henyey and Greenstein's density integrated over 
   for (const double g : {-0.8, -0.1, 0.0005, 0.3, 0.9}) {
     const int steps = 200000;
     double sum = 0;
-    for (int k = 0; k < steps; ++k) sum += 2 * pi * henyey_greenstein_density(g, (k + 0.5) / steps) / steps;
-    CHECK(forward_share(g) == doctest::Approx(sum).epsilon(1e-4).scale(0));
+    for (int k = 0; k < steps; ++k) sum += 2 * pi * henyey_greenstein_pdf(g, (k + 0.5) / steps) / steps;
+    CHECK(forward_fraction(g) == doctest::Approx(sum).epsilon(1e-4).scale(0));
   }
-  CHECK(forward_share(0) == 0.5);
+  CHECK(forward_fraction(0) == 0.5);
 }
 
 TEST_CASE("glass says what it reflects and where it reflects all") {

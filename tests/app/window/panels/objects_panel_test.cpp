@@ -4,7 +4,7 @@ using namespace tyndall;
 
 namespace {
 
-/// A ball, a group of 30 small ones, and a group of two.
+/// A sphere, a group of 30 small ones, and a group of two.
 void fill(Column& column) {
   std::vector<Object> many(30, Object{"", Solid3d{Sphere<>{}, 1}, {}});
   many[29].name = "pearl";
@@ -19,7 +19,7 @@ void fill(Column& column) {
 TEST_CASE("large groups are folded at first, small ones are not, and a click on the sign turns that") {
   Column column;
   fill(column);
-  CHECK(column.has("objects.4"));  // ball, beads, pair, and the two of the pair
+  CHECK(column.has("objects.4"));  // sphere, beads, pair, and the two of the pair
   CHECK_FALSE(column.has("objects.5"));
   column.click("objects.1", 0.03);
   CHECK(column.has("objects.5"));

@@ -123,27 +123,27 @@ TEST_CASE("choices change what they say, and only that") {
   CHECK(column.state.model.view == view_named("cost"));
   CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
   column.click("scenes.cover");
-  CHECK(column.has_asked_for({Action::scene, 0, "cover"}));
+  CHECK(column.has_query_for({Action::scene, 0, "cover"}));
 }
 
 TEST_CASE("the controls of the section Accuracy ask for what they say") {
   Column column;
   column.click("chart.export");
   column.click("chart.reference");
-  CHECK(column.has_asked_for({Action::export_chart}));
-  CHECK(column.has_asked_for({Action::reference}));
-  column.asked.clear();
+  CHECK(column.has_query_for({Action::export_chart}));
+  CHECK(column.has_query_for({Action::reference}));
+  column.requested.clear();
   column.click("render.split.on");
-  CHECK(column.asked == std::vector<Request>{{Action::split}});
+  CHECK(column.requested == std::vector<Request>{{Action::split}});
   column.state.model.kept_method = "path";
   column.click("render.split.on");  // it is on
-  CHECK(column.asked.size() == 1);
+  CHECK(column.requested.size() == 1);
   column.click("render.split.off");
-  CHECK(column.asked.size() == 2);
+  CHECK(column.requested.size() == 2);
   column.click("image.clean.beside raw");
-  CHECK(column.asked.back() == Request{Action::clean_as, 2});
+  CHECK(column.requested.back() == Request{Action::clean_as, 2});
   column.click("render.at.window");
-  CHECK(column.asked.back() == Request{Action::render_at, 1});
+  CHECK(column.requested.back() == Request{Action::render_at, 1});
 }
 
 TEST_CASE("errors are seen only where there is something to measure against") {

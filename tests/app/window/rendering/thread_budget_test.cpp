@@ -19,11 +19,11 @@ namespace {
 /// seconds of rendering, after the first two seconds.
 double greatest_lead(double first_pass, double second_pass, bool together) {
   double first = 0, second = 0, greatest = 0;
-  Turn turn = Turn::both;
+  Active active = Active::both;
   for (int pass = 0; pass < 400; ++pass) {
-    if (turn != Turn::second) first += first_pass;
-    if (turn != Turn::first) second += second_pass;
-    turn = next_turn(turn, {first, false}, {second, false}, together);
+    if (active != Active::second) first += first_pass;
+    if (active != Active::first) second += second_pass;
+    active = next_active(active, {first, false}, {second, false}, together);
     if (first + second > 2) greatest = std::max(greatest, std::abs(first - second));
   }
   return greatest;
@@ -34,7 +34,7 @@ class Sharing {
  public:
   explicit Sharing(int threads) {
     second_ = std::make_unique<Renderer>(Renderer::Options{threads, ""}, [this] { on_frame(true); });
-    budget_.share_with(second_.get());
+    budget_.split_with(second_.get());
     const auto scene = std::make_shared<const Scene>(test::small_scene("cornell-box", 60, 60, 1000000));
     const RenderRequest wanted{.scene = scene, .threads = threads};
     budget_.request(wanted, wanted);
@@ -44,7 +44,7 @@ class Sharing {
       const std::lock_guard lock(mutex_);
       ended_ = true;  // the two are destroyed one after the other: neither must wait for the other any more
     }
-    budget_.share_with(nullptr);
+    budget_.split_with(nullptr);
   }
   Sharing(const Sharing&) = delete;
   Sharing& operator=(const Sharing&) = delete;
@@ -99,13 +99,13 @@ TEST_CASE("two renderers get equal seconds, in turns or side by side") {
 }
 
 TEST_CASE("in turns one works at a time; side by side both, unless one is far ahead") {
-  CHECK(next_turn(Turn::both, {1, false}, {1.2, false}, true) == Turn::both);
-  CHECK(next_turn(Turn::both, {1, false}, {1.6, false}, true) == Turn::first);
-  CHECK(next_turn(Turn::first, {1.5, false}, {1.6, false}, true) == Turn::first);
-  CHECK(next_turn(Turn::first, {1.7, false}, {1.6, false}, true) == Turn::both);
-  CHECK(next_turn(Turn::both, {1, false}, {1.2, false}, false) == Turn::first);
-  CHECK(next_turn(Turn::first, {1.4, false}, {1.2, false}, false) == Turn::first);
-  CHECK(next_turn(Turn::first, {1.6, false}, {1.2, false}, false) == Turn::second);
+  CHECK(next_active(Active::both, {1, false}, {1.2, false}, true) == Active::both);
+  CHECK(next_active(Active::both, {1, false}, {1.6, false}, true) == Active::first);
+  CHECK(next_active(Active::first, {1.5, false}, {1.6, false}, true) == Active::first);
+  CHECK(next_active(Active::first, {1.7, false}, {1.6, false}, true) == Active::both);
+  CHECK(next_active(Active::both, {1, false}, {1.2, false}, false) == Active::first);
+  CHECK(next_active(Active::first, {1.4, false}, {1.2, false}, false) == Active::first);
+  CHECK(next_active(Active::first, {1.6, false}, {1.2, false}, false) == Active::second);
 }
 
 TEST_CASE("renderers that share threads begin no pass while they are well ahead, however slow the machine is") {
@@ -118,8 +118,8 @@ TEST_CASE("renderers that share threads begin no pass while they are well ahead,
 
 TEST_CASE("a renderer that has finished does not keep the other one waiting") {
   for (const bool together : {false, true})
-    for (const Turn now : {Turn::both, Turn::first, Turn::second}) {
-      CHECK(next_turn(now, {9, true}, {1, false}, together) == Turn::both);
-      CHECK(next_turn(now, {1, false}, {9, true}, together) == Turn::both);
+    for (const Active now : {Active::both, Active::first, Active::second}) {
+      CHECK(next_active(now, {9, true}, {1, false}, together) == Active::both);
+      CHECK(next_active(now, {1, false}, {9, true}, together) == Active::both);
     }
 }

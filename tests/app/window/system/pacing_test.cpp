@@ -30,7 +30,7 @@ TEST_CASE("an event is drawn at once, and the drawings that follow it leave time
   pacing.on_drawn(1.02);
   CHECK(pacing.wait(1.02) == doctest::Approx(echo_interval));
   pacing.wake_at(1.03);  // something that moves by itself asks to be drawn earlier
-  CHECK(pacing.wait(1.02) == doctest::Approx(least_frame_interval));
+  CHECK(pacing.wait(1.02) == doctest::Approx(min_frame_interval));
   pacing.on_drawing();
   pacing.on_drawn(1.06);
   CHECK(pacing.wait(1.06) == doctest::Approx(echo_interval));

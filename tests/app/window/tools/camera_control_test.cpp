@@ -94,12 +94,12 @@ TEST_CASE("zoom stays within its limits, but does not throw a wider camera back"
 
 TEST_CASE("fly moves eye and target together along the camera's axes") {
   const Camera before = example(), after = fly(before, 1, 2, 3);
-  const Vec3d way = after.look_from - before.look_from;
+  const Vec3d direction = after.look_from - before.look_from;
   const CameraAxes axes = axes_of(before);
-  CHECK(dot(way, axes.right) == doctest::Approx(1).epsilon(1e-4).scale(0));
-  CHECK(dot(way, axes.up) == doctest::Approx(2).epsilon(1e-4).scale(0));
-  CHECK(dot(way, axes.forward) == doctest::Approx(3).epsilon(1e-4).scale(0));
-  CHECK(length(after.look_at - before.look_at - way) < 1e-4);
+  CHECK(dot(direction, axes.right) == doctest::Approx(1).epsilon(1e-4).scale(0));
+  CHECK(dot(direction, axes.up) == doctest::Approx(2).epsilon(1e-4).scale(0));
+  CHECK(dot(direction, axes.forward) == doctest::Approx(3).epsilon(1e-4).scale(0));
+  CHECK(length(after.look_at - before.look_at - direction) < 1e-4);
 }
 
 TEST_CASE("focusing keeps the lens, or the blur of what is far away") {
@@ -118,7 +118,7 @@ TEST_CASE("focusing keeps the lens, or the blur of what is far away") {
 
 TEST_CASE("a framed ball fits the picture, wide or tall, seen from the same direction") {
   for (const double aspect : {1.6, 0.5}) {
-    const Camera camera = frame_ball(example(), {5, 6, 7}, 2, aspect);
+    const Camera camera = frame_sphere(example(), {5, 6, 7}, 2, aspect);
     CHECK(camera.look_at == Vec3d{5, 6, 7});
     CHECK(dot(axes_of(camera).forward, axes_of(example()).forward) == doctest::Approx(1).epsilon(1e-6).scale(0));
     const double half_angle = std::asin(2 / target_distance(camera));

@@ -142,11 +142,11 @@ TEST_CASE("fog is selected where nothing else is, or by a second click") {
   fog.kind = volume;
   scene.objects = {ball, fog};
   const ImagePoint middle{0.5, 0.5};
-  const Renderer::Pick on_ball{{0}, 4, {0, 0, -4}}, nothing{};
-  CHECK(clicked_object(scene, on_ball, middle, {}, false) == ObjectPath{0});
-  CHECK(clicked_object(scene, on_ball, middle, {0}, true) == ObjectPath{1});
-  CHECK(clicked_object(scene, on_ball, middle, {1}, true) == ObjectPath{0});
-  CHECK(clicked_object(scene, on_ball, middle, {0}, false) == ObjectPath{0});
+  const Renderer::Pick on_sphere{{0}, 4, {0, 0, -4}}, nothing{};
+  CHECK(clicked_object(scene, on_sphere, middle, {}, false) == ObjectPath{0});
+  CHECK(clicked_object(scene, on_sphere, middle, {0}, true) == ObjectPath{1});
+  CHECK(clicked_object(scene, on_sphere, middle, {1}, true) == ObjectPath{0});
+  CHECK(clicked_object(scene, on_sphere, middle, {0}, false) == ObjectPath{0});
   CHECK(clicked_object(scene, nothing, middle, {}, false) == ObjectPath{1});
   CHECK(clicked_object(scene, nothing, {0.99, 0.5}, {}, false).empty());
 }

@@ -15,7 +15,7 @@ Object ball(Vec3d center, double radius, int material, const std::string& name =
   return {name, Solid3d{Sphere<>{center, radius, {}}, material}, {}};
 }
 
-/// A matt ball, and a group, turned and moved, of a glass ball and a box of fog.
+/// A matt sphere, and a group, turned and moved, of a glass sphere and a box of media.
 Scene example() {
   Scene scene;
   scene.width = 200, scene.height = 100;
@@ -31,7 +31,7 @@ Scene example() {
 /// The medium that a line of sight enters first, if it does so before `depth` along the axis; empty: none.
 ObjectPath medium_at(const Scene& scene, ImagePoint at, double depth) {
   for (const ObjectUnder& object : objects_under(scene, at))
-    if (object.medium && object.distance * Projection(scene).sight(at).direction.z * -1 < depth) return object.path;
+    if (object.medium && object.distance * Projection(scene).view_ray(at).direction.z * -1 < depth) return object.path;
   return {};
 }
 
@@ -68,14 +68,15 @@ TEST_CASE("objects by path: through groups, and nothing where there is nothing")
 
 TEST_CASE("a ball around an object is where its transforms put it") {
   const Scene scene = example();
-  const Ball glass = *ball_around(scene, {1, 0});
+  const BoundingSphere glass = *bounding_sphere(scene, {1, 0});
   CHECK(length(glass.center - Vec3d{0, 2, -1}) < 1e-12);
   CHECK(glass.radius == 0.5);
-  const Ball fog = *ball_around(scene, {1, 1});
+  const BoundingSphere fog = *bounding_sphere(scene, {1, 1});
   CHECK(length(fog.center - Vec3d{0.5, 2.5, -10.5}) < 1e-12);
-  const Ball both = *ball_around(scene, {1});
-  for (const Ball& part : {glass, fog}) CHECK(length(part.center - both.center) + part.radius <= both.radius + 1e-12);
-  CHECK_FALSE(ball_around(scene, {9}).has_value());
+  const BoundingSphere both = *bounding_sphere(scene, {1});
+  for (const BoundingSphere& part : {glass, fog})
+    CHECK(length(part.center - both.center) + part.radius <= both.radius + 1e-12);
+  CHECK_FALSE(bounding_sphere(scene, {9}).has_value());
 }
 
 TEST_CASE("at first the most interesting object is selected: metal, glass or fog, otherwise a lamp or a matt one") {
@@ -165,8 +166,8 @@ TEST_CASE(
 TEST_CASE("what a projection shows at a point lies on the line of sight through it") {
   const Projection projection(example());
   const Vec3d point{1.5, -0.7, 2};
-  const Sight sight = projection.sight(*projection.point(point));
-  CHECK(length(cross(point - sight.origin, sight.direction)) < 1e-12);
+  const ViewRay view_ray = projection.view_ray(*projection.point(point));
+  CHECK(length(cross(point - view_ray.origin, view_ray.direction)) < 1e-12);
   CHECK(projection.depth_of(point) == doctest::Approx(8));
   CHECK_FALSE(projection.point({0, 0, 11}).has_value());
 }

@@ -1,0 +1,93 @@
+#include "app/window/edit/linked_objects.h"
+
+#include "app/window/edit/arrange.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+const Sphere<>* sphere_of(const Object& object) {
+  if (const Solid3d* solid = std::get_if<Solid3d>(&object.kind)) return std::get_if<Sphere<>>(&solid->shape);
+  if (const Volume* volume = std::get_if<Volume>(&object.kind)) return std::get_if<Sphere<>>(&volume->boundary);
+  return nullptr;
+}
+Sphere<>* sphere_of(Object& object) { return const_cast<Sphere<>*>(sphere_of(static_cast<const Object&>(object))); }
+
+/// Whether the medium's boundary has the very numbers of the solid's shape.
+bool fills(const Volume& volume, const Solid3d& solid) {
+  return std::visit(
+      [&]<class Shape>(const Shape& boundary) {
+        const Shape* shape = std::get_if<Shape>(&solid.shape);
+        return shape && *shape == boundary;
+      },
+      volume.boundary);
+}
+
+/// Whether the object is a smaller sphere around the centre of a sphere of glass.
+bool is_inner_sphere(const Scene& scene, const Object& object, const Object& leader) {
+  const Sphere<>*inner = sphere_of(object), *outer = sphere_of(leader);
+  const Material* material = material_of(scene, leader);
+  const bool glass = material && std::holds_alternative<Dielectric<>>(material->kind);
+  return glass && inner && outer && inner->center == outer->center && inner->center_end == outer->center_end &&
+         std::abs(inner->radius) < std::abs(outer->radius);
+}
+
+bool belongs_to(const Scene& scene, const Object& object, const Object& leader) {
+  const Solid3d* solid = std::get_if<Solid3d>(&leader.kind);
+  if (!solid) return false;
+  const Volume* volume = std::get_if<Volume>(&object.kind);
+  return (volume && fills(*volume, *solid)) || is_inner_sphere(scene, object, leader);
+}
+
+/// Gives the companion the changes between two states of its sphere. linked: as it was before.
+void follow(const Object& leader_before, const Object& leader, const Object& linked, Object& result) {
+  const Solid3d &solid_before = std::get<Solid3d>(leader_before.kind), &solid = std::get<Solid3d>(leader.kind);
+  Volume* volume = std::get_if<Volume>(&result.kind);
+  if (volume && fills(std::get<Volume>(linked.kind), solid_before)) {
+    std::visit(
+        [&]<class Shape>(const Shape& shape) {
+          if constexpr (!std::is_same_v<Shape, Quad<>>) volume->boundary = shape;
+        },
+        solid.shape);
+  } else if (const Sphere<>* outer = std::get_if<Sphere<>>(&solid.shape)) {
+    const Sphere<>&before = std::get<Sphere<>>(solid_before.shape), &inner = *sphere_of(linked);
+    Sphere<>& sphere = *sphere_of(result);
+    sphere.center = outer->center;
+    if (!volume) sphere.center_end = outer->center_end;
+    const double ratio = std::abs(outer->radius / before.radius);
+    sphere.radius =
+        ratio == 1 ? inner.radius
+                   : rounded(inner.radius * ratio, {1, decimal_below(std::abs(inner.radius * ratio)).exponent - 5});
+  }
+  if (own_transform(linked) == own_transform(leader_before)) own_transform(result) = own_transform(leader);
+}
+
+}  // namespace
+
+std::vector<ObjectPath> linked_objects(const Scene& scene, const ObjectPath& path) {
+  const Object* leader = find_object(scene, path);
+  std::vector<ObjectPath> found;
+  if (!leader || !std::holds_alternative<Solid3d>(leader->kind)) return found;
+  const Placement placed = placement_at(scene, path);
+  for (const ObjectPath& other : leaves(scene))
+    if (other != path && belongs_to(scene, *find_object(scene, other), *leader) && placement_at(scene, other) == placed)
+      found.push_back(other);
+  return found;
+}
+
+void move_linked_objects(const Scene& start, const Scene& last, Scene& next) {
+  if (last.objects == next.objects) return;
+  const std::vector<ObjectPath> paths = leaves(start);
+  if (paths != leaves(next) || paths != leaves(last)) return;
+  for (const ObjectPath& path : paths) {
+    const Object &was = *find_object(start, path), leader = *find_object(next, path);
+    const Solid3d *before = std::get_if<Solid3d>(&was.kind), *now = std::get_if<Solid3d>(&leader.kind);
+    if (!before || !now || leader == *find_object(last, path) || before->shape.index() != now->shape.index()) continue;
+    for (const ObjectPath& other : linked_objects(start, path))
+      follow(was, leader, *find_object(start, other), *find_object(next, other));
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,18 @@
+#pragma once
+#include "app/window/tools/selection.h"
+
+#include <vector>
+
+/// Objects that belong to a sphere or box: the fog within it, and the inner spheres of a shell of glass.
+namespace tyndall {
+
+/// The objects that go along with the one at that path: media whose boundary equals its shape exactly; and, of a sphere
+/// of glass, the smaller spheres around the same centre. All have its placement.
+std::vector<ObjectPath> linked_objects(const Scene& scene, const ObjectPath& path);
+
+/// Lets companions follow what was changed between `last` and `next`; all three scenes have the same objects. start:
+/// the scene when the user began to drag, from which it is worked out so that nothing adds up. Fog gets the very
+/// numbers of its sphere; inner spheres get its centre, and a radius in the same proportion as at the start.
+void move_linked_objects(const Scene& start, const Scene& last, Scene& next);
+
+}  // namespace tyndall

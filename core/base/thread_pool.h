@@ -1,0 +1,47 @@
+#pragma once
+#include "core/base/stoppable.h"
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+/// Threads that share work.
+namespace tyndall {
+
+inline constexpr int max_threads = 4096;  ///< the largest number that options and the window accept
+
+/// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
+class ThreadPool {
+ public:
+  /// size >= 1 threads; 0: see thread_count(). Throws IoError, which names the limit, if the system
+  /// does not let so many start.
+  explicit ThreadPool(int size);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int size() const { return static_cast<int>(threads_.size()); }
+
+  /// Calls job(i) for every i in [0, count), each once, on the thread pool's threads, and returns when all have
+  /// returned. If a job throws, no further ones begin, and what the first one threw is thrown here when all have
+  /// returned. Only one call at a time, and none from within a job. poll, if given, is called on the calling thread
+  /// every 50 ms meanwhile.
+  void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
+
+ private:
+  void work(const StopToken& stop);
+
+  std::mutex mutex_;
+  StoppableCondition wake_, done_;
+  const std::function<void(int)>* job_ = nullptr;
+  int count_ = 0, busy_ = 0;
+  std::uint64_t round_ = 0;
+  std::atomic<int> next_ = 0;
+  std::exception_ptr failure_;            ///< what a job of this round threw first
+  std::vector<StoppableThread> threads_;  // declared last, so that the threads end before what they use goes
+};
+
+}  // namespace tyndall

@@ -1,0 +1,302 @@
+#pragma once
+#include "core/base/reservoir.h"
+#include "core/specular/request.h"
+#include "core/specular/specular_trail.h"
+
+/// Light that a light sends to a point through or off one sphere, one flat mirror or one slab, such as the bright spot
+/// under a glass sphere: solved for, where scattering would have to find it by chance. First a sphere, mirror or slab
+/// and a light are chosen, then points of the light and for each the surfaces that the light meets, and how (of a slab
+/// before the points). Of all specular paths that do so one, drawn in proportion to what each would bring if nothing
+/// were in its way, is tested for things in its way, and counts for all. As scattering finds the same paths, both are
+/// weighed by the power heuristic.
+namespace tyndall {
+
+/// What each lane asks for: light by one sphere, mirror or slab from one point of one light, and how these lie to each
+/// other.
+template <class F>
+struct SpecularQuery {
+  LightChoice<F> pair;
+  F probability;  ///< that a specular path is asked for, by this pair
+  SpecularSphere<F> sphere;
+  SpecularMirror<F> mirror;
+  SpecularSlab<F> slab;
+  DrawnSlabSequence<F> slab_path;  ///< through the slab
+  MaskOf<F> by_mirror, by_slab;
+  IntOf<F> light;
+  LightColumns<F> light_columns;
+  Vec3<F> receiver;  ///< the point that asks for light, as seen from the light
+  LightPoint<F> at;
+  PathPlane<F> plane;
+  PathEnds<F> ends;
+};
+
+/// Draws a path through a slab, and gives the sphere within which the light sees the asking point over it.
+template <class F>
+TYNDALL_INLINE SpecularSphere<F> query_slab(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
+                                            SpecularQuery<F>& a) {
+  const SpecularView& c = s.specular;
+  a.slab = load_slab<F>(
+      c, select(a.by_slab, lookup_int<F>(c.sphere, c.pairs, a.pair.light) - IntOf<F>(c.first_slab), IntOf<F>(0)));
+  const BoundingSphere<F> around = bounding_sphere(a.light_columns, q.time);
+  const Vec3<F> normal = select(q.in_medium, zero3<F>(), q.facing);
+  const Pair<F> u{q.sampler.independent_1d(dimension::event_sequence),
+                  q.sampler.independent_1d(dimension::specular_root)};
+  a.slab_path = draw_slab_sequence(a.slab, q.point, normal, around, u, mask_and(lanes, a.by_slab));
+  return seen_by_slab(a.slab, slab_frame(a.slab, q.point, around.center, a.slab_path.sequence.across),
+                      a.slab_path.sequence);
+}
+
+template <class F>
+TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes) {
+  const SpecularView& c = s.specular;
+  const Vec3<F> point = q.point;
+  SpecularQuery<F> a{};
+  a.pair = choose_light(c, point, q.sampler.independent_1d(dimension::specular_pair));
+  a.probability = connect_probability(s, point) * a.pair.probability;
+  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs, a.pair.light), mirror = sphere - IntOf<F>(c.first_mirror);
+  a.sphere = load_sphere<F>(c, sphere, q.time);
+  a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
+  a.light_columns = load_light<F>(s.lights, a.light);
+  a.by_slab = less_equal(IntOf<F>(c.first_slab), sphere);
+  a.by_mirror = mask_and_not(less_equal(IntOf<F>(0), mirror), a.by_slab);
+  if (c.has_mirrors()) {
+    a.mirror = load_mirror<F>(c, select(a.by_mirror, mirror, IntOf<F>(0)));
+    a.sphere.center = select(a.by_mirror, mirrored(a.mirror, point), a.sphere.center);  // see seen_by_mirror()
+  }
+  a.receiver = point;
+  if (c.has_slabs() && any(mask_and(lanes, a.by_slab))) {
+    const SpecularSphere<F> seen = query_slab(s, q, lanes, a);
+    a.sphere.center = select(a.by_slab, seen.center, a.sphere.center);
+    a.sphere.radius = select(a.by_slab, seen.radius, a.sphere.radius);
+    a.receiver = select(a.by_slab, seen.center, a.receiver);
+  }
+  return a;
+}
+
+/// Draws the point of the light with which `a` goes on.
+template <class F>
+TYNDALL_INLINE void aim_at_light(const auto& s, Vec3<F> point, F time, Pair<F> u, SpecularQuery<F>& a) {
+  a.at = sample_light_point(a.light_columns, a.sphere, a.receiver, time, u);
+  if (!s.specular.has_spheres()) return;
+  a.plane = plane_of(a.sphere, point, a.at.point);
+  a.ends = ends_of(a.sphere, a.plane.near, a.plane.far);
+}
+
+template <class F>
+TYNDALL_INLINE SpecularRays<F> rays_of(const SpecularQuery<F>& a, const EventSequence<F>& sequence,
+                                       const SolvedPath<F>& c) {
+  const Deflection<F>& deflection = c.path.deflection;
+  const F at = c.root.s, p = deflection.maximum * (F(1.0f) - at * at);
+  const auto ray = [&](F reach, F side, Vec3<F> out, Vec3<F> across) __attribute__((always_inline)) {
+    const F inverse = F(1.0f) / reach, cosine = depth_of(deflection, reach, at) * inverse;
+    return point_at((side * cosine) * out, c.root.sense * p * inverse, across);
+  };
+  SpecularRays<F> r;
+  r.found = c.root.found, r.count = F(1.0f), r.optical_depth = F(0.0f);
+  r.direction = ray(a.ends.near_reach, -c.sign.near, a.plane.near_out, a.plane.near_side);
+  r.arrive = ray(a.ends.far_reach, c.sign.far, a.plane.far_out, a.plane.far_side);
+  r.near_distance = distance_to_sphere(a.sphere, deflection, a.ends.near, a.ends.near_reach, c.sign.near, at);
+  r.far_distance = distance_to_sphere(a.sphere, deflection, a.ends.far, a.ends.far_reach, c.sign.far, at);
+  const IntOf<F> wall = select(a.ends.deep, a.sphere.inner, a.sphere.outer);
+  const auto near_in = less(a.plane.near, a.sphere.radius), far_in = less(a.plane.far, a.sphere.radius);
+  r.wall = select(near_in, wall, a.sphere.outer);
+  r.from = select(far_in, wall, a.sphere.outer) * IntOf<F>(4) + select(far_in, IntOf<F>(1), IntOf<F>(0));
+  r.throughput = throughput_of(a.sphere, a.ends, sequence, p);
+  const F cosine = light_cosine(a.light_columns, a.at.normal, r.arrive);
+  const F spread = spread_of(c.path, a.ends, a.plane.sine, at, c.root.slope, cosine);
+  r.pdf = spread * a.at.pdf * (a.probability * expected_queries(a.sphere, a.ends, sequence));
+  return r;
+}
+
+template <class F>
+TYNDALL_INLINE SpecularRays<F> rays_off_mirror(const SpecularQuery<F>& a, Vec3<F> point) {
+  const MirrorPath<F> path = mirror_path(a.mirror, point, a.at.point);
+  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
+  SpecularRays<F> r;
+  r.found = path.found, r.direction = path.direction, r.arrive = path.arrive;
+  r.near_distance = path.near_distance, r.far_distance = path.far_distance;
+  r.wall = a.sphere.outer, r.from = a.sphere.outer * IntOf<F>(4) + select(path.behind, IntOf<F>(1), IntOf<F>(0));
+  r.pdf = path.spread / max(cosine, F(1e-30f)) * a.at.pdf * a.probability;
+  r.throughput = F(1.0f), r.count = F(1.0f), r.optical_depth = F(0.0f);
+  return r;
+}
+
+template <class F>
+TYNDALL_INLINE SpecularRays<F> rays_through_slab(const SpecularQuery<F>& a, Vec3<F> point) {
+  const SlabFrame<F> s = slab_frame(a.slab, point, a.at.point, a.slab_path.sequence.across);
+  const SlabPath<F> path = slab_path(a.slab, s, a.slab_path.sequence);
+  const IntOf<F> lower = a.slab.element + a.slab_path.sequence.across + a.slab_path.sequence.across, one = IntOf<F>(1);
+  const IntOf<F> last = select(less(F(0.0f), s.far.height), lower + one, lower);
+  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
+  SpecularRays<F> r;
+  r.found = path.found, r.direction = path.direction, r.arrive = path.arrive;
+  r.near_distance = path.near_distance, r.far_distance = path.far_distance;
+  r.wall = select(less(F(0.0f), s.near.height), lower + one, lower), r.from = last * IntOf<F>(4);
+  r.pdf = path.spread / max(cosine, F(1e-30f)) * a.at.pdf * a.probability;
+  r.throughput = path.throughput, r.count = F(1.0f) / max(a.slab_path.probability, F(1e-30f)),
+  r.optical_depth = a.slab.medium_density * path.within;
+  return r;
+}
+
+/// The factor by which the light's radiance counts if nothing is in the way, the weight of the power heuristic
+/// included.
+template <class F>
+TYNDALL_INLINE F weight_of(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
+                           const SpecularRays<F>& rays) {
+  const F cosine = light_cosine(a.light_columns, a.at.normal, rays.arrive);
+  const F scattered = scattered_pdf(s, q, rays.direction) * rays.throughput;
+  const auto useful = mask_and(mask_and(rays.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
+  const F ratio = scattered / max(rays.pdf, F(1e-37f));
+  // 0 at a caustic's edge, where the density is 0.
+  const F weight = rays.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));
+  return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
+}
+
+/// The specular path that each lane takes out of those which it finds: at random, in proportion to their weights. (J.
+/// Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, Eurographics Symposium on Rendering
+/// 2005)
+template <class F>
+struct SampledPath {
+  Reservoir<F> reservoir;
+  SpecularRays<F> rays{};
+  Vec3<F> light_point{};   ///< the point of the light where it starts
+  PathEnds<F> ends{};      ///< with those, and
+  InsidePath<F> inside{};  ///< this way, if its sphere is crowded
+};
+
+/// Offers what weight_of() tells of these rays. Returns which lanes take them.
+template <class F>
+TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
+                                    const SpecularRays<F>& rays, SampledPath<F>& taken) {
+  const auto takes = taken.reservoir.offer(weight_of(s, q, a, rays));
+  if (!any(takes)) return takes;
+  const auto put = [takes](const auto& from, auto& to) __attribute__((always_inline)) { to = select(takes, from, to); };
+  SpecularRays<F>& r = taken.rays;
+  put(rays.direction, r.direction), put(rays.arrive, r.arrive), put(rays.near_distance, r.near_distance);
+  put(rays.far_distance, r.far_distance), put(rays.wall, r.wall), put(rays.from, r.from),
+      put(rays.optical_depth, r.optical_depth);
+  put(a.at.point, taken.light_point);
+  return takes;
+}
+
+/// Keeps the path of a specular path within its crowded sphere.
+template <class F>
+TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& c, const EventSequence<F>& sequence,
+                                MaskOf<F> lanes, SampledPath<F>& taken) {
+  const F p = c.path.deflection.maximum * (F(1.0f) - c.root.s * c.root.s);
+  put(lanes, inside_path(a.sphere, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, p, sequence), taken.inside);
+  const auto copy = [lanes](const auto& from, auto& mask) __attribute__((always_inline)) {
+    mask = mask_or(mask_and(lanes, from), mask_and_not(mask, lanes));
+  };
+  PathEnds<F>& ends = taken.ends;
+  copy(a.ends.both_out, ends.both_out), copy(a.ends.deep, ends.deep), copy(a.ends.valid, ends.valid);
+}
+
+/// Offers all specular paths of an event sequence by a sphere. For an end within the sphere both signs are tried (see
+/// EndSigns).
+template <class F>
+TYNDALL_INLINE void offer_sequence(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
+                                   const EventSequence<F>& sequence, MaskOf<F> lanes, SampledPath<F>& taken) {
+  const auto near_in = less(a.plane.near, a.sphere.radius);
+  const EndSigns<F> signs[2] = {{F(1.0f), F(1.0f)},
+                                {select(near_in, F(-1.0f), F(1.0f)), select(near_in, F(1.0f), F(-1.0f))}};
+  for (int i = 0; i < 2; ++i) {
+    const auto here = i == 0 ? lanes : mask_and_not(lanes, a.ends.both_out);
+    if (!any(here)) continue;
+    SolvedPath<F> c{deflection_of(s.specular, a.sphere, a.ends, sequence, signs[i]), signs[i], {}};
+    const DeflectionRoots<F> roots = list_roots(c.path.deflection, a.plane.angle, mask_and(here, c.path.possible));
+    for (F index = F(0.0f); any(less(index, roots.count)); index = index + F(1.0f)) {
+      c.root = take_root(c.path.deflection, roots, a.plane.angle, index);
+      const auto takes = offer_rays(s, q, a, rays_of(a, sequence, c), taken),
+                 overlapped = mask_and(takes, a.sphere.overlapped);
+      if (s.specular.has_overlaps && any(overlapped)) keep_inside(a, c, sequence, overlapped, taken);
+    }
+  }
+}
+
+/// Offers the paths off a flat mirror and through a slab.
+template <class F>
+TYNDALL_INLINE void offer_flat(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a, MaskOf<F> lanes,
+                               IntOf<F> events_left, SampledPath<F>& taken) {
+  const auto by_mirror = mask_and(mask_and(lanes, a.by_mirror), less(IntOf<F>(1), events_left));
+  if (s.specular.has_mirrors() && any(by_mirror)) {
+    SpecularRays<F> rays = rays_off_mirror(a, q.point);
+    rays.found = mask_and(rays.found, by_mirror);
+    offer_rays(s, q, a, rays, taken);
+  }
+  if (!s.specular.has_slabs()) return;
+  const SlabSequence<F>& sequence = a.slab_path.sequence;
+  const F events = sequence.crossings + F(1.0f) + abs(sequence.image[0]) + abs(sequence.image[1]);
+  const auto by_slab =
+      mask_and(mask_and(mask_and(lanes, a.by_slab), a.slab_path.drawn), less(to_int(events), events_left));
+  if (!any(by_slab)) return;
+  SpecularRays<F> rays = rays_through_slab(a, q.point);
+  rays.found = mask_and(rays.found, by_slab);
+  offer_rays(s, q, a, rays, taken);
+}
+
+template <class F>
+TYNDALL_INLINE SampledPath<F> sample_specular_path(const auto& s, const SpecularRequest<F>& q, SpecularQuery<F> a,
+                                                   const Decisions<F>& decisions, MaskOf<F> lanes) {
+  SampledPath<F> taken{{q.sampler.independent_1d(dimension::specular_root)}};
+  const IntOf<F> events_left = IntOf<F>(s.max_depth) - q.depth;
+  const auto by_sphere = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_slab);
+  const Pair<F> u = q.sampler.next_2d(dimension::specular_point);
+  const auto another = mask_and_not(by_sphere, a.sphere.mirror), twice = mask_and_not(another, a.sphere.hollow);
+  for (int i = 0; i < 3;
+       ++i) {  // the main event sequence, the main event sequence again in solid glass, and another event sequence
+    const auto here = i == 0 ? by_sphere : i == 1 ? twice : another;
+    if (i > 0 && !any(here)) continue;
+    const F shift = F(i == 0 ? 0.0f : 0.5f), x = u.x + shift, y = u.y + shift;
+    aim_at_light(s, q.point, q.time, {x - floor(x), y - floor(y)}, a);
+    if (i == 0) offer_flat(s, q, a, lanes, events_left, taken);
+    if (!any(here)) break;
+    const auto valid = mask_and(mask_and(here, a.ends.valid), less(F(1e-7f), a.plane.sine));
+    const DrawnSequence<F> w =
+        i < 2 ? DrawnSequence<F>{main_sequence(a.sphere, a.ends), valid} : draw_sequence(a.sphere, a.ends, decisions);
+    const auto fits = less(to_int(w.sequence.outer + w.sequence.inner), events_left);
+    offer_sequence(s, q, a, w.sequence, mask_and(mask_and(valid, w.drawn), fits), taken);
+  }
+  return taken;
+}
+
+/// Light that reaches the requests' points by specular paths, times their throughput. Each test for things in the way
+/// adds one to shadow_rays.
+template <class F>
+[[gnu::noinline]] static Vec3<F> specular_light(const SceneView& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
+                                                std::uint32_t& shadow_rays) {
+  const SpecularQuery<F> a = specular_query<F>(s, q, lanes);
+  const Decisions<F> decisions{q.sampler.independent_bits(dimension::event_sequence),
+                               q.sampler.independent_bits(dimension::event_sequence_tail)};
+  const SampledPath<F> taken = sample_specular_path(s, q, a, decisions, lanes);
+  const SpecularRays<F>& found = taken.rays;
+  F weight = taken.reservoir.weight;
+  auto arrives = less(F(0.0f), weight);
+  if (!any(arrives)) return zero3<F>();
+  const IntOf<F> light_element = lookup_int<F>(s.lights.element, s.lights.count, a.light);
+  const Ray<F> near{q.point, found.direction, q.time, q.from};
+  const Ray<F> far{point_at(taken.light_point, -found.far_distance, found.arrive), found.arrive, q.time, found.from};
+  for (int leg = 0; leg < 2; ++leg) {
+    const Ray<F>& ray = leg == 0 ? near : far;
+    const F distance = leg == 0 ? found.near_distance : found.far_distance;
+    shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(arrives)));
+    arrives = mask_and_not(arrives, call_blocked(s, ray, distance, leg == 0 ? found.wall : light_element, arrives));
+    if (!any(arrives)) return zero3<F>();
+    if (s.has_media()) weight = weight * pass_media(s, ray, distance, arrives);
+  }
+  if (s.has_media() && s.specular.has_slabs()) weight = weight * transmittance(found.optical_depth);
+  const auto overlapped = mask_and(arrives, a.sphere.overlapped);
+  if (s.specular.has_overlaps && any(overlapped)) {
+    const F passes = pass_inside(s, a.sphere, taken.ends, taken.inside, decisions, q.time, overlapped, shadow_rays);
+    weight = select(overlapped, weight * passes, weight);
+  }
+  Vec3<F> colour = light_radiance(s, light_element, taken.light_point, arrives);
+  const auto metal = mask_and(arrives, a.sphere.mirror);
+  if (any(metal)) {
+    const SurfacePoint<F> at = surface_at(s, near, found.near_distance, found.wall);
+    colour = select(metal, colour * surface_colour(s, at, metal), colour);
+  }
+  return select(arrives, weight * (q.throughput * colour), zero3<F>());
+}
+
+}  // namespace tyndall

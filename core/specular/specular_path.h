@@ -1,0 +1,282 @@
+#pragma once
+#include "core/specular/event_sequence.h"
+#include "core/trace/lights.h"
+#include "core/trace/shade.h"
+
+/// A specular path is a path of light from a point of a light, through or off a sphere, off a flat mirror or through a
+/// slab, to a point where light scatters. Here are the points of lights where specular paths start, and specular paths
+/// by spheres; specular_flat.h and specular_slab.h have the others.
+namespace tyndall {
+
+/// A point on a light's surface, drawn without regard to what is in between.
+template <class F>
+struct LightPoint {
+  Vec3<F> point, normal;
+  F pdf;  ///< per unit of area
+};
+
+/// A sphere sees a cap of a sphere light: the points whose normals are close to the axis towards the sphere. This is
+/// the least cosine between normal and axis in the cap; -1, for the whole light, if the sphere holds the light's
+/// centre. distance: between the two centres.
+template <class F>
+TYNDALL_INLINE F seen_from_sphere(F distance, F light_radius, F sphere_radius) {
+  return select(less(sphere_radius, distance), max((light_radius - sphere_radius) / max(distance, F(1e-30f)), F(-1.0f)),
+                F(-1.0f));
+}
+
+/// How points are drawn on a sphere light: by z, the cosine between a point's normal and `axis`.
+/// If the light is outside of the sphere, the axis leads to the sphere's centre, and the density grows with z from 0 at
+/// the edge of the cap that the sphere sees, because the light that reaches the sphere from there grows likewise. If
+/// the light's centre is in the sphere, most of its light leaves the sphere almost straight. Then the axis leads to the
+/// point that asks for light, and most points are drawn on the half that faces it; the others are for light that the
+/// sphere throws back.
+template <class F>
+struct LightSide {
+  Vec3<F> center, axis;
+  F radius, first;    ///< of the light; least z that the sphere sees
+  MaskOf<F> outside;  ///< the light's centre is outside of the sphere
+};
+/// For a light in the sphere: fractions of points on the half that faces the axis, on the other half, and anywhere.
+inline constexpr float facing_fraction = 0.75f, averted_fraction = 0.125f, even_fraction = 0.125f;
+
+template <class F>
+TYNDALL_INLINE LightSide<F> light_side(const LightColumns<F>& light, const SpecularSphere<F>& b, Vec3<F> receiver,
+                                       F time) {
+  const Vec3<F> center = sphere_light_center(light, time);
+  const F distance = length(b.center - center);
+  const auto outside = less(b.radius, distance);
+  const Vec3<F> to_axis_end = select(outside, b.center, receiver) - center;
+  const F scale = F(1.0f) / max(length(to_axis_end), F(1e-30f));
+  return {center, scale * to_axis_end, light.length_u, seen_from_sphere(distance, light.length_u, b.radius), outside};
+}
+
+/// Density, per unit of area, of the points that draw_on_light_side() gives at the cosine z.
+template <class F>
+TYNDALL_INLINE F light_side_pdf(const LightSide<F>& side, F z) {
+  const F even = F(static_cast<float>(0.25 / pi)) / (side.radius * side.radius), span = F(1.0f) - side.first;
+  const F growing = F(4.0f) * max(z - side.first, F(0.0f)) / (span * span);
+  const F throughput = select(less(F(0.0f), z), F(4.0f * facing_fraction), F(4.0f * averted_fraction));
+  return even * select(side.outside, growing, mul_add(throughput, abs(z), F(even_fraction)));
+}
+
+/// The cosine z for a random number u in [0, 1).
+template <class F>
+TYNDALL_INLINE F draw_on_light_side(const LightSide<F>& side, F u) {
+  const F growing = mul_add(F(1.0f) - side.first, sqrt(u), side.first);
+  const F behind = u - F(facing_fraction), rest = behind - F(averted_fraction);
+  const F facing = sqrt(min(u * F(1.0f / facing_fraction), F(1.0f)));
+  const F averted = -sqrt(min(max(behind * F(1.0f / averted_fraction), F(0.0f)), F(1.0f)));
+  const F even = mul_add(rest, F(2.0f / even_fraction), F(-1.0f));
+  const F within = select(less(behind, F(0.0f)), facing, select(less(rest, F(0.0f)), averted, even));
+  return select(side.outside, growing, within);
+}
+
+/// Draws a point of a light whose light is to go by sphere `b`. receiver: the point that asks for the specular path.
+template <class F>
+TYNDALL_INLINE LightPoint<F> sample_light_point(const LightColumns<F>& light, const SpecularSphere<F>& b,
+                                                Vec3<F> receiver, F time, Pair<F> u) {
+  const Vec3<F> flat =
+      point_at(point_at(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v);
+  LightPoint<F> at{flat, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
+  const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
+  if (!any(round)) return at;
+  const LightSide<F> side = light_side(light, b, receiver, time);
+  const F z = draw_on_light_side(side, u.x);
+  const Vec3<F> normal = around(side.axis, z, u.y);
+  return {select(round, point_at(side.center, side.radius, normal), at.point), select(round, normal, at.normal),
+          select(round, light_side_pdf(side, z), at.pdf)};
+}
+
+/// A given point of the light, with its normal and the density with which sample_light_point() would have drawn it.
+template <class F>
+TYNDALL_INLINE LightPoint<F> light_point_at(const LightColumns<F>& light, const SpecularSphere<F>& b, Vec3<F> receiver,
+                                            F time, Vec3<F> point) {
+  LightPoint<F> at{point, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
+  const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
+  if (!any(round)) return at;
+  const LightSide<F> side = light_side(light, b, receiver, time);
+  const Vec3<F> normal = normalize(point - side.center);
+  return {point, select(round, normal, at.normal), select(round, light_side_pdf(side, dot(normal, side.axis)), at.pdf)};
+}
+
+/// Cosine between a light's normal and the way back from it, where a ray arrives in `direction`. Flat lights shine to
+/// both sides; spheres shine outward only, so that their cosine is negative for rays that arrive from within.
+template <class F>
+TYNDALL_INLINE F light_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3<F> direction) {
+  const F cosine = -dot(direction, normal);
+  return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
+}
+
+/// The plane that holds a specular path: that of its two ends and the sphere's centre. The near end is the point that
+/// asks for light, the far end the light's point.
+template <class F>
+struct PathPlane {
+  Vec3<F> near_out, far_out;    ///< unit, from the centre to each end
+  Vec3<F> near_side, far_side;  ///< unit, at right angles to these, turning the short way from the near end to the far
+  F near, far;                  ///< distances of the ends from the centre
+  F angle, sine;                ///< between the ends, seen from the centre, in [0, pi]; and its sine
+};
+
+template <class F>
+TYNDALL_INLINE PathPlane<F> plane_of(const SpecularSphere<F>& b, Vec3<F> near, Vec3<F> far) {
+  const Vec3<F> x = near - b.center, y = far - b.center, normal = cross(x, y);
+  PathPlane<F> plane;
+  plane.near = max(length(x), F(1e-30f)), plane.far = max(length(y), F(1e-30f));
+  const F twice_area = length(normal);
+  plane.near_out = (F(1.0f) / plane.near) * x, plane.far_out = (F(1.0f) / plane.far) * y;
+  const Vec3<F> unit_vector = (F(1.0f) / max(twice_area, F(1e-37f))) * normal;
+  plane.near_side = cross(unit_vector, plane.near_out), plane.far_side = cross(unit_vector, plane.far_out);
+  plane.angle = atan2(twice_area, dot(x, y));
+  plane.sine = twice_area / (plane.near * plane.far);
+  return plane;
+}
+
+/// sqrt(reach² - p²), from the parameter s of the deflection (p = most (1 - s²)): exact to rounding even where the path
+/// grazes a sphere and the plain difference would cancel.
+template <class F>
+TYNDALL_INLINE F depth_of(const Deflection<F>& deflection, F reach, F s) {
+  const F drop = deflection.maximum * s * s;
+  return sqrt(max(((reach - deflection.maximum) + drop) * (reach + (deflection.maximum - drop)), F(0.0f)));
+}
+
+/// dA / dω for the specular path of parameter s: times a density per unit of area of the light, at the far end, this is
+/// the density of the direction at the near end, per steradian. It follows from dω = sin θ dθ dψ with n a sin θ = p at
+/// the near end, and dA · cosine = b sin φ dψ · b cos θ' dφ at the far end, where dφ = turn' dp and `cosine` is that of
+/// the ray at the light. a, b: distances of the ends from the centre. slope: of the deflection, by s.
+template <class F>
+TYNDALL_INLINE F spread_of(const SpecularDeflection<F>& path, const PathEnds<F>& e, F sine, F s, F slope, F cosine) {
+  const Deflection<F>& deflection = path.deflection;
+  const F p = max(deflection.maximum * (F(1.0f) - s * s), F(1e-30f));
+  const F rate = F(2.0f) * deflection.maximum * s * p * e.far_index * e.far_index;
+  const F depths = depth_of(deflection, e.near_reach, s) * depth_of(deflection, e.far_reach, s);
+  return (e.near_reach * e.far_reach * sine) * depths * abs(slope) / (rate * max(cosine, F(1e-30f)));
+}
+
+/// Distance that light goes from an end to the surface of the sphere that it meets first: from outside to the outer
+/// sphere, from within to the wall of the glass or of the hollow in which the end is.
+template <class F>
+TYNDALL_INLINE F distance_to_sphere(const SpecularSphere<F>& b, const Deflection<F>& deflection, F end, F reach, F sign,
+                                    F s) {
+  const auto out = less(b.radius, end);
+  const F index = select(out, F(1.0f), select(b.hollow, b.inner_index, b.index));
+  const F wall = index * select(out, b.radius, select(b.hollow, b.inner_radius, b.radius));
+  const F from_end = depth_of(deflection, reach, s), to_wall = depth_of(deflection, wall, s);
+  return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
+}
+
+/// One of the specular paths that there are between two points by one event sequence.
+template <class F>
+struct SolvedPath {
+  SpecularDeflection<F> path;
+  EndSigns<F> sign;
+  DeflectionRoot<F> root;
+};
+
+/// The parts of a specular path between its ends and the sphere or mirror, and what it is worth.
+template <class F>
+struct SpecularRays {
+  MaskOf<F> found;
+  Vec3<F> direction, arrive;      ///< unit: in which a path leaves the near end, and in which it arrives at the light
+  F near_distance, far_distance;  ///< distances from each end to the sphere
+  IntOf<F> wall;                  ///< the element to which the near end's way leads
+  IntOf<F> from;                  ///< Ray::from of the way to the light
+  F throughput;                   ///< of light that the surfaces send this way
+  F pdf;                          ///< of the direction at the near end, per steradian, with which it is asked for
+  F count;                        ///< inverse of the probability to find this one of several with the same density
+  F optical_depth;                ///< within a slab: its density times the length of the way there
+};
+
+// The part of a specular path that is within its sphere. It is tested only if the sphere is crowded: if other surfaces,
+// media or a light are in it or reach into it.
+
+/// The path of a specular path within its sphere. It lies in a plane through the sphere's centre; its places are told
+/// by their angle about the centre, measured from `out` towards `side`.
+template <class F>
+struct InsidePath {
+  Vec3<F> out, side;  ///< unit
+  F p;                ///< Bouguer's invariant
+  F angle;            ///< from `out` to where the sphere is met first
+  MaskOf<F> main;     ///< it is that of the main event sequence
+};
+
+/// Puts the ways of the lanes `here` among the others.
+template <class F>
+TYNDALL_INLINE void put(MaskOf<F> here, const InsidePath<F>& from, InsidePath<F>& to) {
+  to.out = select(here, from.out, to.out), to.side = select(here, from.side, to.side);
+  to.p = select(here, from.p, to.p), to.angle = select(here, from.angle, to.angle);
+  to.main = mask_or(mask_and(here, from.main), mask_and_not(to.main, here));
+}
+
+/// The angle about the centre by which light turns between its place next to the centre and the radius reach / n: see
+/// Deflection. 0 where p > reach, as the light stays above that radius.
+template <class F>
+TYNDALL_INLINE F deflection_above(F p, F reach) {
+  const F sine = min(p / max(reach, F(1e-30f)), F(1.0f));
+  return acos(sine);
+}
+
+/// The path through the sphere, seen from the end that is in the sphere; from the near end if none is. near_sign,
+/// far_sign: see EndSigns. sense: see DeflectionRoot.
+template <class F>
+TYNDALL_INLINE InsidePath<F> inside_path(const SpecularSphere<F>& b, const PathPlane<F>& plane, const PathEnds<F>& e,
+                                         F near_sign, F far_sign, F sense, F p, const EventSequence<F>& sequence) {
+  const auto from_far = mask_and_not(less(plane.far, b.radius), e.both_out);
+  const F reach = select(from_far, e.far_reach, e.near_reach), sign = select(from_far, far_sign, near_sign);
+  const F within = select(e.deep, b.inner_index * b.inner_radius, b.index * b.radius);
+  const F outside = deflection_above(p, reach) - deflection_above(p, b.radius);
+  const F inside = mul_add(sign, deflection_above(p, reach), deflection_above(p, within));
+  return {select(from_far, plane.far_out, plane.near_out),
+          select(from_far, -sense * plane.far_side, sense * plane.near_side), p, select(e.both_out, outside, inside),
+          same_sequence(sequence, main_sequence(b, e))};
+}
+
+/// The point at `angle` on the sphere of `radius` about the sphere's centre.
+template <class F>
+TYNDALL_INLINE Vec3<F> point_inside(const SpecularSphere<F>& b, const InsidePath<F>& path, F angle, F radius) {
+  const F revolutions = angle * F(static_cast<float>(0.5 / pi));
+  const SinCos<F> a = sin_cos_2pi(min(max(revolutions - floor(revolutions), F(0.0f)), F(0.99999994f)));
+  return point_at(point_at(b.center, radius * a.cos, path.out), radius * a.sin, path.side);
+}
+
+/// Fraction of light that passes along the path within the sphere: below 1 in media, 0 where a surface is in the way.
+/// decisions: those by which the event sequence was drawn, so that the same events follow in the same order.
+template <class F>
+TYNDALL_INLINE F pass_inside(const auto& s, const SpecularSphere<F>& b, const PathEnds<F>& e, InsidePath<F> path,
+                             const Decisions<F>& decisions, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
+  using I = IntOf<F>;
+  SequenceWalk<F> walk = start_walk(b, e, decisions, path.main);
+  walk.open = mask_and(lanes, walk.open);
+  auto clear = lanes;
+  F throughput = F(1.0f);
+  const F glass = deflection_above(path.p, b.index * b.radius);
+  const F across = glass - deflection_above(path.p, b.index * b.inner_radius);
+  const F chord = F(2.0f) * deflection_above(path.p, b.inner_index * b.inner_radius);
+  I at = select(e.deep, I(1), I(0));  // the sphere that the path is at: 1 is the inner one
+  // With an end within the sphere path.angle already is that of the first event: the first round does not move.
+  auto moves = e.both_out;
+  for (int i = 0; i < max_decisions && any(walk.open); ++i) {
+    const auto to_outer = equal(walk.next, I(0)), from_outer = equal(at, I(0));
+    const auto same = mask_or(mask_and(to_outer, from_outer), mask_not(mask_or(to_outer, from_outer)));
+    const F deflection = select(same, select(to_outer, F(2.0f) * glass, chord), across);
+    const F end = select(moves, path.angle + deflection, path.angle);
+    const auto here = mask_and(mask_and(clear, walk.open), moves);
+    if (any(here)) {
+      const Vec3<F> from = point_inside(b, path, path.angle, select(from_outer, b.radius, b.inner_radius));
+      const Vec3<F> to = point_inside(b, path, end, select(to_outer, b.radius, b.inner_radius));
+      const F length_of = max(length(to - from), F(1e-30f));
+      const auto outward = mask_and_not(to_outer, from_outer);
+      const Ray<F> ray{from, (F(1.0f) / length_of) * (to - from), time,
+                       select(from_outer, b.outer, b.inner) * I(4) + select(outward, I(0), I(1))};
+      shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(here)));
+      clear = mask_and_not(clear, call_blocked(s, ray, length_of, select(to_outer, b.outer, b.inner), here));
+      if (s.has_media()) throughput = select(here, throughput * pass_media(s, ray, length_of, here), throughput);
+    }
+    path.angle = end;
+    at = select(to_outer, I(0), I(1));
+    moves = less(F(-1.0f), F(0.0f));
+    step_walk(walk);
+  }
+  return select(clear, throughput, F(0.0f));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,103 @@
+#pragma once
+#include "core/base/random.h"
+
+/// Subpixel lights: what the camera sees of a small light, directly or by one sphere, flat mirror or slab. A subpixel
+/// light may fill so little of its pixel that samples which are spread evenly over the pixel seldom hit it, and each
+/// that does is a bright speck. So half of the samples of such a pixel are drawn within boxes around its subpixel
+/// lights, and all of its samples are weighed by the density of their place. That is exact wherever the boxes lie: they
+/// only have to be there.
+namespace tyndall {
+
+/// A box around a subpixel light, or the part of it in one pixel.
+struct SubpixelLight {
+  float x, y;                      ///< column and row of the pixel
+  float left, top, width, height;  ///< of the box, from the pixel's upper left corner, in pixels
+  float begin, end;                ///< random numbers in [begin, end) choose this box
+  float pdf;                       ///< what the box adds to the density of its places: (end - begin) / area
+  std::int32_t route;              ///< see pack_route(); 0: without reflections by glass
+};
+
+/// What samples in a box still have to meet on their path to its light: `reflections` by glass, and `crossings` of its
+/// surface, each at most 15. Packed into one number, so that it can wait in a lane: 0 stands for no route.
+inline constexpr std::int32_t pack_route(std::int32_t reflections, std::int32_t crossings) {
+  return 256 + 16 * reflections + crossings;
+}
+template <class F>
+struct GlassRoute {
+  IntOf<F> packed;
+  TYNDALL_INLINE MaskOf<F> is_set() const { return less(IntOf<F>(0), packed); }
+  TYNDALL_INLINE IntOf<F> reflections() const { return as_int(shift_right<4>(as_uint(packed))) & IntOf<F>(15); }
+  TYNDALL_INLINE IntOf<F> crossings() const { return packed & IntOf<F>(15); }
+  /// Counts an event in the lanes `here`: a reflection where it reflects, else a crossing.
+  TYNDALL_INLINE void count(MaskOf<F> here, MaskOf<F> reflects) {
+    const IntOf<F> none = IntOf<F>(0), one = IntOf<F>(1);
+    const IntOf<F> reflected = select(less(none, reflections()), packed - IntOf<F>(16), packed);
+    const IntOf<F> crossed = select(less(none, crossings()), packed - one, packed);
+    packed = select(here, select(reflects, reflected, crossed), packed);
+  }
+};
+
+/// How closely samples in a box keep to that way, weighed by what glass sends there. To a light that is seen by several
+/// inner reflections glass sends few samples, each of which would be a bright speck. The rest keeps to the glass's own
+/// odds, so that light which comes in another way is found, too.
+inline constexpr float subpixel_light_steering = 0.75f;
+
+/// Fraction of the samples of a pixel with subpixel lights that are drawn within their boxes.
+inline constexpr float subpixel_light_fraction = 0.5f;
+
+/// Subpixel lights one after another in memory.
+struct SubpixelLights {
+  const SubpixelLight *first, *last;
+};
+
+/// Of subpixel lights sorted by row, those in the rows [begin, end).
+TYNDALL_INLINE SubpixelLights subpixel_lights_in_rows(SubpixelLights all, int begin, int end) {
+  while (all.first != all.last && all.first->y < static_cast<float>(begin)) ++all.first;
+  while (all.first != all.last && (all.last - 1)->y >= static_cast<float>(end)) --all.last;
+  return all;
+}
+
+/// Samples in pixels with subpixel lights.
+template <class F>
+struct AtSubpixelLights {
+  F weight;             ///< 1 / density of the sample's place
+  GlassRoute<F> route;  ///< of the box in which it was drawn, or else the one with most reflections there
+};
+
+/// Moves the places of samples, each in its own pixel (x, y), towards the subpixel lights there. at: points in the unit
+/// square, evenly distributed on entry.
+template <class F>
+TYNDALL_INLINE AtSubpixelLights<F> aim_at_subpixel_lights(SubpixelLights subpixel_lights, F x, F y, Pair<F>& at) {
+  const Pair<F> even = at;
+  const auto in_pixel = [&](const SubpixelLight& g) { return mask_and(equal(x, F(g.x)), equal(y, F(g.y))); };
+  const auto drawn = [&](const SubpixelLight& g) {
+    return mask_and(in_pixel(g), mask_and(less_equal(F(g.begin), even.x), less(even.x, F(g.end))));
+  };
+  F pdf = F(1.0f);
+  IntOf<F> route = IntOf<F>(0);
+  for (const SubpixelLight* g = subpixel_lights.first; g != subpixel_lights.last; ++g) {
+    const auto here = in_pixel(*g);
+    if (!any(here)) continue;
+    pdf = select(here, F(1.0f - subpixel_light_fraction), pdf);
+    const F along_x = (even.x - F(g->begin)) * F(1.0f / (g->end - g->begin));
+    const auto whole = mask_and(here, less_equal(F(subpixel_light_fraction), even.x));
+    at.x = select(whole, (even.x - F(subpixel_light_fraction)) * F(1.0f / (1.0f - subpixel_light_fraction)), at.x);
+    const auto chosen = drawn(*g);
+    at.x = select(chosen, mul_add(along_x, F(g->width), F(g->left)), at.x);
+    at.y = select(chosen, mul_add(even.y, F(g->height), F(g->top)), at.y);
+    route = select(chosen, IntOf<F>(g->route), route);
+  }
+  const auto by_chance = less_equal(F(subpixel_light_fraction), even.x);
+  for (const SubpixelLight* g = subpixel_lights.first; g != subpixel_lights.last; ++g) {
+    const F right = F(g->left + g->width), bottom = F(g->top + g->height);
+    const auto across = mask_and(less_equal(F(g->left), at.x), less(at.x, right));
+    const auto down = mask_and(less_equal(F(g->top), at.y), less(at.y, bottom));
+    const auto inside = mask_or(drawn(*g), mask_and(in_pixel(*g), mask_and(across, down)));
+    pdf = select(inside, pdf + F(g->pdf), pdf);
+    const IntOf<F> its = IntOf<F>(g->route);
+    route = select(mask_and(mask_and(inside, by_chance), less(route, its)), its, route);
+  }
+  return {F(1.0f) / pdf, {route}};
+}
+
+}  // namespace tyndall

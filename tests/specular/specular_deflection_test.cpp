@@ -1,0 +1,172 @@
+#include "core/specular/specular_path.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <random>
+#include <vector>
+
+/// Paths of light through spheres around one centre: all of them are found, and the solid angle that chains compute for
+/// a light is the one that traced rays find.
+using namespace tyndall;
+
+namespace {
+
+template <class F>
+SpecularSphere<F> sphere_of(double index, double inner_radius) {
+  SpecularSphere<F> b{};
+  b.radius = F(1), b.index = F(index), b.inner_radius = F(inner_radius), b.inner_index = F(1);
+  b.mirror = false, b.hollow = inner_radius > 0, b.overlapped = false;
+  return b;
+}
+
+template <class F>
+SpecularDeflection<F> deflection_between(const SpecularSphere<F>& b, const EventSequence<F>& sequence, F near, F far) {
+  SpecularView view{};
+  view.shells = b.hollow;
+  return deflection_of(view, b, ends_of(b, near, far), sequence, EndSigns<F>{F(1), F(1)});
+}
+
+/// The deflection itself, term by term.
+double deflection_there(const Deflection<double>& deflection, double s) {
+  double sum = 0;
+  for (int i = 0; i < deflection.terms; ++i)
+    sum += deflection.times[i] * std::acos(std::min(1.0, deflection.maximum * (1 - s * s) * deflection.inverse[i]));
+  return sum;
+}
+
+/// How many ways there are, found by a slow search: counts how often the deflection passes `angle` or its negative,
+/// plus any number of full turns, from one of many places of s to the next.
+int roots_by_search(const Deflection<double>& deflection, double angle) {
+  constexpr int places = 20000;
+  const double first = static_cast<double>(min_parameter);
+  int count = 0;
+  for (const double sign : {1.0, -1.0}) {
+    double last = 0;
+    for (int i = 0; i <= places; ++i) {
+      const double s = first + (deflection.last - first) * i / places;
+      const double whole = std::floor((deflection_there(deflection, s) - sign * angle) / (2 * pi));
+      if (i > 0) count += static_cast<int>(std::abs(whole - last));
+      last = whole;
+    }
+  }
+  return count;
+}
+
+struct Arguments {
+  double index, inner_radius;
+  EventSequence<double> sequence;
+};
+const Arguments all_words[] = {{1.5, 0, {1, 0, 0}},    {1.5, 0, {2, 0, 0}},   {1.5, 0, {3, 0, 0}},
+                               {1.5, 0, {6, 0, 0}},    {0.7, 0, {2, 0, 0}},   {1.5, 0.85, {2, 2, 0}},
+                               {1.5, 0.85, {2, 1, 1}}, {1.5, 0.4, {2, 0, 0}}, {1.5, 0.85, {3, 4, 0}}};
+
+}  // namespace
+
+TEST_CASE("chains: as many ways are found as a search finds, and each turns as wanted") {
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> u(0, 1);
+  int differ = 0, count = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Arguments& w = all_words[static_cast<std::size_t>(i) % std::size(all_words)];
+    const double near = 1.01 + 4 * u(engine), far = 1.1 + 4 * u(engine), angle = pi * u(engine);
+    const SpecularDeflection<double> exact =
+        deflection_between(sphere_of<double>(w.index, w.inner_radius), w.sequence, near, far);
+    const SpecularDeflection<float> path =
+        deflection_between(sphere_of<float>(w.index, w.inner_radius),
+                           {static_cast<float>(w.sequence.outer), static_cast<float>(w.sequence.inner),
+                            static_cast<float>(w.sequence.inner_reflected)},
+                           static_cast<float>(near), static_cast<float>(far));
+    const DeflectionRoots<float> roots = list_roots(path.deflection, static_cast<float>(angle), true);
+    differ += static_cast<int>(roots.count) != roots_by_search(exact.deflection, angle);
+    for (int k = 0; k < static_cast<int>(roots.count); ++k, ++count) {
+      const DeflectionRoot<float> root =
+          take_root(path.deflection, roots, static_cast<float>(angle), static_cast<float>(k));
+      const double off =
+          (deflection_there(exact.deflection, static_cast<double>(root.s)) - static_cast<double>(root.sense) * angle) /
+          (2 * pi);
+      CHECK(std::abs(off - std::round(off)) < 1e-3);
+    }
+  }
+  CHECK(differ <= 1);  // where two paths are about to merge, rounding decides whether there are two or none
+  CHECK(count > 150);
+}
+
+TEST_CASE("chains: the solid angle that a lamp fills off a mirror ball is what rays find") {
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> u(0, 1);
+  const Vec3<double> point{0.4, -1.3, 0.2}, lamp{2.5, 1.0, 0.5};
+  const double light_radius = 0.5;
+  int hits = 0;
+  constexpr int rays = 400000;
+  const double distance = length(point), one_minus_cos = 1 - std::sqrt(1 - 1 / (distance * distance));
+  for (int i = 0; i < rays; ++i) {
+    const Vec3<double> d = around((-1 / distance) * point, 1 - one_minus_cos * u(engine), u(engine));
+    const Interval<double> ball = sphere_interval(-point, 1.0, d);
+    if (!ball.hit) continue;
+    const Vec3<double> at = point_at(point, ball.near, d), reflected = reflect(d, at);
+    const Interval<double> there = sphere_interval(lamp - at, light_radius, reflected);
+    hits += there.hit && there.near > 0 ? 1 : 0;
+  }
+  const double traced = 2 * pi * one_minus_cos * hits / rays;
+  SpecularSphere<double> b = sphere_of<double>(1, 0);
+  b.mirror = true;
+  LightColumns<double> light{};
+  light.kind = Lights::sphere, light.corner = lamp, light.length_u = light_radius;
+  double sum = 0;
+  constexpr int points = 20000;
+  for (int i = 0; i < points; ++i) {
+    const LightPoint<double> at = sample_light_point(light, b, point, 0.0, Pair<double>{u(engine), u(engine)});
+    const PathPlane<double> plane = plane_of(b, point, at.point);
+    const PathEnds<double> ends = ends_of(b, plane.near, plane.far);
+    const SpecularDeflection<double> path = deflection_between(b, main_sequence(b, ends), plane.near, plane.far);
+    const DeflectionRoots<double> roots = list_roots(path.deflection, plane.angle, true);
+    REQUIRE(roots.count == 1);
+    const DeflectionRoot<double> root = take_root(path.deflection, roots, plane.angle, 0.0);
+    const double sine = path.deflection.maximum * (1 - root.s * root.s) / plane.far;
+    const Vec3<double> arrive = point_at(std::sqrt(1 - sine * sine) * plane.far_out, root.sense * sine, plane.far_side);
+    const double cosine = light_cosine(light, at.normal, arrive);
+    if (cosine > 0) sum += 1 / (at.density * spread_of(path, ends, plane.sine, root.s, root.slope, cosine));
+  }
+  CHECK(sum / points == doctest::Approx(traced).epsilon(0.02).scale(0));
+}
+
+TEST_CASE("chains: light is asked for by each word as often as is said") {
+  std::mt19937_64 engine(11);
+  for (const double inner_radius : {0.0, 0.85, 0.4}) {
+    CAPTURE(inner_radius);
+    const SpecularSphere<float> b = sphere_of<float>(1.5, inner_radius);
+    const PathEnds<float> ends = ends_of(b, 2.0f, 3.0f);
+    constexpr int draws = 400000;
+    std::map<std::array<int, 3>, int> drawn;  // by events at the outer sphere, at the inner one, and reflections there
+    for (int i = 0; i < draws; ++i) {
+      const std::uint64_t bits = engine();
+      const DrawnSequence<float> d =
+          draw_sequence(b, ends, {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32u)});
+      if (!d.drawn) continue;
+      const EventSequence<float>& w = d.sequence;
+      ++drawn[{static_cast<int>(w.outer), static_cast<int>(w.inner), static_cast<int>(w.inner_reflected)}];
+    }
+    int longest = 0;
+    for (const auto& [events, times] : drawn) {
+      const auto [outer, inner, inner_reflected] = events;
+      longest = std::max(longest, outer + inner);
+      // Of one order only: other event sequences have several.
+      if (inner_reflected > 0 || outer > 3) continue;
+      const EventSequence<float> sequence{static_cast<float>(outer), static_cast<float>(inner), 0};
+      const double by_plan = same_sequence(sequence, main_sequence(b, ends)) ? static_cast<double>(main_queries(b)) : 0;
+      const double expected = (static_cast<double>(expected_queries(b, ends, sequence)) - by_plan) * draws;
+      CAPTURE(outer);
+      CAPTURE(inner);
+      CHECK(std::abs(times - expected) < 6 * std::sqrt(expected) + 1);
+    }
+    CHECK(longest >= (inner_radius > 0 ? 16 : 8));
+    CHECK(expected_queries(b, ends, main_sequence(b, ends)) >= main_queries(b));
+    if (inner_radius == 0) CHECK(drawn.count({2, 0, 0}) == 0);  // the main event sequence is not drawn as well
+  }
+}

@@ -1,0 +1,127 @@
+#include "core/specular/specular_flat.h"
+
+#include "core/trace/scene_view.h"
+#include "tests/support/prepared.h"
+#include "tests/support/probe.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+/// Paths off flat mirrors: they obey the law of reflection, and fill the solid angle that neighbouring rays find.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// A floor and a light, and a mirror that is turned: a parallelogram around (1, 2, -1).
+struct MirrorScene {
+  Vec3d u{2, 0.3, 0.1}, v{0.4, 1.5, -0.2};  // half edges
+  RenderScene compiled;
+  SceneViewOf view;
+
+  static RenderScene make(Vec3d u, Vec3d v) {
+    Scene scene = dark_room();
+    scene.render.integrator = Integrator::mis;
+    add(scene, Quad<>{{-9, -3, -9}, {18, 0, 0}, {0, 0, 18}}, lambertian(0.5));
+    add(scene, sphere({1, 4, 3}, 0.01), lamp(1));
+    const Vec3d middle{1, 2, -1};
+    add(scene, Quad<>{middle - u - v, 2.0 * u, 2.0 * v}, metal(0.9, 0));
+    return compile(scene);
+  }
+  MirrorScene() : compiled(make(u, v)), view(compiled) {}
+  Vec3d middle() const { return Vec3d{1, 2, -1} - compiled.origin; }
+};
+
+Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
+
+Vec3d random_point(std::mt19937_64& engine, double size) {
+  std::uniform_real_distribution<double> u(-size, size);
+  const double x = u(engine), y = u(engine);
+  return {x, y, u(engine)};
+}
+
+}  // namespace
+
+TEST_CASE("chains: the way off a flat mirror obeys the law of reflection, and is found where it meets the face") {
+  const MirrorScene scene;
+  const SpecularView& specular = scene.view.view().specular;
+  REQUIRE(specular.spheres == 1);
+  REQUIRE(specular.first_mirror == 0);
+  const SpecularMirror<double> exact = load_mirror<double>(specular, 0);
+  const SpecularMirror<float> rounded = load_mirror<float>(specular, 0);
+  const Vec3d normal = normalize(cross(scene.u, scene.v)), edge = cross(scene.v, normal),
+              other = cross(normal, scene.u);
+  std::mt19937_64 engine(3);
+  int found = 0, apart = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3d near = scene.middle() + random_point(engine, 4), far = scene.middle() + random_point(engine, 4);
+    const double below = dot(near - scene.middle(), normal), above = dot(far - scene.middle(), normal);
+    const MirrorPath<double> path = mirror_path(exact, near, far);
+    if (below * above <= 0) {
+      CHECK_FALSE(path.found);
+      ++apart;
+      continue;
+    }
+    const Vec3d at = near + path.near_distance * path.direction, from_middle = at - scene.middle();
+    CHECK(std::abs(dot(from_middle, normal)) < 1e-5);
+    CHECK(length(path.arrive - reflect(path.direction, normal)) < 1e-6);
+    CHECK(length(at + path.far_distance * path.arrive - far) < 1e-5);
+    CHECK(path.behind == (below < 0));
+    const double a = std::abs(dot(from_middle, edge) / dot(scene.u, edge));
+    const double b = std::abs(dot(from_middle, other) / dot(scene.v, other));
+    if (std::abs(a - 1) > 1e-4 && std::abs(b - 1) > 1e-4) CHECK(path.found == (a < 1 && b < 1));
+    found += path.found ? 1 : 0;
+    const MirrorPath<float> rough = mirror_path(rounded, to_float(near), to_float(far));
+    CHECK(length(to_double(rough.direction) - path.direction) < 1e-4);
+    CHECK(static_cast<double>(rough.spread) == doctest::Approx(path.spread).epsilon(1e-5).scale(0));
+  }
+  CHECK(found > 300);
+  CHECK(apart > 1000);
+}
+
+TEST_CASE("chains: the area that a small solid angle off a flat mirror fills") {
+  const MirrorScene scene;
+  const SpecularMirror<double> m = load_mirror<double>(scene.view.view().specular, 0);
+  const Vec3d normal = normalize(cross(scene.u, scene.v)), near = scene.middle() + Vec3d{0.4, 0.2, 2};
+  const Vec3d far = scene.middle() + Vec3d{-0.5, 1, 1.2};
+  const MirrorPath<double> path = mirror_path(m, near, far);
+  REQUIRE(path.found);
+  const auto arrival = [&](Vec3d direction) {  // on the plane through the far end, across the way
+    const Vec3d d = normalize(direction), at = near + (dot(scene.middle() - near, normal) / dot(d, normal)) * d;
+    const Vec3d out = reflect(d, normal);
+    return at + (dot(far - at, path.arrive) / dot(out, path.arrive)) * out;
+  };
+  constexpr double step = 1e-4;
+  const Basis<double> across = basis_around(path.direction);
+  const Vec3d s =
+      (0.5 / step) * (arrival(path.direction + step * across.s) - arrival(path.direction - step * across.s));
+  const Vec3d t =
+      (0.5 / step) * (arrival(path.direction + step * across.t) - arrival(path.direction - step * across.t));
+  CHECK(path.spread == doctest::Approx(length(cross(s, t))).epsilon(1e-5).scale(0));
+}
+
+TEST_CASE("chains: a mirror is worth what its image of the lamp is, where that is seen, and little elsewhere") {
+  const MirrorScene scene;
+  const SpecularView& specular = scene.view.view().specular;
+  const SpecularMirror<double> m = load_mirror<double>(specular, 0);
+  const Vec3d lamp =
+      to_double({specular.choice.center[0][0], specular.choice.center[1][0], specular.choice.center[2][0]});
+  const double power = static_cast<double>(specular.choice.power[0]);
+  std::mt19937_64 engine(7);
+  int seen = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d point = scene.middle() + random_point(engine, 4), direction = mirrored(m, point) - lamp;
+    const double worth = mirror_worth<double>(specular, 0, point), full = power / dot(direction, direction);
+    if (mirror_path(m, point, lamp).found) {
+      CHECK(worth == doctest::Approx(full));
+      ++seen;
+    } else {
+      CHECK(worth >= full * static_cast<double>(min_mirror_worth) * 0.999);
+      CHECK(worth <= full * 1.001);
+    }
+  }
+  CHECK(seen > 200);
+}
