@@ -4,6 +4,7 @@
 #include "app/window/tools/camera_control.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -126,6 +127,7 @@ void MainWindow::draw(double now) {
   ui_.wake_in = 1e300;
   ui_.has_question = commands_.has_dialog();
   ui_.problem.clear();
+  ui_.changed = false;
   ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
   for (const Half half : {Half::current, Half::kept})
@@ -184,7 +186,8 @@ ShownState MainWindow::shown_state() const {
 }
 
 void MainWindow::fill_panels() {
-  panels_.scene = session_.editor().scene();
+  const std::uint64_t changes = session_.editor().changes();
+  if (std::exchange(panels_changes_, changes) != changes) panels_.scene = session_.editor().scene();
   panels_.model.frame = picture_.shown();
   panels_.model.saved = &session_.editor().document().origin->saved;
   const std::string& title = session_.editor().document().origin->title;
@@ -210,7 +213,7 @@ void MainWindow::draw_interface(const Layout& layout) {
   draw_status(
       ui_, layout.status,
       status_cells(panels_.model.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
-                   {session_.wanted().paused, accuracy.is_true(), session_.split(),
+                   {session_.wanted().paused, accuracy.is_true(), session_.split(), session_.editor().edited(),
                     &accuracy.curves(Half::current, Kind::clean).current()}));
   draw_message(ui_, layout.area, session_.messages().current());
   commands_.draw(ui_, layout.area);
@@ -223,6 +226,7 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const Mouse mouse = read_mouse();
   if (log_) log_->mouse(mouse);
   const std::set<int>& held = platform_.held();
+  const Camera before = panels_.scene.camera;
   PointerTool& pointer = tools_.pointer;
   const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
   const bool rotates = pointer.is_turning(mouse, layout, now);
@@ -231,7 +235,8 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const bool looks = !objects_.active() && picture_tools_.use_mouse(mouse, layout, free);
   const Rect visible = overlap(layout.image, layout.area);
   const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free, shown_state());
-  if (!looks && !divides && !objects_.use_mouse(mouse, layout, ui_.scale, free)) {
+  const bool arranges = !looks && !divides && objects_.use_mouse(mouse, layout, ui_.scale, free);
+  if (!looks && !divides && !arranges) {
     const bool opens = !commands_.has_question() && !objects_.shows_menu();
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
     if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
@@ -240,11 +245,16 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const bool flies =
       tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
   if (flies) pacing_.wake_at(now + min_frame_interval);
+  ui_.changed |= arranges || !(panels_.scene.camera == before);
 }
 
 void MainWindow::apply_panels(double now) {
-  objects_.finish_edit();
-  session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
+  assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
+  if (ui_.changed) {
+    objects_.finish_edit();
+    session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
+    panels_changes_.reset();
+  }
   session_.editor().select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   commands_.carry_out();
@@ -254,7 +264,7 @@ void MainWindow::apply_panels(double now) {
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();
-  platform_.set_title(document.origin->title + (edited(document) ? " (edited)" : "") + " – Tyndall");
+  platform_.set_title(document.origin->title + (session_.editor().edited() ? " (edited)" : "") + " – Tyndall");
 }
 
 /// Takes a message off the screen when its time has come; errors stay.

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
 /// The window's main loop, which ties together all that the other files of this folder do.
 namespace tyndall {
@@ -73,11 +74,12 @@ class MainWindow {
   ObjectTools objects_;
   PictureTools picture_tools_;
   Commands commands_;
-  std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
-  std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of
-  double input_since_ = 0;               ///< when the oldest input came that no drawing has seen; 0: there is none
-  bool takes_in_again_ = false;          ///< an edit waits for what came while the picture was put on the screen
-  double awaits_until_ = 0;              ///< until then nothing is drawn but the picture of an edit that was just sent
+  std::shared_ptr<const Origin> noted_;          ///< the file of the recent ones that was noted last
+  std::optional<std::uint64_t> panels_changes_;  ///< Editor::changes() of the scene that panels_ has a copy of
+  std::uint64_t paced_edit_ = 0;                 ///< newest edit that pacing_ knows of
+  double input_since_ = 0;       ///< when the oldest input came that no drawing has seen; 0: there is none
+  bool takes_in_again_ = false;  ///< an edit waits for what came while the picture was put on the screen
+  double awaits_until_ = 0;      ///< until then nothing is drawn but the picture of an edit that was just sent
 };
 
 }  // namespace tyndall

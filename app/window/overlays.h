@@ -28,6 +28,7 @@ struct StatusState {
   bool paused = false;
   bool is_true = false;                   ///< errors are against a reference, not estimated
   bool split = false;                     ///< the frame is the right half, B
+  bool edited = false;                    ///< the document differs from its file
   const ErrorCurve* clean_run = nullptr;  ///< how the error of its clean view fell; null: not known
 };
 

@@ -84,7 +84,7 @@ std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, 
     if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});
   }
   cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});
-  cells.push_back({document.origin->title, edited(document) ? "edited" : "", 2});
+  cells.push_back({document.origin->title, state.edited ? "edited" : "", 2});
   return cells;
 }
 

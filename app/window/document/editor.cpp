@@ -42,6 +42,12 @@ void Editor::edit(Scene next, std::uint64_t gesture) {
   if (!same) events_.picture_changed();
 }
 
+bool Editor::edited() const {
+  if (compared_changes_ != changes_) edited_ = tyndall::edited(document());
+  compared_changes_ = changes_;
+  return edited_;
+}
+
 void Editor::undo() { step(&History::undo, "nothing to undo"); }
 void Editor::redo() { step(&History::redo, "nothing to redo"); }
 
@@ -69,7 +75,8 @@ void Editor::restore(Document restored, bool file_changed) {
   ++changes_;
   events_.picture_changed();
   watch();
-  if (file_changed && edited(document())) changed_file_ = Document{document().origin->saved, document().origin};
+  if (file_changed && tyndall::edited(document()))
+    changed_file_ = Document{document().origin->saved, document().origin};
   messages_.say("restored the edits of " + title + " that were not saved; Ctrl + Z: without them");
 }
 
@@ -91,7 +98,7 @@ void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
     return;
   }
   const ObjectPaths selected = own_file ? paths_after(scene(), next.scene, selection()) : ObjectPaths{};
-  const std::string left = !own_file && edited(document()) ? document().origin->title : "";
+  const std::string left = !own_file && tyndall::edited(document()) ? document().origin->title : "";
   history_.record(std::move(next), 0);
   select(selected);
   if (!same) {
@@ -182,7 +189,7 @@ void Editor::take_file(const Document& file) {
   }
   if (file.scene == document().origin->saved)
     history_.set_origin(file.origin);  // it was only written again
-  else if (edited(document()) && !(file.scene == scene()))
+  else if (tyndall::edited(document()) && !(file.scene == scene()))
     changed_file_ = file;
   else
     show(file, true);

@@ -45,6 +45,9 @@ class Editor {
   const Document& document() const { return history_.current(); }
   const Scene& scene() const { return history_.current().scene; }
 
+  /// Whether the scene differs from what its file holds; found out once after each change.
+  bool edited() const;
+
   /// Takes an edited scene: checks and remembers it. What is broken is refused with a message. gesture: edits of the
   /// same number that follow each other are one step to undo; 0: none.
   void edit(Scene scene, std::uint64_t gesture);
@@ -103,6 +106,8 @@ class Editor {
   UiLog* log_;
   History history_;
   std::uint64_t changes_ = 0;
+  mutable std::optional<std::uint64_t> compared_changes_;  ///< when edited_ was found out
+  mutable bool edited_ = false;
   std::string unreadable_;                ///< what is wrong with the files as they are now; empty: nothing
   std::optional<Document> changed_file_;  ///< what the file holds, while the user is asked about it
   std::atomic<bool> file_changed_ = false;

@@ -57,7 +57,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   ImGui::PopFont();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
   end_row(ui, row);
-  return changed;
+  return changed_if(ui, changed);
 }
 
 bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen) {
@@ -87,7 +87,7 @@ bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& cho
     ImGui::EndCombo();
   }
   end_row(ui, row);
-  return changed;
+  return changed_if(ui, changed);
 }
 
 }  // namespace tyndall

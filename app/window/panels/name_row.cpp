@@ -56,7 +56,7 @@ bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::
     log_item(ui, row.name, value);
   }
   end_row(ui, row);
-  return changed;
+  return changed_if(ui, changed);
 }
 
 }  // namespace tyndall

@@ -281,11 +281,13 @@ TEST_CASE("the selection stays on its objects through undo, redo and a file that
 
 TEST_CASE("saving is no edit, and is not read again as one") {
   OpenedSession opened("save");
+  CHECK_FALSE(opened.session->editor().edited());
   opened.set_fuzz(0.5);
+  CHECK(opened.session->editor().edited());
   REQUIRE(opened.finishes());
   const std::uint64_t edits = opened.session->renderers().edit(Half::current);
   opened.session->editor().save(opened.session->editor().document().origin->file);
-  CHECK_FALSE(edited(opened.session->editor().document()));
+  CHECK_FALSE(opened.session->editor().edited());
   const auto saved = opened.session->editor().document().origin;
   // The file was read again.
   REQUIRE(opened.comes_true([&] { return opened.session->editor().document().origin != saved; }));

@@ -77,7 +77,7 @@ TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
   Document edited_document = document();
   edited_document.scene.render.fresnel = FresnelKind::schlick;
   int warnings = 0;
-  const std::vector<StatusCell> cells = status_cells(&frame, {}, edited_document, {});
+  const std::vector<StatusCell> cells = status_cells(&frame, {}, edited_document, {.edited = true});
   for (const StatusCell& cell : cells) warnings += cell.warning;
   CHECK(warnings == 2);
   frame.cut_throughput = 0.02;

@@ -38,9 +38,12 @@ class Column {
   void draw() {
     imgui_.frame([&] {
       ui.problem.clear();
+      ui.changed = false;
+      const Scene before = state.scene;
       state.wanted_pictures.clear();
       draw_column(ui, state, {0, 0, 372, height});
       log_.end_of_widgets();
+      CHECK((ui.changed || state.scene == before));  // no control edits the scene without a word
       if (!ui.problem.empty()) problem = ui.problem;
       for (const Request& request : std::exchange(state.requests, {})) {
         if (request.action == Action::view) state.model.view = request.number;

@@ -126,6 +126,27 @@ TEST_CASE("choices change what they say, and only that") {
   CHECK(column.has_query_for({Action::scene, 0, "cover"}));
 }
 
+TEST_CASE("a drawing in which no control was moved leaves the scene alone, and one in which one was says so") {
+  Column column;
+  column.draw();
+  CHECK_FALSE(column.ui.changed);
+  column.aim("gold.fuzz", 0.2);
+  CHECK_FALSE(column.ui.changed);
+  column.button(true);
+  CHECK(column.ui.changed);
+  column.draw();  // the mouse is held still
+  CHECK_FALSE(column.ui.changed);
+  column.button(false);
+  for (const char* control : {"render.fresnel.schlick", "image.tone_map.aces", "background.kind.gradient"}) {
+    column.aim(control);
+    column.button(true);
+    column.button(false);
+    CHECK_MESSAGE(column.ui.changed, control);
+    column.draw();
+    CHECK_FALSE(column.ui.changed);
+  }
+}
+
 TEST_CASE("the controls of the section Accuracy ask for what they say") {
   Column column;
   column.click("chart.export");
