@@ -12,37 +12,24 @@ namespace tyndall {
 void Closing::begin(Dialog& dialog) {
   if (step_ == Step::writes || step_ == Step::done) return;
   discards_ = false;
-  if (!session_.editor().unsaved()) return finish();
+  const Document* unsaved = session_.editor().unsaved();
+  if (!unsaved) return finish();
   step_ = Step::asking;
-  dialog = {Dialog::Kind::close, {}, true, 0};
+  dialog = close_dialog(*unsaved->origin);
 }
 
-bool Closing::draw(Ui& ui, const Rect& area, Dialog& dialog) {
-  if (step_ == Step::asking && dialog.kind != Dialog::Kind::close) step_ = Step::none;  // closed by Esc
+void Closing::draw(Ui& ui, const Rect& area, const Dialog& dialog) {
+  if (step_ == Step::asking && dialog.kind != Dialog::Kind::close) step_ = Step::none;
   if (step_ == Step::saves && dialog.kind == Dialog::Kind::none) {
     step_ = Step::none;  // what was cancelled or failed leaves the window open
     if (!session_.editor().unsaved()) finish();
   }
-  if (step_ == Step::begins) step_ = Step::saves;
   if (step_ == Step::writes) draw_progress(ui, area);
-  return step_ == Step::asking && draw_question(ui, area, dialog);
 }
 
-bool Closing::draw_question(Ui& ui, const Rect& area, Dialog& dialog) {
-  const Document* unsaved = session_.editor().unsaved();
-  begin_dialog(ui, area);
-  ImGui::TextUnformatted(("Save the edits of " + (unsaved ? unsaved->origin->title : "the scene") + "?").c_str());
-  note(ui, "The file of the scene does not have them.", false);
-  const Answer answers[] = {{"dialog.save", "Save"}, {"dialog.discard", "Discard"}, {"dialog.cancel", "Cancel"}};
-  const int answer = draw_answers(ui, dialog, answers);
-  dialog.fresh = false;
-  end_dialog();
-  if (answer < 0) return false;
-  dialog.kind = Dialog::Kind::none;
-  step_ = answer == 0 ? Step::begins : Step::none;
-  discards_ = answer == 1;
-  if (discards_) finish();
-  return answer == 0;
+void Closing::discard() {
+  discards_ = true;
+  finish();
 }
 
 /// Nothing is left but to write files; rendering would take the processors from that.

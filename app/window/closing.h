@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/overlays.h"
+#include "app/window/dialog.h"
 #include "app/window/session.h"
 
 /// How the window closes without losing anything.
@@ -13,9 +13,12 @@ class Closing {
 
   /// The user wants to close the window. dialog: the window's; a question in it is replaced.
   void begin(Dialog& dialog);
-  /// Draws the question or the progress, and goes on. Returns whether the user has just chosen to save: then the caller
-  /// saves, perhaps after questions of its own in the dialog.
-  bool draw(Ui& ui, const Rect& area, Dialog& dialog);
+  /// Draws the progress, and goes on. To be called before the dialog is drawn.
+  void draw(Ui& ui, const Rect& area, const Dialog& dialog);
+  /// The user has chosen to save, which the caller does, perhaps after questions of its own in the dialog.
+  void save() { step_ = Step::saves; }
+  /// The user does not want the edits.
+  void discard();
   /// Stays open after all. Returns whether the window was waiting for files.
   bool cancel();
   /// The window may go.
@@ -25,12 +28,10 @@ class Closing {
   enum class Step {
     none,
     asking,  ///< whether to save
-    begins,  ///< the user chose to; the caller saves when this drawing has ended
     saves,   ///< the user chose to; questions of saving may be open
     writes,  ///< files are still being written
     done
   };
-  bool draw_question(Ui& ui, const Rect& area, Dialog& dialog);
   void draw_progress(Ui& ui, const Rect& area);
   void finish();
   void leave();

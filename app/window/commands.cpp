@@ -89,7 +89,8 @@ void Commands::act_on_rendering(const Request& request) {
       wanted.threads = request.number;
       return;
     case Action::reference:
-      return ask_reference(dialog_);
+      dialog_ = reference_dialog(session_.accuracy().reference() != nullptr);
+      return;
     case Action::open_reference:
       return session_.references().open(request.text);
     case Action::render_reference:
@@ -123,7 +124,7 @@ void Commands::act_on_rendering(const Request& request) {
       session_.split() ? end_split() : session_.set_split(true);
       break;
     case Action::keep_half:
-      session_.keep_half(static_cast<Half>(request.number));
+      session_.keep_half(request.number == 0 ? Half::kept : Half::current);
       break;
     default:
       return;
@@ -142,8 +143,10 @@ void Commands::act_on_document(const Request& request) {
     case Action::redo:
       return session_.editor().redo();
     case Action::open:
-      dialog_ = {Dialog::Kind::open, {}, true, 0};
+      dialog_ = open_dialog();
       return;
+    case Action::open_file:
+      return session_.references().open_dropped(std::filesystem::absolute(request.text));
     case Action::scene:
       return session_.editor().open(request.text);
     case Action::save:
@@ -152,22 +155,23 @@ void Commands::act_on_document(const Request& request) {
       return save_as();
     case Action::take_file:
       return session_.editor().answer_about_file(request.number == 1);
+    case Action::save_to:
+      return save_to(request.text);
+    case Action::save_named:
+      return save_named(request.text);
     case Action::save_unsaved:
+      closing_.save();
       session_.editor().go_to_unsaved();
       return save();
+    case Action::discard_unsaved:
+      return closing_.discard();
     default:
       return;
   }
 }
 
 void Commands::open_palette() {
-  std::vector<PaletteItem> items;
-  palette_requests_.clear();
-  for (PaletteLine& line : palette_lines(session_.editor().scene(), panels_.selected, listed_scenes())) {
-    items.push_back(std::move(line.item));
-    palette_requests_.push_back(std::move(line.request));
-  }
-  palette_.open(std::move(items));
+  palette_.open(palette_items(session_.editor().scene(), panels_.selected, listed_scenes()));
 }
 
 void Commands::go_to_row(const RowEntry& row) {
@@ -201,19 +205,29 @@ void Commands::frame_selection() {
 
 void Commands::save_as() {
   const Origin& origin = *session_.editor().document().origin;
-  ask_name(dialog_, origin.file.empty() ? std::filesystem::path(stem_of(origin.title) + ".json") : origin.file);
+  dialog_ = name_dialog(origin.file.empty() ? std::filesystem::path(stem_of(origin.title) + ".json") : origin.file);
 }
 
+/// Asks first before saving destroys something of the document's file.
 void Commands::save() {
   const Origin& origin = *session_.editor().document().origin;
-  if (origin.file.empty())
-    save_as();
-  else if (file_differs(origin))
-    dialog_ = {Dialog::Kind::overwrite, {}, true, 1};
-  else if (origin.comments)
-    dialog_ = {Dialog::Kind::comments, {}, true, 1};
+  if (origin.file.empty()) return save_as();
+  const bool differs = file_differs(origin);
+  if (differs || origin.comments)
+    dialog_ = loss_dialog(origin, differs);
   else
     session_.editor().save(origin.file);
+}
+
+void Commands::save_to(const std::filesystem::path& file) {
+  if (!session_.editor().save(file)) dialog_ = name_dialog(file);  // what was typed is not lost
+}
+
+void Commands::save_named(std::filesystem::path file) {
+  if (file.extension() != ".json") file += ".json";  // a scene file, as its name is to say
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return save_to(file);
+  dialog_ = replace_dialog(file);
 }
 
 /// A view of errors needs something to measure against; without it the view stays and a message says why.
@@ -225,10 +239,9 @@ void Commands::select_view(int index) {
 }
 
 void Commands::end_split() {
-  if (session_.method(Half::kept) == session_.method(Half::current))
-    session_.set_split(false);
-  else
-    dialog_ = {Dialog::Kind::halves, {}, true, 2};
+  const std::string kept = session_.method(Half::kept), current = session_.method(Half::current);
+  if (kept == current) return session_.set_split(false);
+  dialog_ = halves_dialog(kept, current);
 }
 
 void Commands::ask_to_close() {
@@ -266,23 +279,13 @@ void Commands::escape() {
 }
 
 void Commands::draw(Ui& ui, const Rect& area) {
-  std::vector<Request>& requests = panels_.requests;
-  const int chosen = palette_.draw(ui, area);
-  if (chosen >= 0) requests.push_back(palette_requests_[static_cast<std::size_t>(chosen)]);
+  if (auto chosen = palette_.draw(ui, area)) panels_.requests.push_back(std::move(*chosen));
   if (shows_help_) draw_help(ui, shows_help_);
-  const auto about_reference = draw_reference_dialog(ui, area, dialog_, session_.accuracy().reference() != nullptr);
-  if (about_reference) requests.push_back(*about_reference);
-  const auto file = draw_dialog(ui, area, dialog_, session_.editor().document());
-  if (file && !session_.editor().save(*file)) ask_name(dialog_, *file);  // what was typed is not lost
-  const auto opened = draw_open_dialog(ui, area, dialog_);
-  if (opened) session_.references().open_dropped(std::filesystem::absolute(*opened));
-  if (session_.editor().offers_reload() && !has_question()) dialog_ = {Dialog::Kind::changed_file, {}, true, 0};
-  const auto take = draw_changed_file_dialog(ui, area, dialog_, session_.editor().document());
-  if (take) requests.push_back({Action::take_file, *take ? 1 : 0});
+  if (session_.editor().offers_reload() && !has_question())
+    dialog_ = changed_file_dialog(*session_.editor().document().origin);
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
-  const auto half = draw_halves_dialog(ui, area, dialog_, session_.method(Half::kept), session_.method(Half::current));
-  if (half) requests.push_back({Action::keep_half, static_cast<int>(*half)});
-  if (closing_.draw(ui, area, dialog_)) requests.push_back({Action::save_unsaved});
+  closing_.draw(ui, area, dialog_);
+  if (auto answer = draw_dialog(ui, area, dialog_)) panels_.requests.push_back(std::move(*answer));
 }
 
 void Commands::carry_out() {

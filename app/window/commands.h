@@ -69,6 +69,8 @@ class Commands {
   void end_split();
   void save();
   void save_as();
+  void save_to(const std::filesystem::path& file);
+  void save_named(std::filesystem::path file);
   /// What can be opened by a click: the built-in scenes, and the files that were opened before.
   std::vector<std::string> listed_scenes() const;
   void escape();
@@ -82,7 +84,6 @@ class Commands {
   PictureTools& picture_;
   Dialog dialog_;
   Palette palette_;
-  std::vector<Request> palette_requests_;  ///< of its lines
   Closing closing_;
   UiLog* log_;  ///< may be null
   bool shows_help_ = false, shows_panels_ = true;

@@ -251,8 +251,9 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
 void MainWindow::apply_panels(double now) {
   assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
   if (ui_.changed) {
-    objects_.finish_edit();
-    session_.editor().edit(std::move(panels_.scene), tools_.gestures.current());
+    const std::uint64_t gesture = tools_.gestures.current();
+    tools_.start.finish_edit(session_.editor().scene(), panels_.scene, gesture);
+    session_.editor().edit(std::move(panels_.scene), gesture);
     panels_changes_.reset();
   }
   session_.editor().select(all_selected(panels_));

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/appearance.h"
 #include "app/window/commands.h"
+#include "app/window/edit/linked_objects.h"
 #include "app/window/rendering/picture_view.h"
 #include "app/window/system/end_signals.h"
 #include "app/window/tools/flight.h"
@@ -27,6 +28,7 @@ struct Tools {
   PointerTool pointer;
   Flight flight;
   Gestures gestures;
+  GestureStart start;
 };
 
 /// The window: waits for events, draws when there is something new, and hands edits to the session.

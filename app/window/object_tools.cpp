@@ -57,16 +57,18 @@ void ObjectTools::look_under(float x, float y) {
 
 void ObjectTools::open_menu(const std::string& title, std::span<const Action> list) {
   std::vector<MenuItem> items;
-  menu_actions_.clear();
   const bool none = selected().empty();
   for (const ActionEntry& entry : actions()) {
     if (std::find(list.begin(), list.end(), entry.action) == list.end()) continue;
     const bool on_objects = !is_addition(entry.action) && entry.action != Action::frame;
     std::string why_not = none && (on_objects || entry.action == Action::frame) ? "select an object first" : "";
     const bool first_addition = entry.action == Action::add_sphere && !items.empty();
-    items.push_back({"menu." + log_name(entry.name), entry.name, entry.key.code != 0 ? text_of(entry.key) : "",
-                     std::move(why_not), first_addition});
-    menu_actions_.push_back(entry.action);
+    items.push_back({"menu." + log_name(entry.name),
+                     entry.name,
+                     text_of(entry.key),
+                     std::move(why_not),
+                     first_addition,
+                     {entry.action}});
   }
   menu_.open(mouse_.x, mouse_.y, title, std::move(items));
   pacing_.on_event();
@@ -216,8 +218,7 @@ void ObjectTools::draw(Ui& ui, const Layout& layout) {
     }
   }
   shows_menu_ = menu_.is_open();
-  const int chosen = menu_.draw(ui, layout.area);
-  if (chosen >= 0) panels_.requests.push_back({menu_actions_[static_cast<std::size_t>(chosen)]});
+  if (auto chosen = menu_.draw(ui, layout.area)) panels_.requests.push_back(std::move(*chosen));
 }
 
 }  // namespace tyndall

@@ -1,7 +1,6 @@
 #pragma once
 #include "app/window/actions/actions.h"
 #include "app/window/edit/add_object.h"
-#include "app/window/edit/gesture_start.h"
 #include "app/window/handles/handle_tool.h"
 #include "app/window/menus/menu.h"
 #include "app/window/panels/panels.h"
@@ -34,8 +33,6 @@ class ObjectTools {
   bool use_mouse(const Mouse& mouse, const Layout& layout, float scale, bool free);
   /// A click of the left button selects or focuses; of the right button opens the menu.
   void click(const Layout& layout, const Mouse& mouse, PressedButton button);
-  /// Ends what the panels and the mouse did to the panels' scene: companions follow.
-  void finish_edit() { start_.finish_edit(session_.editor().scene(), panels_.scene, gestures_.current()); }
 
   /// Draws outline, handles and menu, and does what was chosen.
   void draw(Ui& ui, const Layout& layout);
@@ -65,9 +62,7 @@ class ObjectTools {
   Pacing& pacing_;
   HandleTool handles_;
   ClickPlace clicks_;
-  GestureStart start_;
   Menu menu_;
-  std::vector<Action> menu_actions_;
   Mouse mouse_;    ///< as the last drawing found it
   Layout layout_;  ///< of the last drawing
   float scale_ = 1;

@@ -45,11 +45,11 @@ std::string name_of_row(const RowEntry& row) {
   return "go to: Background " + label;
 }
 
-void add_rows(std::vector<PaletteLine>& lines, const Scene& scene, const ObjectPath& selected) {
-  std::vector<PaletteLine> missing;
+void add_rows(std::vector<PaletteItem>& lines, const Scene& scene, const ObjectPath& selected) {
+  std::vector<PaletteItem> missing;
   for (int k = 0; const RowEntry& row : row_entries()) {
     const std::string owner = owner_of(row, scene, selected);
-    PaletteLine line{{name_of_row(row), owner.empty() ? row.missing : owner, row.also}, {Action::row, k++}};
+    PaletteItem line{name_of_row(row), owner.empty() ? row.missing : owner, row.also, {Action::row, k++}};
     (owner.empty() ? missing : lines).push_back(std::move(line));
   }
   lines.insert(lines.end(), missing.begin(), missing.end());
@@ -57,20 +57,21 @@ void add_rows(std::vector<PaletteLine>& lines, const Scene& scene, const ObjectP
 
 }  // namespace
 
-std::vector<PaletteLine> palette_lines(const Scene& scene, const ObjectPath& selected,
+std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& selected,
                                        const std::vector<std::string>& scenes) {
-  std::vector<PaletteLine> lines;
+  std::vector<PaletteItem> lines;
   for (const ActionEntry& entry : actions())
     if (entry.action != Action::palette)
-      lines.push_back({{entry.name, entry.key.code != 0 ? text_of(entry.key) : "", entry.other_words}, {entry.action}});
+      lines.push_back({entry.name, text_of(entry.key), entry.other_words, {entry.action}});
   add_rows(lines, scene, selected);
   for (int k = 0; k < view_count; ++k)
-    lines.push_back({{std::string("view: ") + view_entry(k).name, k < keyed_views ? std::to_string(k + 1) : "",
-                      words_for(view_entry(k).name)},
+    lines.push_back({std::string("view: ") + view_entry(k).name,
+                     k < keyed_views ? std::to_string(k + 1) : "",
+                     words_for(view_entry(k).name),
                      {Action::view, k}});
   for (int k = 0; const Tab& tab : column_tabs())
-    lines.push_back({{std::string("go to: ") + tab.name, "", words_for(tab.name)}, {Action::section, k++}});
-  for (const std::string& what : scenes) lines.push_back({{"open: " + what, "", "scene"}, {Action::scene, 0, what}});
+    lines.push_back({std::string("go to: ") + tab.name, "", words_for(tab.name), {Action::section, k++}});
+  for (const std::string& what : scenes) lines.push_back({"open: " + what, "", "scene", {Action::scene, 0, what}});
   return lines;
 }
 

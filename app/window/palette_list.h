@@ -9,16 +9,10 @@
 /// All that the palette offers.
 namespace tyndall {
 
-/// A line of the palette, and what it asks for.
-struct PaletteLine {
-  PaletteItem item;
-  Request request;
-};
-
 /// Actions, rows of the column, views, parts of the column and scenes. Rows that the column does not show while this
 /// object is selected (an empty path: nothing is) come after those that it does, and say what to do first. scenes: what
 /// can be opened, for load_scene.
-std::vector<PaletteLine> palette_lines(const Scene& scene, const ObjectPath& selected,
+std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& selected,
                                        const std::vector<std::string>& scenes);
 
 }  // namespace tyndall

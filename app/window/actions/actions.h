@@ -63,9 +63,13 @@ enum class Action {
   clean_as,          ///< number: 0 off, 1 on, 2 beside the raw picture
   render_at,         ///< number: 0 as many pixels as the file says, 1 as many as the window shows
   threads,           ///< number: how many render
-  keep_half,         ///< of the split view; number: see Half
+  keep_half,         ///< of the split view; number: 0 the left one, A, 1 the right one, B
   take_file,         ///< that another program has changed; number: 0 keep the edits, 1 take it
-  save_unsaved,      ///< goes to the edits that no file has, and saves them
+  open_file,         ///< a scene, a picture of one, or a reference: text
+  save_to,           ///< text: its file, which is replaced if it exists
+  save_named,        ///< text: its file, as the user has typed it
+  save_unsaved,      ///< goes to the edits that no file has, saves them and closes the window
+  discard_unsaved,   ///< closes the window
   open_reference,    ///< text: its file
   render_reference,  ///< in the background
   drop_reference
@@ -106,7 +110,7 @@ struct Request {
 /// What a key asks for; nothing for keys that have no action.
 std::optional<Request> request_of_key(int key, Modifiers modifiers);
 
-/// "Ctrl + Shift + Z".
+/// "Ctrl + Shift + Z"; "": no key.
 std::string text_of(const Key& key);
 
 /// Writes an "action" line for each action into the log.

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/tools/selection.h"
 
+#include <cstdint>
 #include <vector>
 
 /// Objects that belong to a sphere or box: the fog within it, and the inner spheres of a shell of glass.
@@ -14,5 +15,22 @@ std::vector<ObjectPath> linked_objects(const Scene& scene, const ObjectPath& pat
 /// the scene when the user began to drag, from which it is worked out so that nothing adds up. Fog gets the very
 /// numbers of its sphere; inner spheres get its centre, and a radius in the same proportion as at the start.
 void move_linked_objects(const Scene& start, const Scene& last, Scene& next);
+
+/// Keeps the scene at the beginning of a gesture, so that what follows from an edit is worked out from there and not
+/// from the drawing before: then nothing adds up.
+class GestureStart {
+ public:
+  /// Lets the companions of what was changed follow. now: the scene before this drawing's edits; next: with them.
+  /// gesture: see Gestures.
+  void finish_edit(const Scene& now, Scene& next, std::uint64_t gesture) {
+    if (next.objects == now.objects) return;
+    if (gesture != gesture_ || start_.objects.empty()) start_ = now, gesture_ = gesture;
+    move_linked_objects(start_, now, next);
+  }
+
+ private:
+  Scene start_;
+  std::uint64_t gesture_ = 0;
+};
 
 }  // namespace tyndall

@@ -57,8 +57,8 @@ bool Menu::take_key(int key) {
   return true;
 }
 
-int Menu::draw(Ui& ui, const Rect& area) {
-  if (!is_open()) return -1;
+std::optional<Request> Menu::draw(Ui& ui, const Rect& area) {
+  if (!is_open()) return {};
   const float s = ui.scale, pad = 10 * s, line = ImGui::GetTextLineHeight() + 6 * s;
   float width = 120 * s;
   for (const MenuItem& item : items_)
@@ -76,10 +76,12 @@ int Menu::draw(Ui& ui, const Rect& area) {
   ImGui::Begin("##menu", nullptr, menu_flags);
   if (fresh_) ImGui::SetWindowFocus();
   ImGui::TextColored(palette::dim, "%s", title_.c_str());
-  int chosen = std::exchange(chosen_, -1);
+  const int by_key = std::exchange(chosen_, -1);
+  std::optional<Request> chosen;
   for (std::size_t k = 0; k < items_.size(); ++k) {
     if (items_[k].separated) ImGui::Separator();
-    if (menu_line(ui, items_[k], static_cast<int>(k) == mark_, width)) chosen = static_cast<int>(k);
+    const int number = static_cast<int>(k);
+    if (menu_line(ui, items_[k], number == mark_, width) || number == by_key) chosen = items_[k].request;
   }
   const bool pressed = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize(), mouse = ImGui::GetIO().MousePos;
@@ -89,7 +91,7 @@ int Menu::draw(Ui& ui, const Rect& area) {
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(3);
-  if (chosen >= 0 || beside) close();
+  if (chosen || beside) close();
   return chosen;
 }
 

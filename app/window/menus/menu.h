@@ -1,6 +1,8 @@
 #pragma once
+#include "app/window/actions/actions.h"
 #include "app/window/panels/widgets.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ struct MenuItem {
   std::string key;         ///< shown on the right: "Ctrl + D"
   std::string why_not;     ///< not "": it cannot be chosen, and why
   bool separated = false;  ///< a line above it
+  Request request{};
 };
 
 /// A list of items at a place of the window, from which one is chosen by a click, or by the arrow keys and Enter.
@@ -25,9 +28,8 @@ class Menu {
 
   /// Up and down move the mark, Enter chooses; key: GLFW's number. Returns whether it was meant for the menu.
   bool take_key(int key);
-  /// Draws it; it closes by a click beside it or when something was chosen. Returns the number of what was chosen; -1:
-  /// nothing.
-  int draw(Ui& ui, const Rect& area);
+  /// Draws it; it closes by a click beside it or when something was chosen. Returns what that asks for.
+  std::optional<Request> draw(Ui& ui, const Rect& area);
 
  private:
   void move_mark(int by);

@@ -123,8 +123,8 @@ bool Palette::draw_text(Ui& ui) {
   return enter;
 }
 
-int Palette::draw(Ui& ui, const Rect& area) {
-  if (!is_open()) return -1;
+std::optional<Request> Palette::draw(Ui& ui, const Rect& area) {
+  if (!is_open()) return {};
   const float s = ui.scale, line = ImGui::GetTextLineHeight() + 6 * s, width = std::min(460 * s, area.width() - 20 * s);
   const std::string before = text_;
   const ImVec2 from{(area.x0 + area.x1 - width) / 2, area.y0 + std::min(60 * s, area.height() / 8)};
@@ -139,15 +139,15 @@ int Palette::draw(Ui& ui, const Rect& area) {
   if (before != text_) mark_ = 0;
   const std::vector<int> found = matching_items(items_, text_);
   mark_ = std::clamp(mark_, 0, std::max(0, static_cast<int>(found.size()) - 1));
-  int chosen = -1;
+  std::optional<Request> chosen;
   ImGui::BeginChild("##lines");
   for (std::size_t k = 0; k < found.size(); ++k) {
     const bool marked = static_cast<int>(k) == mark_;
-    if (palette_line(ui, items_[static_cast<std::size_t>(found[k])], marked, moved_)) chosen = found[k];
+    const PaletteItem& item = items_[static_cast<std::size_t>(found[k])];
+    if (palette_line(ui, item, marked, moved_) || (enter && marked)) chosen = item.request;
   }
   if (found.empty()) note(ui, "nothing has such a name", false);
   ImGui::EndChild();
-  if (enter && !found.empty()) chosen = found[static_cast<std::size_t>(mark_)];
   const ImVec2 size = ImGui::GetWindowSize(), mouse = ImGui::GetIO().MousePos;
   const bool beside = ImGui::IsMouseClicked(0) && !fresh_ &&
                       !Rect{from.x, from.y, from.x + size.x, from.y + size.y}.contains(mouse.x, mouse.y);
@@ -155,7 +155,7 @@ int Palette::draw(Ui& ui, const Rect& area) {
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);
-  if (chosen >= 0 || beside) close();
+  if (chosen || beside) close();
   return chosen;
 }
 

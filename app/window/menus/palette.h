@@ -1,6 +1,8 @@
 #pragma once
+#include "app/window/actions/actions.h"
 #include "app/window/panels/widgets.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@ struct PaletteItem {
   std::string label;  ///< "save as"
   std::string key;    ///< "Ctrl + Shift + S"; "": it has none
   std::string also;   ///< other words by which it is found, separated by ", "
+  Request request{};
 };
 
 /// The numbers of the items that the text may mean, the likeliest first: those whose name (of "view: depth" the part
@@ -30,9 +33,8 @@ class Palette {
 
   /// Up and down move the mark; key: GLFW's number. Returns whether it was meant for the palette.
   bool take_key(int key);
-  /// Draws it; it closes by a click beside it or when something was chosen. Returns the number of what was chosen; -1:
-  /// nothing.
-  int draw(Ui& ui, const Rect& area);
+  /// Draws it; it closes by a click beside it or when something was chosen. Returns what that asks for.
+  std::optional<Request> draw(Ui& ui, const Rect& area);
 
  private:
   bool draw_text(Ui& ui);

@@ -38,15 +38,9 @@ Scene varied_scene() {
   return scene;
 }
 
-std::vector<PaletteItem> items_of(const std::vector<PaletteLine>& lines) {
-  std::vector<PaletteItem> items;
-  for (const PaletteLine& line : lines) items.push_back(line.item);
-  return items;
-}
-
 /// What is marked after the text was typed, that is what Return carries out; "": nothing.
 std::string chosen_by(const std::string& text, const ObjectPath& selected = {}) {
-  const std::vector<PaletteItem> items = items_of(palette_lines(varied_scene(), selected, {"cover", "showroom"}));
+  const std::vector<PaletteItem> items = palette_items(varied_scene(), selected, {"cover", "showroom"});
   const std::vector<int> found = matching_items(items, text);
   return found.empty() ? "" : items[static_cast<std::size_t>(found[0])].label;
 }
@@ -127,7 +121,7 @@ TEST_CASE(
     "no two lines of the palette have the same name, each row has other words, and each other word leads to its own "
     "line") {
   for (const ObjectPath& selected : {ObjectPath{}, ObjectPath{0}, ObjectPath{10}}) {
-    const std::vector<PaletteItem> items = items_of(palette_lines(varied_scene(), selected, {}));
+    const std::vector<PaletteItem> items = palette_items(varied_scene(), selected, {});
     for (std::size_t k = 0; k < items.size(); ++k) {
       const bool is_row = items[k].label.starts_with("go to:");
       CHECK_MESSAGE((!is_row || !items[k].also.empty()), items[k].label);

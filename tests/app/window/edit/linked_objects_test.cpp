@@ -1,7 +1,6 @@
 #include "app/window/edit/linked_objects.h"
 
 #include "app/window/edit/arrange.h"
-#include "app/window/edit/gesture_start.h"
 
 #include <doctest/doctest.h>
 

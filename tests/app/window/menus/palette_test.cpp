@@ -8,15 +8,17 @@ using namespace tyndall;
 
 namespace {
 
-const std::vector<PaletteItem> items{
-    {"save the scene", "Ctrl + S", ""}, {"save as", "", ""}, {"add a lamp", "", ""}, {"undo", "Ctrl + Z", ""}};
+const std::vector<PaletteItem> items{{"save the scene", "Ctrl + S", "", {Action::save}},
+                                     {"save as", "", "", {Action::save_as}},
+                                     {"add a lamp", "", "", {Action::add_light}},
+                                     {"undo", "Ctrl + Z", "", {Action::undo}}};
 
 /// The palette over a picture.
 struct Drawn {
   NullImGui imgui;
   Ui ui;
   Palette palette;
-  int chosen = -1;
+  std::optional<Request> chosen;
 
   Drawn() {
     palette.open(items);
@@ -24,8 +26,7 @@ struct Drawn {
   }
   void draw() {
     imgui.frame([&] {
-      const int now = palette.draw(ui, {0, 0, 900, 700});
-      if (now >= 0) chosen = now;
+      if (const auto now = palette.draw(ui, {0, 0, 900, 700})) chosen = now;
     });
   }
   void type(const char* text) {
@@ -65,18 +66,18 @@ TEST_CASE("typing and Enter choose the first that fits, the arrow keys another o
   Drawn first;
   first.type("save");
   first.enter();
-  CHECK(first.chosen == 0);
+  CHECK(first.chosen == Request{Action::save});
   CHECK_FALSE(first.palette.is_open());
   Drawn second;
   second.type("save");
   CHECK(second.palette.take_key(264));  // down
   second.draw();
   second.enter();
-  CHECK(second.chosen == 1);
+  CHECK(second.chosen == Request{Action::save_as});
   Drawn none;
   none.type("nothing");
   none.enter();
-  CHECK(none.chosen == -1);
+  CHECK_FALSE(none.chosen);
   CHECK(none.palette.is_open());
 }
 
@@ -89,7 +90,7 @@ TEST_CASE("after Return without a match, or a click into the palette, typing goe
   drawn.press(ImGuiKey_Backspace);
   drawn.type("ve a");
   drawn.enter();
-  CHECK(drawn.chosen == 1);
+  CHECK(drawn.chosen == Request{Action::save_as});
   Drawn clicked;
   clicked.type("nothing");
   compat::mouse_pos(ImGui::GetIO(), 450, 300);
@@ -103,7 +104,7 @@ TEST_CASE("after Return without a match, or a click into the palette, typing goe
   for (int k = 0; k < 7; ++k) clicked.press(ImGuiKey_Backspace);
   clicked.type("undo");
   clicked.enter();
-  CHECK(clicked.chosen == 3);
+  CHECK(clicked.chosen == Request{Action::undo});
 }
 
 TEST_CASE("a click beside the palette closes it") {
@@ -113,7 +114,7 @@ TEST_CASE("a click beside the palette closes it") {
   compat::mouse_button(ImGui::GetIO(), 0, true);
   drawn.draw();
   CHECK_FALSE(drawn.palette.is_open());
-  CHECK(drawn.chosen == -1);
+  CHECK_FALSE(drawn.chosen);
   CHECK_FALSE(drawn.palette.take_key(264));
 }
 
@@ -130,5 +131,5 @@ TEST_CASE("what was typed into a palette that was closed cannot be undone in a l
   compat::control_key(ImGui::GetIO(), false);
   drawn.type("u");
   drawn.enter();
-  CHECK(drawn.chosen == 3);
+  CHECK(drawn.chosen == Request{Action::undo});
 }

@@ -1,0 +1,180 @@
+#include "app/window/dialog.h"
+
+#include "app/window/system/imgui_compat.h"
+
+#include <cstdlib>
+#include <cstring>
+
+namespace tyndall {
+namespace {
+
+constexpr ImGuiWindowFlags box_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+
+/// A text field for the name of a file, which takes the keyboard at first. Returns whether Return was pressed in it.
+bool draw_name_field(Ui& ui, Dialog& dialog) {
+  ImGui::Dummy({0, 2 * ui.scale});
+  ImGui::SetNextItemWidth(420 * ui.scale);
+  if (dialog.fresh) ImGui::SetKeyboardFocusHere();
+  const bool enter = ImGui::InputTextWithHint("##name", dialog.hint, dialog.name, sizeof dialog.name,
+                                              ImGuiInputTextFlags_EnterReturnsTrue);
+  log_item(ui, "dialog.name", dialog.name);
+  return enter;
+}
+
+/// The file whose name was typed: "~/" stands for the home folder, as in a shell.
+std::filesystem::path typed_file(const std::string& name) {
+  const char* home = std::getenv("HOME");
+  return home && name.starts_with("~/") ? std::filesystem::path(home) / name.substr(2) : std::filesystem::path(name);
+}
+
+/// A row of buttons. Tab and the arrow keys mark another one, Return and the space bar press the marked one, unless a
+/// text field has the keyboard. Returns the number of the one that was pressed, -1: none.
+int draw_answers(Ui& ui, Dialog& dialog) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const int count = static_cast<int>(dialog.answers.size());
+  int pressed = -1;
+  if (!dialog.fresh && !io.WantTextInput) {
+    const bool tab = compat::key_pressed(ImGuiKey_Tab);
+    if (compat::key_pressed(ImGuiKey_RightArrow) || (tab && !io.KeyShift)) ++dialog.marked;
+    if (compat::key_pressed(ImGuiKey_LeftArrow) || (tab && io.KeyShift)) dialog.marked += count - 1;
+    dialog.marked %= count;
+    for (const ImGuiKey key : {ImGuiKey_Enter, ImGuiKey_KeyPadEnter, ImGuiKey_Space})
+      if (compat::key_pressed(key, false)) pressed = dialog.marked;
+  }
+  ImGui::Dummy({0, 4 * ui.scale});
+  for (int k = 0; k < count; ++k) {
+    const Answer& answer = dialog.answers[static_cast<std::size_t>(k)];
+    if (k > 0) ImGui::SameLine();
+    if (small_button(ui, answer.name, answer.label)) pressed = k;
+    if (k != dialog.marked || io.WantTextInput) continue;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float s = ui.scale;
+    ImGui::GetWindowDrawList()->AddRect({low.x - 2 * s, low.y - 2 * s}, {high.x + 2 * s, high.y + 2 * s},
+                                        shade(palette::blue), ImGui::GetStyle().FrameRounding + 2 * s, 0, 1.5f * s);
+  }
+  return pressed;
+}
+
+}  // namespace
+
+void begin_box(Ui& ui, const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowBgAlpha(0.97f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18 * ui.scale, 14 * ui.scale});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::panel);
+  ImGui::Begin(name, nullptr, box_flags | more);
+}
+
+void end_box() {
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+}
+
+void begin_dialog(Ui& ui, const Rect& area) {
+  begin_box(ui, "##dialog", {(area.x0 + area.x1) / 2, (area.y0 + area.y1) / 2}, {0.5f, 0.5f}, 0);
+  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+}
+
+void end_dialog() { end_box(); }
+
+Dialog open_dialog() {
+  return {Dialog::Kind::other,
+          "Open",
+          "a scene, an image that Tyndall has made of one, or a picture to measure the error against",
+          {{"dialog.open", "Open", Request{Action::open_file}}, {"dialog.cancel", "Cancel"}},
+          0,
+          "scene.json"};
+}
+
+Dialog name_dialog(const std::filesystem::path& suggestion) {
+  Dialog dialog{Dialog::Kind::other,
+                "Save the scene as",
+                "",
+                {{"dialog.save", "Save", Request{Action::save_named}}, {"dialog.cancel", "Cancel"}},
+                0,
+                "scene.json"};
+  std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
+  return dialog;
+}
+
+Dialog loss_dialog(const Origin& origin, bool changed) {
+  return {Dialog::Kind::other,
+          changed ? "Another program has changed " + origin.title + " since it was read."
+                  : "Saving " + origin.title + " loses its comments.",
+          changed ? "Saving replaces what it holds now." : "Scenes are written in normal form, which has none.",
+          {{"dialog.save", "Save anyway", Request{Action::save_to, 0, origin.file.string()}},
+           {"dialog.save_as", "Save as…", Request{Action::save_as}},
+           {"dialog.cancel", "Cancel"}},
+          1};
+}
+
+Dialog replace_dialog(const std::filesystem::path& file) {
+  return {Dialog::Kind::other,
+          file.string() + " exists.",
+          "",
+          {{"dialog.replace", "Replace it", Request{Action::save_to, 0, file.string()}}, {"dialog.cancel", "Cancel"}},
+          1};
+}
+
+Dialog reference_dialog(bool has_reference) {
+  Dialog dialog{Dialog::Kind::other,
+                "Measure the error against",
+                "an image of this scene and size, best an EXR of another seed; or one that is rendered now with "
+                "another seed",
+                {{"dialog.load", "Load", Request{Action::open_reference}},
+                 {"dialog.render", "Render one", Request{Action::render_reference}}},
+                0,
+                "reference.exr"};
+  if (has_reference) dialog.answers.push_back({"dialog.drop", "No reference", Request{Action::drop_reference}});
+  dialog.answers.push_back({"dialog.cancel", "Cancel"});
+  return dialog;
+}
+
+Dialog changed_file_dialog(const Origin& origin) {
+  return {Dialog::Kind::changed_file,
+          "Another program has changed " + origin.title + ".",
+          "You have edits of it that are not saved. If you take the file, Ctrl + Z brings them back.",
+          {{"dialog.keep", "Keep my edits", Request{Action::take_file, 0}},
+           {"dialog.take", "Take the file", Request{Action::take_file, 1}}}};
+}
+
+Dialog halves_dialog(const std::string& method_a, const std::string& method_b) {
+  return {Dialog::Kind::halves,
+          "Which half do you keep?",
+          "",
+          {{"dialog.a", "A   " + method_a, Request{Action::keep_half, 0}},
+           {"dialog.b", "B   " + method_b, Request{Action::keep_half, 1}},
+           {"dialog.cancel", "Cancel"}},
+          2};
+}
+
+Dialog close_dialog(const Origin& unsaved) {
+  return {Dialog::Kind::close,
+          "Save the edits of " + unsaved.title + "?",
+          "The file of the scene does not have them.",
+          {{"dialog.save", "Save", Request{Action::save_unsaved}},
+           {"dialog.discard", "Discard", Request{Action::discard_unsaved}},
+           {"dialog.cancel", "Cancel"}}};
+}
+
+std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
+  if (dialog.kind == Dialog::Kind::none) return {};
+  begin_dialog(ui, area);
+  ImGui::TextUnformatted(dialog.question.c_str());
+  note(ui, dialog.note, false);
+  const bool types = dialog.hint != nullptr, enter = types && draw_name_field(ui, dialog);
+  const int pressed = draw_answers(ui, dialog), answer = enter ? 0 : pressed;
+  dialog.fresh = false;
+  end_dialog();
+  if (answer < 0 || (answer == 0 && types && dialog.name[0] == '\0')) return {};
+  std::optional<Request> request = dialog.answers[static_cast<std::size_t>(answer)].request;
+  if (request && types && answer == 0) request->text = typed_file(dialog.name).string();
+  dialog.kind = Dialog::Kind::none;
+  return request;
+}
+
+}  // namespace tyndall
