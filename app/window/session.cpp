@@ -157,7 +157,7 @@ bool Session::collect() {
   came = editor_.collect() || came;
   came = references_.collect() || came;
   came = tell_of_keeping() || came;
-  const auto problem = renderers_.problem();
+  const auto problem = renderers_.reply().problem;
   if (problem == told_problem_) return came;
   told_problem_ = problem;
   if (problem) messages_.say(problem->what, true);

@@ -108,4 +108,12 @@ struct RenderProblem {
   std::string what;
 };
 
+/// All that a renderer has to tell.
+struct RenderReply {
+  std::shared_ptr<const Frame> frame;            ///< the newest one; null before the first
+  std::shared_ptr<const RenderProblem> problem;  ///< of the newest edit if its scene cannot be compiled; else null
+  std::shared_ptr<const PixelReport>
+      pixel;  ///< the newest one, perhaps on the pixel that was watched before; null: none
+};
+
 }  // namespace tyndall

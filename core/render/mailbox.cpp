@@ -46,11 +46,6 @@ std::uint64_t Mailbox::request(RenderRequest request) {
   return newest_.edit;
 }
 
-std::shared_ptr<const PixelReport> Mailbox::pixel() const {
-  const std::lock_guard lock(mutex_);
-  return pixel_;
-}
-
 void Mailbox::note_shown(std::uint64_t pass) {
   const std::lock_guard lock(mutex_);
   if (pass <= shown_pass_) return;
@@ -75,14 +70,9 @@ std::future<Film> Mailbox::ask_for_film() {
   return answer;
 }
 
-std::shared_ptr<const Frame> Mailbox::latest() const {
+RenderReply Mailbox::reply() const {
   const std::lock_guard lock(mutex_);
-  return latest_;
-}
-
-std::shared_ptr<const RenderProblem> Mailbox::problem() const {
-  const std::lock_guard lock(mutex_);
-  return problem_;
+  return reply_;
 }
 
 std::shared_ptr<const PreparedScene> Mailbox::prepared() const {
@@ -112,24 +102,24 @@ std::vector<std::promise<Film>> Mailbox::take_film_requests() {
 void Mailbox::post(std::shared_ptr<Frame> frame) {
   const std::lock_guard lock(mutex_);
   frame->finished = frame->spp >= newest_.full_spp() && !frame->awaits_clean;
-  latest_ = std::move(frame);
+  reply_.frame = std::move(frame);
   posted_at_ = Clock::now();
 }
 
 void Mailbox::post(RenderProblem problem) {
   const std::lock_guard lock(mutex_);
-  problem_ = std::make_shared<const RenderProblem>(std::move(problem));
+  reply_.problem = std::make_shared<const RenderProblem>(std::move(problem));
 }
 
 void Mailbox::post(PixelReport report) {
   const std::lock_guard lock(mutex_);
-  pixel_ = std::make_shared<const PixelReport>(report);
+  reply_.pixel = std::make_shared<const PixelReport>(report);
 }
 
 void Mailbox::post(std::shared_ptr<const PreparedScene> scene) {
   const std::lock_guard lock(mutex_);
   prepared_ = std::move(scene);
-  problem_ = nullptr;
+  reply_.problem = nullptr;
 }
 
 }  // namespace tyndall

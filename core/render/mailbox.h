@@ -48,10 +48,8 @@ class Mailbox {
   /// See Renderer.
   std::uint64_t request(RenderRequest request);
   void note_shown(std::uint64_t pass);
-  std::shared_ptr<const PixelReport> pixel() const;
   std::future<Film> ask_for_film();
-  std::shared_ptr<const Frame> latest() const;
-  std::shared_ptr<const RenderProblem> problem() const;
+  RenderReply reply() const;
   std::shared_ptr<const PreparedScene> prepared() const;
 
   // For the thread that renders.
@@ -91,9 +89,7 @@ class Mailbox {
   std::uint64_t shown_pass_ = 0;  ///< Frame::pass of the newest frame on the screen; 0: nobody tells
   Clock::time_point shown_at_, posted_at_;
 
-  std::shared_ptr<const Frame> latest_;
-  std::shared_ptr<const RenderProblem> problem_;
-  std::shared_ptr<const PixelReport> pixel_;
+  RenderReply reply_;
   std::shared_ptr<const PreparedScene> prepared_;
 };
 

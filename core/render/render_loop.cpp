@@ -26,11 +26,6 @@ ProgressionOptions progression_options(const Scene& scene, int coarse_step, cons
 
 }  // namespace
 
-void RarePathWatch::look(const ShownScene& shown, const Progression& picture) {
-  if (picture.taken() < min_rare_spp || !picture.estimate_is_new()) return;
-  found_ = has_rare_bright_paths(picture.estimate(), picture.taken(), shown.prepared->caustic_chance());
-}
-
 RenderLoop::RenderLoop(Mailbox& mail, Kernels kernels, int threads, std::function<void()> on_frame)
     : mail_(mail),
       kernels_(kernels),
@@ -135,9 +130,7 @@ bool RenderLoop::go_on_from(Film* film) {
       film->first_sample != 0 || film->quantum != scene.film_quantum)
     return false;
   picture_.go_on(std::move(*film), progression_options(shown_.prepared->scene(), 1, request_.wanted.refine_first));
-  rare_paths_.start_over();
-  clean_.start_over();
-  first_picture_ms_.reset();
+  begin_picture();
   return true;
 }
 
@@ -147,14 +140,20 @@ void RenderLoop::start_over(double budget) {
   const int step = first_pictures_.step_for(pixels, budget, request_.wanted.shown_pixels);
   picture_.start(scene, {0, 0, scene.width, scene.height}, 0,
                  progression_options(shown_.prepared->scene(), step, request_.wanted.refine_first));
-  rare_paths_.start_over();
+  begin_picture();
+}
+
+/// Forgets what was found out of the picture before.
+void RenderLoop::begin_picture() {
+  rare_paths_ = false;
   clean_.start_over();
   first_picture_ms_.reset();
 }
 
 void RenderLoop::finish_pass() {
   if (picture_.taken() <= 1) first_pictures_.note_pass(picture_.tally().last_paths_per_second);
-  rare_paths_.look(shown_, picture_);
+  if (picture_.taken() >= min_rare_spp && picture_.estimate_is_new())
+    rare_paths_ = has_rare_bright_paths(picture_.estimate(), picture_.taken(), shown_.prepared->caustic_chance());
   const bool first = !first_picture_ms_;
   report_pixel();
   publish();
@@ -213,7 +212,7 @@ void RenderLoop::publish() {
   frame->max_spp = picture_.max_taken();
   frame->spp = picture_.taken();
   frame->relative_error = picture_.error();
-  frame->rare_bright_paths = rare_paths_.found() || (frame->clean && frame->clean->doubtful);
+  frame->rare_bright_paths = rare_paths_ || (frame->clean && frame->clean->doubtful);
   frame->seconds = tally.seconds;
   frame->mrays_per_s = tally.last_mrays_per_s;
   frame->first_picture_ms = *first_picture_ms_;

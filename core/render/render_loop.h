@@ -19,18 +19,6 @@ struct ShownScene {
   Clock::time_point submitted;  ///< when the edit or its newest restart was asked for
 };
 
-/// Finds out, now and then, whether the estimated error is too small because of light that only rare paths carry.
-class RarePathWatch {
- public:
-  /// To be called when a pass has ended. Does nothing unless the error was estimated after it.
-  void look(const ShownScene& shown, const Progression& picture);
-  bool found() const { return found_; }
-  void start_over() { found_ = false; }
-
- private:
-  bool found_ = false;
-};
-
 class RenderLoop {
  public:
   /// on_frame: see Renderer.
@@ -47,6 +35,7 @@ class RenderLoop {
   bool take_scene();
   bool go_on_from(Film* film);
   void start_over(double budget);
+  void begin_picture();
   void answer_films();
   void finish_pass();
   void yield();
@@ -66,12 +55,12 @@ class RenderLoop {
   ShownScene shown_;
   Progression picture_;
   FirstPictures first_pictures_;
-  RarePathWatch rare_paths_;
   Views views_;
   LiveClean clean_;
   FrameMemory frame_memory_;
 
   ReceivedRequest request_;  ///< that is followed
+  bool rare_paths_ = false;  ///< the estimated error is too small, because of light that only rare paths carry
   bool stalled_ = false;     ///< a step failed; nothing is done until something is asked for
   double budget_ = 0;        ///< seconds for the first picture of the newest edit
   std::uint64_t frames_ = 0;

@@ -38,13 +38,9 @@ Renderer::~Renderer() {
 
 std::uint64_t Renderer::request(RenderRequest request) { return state_->mail.request(std::move(request)); }
 
-std::shared_ptr<const Frame> Renderer::latest() const { return state_->mail.latest(); }
-
-std::shared_ptr<const RenderProblem> Renderer::problem() const { return state_->mail.problem(); }
+RenderReply Renderer::reply() const { return state_->mail.reply(); }
 
 void Renderer::note_shown(std::uint64_t pass) { state_->mail.note_shown(pass); }
-
-std::shared_ptr<const PixelReport> Renderer::pixel() const { return state_->mail.pixel(); }
 
 Film Renderer::film() const { return state_->mail.ask_for_film().get(); }
 

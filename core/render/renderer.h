@@ -26,17 +26,12 @@ class Renderer {
   /// Replaces what is wanted, and returns the number of the edit that it shows. A scene that renders to the same
   /// picture as the one before (equal but for names and display) restarts nothing and keeps its number.
   std::uint64_t request(RenderRequest request);
-  /// The newest frame; null before the first.
-  std::shared_ptr<const Frame> latest() const;
-  /// What is wrong with the newest edit if its scene cannot be compiled; else null.
-  std::shared_ptr<const RenderProblem> problem() const;
-
+  /// What has come of it so far.
+  RenderReply reply() const;
+  std::shared_ptr<const Frame> latest() const { return reply().frame; }
   /// The frame of that pass is on the screen. Once this was called, the renderer gives way to the screen: after the
   /// first frame of an edit it goes on when that was shown, or after 50 ms.
   void note_shown(std::uint64_t pass);
-
-  /// The newest report, perhaps on the pixel that was watched before; null: none yet.
-  std::shared_ptr<const PixelReport> pixel() const;
 
   /// A copy of the film, for example for snapshots. Waits for the end of the pass that is under way, so that all pixels
   /// have as many samples as they are to have. Empty before the first full pass.

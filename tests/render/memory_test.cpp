@@ -75,14 +75,14 @@ TEST_CASE("memory: a renderer that cannot publish its picture says so, and goes 
     // The frame's 4 floats a pixel. The film takes another size.
     const AllocationRefusal refusal = AllocationRefusal::of_size(200 * 100 * 16);
     edit = renderer.submit(scene);
-    renderer.wait_until([&] { return renderer->problem() != nullptr; });
+    renderer.wait_until([&] { return renderer->reply().problem != nullptr; });
     CHECK(refusal.refused() > 0);
   }
-  CHECK(renderer->problem()->what.starts_with("not enough memory"));
+  CHECK(renderer->reply().problem->what.starts_with("not enough memory"));
   scene.camera.vfov = 30;
   edit = renderer.submit(scene);
   CHECK(renderer.wait_for([&](const Frame& f) { return f.edit == edit; })->width == 200);
-  CHECK(renderer->problem() == nullptr);
+  CHECK(renderer->reply().problem == nullptr);
 }
 
 TEST_CASE("memory: whichever request is refused while a renderer follows an edit, it renders the next one") {

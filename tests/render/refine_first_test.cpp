@@ -101,7 +101,7 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
   const FramePointer last = renderer.wait_finished(edit);
   CHECK(last->spp == 64);
   CHECK(last->max_spp == 64);
-  const auto report = renderer->pixel();
+  const auto report = renderer->reply().pixel;
   REQUIRE(report);
   CHECK(report->x == 50);
   CHECK(report->samples == 64);
@@ -109,9 +109,9 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
   const float* shown = last->rgba.data() + 4 * (50 * 160 + 50);
   CHECK(report->mean == Vec3f{shown[0], shown[1], shown[2]});
   renderer.set(&RenderRequest::watched_pixel, std::pair{7, 9});
-  const auto other = [&] { return renderer->pixel()->x == 7; };
+  const auto other = [&] { return renderer->reply().pixel->x == 7; };
   while (!other()) std::this_thread::yield();
-  CHECK(renderer->pixel()->samples == 64);
+  CHECK(renderer->reply().pixel->samples == 64);
 }
 
 TEST_CASE("the standard error of a pixel is that of its mean: it agrees with other seeds") {

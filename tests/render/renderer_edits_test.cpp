@@ -225,9 +225,9 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
   gigantic.width = gigantic.height = 2000000000;  // no machine has the memory
   for (int round = 0; round < 2; ++round) {
     const std::uint64_t bad = renderer.submit(gigantic);
-    renderer.wait_until([&] { return renderer->problem() && renderer->problem()->edit == bad; });
-    CHECK(renderer->problem()->edit == bad);
-    CHECK(renderer->problem()->what.size() > 0);
+    renderer.wait_until([&] { return renderer->reply().problem && renderer->reply().problem->edit == bad; });
+    CHECK(renderer->reply().problem->edit == bad);
+    CHECK(renderer->reply().problem->what.size() > 0);
     CHECK(is_plain(*renderer->latest(), 2));
     CHECK(renderer->latest()->edit < bad);
     CHECK(renderer->latest()->width == 120);
@@ -242,7 +242,7 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
     const std::uint64_t undone = renderer.submit(good);
     CHECK(undone == bad + 1);
     CHECK(is_plain(*renderer.wait_finished(undone, before), 2));
-    CHECK(renderer->problem() == nullptr);
+    CHECK(renderer->reply().problem == nullptr);
   }
   CHECK(last->edit == first);
 }
@@ -261,7 +261,7 @@ TEST_CASE("edits: a renderer that is destroyed while it renders ends at once") {
   CHECK(going < 0.5);
   Renderer idle({1, ""});  // never used
   CHECK(idle.latest() == nullptr);
-  CHECK(idle.problem() == nullptr);
+  CHECK(idle.reply().problem == nullptr);
   CHECK(idle.film().pixels.empty());
   CHECK(idle.pick(0, 0).object.empty());
 }

@@ -63,7 +63,7 @@ void Inspector::find_path(const RendererPair& renderers, const std::shared_ptr<c
 
 bool Inspector::collect(const RendererPair& renderers) {
   const bool found = jobs_.collect();
-  const auto report = on_ ? renderers.pixel() : nullptr;
+  const auto report = on_ ? renderers.reply().pixel : nullptr;
   return std::exchange(report_, report) != report || found;
 }
 

@@ -5,38 +5,54 @@
 #include <utility>
 
 namespace tyndall {
+namespace {
+
+RenderingTime time_of(const Renderer& renderer) {
+  const auto frame = renderer.latest();
+  return frame ? RenderingTime{frame->seconds, frame->finished} : RenderingTime{};
+}
+
+}  // namespace
 
 RendererPair::RendererPair(int threads, std::string isa, std::function<void()> on_frame)
-    : isa_(std::move(isa)),
-      on_frame_([this, on_frame = std::move(on_frame)] {
-        budget_.on_frame();
-        on_frame();
-      }),
-      renderer_({threads, isa_}, on_frame_) {}
+    : isa_(std::move(isa)), told_(std::move(on_frame)), renderer_({threads, isa_}, [this] { on_frame_of_either(); }) {}
 
 RendererPair::~RendererPair() {
-  budget_.split_with(nullptr);  // before the second renderer is destroyed
+  const Begun last = request(current_);  // the second renderer goes first, and the other one knows of it
 }
 
 RendererPair::Begun RendererPair::request(const RenderRequest& current, const RenderRequest& kept) {
   if (current == current_ && kept == kept_) return {};
+  const std::lock_guard lock(mutex_);
   const auto frame = renderer_.latest();
   if (current.restarts != current_.restarts && frame) restarted_after_ = frame->pass;
+  const bool split = kept.scene != nullptr;
+  if (current.threads != current_.threads || split != (second_ != nullptr)) budget_.begin(current.threads, split);
   current_ = current;
   kept_ = kept;
   Begun begun;
-  if (kept.scene && !second_) {
-    second_ = std::make_shared<Renderer>(Renderer::Options{current.threads, isa_}, on_frame_);
+  if (!split) begun.ended = std::exchange(second_, nullptr);
+  if (split && !second_) {
+    const int threads = budget_.part_of(kept, Half::kept).threads;
+    second_ = std::make_shared<Renderer>(Renderer::Options{threads, isa_}, [this] { on_frame_of_either(); });
     kept_edit_ = 0;
-    budget_.split_with(second_.get());
-  } else if (!kept.scene && second_) {
-    budget_.split_with(nullptr);
-    begun.ended = std::exchange(second_, nullptr);
   }
-  const ThreadBudget::Edits edits = budget_.request(current, kept);
-  begun.current = edits.first != edit_.exchange(edits.first);
-  begun.kept = second_ && edits.second != std::exchange(kept_edit_, edits.second);
+  const std::uint64_t edit = renderer_.request(budget_.part_of(current_, Half::current));
+  const std::uint64_t kept_edit = second_ ? second_->request(budget_.part_of(kept_, Half::kept)) : 0;
+  begun.current = edit_.exchange(edit) != edit;
+  begun.kept = std::exchange(kept_edit_, kept_edit) != kept_edit && second_;
   return begun;
+}
+
+void RendererPair::on_frame_of_either() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (second_ && budget_.go_on(time_of(renderer_), time_of(*second_))) {
+      renderer_.request(budget_.part_of(current_, Half::current));
+      second_->request(budget_.part_of(kept_, Half::kept));
+    }
+  }
+  told_();
 }
 
 void RendererPair::note_shown(Half half, std::uint64_t pass) {
@@ -48,6 +64,7 @@ void RendererPair::note_shown(Half half, std::uint64_t pass) {
 
 std::shared_ptr<const Frame> RendererPair::latest(Half half) const {
   if (half == Half::current) return renderer_.latest();
+  const std::lock_guard lock(mutex_);
   return second_ ? second_->latest() : nullptr;
 }
 

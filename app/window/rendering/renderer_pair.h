@@ -1,10 +1,11 @@
 #pragma once
-#include "app/window/accuracy/half.h"
 #include "app/window/rendering/thread_budget.h"
+#include "core/render/renderer.h"
 
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 /// This room makes the pictures and shows them: the renderers behind the window, one or two while the view is split,
@@ -34,7 +35,7 @@ class RendererPair {
   /// A half's frame of that pass is on the screen, see Renderer.
   void note_shown(Half half, std::uint64_t pass);
 
-  /// The newest frame; null: there is none.
+  /// The newest frame; null: there is none. From any thread.
   std::shared_ptr<const Frame> latest(Half half) const;
   /// Number of the newest edit that a half was asked for. That of the current half from any thread.
   std::uint64_t edit(Half half) const { return half == Half::kept ? kept_edit_ : edit_.load(); }
@@ -46,17 +47,19 @@ class RendererPair {
   /// Of the current half, see Renderer; the film from any thread.
   Film film() const { return renderer_.film(); }
   Renderer::Pick pick(int x, int y) const { return renderer_.pick(x, y); }
-  std::shared_ptr<const PixelReport> pixel() const { return renderer_.pixel(); }
-  std::shared_ptr<const RenderProblem> problem() const { return renderer_.problem(); }
+  RenderReply reply() const { return renderer_.reply(); }
 
  private:
+  void on_frame_of_either();
+
   std::string isa_;
-  std::function<void()> on_frame_;
+  std::function<void()> told_;
+  mutable std::mutex mutex_;      ///< guards what follows, and second_
   RenderRequest current_, kept_;  ///< the newest ones
+  ThreadBudget budget_;
   std::atomic<std::uint64_t> edit_ = 0;
   std::uint64_t kept_edit_ = 0;
   std::uint64_t restarted_after_ = 0;  ///< the newest pass of the current half when it was last started over
-  ThreadBudget budget_{renderer_};
   Renderer renderer_;
   std::shared_ptr<Renderer> second_;  ///< of the left half; null: there is no split view
 };

@@ -7,11 +7,6 @@ namespace {
 
 constexpr double slice = 0.3, slack = 0.5;  // seconds of a turn; by which one may be ahead while both work
 
-RenderingTime time_of(const Renderer& renderer) {
-  const auto frame = renderer.latest();
-  return frame ? RenderingTime{frame->seconds, frame->finished} : RenderingTime{};
-}
-
 }  // namespace
 
 Active next_active(Active now, RenderingTime first, RenderingTime second, bool together) {
@@ -27,41 +22,20 @@ Active next_active(Active now, RenderingTime first, RenderingTime second, bool t
   return lead < -slice ? Active::first : Active::second;
 }
 
-void ThreadBudget::split_with(Renderer* second) {
-  const std::lock_guard lock(mutex_);
-  second_ = second;
-  active_ = first_turn();
+void ThreadBudget::begin(int threads, bool split) {
+  threads_ = threads, split_ = split;
+  active_ = split && !together() ? Active::first : Active::both;
 }
 
-ThreadBudget::Edits ThreadBudget::request(RenderRequest first, RenderRequest second) {
-  const std::lock_guard lock(mutex_);
-  const bool other_threads = first.threads != first_wanted_.threads;
-  first_wanted_ = std::move(first);
-  second_wanted_ = std::move(second);
-  if (other_threads) active_ = first_turn();
-  return ask();
+bool ThreadBudget::go_on(RenderingTime current, RenderingTime kept) {
+  const Active active = split_ ? next_active(active_, current, kept, together()) : Active::both;
+  return std::exchange(active_, active) != active;
 }
 
-void ThreadBudget::on_frame() {
-  const std::lock_guard lock(mutex_);
-  if (!second_) return;
-  const Active active = next_active(active_, time_of(first_), time_of(*second_), together());
-  if (std::exchange(active_, active) != active) ask();
-}
-
-/// waits: it is the other one's turn.
-RenderRequest ThreadBudget::part_of(const RenderRequest& wanted, bool waits) const {
-  RenderRequest part = wanted;
-  if (second_ && together()) part.threads /= 2;
-  part.paused |= waits;
-  return part;
-}
-
-ThreadBudget::Edits ThreadBudget::ask() {
-  Edits edits;
-  edits.first = first_.request(part_of(first_wanted_, active_ == Active::second));
-  if (second_) edits.second = second_->request(part_of(second_wanted_, active_ == Active::first));
-  return edits;
+RenderRequest ThreadBudget::part_of(RenderRequest wanted, Half half) const {
+  if (split_ && together()) wanted.threads /= 2;
+  wanted.paused |= active_ == (half == Half::current ? Active::second : Active::first);
+  return wanted;
 }
 
 }  // namespace tyndall

@@ -1,7 +1,6 @@
 #pragma once
-#include "core/render/renderer.h"
-
-#include <mutex>
+#include "app/window/accuracy/half.h"
+#include "core/render/render_request.h"
 
 /// Lets the two renderers of a split view have equal parts of the processors, so that their errors can be compared.
 namespace tyndall {
@@ -19,36 +18,22 @@ enum class Active { both, first, second };
 /// only when it is well ahead; otherwise they take turns.
 Active next_active(Active now, RenderingTime first, RenderingTime second, bool together);
 
-/// Asks the window's renderer and, in a split view, a second one for what is wanted, and shares threads between them in
-/// equal core-seconds: half of the threads each where their number is even, else in turns of a third of a second.
-/// Nothing here waits for rendering.
+/// Shares threads between the halves of a split view, in equal core-seconds: half of the threads each where their
+/// number is even, else in turns of a third of a second.
 class ThreadBudget {
  public:
-  explicit ThreadBudget(Renderer& first) : first_(first) {}
-  ThreadBudget(const ThreadBudget&) = delete;
-  ThreadBudget& operator=(const ThreadBudget&) = delete;
-
-  /// second: null when it is about to go; stays with the caller. What it is asked for comes with request().
-  void split_with(Renderer* second);
-  /// Numbers of the edits that renderers were asked for.
-  struct Edits {
-    std::uint64_t first = 0, second = 0;
-  };
-  /// RenderRequest::threads is here that of both together.
-  Edits request(RenderRequest first, RenderRequest second);
-  /// After each frame of either; from any thread.
-  void on_frame();
+  /// threads: of both together. split: there are two.
+  void begin(int threads, bool split);
+  /// After a frame of either. Returns whether the other one may work from now on, or both may.
+  bool go_on(RenderingTime current, RenderingTime kept);
+  /// What a half's renderer is to be asked for, so that it takes its part and no more.
+  RenderRequest part_of(RenderRequest wanted, Half half) const;
 
  private:
-  Edits ask();
-  RenderRequest part_of(const RenderRequest& wanted, bool waits) const;
-  bool together() const { return first_wanted_.threads >= 2 && first_wanted_.threads % 2 == 0; }
-  Active first_turn() const { return second_ && !together() ? Active::first : Active::both; }
+  bool together() const { return threads_ >= 2 && threads_ % 2 == 0; }
 
-  std::mutex mutex_;
-  Renderer& first_;
-  Renderer* second_ = nullptr;
-  RenderRequest first_wanted_, second_wanted_;
+  int threads_ = 0;
+  bool split_ = false;
   Active active_ = Active::both;
 };
 

@@ -1,4 +1,4 @@
-#include "app/window/rendering/thread_budget.h"
+#include "app/window/rendering/renderer_pair.h"
 
 #include "tests/support/news.h"
 #include "tests/support/pictures.h"
@@ -32,28 +32,17 @@ double greatest_lead(double first_pass, double second_pass, bool together) {
 /// Two renderers that share threads, and how far each was ahead of the other when it began a pass.
 class Sharing {
  public:
-  explicit Sharing(int threads) {
-    second_ = std::make_unique<Renderer>(Renderer::Options{threads, ""}, [this] { on_frame(true); });
-    budget_.split_with(second_.get());
+  explicit Sharing(int threads) : pair_(threads, "", [this] { on_frame(); }) {
     const auto scene = std::make_shared<const Scene>(test::small_scene("cornell-box", 60, 60, 1000000));
     const RenderRequest wanted{.scene = scene, .threads = threads};
-    budget_.request(wanted, wanted);
+    pair_.request(wanted, wanted);
   }
-  ~Sharing() {
-    {
-      const std::lock_guard lock(mutex_);
-      ended_ = true;  // the two are destroyed one after the other: neither must wait for the other any more
-    }
-    budget_.split_with(nullptr);
-  }
-  Sharing(const Sharing&) = delete;
-  Sharing& operator=(const Sharing&) = delete;
 
   /// Waits until each has rendered that many passes.
   bool both_make(int passes) {
     return news_.wait_until([&] {
       const std::lock_guard lock(mutex_);
-      return passes_[0] >= passes && passes_[1] >= passes;
+      return halves_[0].passes >= passes && halves_[1].passes >= passes;
     });
   }
   /// In seconds of rendering, over the passes that began after both renderers had begun.
@@ -63,29 +52,32 @@ class Sharing {
   }
 
  private:
-  void on_frame(bool second) {
+  struct Seen {
+    std::uint64_t pass = 0;  ///< the newest one
+    int passes = 0;
+    double seconds = 0;
+  };
+  void on_frame() {
     {
       const std::lock_guard lock(mutex_);
-      if (ended_) return;
-      const auto mine = (second ? *second_ : first_).latest(), other = (second ? first_ : *second_).latest();
-      double& before = seconds_[second];
-      // The other one may have gone on since this pass began: its lead was at least this.
-      if (mine && other && before > 0) greatest_ = std::max(greatest_, before - other->seconds);
-      if (mine) before = mine->seconds;
-      ++passes_[second];
+      const std::shared_ptr<const Frame> now[2] = {pair_.latest(Half::current), pair_.latest(Half::kept)};
+      for (const int k : {0, 1}) {
+        Seen& mine = halves_[k];
+        const Frame* other = now[1 - k].get();
+        if (!now[k] || now[k]->pass == mine.pass) continue;
+        // The other one may have gone on since this pass began: its lead was at least this.
+        if (other && mine.seconds > 0) greatest_ = std::max(greatest_, mine.seconds - other->seconds);
+        mine = {now[k]->pass, mine.passes + 1, now[k]->seconds};
+      }
     }
-    budget_.on_frame();
     news_.tell();
   }
 
   mutable std::mutex mutex_;
-  double seconds_[2] = {0, 0}, greatest_ = 0;
-  int passes_[2] = {0, 0};
-  bool ended_ = false;
+  Seen halves_[2];
+  double greatest_ = 0;
   test::News news_;
-  ThreadBudget budget_{first_};
-  Renderer first_{{1, ""}, [this] { on_frame(false); }};
-  std::unique_ptr<Renderer> second_;  // declared last, so that it stops first
+  RendererPair pair_;  // declared last, so that it stops first
 };
 
 }  // namespace
@@ -114,6 +106,28 @@ TEST_CASE("renderers that share threads begin no pass while they are well ahead,
     REQUIRE(sharing.both_make(12));
     CHECK(sharing.greatest_lead() < 0.5 + 1e-9);
   }
+}
+
+TEST_CASE(
+    "of an even number of threads each half gets one half, of an odd one all in turns; without a second one all") {
+  const RenderRequest both{.threads = 6, .paused = false};
+  ThreadBudget budget;
+  budget.begin(6, false);
+  CHECK(budget.part_of(both, Half::current) == both);
+  CHECK_FALSE(budget.go_on({9, false}, {0, false}));
+  budget.begin(6, true);
+  for (const Half half : {Half::current, Half::kept}) {
+    CHECK(budget.part_of(both, half).threads == 3);
+    CHECK_FALSE(budget.part_of(both, half).paused);
+  }
+  budget.begin(5, true);
+  CHECK(budget.part_of({.threads = 5}, Half::current).threads == 5);
+  CHECK_FALSE(budget.part_of({.threads = 5}, Half::current).paused);
+  CHECK(budget.part_of({.threads = 5}, Half::kept).paused);
+  CHECK(budget.go_on({1, false}, {0, false}));
+  CHECK(budget.part_of({.threads = 5}, Half::current).paused);
+  CHECK_FALSE(budget.part_of({.threads = 5}, Half::kept).paused);
+  CHECK(budget.part_of({.threads = 5, .paused = true}, Half::kept).paused);
 }
 
 TEST_CASE("a renderer that has finished does not keep the other one waiting") {
