@@ -1,7 +1,6 @@
 #include "app/cli/options_render.h"
 #include "core/base/text.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace tyndall {

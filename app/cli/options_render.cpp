@@ -1,6 +1,5 @@
 #include "app/cli/options_render.h"
 
-#include "app/cli/render_setup.h"
 #include "app/cli/setting_options.h"
 #include "core/base/target.h"
 #include "core/base/thread_pool.h"

@@ -15,7 +15,6 @@
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
-#include "core/render/plan.h"
 #include "core/system/processors.h"
 
 #include <fmt/core.h>

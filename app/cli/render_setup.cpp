@@ -2,16 +2,13 @@
 
 #include "app/cli/setting_options.h"
 #include "app/files/film_files.h"
-#include "app/files/outputs.h"
 #include "app/report/contents.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
 #include "core/render/plan.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
-#include <tuple>
 
 namespace tyndall {
 namespace {

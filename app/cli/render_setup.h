@@ -5,7 +5,6 @@
 #include "core/scene/load.h"
 #include "core/targets/kernels.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

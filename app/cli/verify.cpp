@@ -7,7 +7,6 @@
 #include "app/text/standard_streams.h"
 #include "core/base/seconds.h"
 #include "core/base/thread_pool.h"
-#include "core/compile/compile.h"
 
 #include <chrono>
 #include <cmath>

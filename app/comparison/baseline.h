@@ -1,8 +1,6 @@
 #pragma once
 #include "app/comparison/comparison.h"
 
-#include <map>
-
 /// A folder of pictures that renders should go on looking like, for other people's tests: each with its tolerances.
 ///
 /// The folder holds the pictures by name and the file tolerances.json:

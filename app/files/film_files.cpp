@@ -1,6 +1,5 @@
 #include "app/files/film_files.h"
 
-#include "app/files/outputs.h"
 #include "app/files/stats.h"
 #include "app/text/values.h"
 #include "core/base/seconds.h"

@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>

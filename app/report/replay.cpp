@@ -2,7 +2,6 @@
 
 #include "app/report/names.h"
 #include "core/base/random.h"
-#include "core/base/text.h"
 
 #include <fmt/core.h>
 

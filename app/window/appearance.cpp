@@ -1,7 +1,5 @@
 #include "app/window/appearance.h"
 
-#include "app/window/tools/selection.h"
-
 #include <algorithm>
 
 namespace tyndall {

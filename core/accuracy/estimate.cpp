@@ -1,7 +1,6 @@
 #include "core/accuracy/estimate.h"
 
 #include "core/accuracy/relative.h"
-#include "core/base/error_sum.h"
 
 #include <algorithm>
 #include <array>

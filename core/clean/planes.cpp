@@ -3,7 +3,6 @@
 #include "core/clean/filter_view.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <new>
 #include <numeric>

@@ -5,7 +5,6 @@
 #include <future>
 #include <limits>
 #include <span>
-#include <utility>
 
 namespace tyndall {
 namespace {

@@ -1,6 +1,5 @@
 #include "core/compile/camera_surface.h"
 
-#include "core/base/kinds.h"
 #include "core/compile/columns.h"
 
 #include <algorithm>

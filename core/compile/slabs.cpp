@@ -1,7 +1,5 @@
 #include "core/compile/slabs.h"
 
-#include "core/compile/columns.h"
-
 #include <algorithm>
 #include <cmath>
 

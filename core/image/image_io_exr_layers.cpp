@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <map>
-#include <string_view>
 
 namespace tyndall {
 namespace {

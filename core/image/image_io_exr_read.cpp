@@ -9,8 +9,6 @@
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 
-#include <cmath>
-
 namespace tyndall {
 namespace {
 

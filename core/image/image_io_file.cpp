@@ -3,11 +3,8 @@
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cerrno>
-#include <memory>
-#include <string_view>
 #include <system_error>
 
 namespace tyndall {

@@ -2,7 +2,6 @@
 #include "core/image/image_io_stb.h"
 #include "core/image/picture_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 

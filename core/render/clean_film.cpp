@@ -3,7 +3,6 @@
 #include "core/base/seconds.h"
 #include "core/render/preview.h"
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 

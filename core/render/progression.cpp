@@ -1,11 +1,9 @@
 #include "core/render/progression.h"
 
-#include "core/accuracy/estimate.h"
 #include "core/base/seconds.h"
 #include "core/film/groups.h"
 #include "core/render/plan.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -6,7 +6,6 @@
 #include "core/render/plan.h"
 #include "core/render/progression.h"
 
-#include <optional>
 #include <stdexcept>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include "core/base/choice.h"
 #include "core/base/kinds.h"
 #include "core/base/text.h"
-#include "core/scene/place.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 /// The scene file: JSON with comments. app/README.md shows the format, assets/scene.schema.json describes it.

@@ -1,6 +1,5 @@
 #include "core/scene/json_values.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -9,7 +9,6 @@
 #include <initializer_list>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 /// Reads typed values out of a JSON tree, guided by fields(). All throw ParseError where a type is wrong; check() looks
 /// at ranges later.

@@ -3,8 +3,8 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
-#include "core/scene/check.h"
 #include "core/scene/json_tree.h"
+#include "core/scene/place.h"
 
 #include <dirent.h>
 

@@ -5,7 +5,6 @@
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"
 
-#include <algorithm>
 #include <numeric>
 
 namespace tyndall {

@@ -5,7 +5,6 @@
 #include "app/text/numbers.h"
 #include "app/text/values.h"
 #include "core/accuracy/estimate.h"
-#include "core/compile/compile.h"
 #include "core/image/image_io_file.h"
 #include "core/render/render.h"
 #include "core/scene/change.h"

@@ -6,8 +6,6 @@
 
 #include <cmath>
 #include <exception>
-#include <optional>
-#include <utility>
 
 namespace tyndall {
 

@@ -2,8 +2,6 @@
 #include "app/window/edit/drag_rounding.h"
 #include "app/window/tools/selection.h"
 
-#include <vector>
-
 /// Moving and turning objects.
 namespace tyndall {
 

@@ -2,7 +2,6 @@
 
 #include "app/window/edit/arrange.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tyndall {

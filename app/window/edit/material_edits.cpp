@@ -1,11 +1,10 @@
 #include "app/window/edit/material_edits.h"
 
-#include "app/window/edit/arrange.h"
+#include "app/window/edit/drag_rounding.h"
 #include "app/window/edit/linked_objects.h"
 #include "core/base/kinds.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tyndall {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <string>
 #include <vector>
 
 /// The files that were opened last, which a small file keeps from one start to the next.

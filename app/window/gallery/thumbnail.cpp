@@ -2,7 +2,6 @@
 
 #include "app/files/user_folders.h"
 #include "core/base/fnv1a.h"
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
 #include "core/image/tonemap.h"
 #include "core/render/render.h"
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <fstream>
 #include <iterator>

@@ -3,7 +3,6 @@
 #include "app/window/system/mouse.h"
 
 #include <optional>
-#include <set>
 #include <string>
 
 /// The mouse on the handles of the selection, and moving by the keyboard: G, then X, Y or Z, then the mouse or a

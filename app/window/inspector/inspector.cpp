@@ -8,7 +8,6 @@
 #include "core/scene/change.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tyndall {
 namespace {

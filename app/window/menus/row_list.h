@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 /// The rows of the column that the palette leads to, with the words by which users of other programs know them.
 namespace tyndall {

@@ -4,10 +4,8 @@
 #include "core/render/frame.h"
 #include "core/scene/settings.h"
 
-#include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 /// Cameras that the user has put aside, each with a small picture. They last as long as the window.

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <optional>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>

@@ -1,9 +1,6 @@
 #include "app/window/panels/field_rows.h"
 #include "app/window/panels/material_rows.h"
 #include "app/window/panels/panels.h"
-#include "core/base/kinds.h"
-
-#include <algorithm>
 
 namespace tyndall {
 namespace {

@@ -1,6 +1,5 @@
 #include "app/window/system/fonts.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>

@@ -2,8 +2,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <cstdint>
-
 /// What differs between Dear ImGui 1.86 (Debian 12) and later versions.
 namespace tyndall::compat {
 

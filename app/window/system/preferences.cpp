@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <exception>
 #include <fstream>
-#include <string>
 
 namespace tyndall {
 

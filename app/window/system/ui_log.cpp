@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <utility>
 
 namespace tyndall {
 double quantile(std::vector<double>& values, double q) {

@@ -1,6 +1,5 @@
 #include "app/window/tools/outline.h"
 
-#include "app/window/tools/camera_control.h"
 #include "core/base/math.h"
 
 #include <array>
