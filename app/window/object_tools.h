@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/actions/actions.h"
 #include "app/window/edit/add_object.h"
+#include "app/window/edit/linked_objects.h"
 #include "app/window/handles/handle_tool.h"
 #include "app/window/menus/menu.h"
 #include "app/window/panels/panels.h"

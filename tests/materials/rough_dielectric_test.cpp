@@ -48,10 +48,10 @@ TEST_CASE("rough dielectric: directions are drawn with the density of pdf(), whi
       if (!out.flags.absorbed) sphere.count(out.direction);
     }
     const Incident<double> in = event_of(row, 0);
-    const auto pdf = [&](Vec3d l) { return pdf(glass, in, l); };
-    const Pair<double> fraction = integrals(row, pdf);
+    const auto pdf_at = [&](Vec3d l) { return pdf(glass, in, l); };
+    const Pair<double> fraction = integrals(row, pdf_at);
     CHECK(fraction.x + fraction.y + row.lost == doctest::Approx(1).epsilon(1e-4).scale(0));
-    CHECK(std::abs(sphere.deviate(sphere.integrate(pdf), drawn)) < 4.5);
+    CHECK(std::abs(sphere.deviate(sphere.integrate(pdf_at), drawn)) < 4.5);
     lost.add("lost", absorbed.estimate(), row.lost, 0.03);
   }
 }

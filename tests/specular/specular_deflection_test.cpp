@@ -131,7 +131,7 @@ TEST_CASE("chains: the solid angle that a lamp fills off a mirror ball is what r
     const double sine = path.deflection.maximum * (1 - root.s * root.s) / plane.far;
     const Vec3<double> arrive = point_at(std::sqrt(1 - sine * sine) * plane.far_out, root.sense * sine, plane.far_side);
     const double cosine = light_cosine(light, at.normal, arrive);
-    if (cosine > 0) sum += 1 / (at.density * spread_of(path, ends, plane.sine, root.s, root.slope, cosine));
+    if (cosine > 0) sum += 1 / (at.pdf * spread_of(path, ends, plane.sine, root.s, root.slope, cosine));
   }
   CHECK(sum / points == doctest::Approx(traced).epsilon(0.02).scale(0));
 }

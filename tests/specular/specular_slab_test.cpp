@@ -143,7 +143,7 @@ TEST_CASE("chains: a ray that starts along the way through a pane comes to its f
       const int code = (faces[0] + (across == 0 ? static_cast<int>(sequence.crossings) + 1 : 0)) |
                        (faces[1] + (across == 1 ? static_cast<int>(sequence.crossings) + 1 : 0)) << 4 |
                        (faces[2] + (across == 2 ? static_cast<int>(sequence.crossings) + 1 : 0)) << 8 | across << 12;
-      const SlabSequence<double> told = slab_sequence_of(scene.slab, code, path.arrive);
+      const SlabSequence<double> told = slab_sequence_of(scene.slab, SpecularHistory<double>{code}, path.arrive);
       CHECK(told.across == sequence.across);
       CHECK(told.crossings == sequence.crossings);
       CHECK(told.image[0] == sequence.image[0]);

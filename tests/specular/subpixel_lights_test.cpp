@@ -95,9 +95,9 @@ TEST_CASE("glints: weighed samples keep the mean of every part of a pixel, where
   CHECK(aim_at_subpixel_lights(subpixel_lights, 7.0f, 6.0f, at).weight == 1);  // the pixel below
   CHECK(at.x == 0.25f);
   at = {0.9f, 0.3f};  // is moved to (0.8, 0.3), beside the boxes
-  CHECK(aim_at_subpixel_lights(subpixel_lights, 7.0f, 5.0f, at).event_counts == 0);
+  CHECK(aim_at_subpixel_lights(subpixel_lights, 7.0f, 5.0f, at).route.packed == 0);
   at = {0.21f, 0.4f};  // is moved into the middle box, where the small one is not
-  CHECK(aim_at_subpixel_lights(subpixel_lights, 7.0f, 5.0f, at).event_counts == 1);
+  CHECK(aim_at_subpixel_lights(subpixel_lights, 7.0f, 5.0f, at).route.packed == 1);
 }
 
 TEST_CASE("glints: a lamp seen by reflections within glass is met by many samples, not by a few bright ones") {
@@ -119,7 +119,7 @@ TEST_CASE("glints: a lamp seen by reflections within glass is met by many sample
     int whole_pixels = 0;
     for (int i = 0; i < view.subpixel_light_count; ++i) {
       const SubpixelLight& g = view.subpixel_lights[i];
-      if (g.event_counts < packed_events(2, 0) || g.event_counts >= packed_events(3, 0)) continue;
+      if (g.route < pack_route(2, 0) || g.route >= pack_route(3, 0)) continue;
       whole_pixels += g.width * g.height > 0.99f ? 1 : 0;
       constexpr int samples = 4096;
       double sum = 0, squares = 0;

@@ -58,7 +58,7 @@ void check(const std::vector<Object>& lamps, Vec3d from, Vec3d towards, double w
     const Sampler<float> d = sampler_of(i);
     const LightChoice<float> choice = choose_light<float>(lights, point, d.next_1d(dimension::light_choice));
     const LightSample<float> s = sample_light<float>(lights, choice.light, point, 0, d.next_2d(dimension::light_point));
-    REQUIRE(s.density > 0);
+    REQUIRE(s.pdf > 0);
     cap.count(exact(s.direction));
   }
   const auto fraction = cap.integrate([&](Vec3d d) { return density_of(lights, exact(point), d); }, 120);

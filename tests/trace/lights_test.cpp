@@ -25,9 +25,9 @@ Seen quadrature(const Quad<>& q, Vec3d point) {
   const Vec3d normal = normalize(cross(q.u, q.v));
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Vec3d direction = q.corner + ((i + 0.5) / n) * q.u + ((j + 0.5) / n) * q.v - point;
-      const double d2 = dot(direction, direction);
-      const Vec3d direction = (1 / std::sqrt(d2)) * direction;
+      const Vec3d offset = q.corner + ((i + 0.5) / n) * q.u + ((j + 0.5) / n) * q.v - point;
+      const double d2 = dot(offset, offset);
+      const Vec3d direction = (1 / std::sqrt(d2)) * offset;
       const double part = std::abs(dot(direction, normal)) * length(cross(q.u, q.v)) / (d2 * n * n);
       seen.solid_angle += part;
       seen.mean = seen.mean + part * direction;
@@ -54,15 +54,15 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
     Moments inverse, x, y, z;
     for (std::uint32_t i = 0; i < 20000; ++i) {
       const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, sampler_of(i).next_2d(2));
-      REQUIRE(s.density > 0);
-      const double weight = 1 / static_cast<double>(s.density);
+      REQUIRE(s.pdf > 0);
+      const double weight = 1 / static_cast<double>(s.pdf);
       inverse.add(weight);
       x.add(weight * static_cast<double>(s.direction.x));
       y.add(weight * static_cast<double>(s.direction.y));
       z.add(weight * static_cast<double>(s.direction.z));
       // The same density is found for the direction by itself.
       const float again = light_pdf<float>(view.view().lights, 0, point, 0.0f, s.direction, s.distance);
-      REQUIRE(again == doctest::Approx(s.density).epsilon(1e-3).scale(0));
+      REQUIRE(again == doctest::Approx(s.pdf).epsilon(1e-3).scale(0));
     }
     CAPTURE(k);
     CHECK(std::abs(inverse.estimate().mean - seen.solid_angle) <
@@ -85,7 +85,7 @@ TEST_CASE("lights: a sphere is sampled over its cap, from touching to ten thousa
     Moments angle;
     for (std::uint32_t i = 0; i < 20000; ++i) {
       const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, sampler_of(i).next_2d(2));
-      CHECK(static_cast<double>(s.density) == doctest::Approx(0.5 / pi / part).epsilon(1e-5).scale(0));
+      CHECK(static_cast<double>(s.pdf) == doctest::Approx(0.5 / pi / part).epsilon(1e-5).scale(0));
       CHECK(s.distance > 0);
       CHECK(static_cast<double>(length(point_at(point, s.distance, s.direction))) ==
             doctest::Approx(1).epsilon(1e-6 + 4e-7 * distance).scale(0));

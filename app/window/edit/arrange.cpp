@@ -27,19 +27,6 @@ Vec3d middle(const Sphere<>& sphere) {
 Vec3d middle(const Quad<>& quad) { return quad.corner + 0.5 * (quad.u + quad.v); }
 Vec3d middle(const Box<>& box) { return 0.5 * (box.min + box.max); }
 
-/// Calls f with the shape of a solid or the boundary of a medium; groups have none.
-template <class Item, class F>
-void with_shape(Item& object, const F& f) {
-  std::visit(
-      [&]<class Kind>(Kind& kind) {
-        if constexpr (std::is_same_v<std::remove_const_t<Kind>, Solid3d>)
-          std::visit(f, kind.shape);
-        else if constexpr (std::is_same_v<std::remove_const_t<Kind>, Volume>)
-          std::visit(f, kind.boundary);
-      },
-      object.kind);
-}
-
 /// The middle of an object in the frame that own_transform() places.
 Vec3d own_middle(const Object& object) {
   Vec3d result;

@@ -7,26 +7,9 @@
 namespace tyndall {
 namespace {
 
-const Sphere<>* sphere_of(const Object& object) {
-  if (const Solid3d* solid = std::get_if<Solid3d>(&object.kind)) return std::get_if<Sphere<>>(&solid->shape);
-  if (const Volume* volume = std::get_if<Volume>(&object.kind)) return std::get_if<Sphere<>>(&volume->boundary);
-  return nullptr;
-}
-Sphere<>* sphere_of(Object& object) { return const_cast<Sphere<>*>(sphere_of(static_cast<const Object&>(object))); }
-
-/// Whether the medium's boundary has the very numbers of the solid's shape.
-bool fills(const Volume& volume, const Solid3d& solid) {
-  return std::visit(
-      [&]<class Shape>(const Shape& boundary) {
-        const Shape* shape = std::get_if<Shape>(&solid.shape);
-        return shape && *shape == boundary;
-      },
-      volume.boundary);
-}
-
 /// Whether the object is a smaller sphere around the centre of a sphere of glass.
 bool is_inner_sphere(const Scene& scene, const Object& object, const Object& leader) {
-  const Sphere<>*inner = sphere_of(object), *outer = sphere_of(leader);
+  const Sphere<>*inner = shape_of<Sphere<>>(object), *outer = shape_of<Sphere<>>(leader);
   const Material* material = material_of(scene, leader);
   const bool glass = material && std::holds_alternative<Dielectric<>>(material->kind);
   return glass && inner && outer && inner->center == outer->center && inner->center_end == outer->center_end &&
@@ -51,8 +34,8 @@ void follow(const Object& leader_before, const Object& leader, const Object& lin
         },
         solid.shape);
   } else if (const Sphere<>* outer = std::get_if<Sphere<>>(&solid.shape)) {
-    const Sphere<>&before = std::get<Sphere<>>(solid_before.shape), &inner = *sphere_of(linked);
-    Sphere<>& sphere = *sphere_of(result);
+    const Sphere<>&before = std::get<Sphere<>>(solid_before.shape), &inner = *shape_of<Sphere<>>(linked);
+    Sphere<>& sphere = *shape_of<Sphere<>>(result);
     sphere.center = outer->center;
     if (!volume) sphere.center_end = outer->center_end;
     const double ratio = std::abs(outer->radius / before.radius);
@@ -64,6 +47,15 @@ void follow(const Object& leader_before, const Object& leader, const Object& lin
 }
 
 }  // namespace
+
+bool fills(const Volume& volume, const Solid3d& solid) {
+  return std::visit(
+      [&]<class Shape>(const Shape& boundary) {
+        const Shape* shape = std::get_if<Shape>(&solid.shape);
+        return shape && *shape == boundary;
+      },
+      volume.boundary);
+}
 
 std::vector<ObjectPath> linked_objects(const Scene& scene, const ObjectPath& path) {
   const Object* leader = find_object(scene, path);

@@ -7,6 +7,9 @@
 /// Objects that belong to a sphere or box: the fog within it, and the inner spheres of a shell of glass.
 namespace tyndall {
 
+/// Whether the medium's boundary has the very numbers of the solid's shape.
+bool fills(const Volume& volume, const Solid3d& solid);
+
 /// The objects that go along with the one at that path: media whose boundary equals its shape exactly; and, of a sphere
 /// of glass, the smaller spheres around the same centre. All have its placement.
 std::vector<ObjectPath> linked_objects(const Scene& scene, const ObjectPath& path);

@@ -25,13 +25,7 @@ ObjectPath filling(const Scene& scene, const ObjectPath& path) {
   if (!solid) return {};
   for (const ObjectPath& other : linked_objects(scene, path)) {
     const Volume* volume = std::get_if<Volume>(&find_object(scene, other)->kind);
-    const bool same = volume && std::visit(
-                                    [&]<class Shape>(const Shape& boundary) {
-                                      const Shape* shape = std::get_if<Shape>(&solid->shape);
-                                      return shape && *shape == boundary;
-                                    },
-                                    volume->boundary);
-    if (same) return other;
+    if (volume && fills(*volume, *solid)) return other;
   }
   return {};
 }
@@ -43,11 +37,6 @@ std::string free_material_name(const Scene& scene, const std::string& wish) {
         std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) { return m.name == name; });
     if (!taken) return name;
   }
-}
-
-std::vector<Object>& siblings(Scene& scene, const ObjectPath& path) {
-  if (path.size() == 1) return scene.objects;
-  return std::get<Group>(find_object(scene, ObjectPath(path.begin(), path.end() - 1))->kind).objects;
 }
 
 using KindsOfMaterial = MaterialMemory::mapped_type;
@@ -100,7 +89,7 @@ void fill(Scene& scene, const ObjectPath& path, const ColourOrTexture& colour) {
   volume.medium.density = nice_below(2 / size).size();
   if (const Vec3d* albedo = std::get_if<Vec3d>(&colour)) volume.albedo = *albedo;
   const std::string name = object.name.empty() ? "" : free_name(scene, object.name + " fog");
-  std::vector<Object>& list = siblings(scene, path);
+  std::vector<Object>& list = list_of(scene, path);
   list.insert(list.begin() + path.back() + 1, {name, volume, object.transform});
 }
 
@@ -130,7 +119,7 @@ ObjectPath set_surface_type(Scene& scene, const ObjectPath& path, int type, Mate
   if (type == surface_type(scene, path) || !why_not(scene, path, type).empty()) return path;
   ObjectPath now = path;
   if (const ObjectPath medium = filling(scene, path); !medium.empty()) {
-    std::vector<Object>& list = siblings(scene, medium);
+    std::vector<Object>& list = list_of(scene, medium);
     list.erase(list.begin() + medium.back());
     const std::size_t level = medium.size() - 1;  // what stood behind the fog in its list has moved
     const bool same_list = now.size() > level && std::equal(medium.begin(), medium.end() - 1, now.begin());

@@ -14,13 +14,6 @@ bool starts_with(const ObjectPath& path, const ObjectPath& start) {
   return path.size() >= start.size() && std::equal(start.begin(), start.end(), path.begin());
 }
 
-/// The list that holds the object at a path.
-std::vector<Object>& list_of(Scene& scene, const ObjectPath& path) {
-  if (path.size() == 1) return scene.objects;
-  Object& group = *find_object(scene, ObjectPath(path.begin(), path.end() - 1));
-  return std::get<Group>(group.kind).objects;
-}
-
 ObjectPaths with_linked_objects(const Scene& scene, const ObjectPaths& paths) {
   ObjectPaths all = paths;
   for (const ObjectPath& path : paths)
@@ -57,6 +50,12 @@ void delete_unused_materials(Scene& scene, const std::vector<Material>& kept) {
 }
 
 }  // namespace
+
+std::vector<Object>& list_of(Scene& scene, const ObjectPath& path) {
+  if (path.size() == 1) return scene.objects;
+  Object& group = *find_object(scene, ObjectPath(path.begin(), path.end() - 1));
+  return std::get<Group>(group.kind).objects;
+}
 
 ObjectPaths outermost(ObjectPaths paths) {
   std::sort(paths.begin(), paths.end());

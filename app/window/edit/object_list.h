@@ -7,6 +7,9 @@
 /// Duplicating, deleting and naming objects.
 namespace tyndall {
 
+/// The list that holds the object at a path.
+std::vector<Object>& list_of(Scene& scene, const ObjectPath& path);
+
 /// The paths in file order, each once, without those inside of a group that is itself among them.
 ObjectPaths outermost(ObjectPaths paths);
 

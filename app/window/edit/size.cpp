@@ -58,17 +58,13 @@ void set_value(Box<>& box, std::size_t grip, double value, double minimum) {
 Grips size_grips(const Scene& scene, const ObjectPath& path, Vec3d across) {
   const Object* object = find_object(scene, path);
   if (!object) return {};
-  const auto grips = [&](const auto& shape) { return grips_of(shape, placement_at(scene, path), across); };
-  if (const Solid3d* solid = std::get_if<Solid3d>(&object->kind)) return std::visit(grips, solid->shape);
-  if (const Volume* volume = std::get_if<Volume>(&object->kind)) return std::visit(grips, volume->boundary);
-  return {};
+  Grips grips;
+  with_shape(*object, [&](const auto& shape) { grips = grips_of(shape, placement_at(scene, path), across); });
+  return grips;
 }
 
 void set_size(Scene& scene, const ObjectPath& path, std::size_t grip, double value, double minimum) {
-  Object& object = *find_object(scene, path);
-  const auto set = [&](auto& shape) { set_value(shape, grip, value, minimum); };
-  if (Solid3d* solid = std::get_if<Solid3d>(&object.kind)) std::visit(set, solid->shape);
-  if (Volume* volume = std::get_if<Volume>(&object.kind)) std::visit(set, volume->boundary);
+  with_shape(*find_object(scene, path), [&](auto& shape) { set_value(shape, grip, value, minimum); });
 }
 
 }  // namespace tyndall

@@ -17,14 +17,7 @@ constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius
 constexpr double min_seen = 0.05;  // of PictureFrame::seen_direction(): with less, it has no direction
 constexpr int ring_points = 64;
 
-bool can_rotate(const Scene& scene, const ObjectPath& path) {
-  const Object& object = *find_object(scene, path);
-  const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
-  const Volume* volume = std::get_if<Volume>(&object.kind);
-  const bool sphere = (solid && std::holds_alternative<Sphere<>>(solid->shape)) ||
-                      (volume && std::holds_alternative<Sphere<>>(volume->boundary));
-  return !sphere;
-}
+bool can_rotate(const Scene& scene, const ObjectPath& path) { return !shape_of<Sphere<>>(*find_object(scene, path)); }
 
 double distance(WindowPoint a, WindowPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 

@@ -107,13 +107,6 @@ bool is_textured(const Scene& scene, const Object& object) {
 }
 
 template <class Shape>
-const Shape* shape_of(const Object& object) {
-  if (const Solid3d* solid = solid_of(object)) return std::get_if<Shape>(&solid->shape);
-  if constexpr (!std::is_same_v<Shape, Quad<>>)
-    if (const Volume* volume = volume_of(object)) return std::get_if<Shape>(&volume->boundary);
-  return nullptr;
-}
-template <class Shape>
 bool has_shape(const Scene&, const Object& object) {
   return shape_of<Shape>(object) != nullptr;
 }

@@ -48,13 +48,10 @@ Crossing crossing(const Quad<>& quad, const ViewRay& view_ray) {
 
 /// Where the object begins along the line of sight, at a distance above 0; `never`: nowhere.
 double begins_at(const Object& object, const ViewRay& view_ray) {
-  if (const Solid3d* solid = std::get_if<Solid3d>(&object.kind)) {
-    const Crossing c = std::visit([&](const auto& shape) { return crossing(shape, view_ray); }, solid->shape);
-    return c.near > 0 ? c.near : c.far > 0 ? c.far : never;
-  }
-  const Volume& volume = std::get<Volume>(object.kind);
-  const Crossing c = std::visit([&](const auto& shape) { return crossing(shape, view_ray); }, volume.boundary);
-  return c.near > 0 ? c.near : never;
+  Crossing c;
+  with_shape(object, [&](const auto& shape) { c = crossing(shape, view_ray); });
+  const bool from_within = c.far > 0 && std::holds_alternative<Solid3d>(object.kind);
+  return c.near > 0 ? c.near : from_within ? c.far : never;
 }
 
 }  // namespace

@@ -85,11 +85,7 @@ void add_object(Projector& out, const Scene& scene, const ObjectPath& path) {
     return;
   }
   const Placement at = placement_at(scene, path);
-  const auto add = [&](const auto& shape) { add_shape(out, shape, at); };
-  if (const Solid3d* solid = std::get_if<Solid3d>(&object->kind))
-    std::visit(add, solid->shape);
-  else
-    std::visit(add, std::get<Volume>(object->kind).boundary);
+  with_shape(*object, [&](const auto& shape) { add_shape(out, shape, at); });
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 /// What is selected in the window, and what is said of an object there.
@@ -23,6 +25,28 @@ int users_of(const Scene& scene, int material);
 
 /// Every object that is no group, in file order.
 std::vector<ObjectPath> leaves(const Scene& scene);
+
+/// Calls f with the shape of a solid or the boundary of a medium; groups have none.
+template <class Item, class F>
+void with_shape(Item& object, const F& f) {
+  std::visit(
+      [&]<class Kind>(Kind& kind) {
+        if constexpr (std::is_same_v<std::remove_const_t<Kind>, Solid3d>)
+          std::visit(f, kind.shape);
+        else if constexpr (std::is_same_v<std::remove_const_t<Kind>, Volume>)
+          std::visit(f, kind.boundary);
+      },
+      object.kind);
+}
+/// That shape, if it is of this type; else null.
+template <class Shape, class Item>
+auto shape_of(Item& object) {
+  std::conditional_t<std::is_const_v<Item>, const Shape, Shape>* found = nullptr;
+  with_shape(object, [&]<class Kind>(Kind& shape) {
+    if constexpr (std::is_same_v<std::remove_const_t<Kind>, Shape>) found = &shape;
+  });
+  return found;
+}
 
 /// Where the object's own frame is in the world (a medium: its boundary's).
 Placement placement_at(const Scene& scene, const ObjectPath& path);
