@@ -9,17 +9,17 @@
 ///   constexpr Label label(E value) {
 ///     switch (value) {
 ///       case E::first:
-///         return {"first", "what it does"};
+///         return {"first", "description of the value"};
 ///       ...
 ///     }
 ///     return {};
 ///   }
 ///
-/// The switch has no default, so a value without a word does not compile (-Wswitch); everything else is a loop over it.
-/// Values count up from 0 without gaps.
+/// The switch has no default, so a value without a label does not compile (-Wswitch); all other code loops over the
+/// labels. Values count up from 0 without gaps.
 namespace tyndall {
 
-/// How one value of an enum is called, and what it does.
+/// Name and description of one value of an enum.
 struct Label {
   const char* name = nullptr;  ///< as scene files and options spell it; null: there is no such value
   const char* help = "";       ///< a few words; "" where the name says it all

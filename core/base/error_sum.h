@@ -8,16 +8,15 @@
 /// Sums of pixels' squared errors.
 namespace tyndall {
 
-/// The squared error of the pixel with that place in a film.
+/// The squared error of one pixel, given by its index in the film.
 struct PixelError {
   std::size_t pixel = 0;
   double error = 0;
 };
 
-/// A sum of squared errors, and of their squares, which holds the largest errors apart. So these can be replaced by
-/// better ones later, even if they are so large that the others would be lost in the rounding of one sum. The same
-/// numbers added in the same order give the same bits. What is not a number makes the sum none, and is never among the
-/// largest.
+/// A sum of squared errors and of their squares, in which the largest errors are kept apart, so that they can later be
+/// replaced by better ones. The others keep their precision even if the largest exceed them by many magnitudes. The
+/// same numbers added in the same order give the same bits. A NaN makes the sum a NaN and is never among the largest.
 class ErrorSum {
  public:
   static constexpr std::size_t max_apart = 32;
@@ -46,15 +45,16 @@ class ErrorSum {
   std::vector<PixelError> apart_;  ///< up to 2 · max_apart, among them the largest
 };
 
-/// Returns the levels (mean radiances) of some pixels, given by their places in the film, from samples that are not the
-/// film's; nothing if they cannot be had now. How many samples a level takes is for it to say.
+/// Returns the levels (mean radiances) of some pixels, given by their indices in the film, from samples that are not
+/// the film's; empty if levels are not available now. The function chooses the number of samples.
 using LevelsOf = std::function<std::vector<Vec3f>(const std::vector<std::size_t>& pixels)>;
 
-/// Squared errors are relative to levels, which a film alone cannot tell of bright pixels: a light smaller than a pixel
-/// looks like a rare path. This asks for the levels of the pixels that decide a sum over so many pixels, some at once,
-/// and replaces their errors by error_at(pixel, level). These are pixels whose error is at least 1 % of the sum and 16
-/// times the mean. As the sum becomes less, others may come to decide it: it goes on until none does, or max_apart
-/// pixels are known.
+/// Replaces the errors of the pixels that decide a sum over `pixels` pixels by error_at(pixel, level), with levels from
+/// levels_of. Reason: errors are relative to levels, which a film alone cannot tell of bright pixels, because a light
+/// smaller than a pixel looks like a rare path.
+///
+/// A pixel decides if its error is at least 1 % of the sum and 16 times the mean. As the sum shrinks, further pixels
+/// may come to decide: the function repeats until no new pixel does, or max_apart pixels are known.
 void ask_levels(const LevelsOf& levels_of, std::size_t pixels,
                 const std::function<double(std::size_t pixel, Vec3f level)>& error_at, ErrorSum& sum);
 

@@ -3,8 +3,8 @@
 #include <type_traits>
 #include <variant>
 
-/// Lists of kinds: a std::variant names every material, texture or shape there is, and compiled scenes carry a kind's
-/// place in that list. The place is always found from the type, never counted by hand.
+/// Lists of kinds: a std::variant lists all materials, textures or shapes, and compiled scenes store a kind as its
+/// index in that list. The index is always derived from the type.
 namespace tyndall {
 
 template <class Kind, class List>
@@ -19,11 +19,11 @@ struct PlaceInList<Kind, std::variant<Kinds...>> {
   }
 };
 
-/// The place of a kind in a list, counted from 0.
+/// The index of a kind in a list, from 0.
 template <class Kind, class List>
 inline constexpr std::int32_t place_in = PlaceInList<Kind, List>::find();
 
-/// Functions for std::visit, one a kind: a kind without one does not compile.
+/// A set of functions for std::visit, one for each kind. A kind without a function does not compile.
 template <class... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;

@@ -4,17 +4,19 @@
 #include <cstdint>
 #include <cstring>
 
-/// Marks what kernels call: it is always inlined. A call would cost more than its work. And of an ordinary inline
-/// function the linker keeps one copy for all callers: a copy with wide instructions would crash older CPUs.
-/// Sanitized builds do not inline: each file would take minutes to compile, and they run where they were built.
+/// Marks a function that kernels call: it is always inlined, for two reasons. A call would cost more than the
+/// function's work. And of an ordinary inline function the linker keeps one copy for all callers: a copy with wide
+/// instructions would crash older CPUs. Sanitized builds do not inline, because each file would take minutes to
+/// compile; they run on the machine that built them.
 #if defined(TYNDALL_KEEP_CALLS)
 #define TYNDALL_INLINE inline
 #else
 #define TYNDALL_INLINE [[gnu::always_inline]] inline
 #endif
 
-/// The operations that kernel code needs of its number type F, here for plain numbers: float (one path at a time, the
-/// readable reference) and double (the accurate reference). base/lanes_simd.h has them for groups of lanes (SIMD).
+/// The operations on the kernels' number type F, here for plain numbers: float (one path at a time, the readable
+/// reference) and double (the accurate reference). base/lanes_simd.h has the same operations for groups of lanes
+/// (SIMD).
 namespace tyndall {
 
 template <class F>
@@ -44,7 +46,7 @@ using MaskOf = typename LaneTypes<F>::Mask;
 template <class F>
 inline constexpr int lanes_of = LaneTypes<F>::lanes;
 
-/// A number type that consists of two groups of lanes (see lanes_twice.h), and the type of one group.
+/// A number type made of two groups of lanes (see lanes_twice.h), and the type of one group.
 template <class F>
 concept Doubled = requires {
   typename LaneTypes<F>::Half;
@@ -82,7 +84,7 @@ TYNDALL_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 TYNDALL_INLINE std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
 TYNDALL_INLINE std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
 
-// Comparisons have names, because a group of lanes answers with a mask.
+// Comparisons are named functions, because on groups of lanes they return a mask.
 template <class T>
 TYNDALL_INLINE auto less(T a, T b) {
   return a < b;
@@ -114,7 +116,7 @@ TYNDALL_INLINE double sqrt(double v) { return __builtin_sqrt(v); }
 TYNDALL_INLINE float copy_sign(float magnitude, float sign) { return __builtin_copysignf(magnitude, sign); }
 TYNDALL_INLINE double copy_sign(double magnitude, double sign) { return __builtin_copysign(magnitude, sign); }
 
-/// a·b + c, fused where the target has the instruction and a product and a sum elsewhere; never a library call.
+/// Returns a·b + c: fused if the target has the instruction, else a product and a sum; never a library call.
 TYNDALL_INLINE float mul_add(float a, float b, float c) { return a * b + c; }
 TYNDALL_INLINE double mul_add(double a, double b, double c) { return a * b + c; }
 /// c - a·b, likewise.
@@ -155,7 +157,7 @@ TYNDALL_INLINE std::uint32_t shift_right(std::uint32_t v) {
 TYNDALL_INLINE float min_lane(float v) { return v; }
 TYNDALL_INLINE float min_lane(double v) { return static_cast<float>(v); }
 
-/// table[index] of every lane; indices must be valid in all lanes, also in those that are not used.
+/// Returns table[index] for each lane. The indices of unused lanes must be valid, too.
 template <Plain F>
 TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
   return static_cast<F>(table[index]);
@@ -165,7 +167,7 @@ TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
   return table[index];
 }
 
-/// Like gather, from a table of `count` entries: faster where the whole table fits into registers.
+/// Like gather(), for a table of `count` entries: faster if the whole table fits into registers.
 template <Plain F>
 TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
   return static_cast<F>(table[index]);
@@ -188,8 +190,8 @@ template <Plain F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   return *from;
 }
-/// Loads `count` >= 0 consecutive values, at most one for each lane, and puts 0 into the other lanes. Does not read the
-/// memory behind them.
+/// Loads `count` >= 0 consecutive values, at most one for each lane, and sets the other lanes to 0. Does not read the
+/// memory behind the values.
 template <Plain F>
 TYNDALL_INLINE F load_some(const float* from, int count) {
   return count > 0 ? static_cast<F>(*from) : F(0);

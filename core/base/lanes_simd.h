@@ -1,9 +1,9 @@
 #pragma once
 #include "core/base/lanes_simd_arithmetic.h"
 
-/// The only way to the SIMD library: a group of lanes with all the operations of base/lanes.h. It compiles for the
-/// instruction set whose flags the including file has, in a namespace of that set's name, so that no two objects share
-/// a symbol. Loads and stores are here; the arithmetic is in base/lanes_simd_arithmetic.h.
+/// The only door to the SIMD library: a group of lanes with all the operations of base/lanes.h. The code is compiled
+/// for the instruction set whose flags the including file has, in a namespace named after the set, so that no two
+/// objects share a symbol. Loads and stores are here; the arithmetic is in base/lanes_simd_arithmetic.h.
 namespace tyndall {
 namespace HWY_NAMESPACE {
 
@@ -12,8 +12,8 @@ TYNDALL_INLINE void store(std::int32_t* to, Ints a) { hn::StoreU(a.v, TagI(), to
 TYNDALL_INLINE void store(std::uint32_t* to, Uints a) { hn::StoreU(a.v, TagU(), to); }
 
 #if HWY_TARGET == HWY_AVX2
-/// For each set of lanes, as bits: the numbers of these lanes in order, four bits each, the first in the lowest bits.
-/// The SIMD library has such a table, too, but as a variable of a function, to which GCC copies it at each call.
+/// For each set of lanes (as bits): the indices of its lanes in order, four bits each, the first in the lowest bits.
+/// The SIMD library has such a table as a local variable, which GCC copies at each call.
 struct LaneLists {
   std::uint32_t of[256];
 };
@@ -40,8 +40,8 @@ TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) { return hn::Compres
 TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return hn::Compress(a.v, hn::RebindMask(TagI(), lanes.v)); }
 #endif
 
-/// Stores the values of `lanes` next to each other and returns their number. The rest of a whole group may be
-/// overwritten with anything: a store of compressed lanes alone is slow on AMD's Zen 4, which has microcode for it.
+/// Stores the values of `lanes` next to each other and returns their number. May overwrite the memory of a whole group:
+/// storing compressed lanes alone is slow on AMD's Zen 4, where the instruction is microcode.
 TYNDALL_INLINE int append(float* to, Floats a, Mask lanes) {
   hn::StoreU(compress(a, lanes), TagF(), to);
   return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
@@ -139,7 +139,7 @@ TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
   r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from);
   return r;
 }
-// From AVX2 on, which has loads that read only some of the lanes.
+// From AVX2 on: these sets can load a part of the lanes.
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 requires(lanes_of<F> >= 8) TYNDALL_INLINE F load_some(const float* from, int count) {
   F r;

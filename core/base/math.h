@@ -14,7 +14,7 @@ struct SinCos {
   F sin, cos;
 };
 
-/// Sine and cosine of 2π·turn, turn in [0, 1). Absolute error below 2.5e-7.
+/// Sine and cosine of 2π·u, u in [0, 1). Absolute error below 2.5e-7.
 template <class F>
 TYNDALL_INLINE SinCos<F> sin_cos_2pi(F u) {
   const auto odd = [](F t) {  // sin(2πt), |t| <= 1/4

@@ -2,12 +2,13 @@
 #include "core/base/choice.h"
 #include "core/base/vec.h"
 
-/// Random numbers as a pure function of (seed, pixel, sample, dimension): whichever thread, tile, pass or machine asks
-/// gets the same number, and no state has to be kept or ordered.
+/// Random numbers as a pure function of (seed, pixel, sample, dimension): every thread, tile, pass and machine gets the
+/// same number, and no state has to be kept or ordered.
 namespace tyndall {
 
-/// The fixed table of dimensions: which random number serves what. A sample has those of the camera, then `per_event`
-/// for each scattering event, used or not. So leaving a model out never shifts the numbers of another.
+/// The fixed table of dimensions, one for each use of a random number. A sample has the dimensions of the camera, then
+/// `per_event` dimensions for each scattering event, used or not, so that leaving out a model never shifts the numbers
+/// of another.
 namespace dimension {
 // camera
 inline constexpr std::uint32_t pixel = 0;  // and 1
@@ -27,7 +28,7 @@ inline constexpr std::uint32_t near_distance = 10;
 inline constexpr std::uint32_t near_point = 12;      // and 13
 inline constexpr std::uint32_t specular_point = 14;  // and 15
 inline constexpr std::uint32_t per_event = 16;
-// within an event, too, but far from the numbered ones, so that these may grow: for Sampler::independent_bits()
+// Within an event as well, but far from the numbers above, so that these may grow: for Sampler::independent_bits().
 inline constexpr std::uint32_t event_sequence = 0x40000000u;
 inline constexpr std::uint32_t specular_root = 0x40000001u;
 inline constexpr std::uint32_t specular_connect = 0x40000002u;
@@ -96,7 +97,7 @@ TYNDALL_INLINE U sobol_second(U x) {
   return x ^ shift_left<1>(x & U(0x55555555u));
 }
 
-/// Where a path's random numbers come from. To add a sampler: a value and its word here, and its cases in Sampler.
+/// The source of a path's random numbers. To add a sampler, add its value and label here and its cases in Sampler.
 enum class SamplerKind { random, sobol };
 
 constexpr Label label(SamplerKind sampler) {
@@ -109,10 +110,10 @@ constexpr Label label(SamplerKind sampler) {
   return {};
 }
 
-/// The numbers of one sample.
-/// `random`: independent, counter-based. `sobol`: each dimension or pair of dimensions is its own (0,2)-sequence over
-/// the samples of a pixel, shuffled and digitally shifted (Burley, Practical Hash-based Owen Scrambling, JCGT 9(4),
-/// 2020, section 4, with a digital shift in place of the scrambling); sample i is point i/2 of randomisation i mod 2.
+/// The random numbers of one sample. `random`: independent, counter-based. `sobol`: each dimension or pair of
+/// dimensions is a (0,2)-sequence of its own over the samples of a pixel, shuffled and digitally shifted (Burley,
+/// Practical Hash-based Owen Scrambling, JCGT 9(4), 2020, section 4, with a digital shift in place of the scrambling);
+/// sample i is point i/2 of randomisation i mod 2.
 template <class F>
 struct Sampler {
   using U = UintOf<F>;
@@ -121,9 +122,9 @@ struct Sampler {
   U event;   ///< golden_ratio · the first dimension of the current event
   SamplerKind kind;
 
-  /// Key of one sample; x, y: pixel in full-image coordinates. `random`: two chains of hashes in different orders, so
-  /// that two samples have the same key only with probability 2^-64. The seed is hashed before it meets a coordinate:
-  /// otherwise neighbouring seeds would give the same picture with its rows exchanged.
+  /// Returns the key of one sample. x, y: pixel in full-image coordinates. `random`: two chains of hashes in different
+  /// orders, so that two samples have the same key only with probability 2^-64. The seed is hashed before it is
+  /// combined with a coordinate: otherwise neighbouring seeds would give the same picture with its rows exchanged.
   TYNDALL_INLINE static Sampler of(std::uint32_t seed, U x, U y, U sample, SamplerKind kind = SamplerKind::random) {
     const U a = hash(hash(U(hash(seed ^ 0x68bc21ebu)) ^ y) ^ x);
     switch (kind) {
@@ -135,7 +136,7 @@ struct Sampler {
     const U b = hash(hash(U(hash(seed + 0x02e5be93u)) ^ sample) ^ y);
     return {hash(a ^ sample), hash(b ^ x), U(0u), kind};
   }
-  /// 32 bits for dimension `offset` of the current event.
+  /// Returns 32 random bits for dimension `offset` of the current event.
   TYNDALL_INLINE U random_bits(std::uint32_t offset) const {
     U x = low + event + U(offset * golden_ratio);
     switch (kind) {
@@ -152,15 +153,16 @@ struct Sampler {
     return x ^ shift_right<15>(x);
   }
   TYNDALL_INLINE F next_1d(std::uint32_t offset) const { return unit_interval<F>(random_bits(offset)); }
-  /// Like random_bits(), but independent of the pixel's other samples with either sampler. Numbers that are spread
-  /// evenly are slightly correlated from one dimension to another. A choice that decides what the other numbers mean,
-  /// such as which events a specular path has, must not be.
+  /// Like random_bits(), but independent of the pixel's other samples also with `sobol`. Evenly spread numbers are
+  /// slightly correlated between dimensions; a choice that decides the meaning of other numbers, such as the event
+  /// sequence of a specular path, must be independent.
   TYNDALL_INLINE U independent_bits(std::uint32_t offset) const {
     if (kind != SamplerKind::sobol) return random_bits(offset);
     return hash(hash(low + event + U(offset * golden_ratio)) ^ high);
   }
   TYNDALL_INLINE F independent_1d(std::uint32_t offset) const { return unit_interval<F>(independent_bits(offset)); }
-  /// Dimensions offset and offset + 1: a point of the unit square, evenly spread together with those of other samples.
+  /// Returns dimensions offset and offset + 1: a point of the unit square, spread evenly together with the points of
+  /// the pixel's other samples.
   TYNDALL_INLINE Pair<F> next_2d(std::uint32_t offset) const {
     if (kind != SamplerKind::sobol) return {next_1d(offset), next_1d(offset + 1)};
     const U seed = hash(low + event + U(offset * golden_ratio));
@@ -168,7 +170,7 @@ struct Sampler {
     return {unit_interval<F>(index ^ (seed * U(0x9e3779b1u))),
             unit_interval<F>(sobol_second(index) ^ (seed * U(0x85ebca6bu)))};
   }
-  /// A number in (0, 1], for -log(u). Media that share one event each have a `stream` of their own.
+  /// Returns a number in (0, 1], for -log(u). Media that share one event each have their own `stream`.
   TYNDALL_INLINE F open(std::uint32_t offset, std::uint32_t stream) const {
     return unit_interval_open<F>(random_bits(offset + stream * 0x10000u));
   }

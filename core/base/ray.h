@@ -1,19 +1,19 @@
 #pragma once
 #include "core/base/random.h"
 
-/// Rays, and the structs in which shapes and media are asked about a ray and give their answers.
+/// Rays, and the structs that shapes, materials and media take and return.
 namespace tyndall {
 
-/// How a ray starts on or in a shape. Each ray knows which shape it leaves and on which side, so that it cannot meet
-/// the place where it starts. This is right at every scale and where surfaces coincide; the usual way, to skip hits
-/// below a least distance, would skip thin gaps or meet the same point again.
+/// How a ray starts on or in a shape. Each ray knows which shape it leaves and on which side, so that it cannot hit the
+/// place where it starts. This is exact at every scale and where surfaces coincide. The usual alternative, to skip hits
+/// below a minimum distance, would skip thin gaps or hit the same point again.
 enum class Side : std::int32_t {
   outward = 0,  ///< on its surface, going out: cannot meet the shape again, because all shapes are convex
   inward = 1,   ///< on its surface, going in: meets the far side
   within = 2,   ///< somewhere inside: meets the far side
 };
 
-/// Ray::from of a ray that starts neither on nor in any shape that rays keep track of, for example at the camera.
+/// Ray::from of a ray that starts on no shape that rays keep track of, for example at the camera.
 inline constexpr std::int32_t from_nowhere = -4;
 
 /// A group of rays. direction: unit length. from: 4·element + side, or from_nowhere.

@@ -1,8 +1,9 @@
 #pragma once
 #include "core/base/math.h"
 
-/// Takes one of several things that come one after the other, at random, in proportion to their weights, by a single
-/// random number. (M. T. Chao, A General Purpose Unequal Probability Sampling Plan, Biometrika 69(3), 1982)
+/// Chooses one of several candidates that are offered one after the other, with probabilities in proportion to their
+/// weights, by a single random number. (M. T. Chao, A General Purpose Unequal Probability Sampling Plan, Biometrika
+/// 69(3), 1982)
 namespace tyndall {
 
 template <class F>
@@ -10,7 +11,7 @@ struct Reservoir {
   F pick;              ///< random, in [0, 1): decides about the next thing
   F weight = F(0.0f);  ///< of all things so far
 
-  /// Offers a thing of this weight >= 0. Returns the lanes that take it in place of the one before.
+  /// Offers a candidate of weight `next` >= 0. Returns the lanes that take it in place of the one before.
   TYNDALL_INLINE MaskOf<F> offer(F next) {
     const F before = weight, at = pick * (before + next);
     const auto takes = less(at, next);

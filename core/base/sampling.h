@@ -2,7 +2,7 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 
-/// Maps from the unit square to what light transport needs: closed forms, no rejection loops, so that each takes a
+/// Maps from the unit square to directions and discs, in closed form without rejection loops, so that each takes a
 /// fixed number of dimensions.
 namespace tyndall {
 
@@ -15,7 +15,7 @@ TYNDALL_INLINE Vec3<F> on_sphere(Pair<F> u) {
   return {r * a.cos, r * a.sin, z};
 }
 
-/// Uniform in the unit disc: a share r^2 of it is within radius r, the angle is uniform.
+/// Uniform in the unit disc: a fraction r² of the points is within radius r, the angle is uniform.
 template <class F>
 TYNDALL_INLINE Pair<F> in_disc(Pair<F> u) {
   const F r = sqrt(u.x);
@@ -23,7 +23,8 @@ TYNDALL_INLINE Pair<F> in_disc(Pair<F> u) {
   return {r * a.cos, r * a.sin};
 }
 
-/// A direction about the unit vector `axis` with the given cosine in [-1, 1]; turn in [0, 1) goes around.
+/// A unit vector at an angle to the unit vector `axis`. cosine: of that angle, in [-1, 1]; u in [0, 1): azimuth in
+/// revolutions.
 template <class F>
 TYNDALL_INLINE Vec3<F> around(Vec3<F> axis, F cosine, F u) {
   const Basis<F> b = basis_around(axis);

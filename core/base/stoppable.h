@@ -9,8 +9,8 @@
 #include <utility>
 #endif
 
-/// Threads that are asked to stop, and joined, when their owner goes: those of the standard library where it has them.
-/// libc++ has them from version 20 on; for older ones, here is as much as this program uses.
+/// Threads that are asked to stop and joined when their owner is destroyed: the standard library's where it has them.
+/// libc++ has them from version 20 on; for older versions this file has the parts that the program uses.
 namespace tyndall {
 
 #if defined(__cpp_lib_jthread)
@@ -70,7 +70,7 @@ class StoppableThread {
 class StoppableCondition : public std::condition_variable_any {
  public:
   using std::condition_variable_any::wait, std::condition_variable_any::wait_for;
-  /// Sleeps until the predicate holds or a stop was requested; whether the predicate holds.
+  /// Sleeps until the predicate holds or a stop is requested. Returns the predicate's value.
   template <class Predicate>
   bool wait(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate) {
     return sleep(lock, stop, predicate, [&] { return wait(lock), true; });
@@ -83,7 +83,7 @@ class StoppableCondition : public std::condition_variable_any {
   }
 
  private:
-  /// once(): sleeps until it is woken; false: it is not to sleep any more.
+  /// Sleeps by calling once() until the predicate holds. once(): sleeps until it is woken; false: stop sleeping.
   template <class Predicate, class Once>
   bool sleep(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate, Once once) {
     const auto wake = [this, mutex = lock.mutex()] {

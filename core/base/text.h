@@ -7,9 +7,9 @@
 /// Text for messages and files: what is printed safely, quoted, shortened, or suggested for a misspelt name.
 namespace tyndall {
 
-/// The text as it can be printed in one line, also in XML and HTML: control characters, what ends a line or turns its
-/// direction, U+FFFE and U+FFFF as \n, \u001b or \u2028; bytes that are not UTF-8 as \xff.
-/// What exceeds `limit` bytes is replaced by "…".
+/// Returns the text in a form that can be printed in one line, also in XML and HTML: control characters, line ends,
+/// direction marks, U+FFFE and U+FFFF become \n, \u001b or \u2028; bytes that are not UTF-8 become \xff. A result above
+/// `limit` bytes is cut and ends with "…".
 std::string printable(std::string_view text, std::size_t limit = 300);
 /// The same of any length.
 inline std::string all_printable(std::string_view text) { return printable(text, std::string_view::npos); }
@@ -17,7 +17,7 @@ inline std::string all_printable(std::string_view text) { return printable(text,
 /// Whether the text is UTF-8 without surrogates (Unicode, table 3-7), so that JSON can hold it as it is.
 bool is_utf8(std::string_view text);
 
-/// How many of the text's first `limit` bytes are whole letters of UTF-8.
+/// Returns the size, at most `limit`, of the longest beginning of the text that ends with a whole UTF-8 letter.
 std::size_t size_of_letters(std::string_view text, std::size_t limit);
 
 /// The text, or its first `limit` bytes (whole letters) and "…".
@@ -29,11 +29,12 @@ std::string in_quotes(std::string_view text);
 /// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" where there is none.
 std::string number_text(double value);
 
-/// Reads the whole text as a number of decimal digits ("-1.5", "2e3"), whatever the language of the user; false, with
-/// the value as it was, if it is none. Also "inf" and "nan" are numbers.
+/// Reads the whole text as a decimal number ("-1.5", "2e3", "inf", "nan"), independent of the user's locale. Returns
+/// false and leaves `value` unchanged if the text is not a number.
 bool number_from_text(std::string_view text, double& value);
 
-/// The candidate that a misspelt name probably means: at most a third of its letters are wrong. Empty: there is none.
+/// Returns the candidate that a misspelt name probably means (at most a third of its letters are wrong); empty if there
+/// is none.
 std::string_view closest(std::string_view name, const std::vector<std::string_view>& candidates);
 
 /// ` (did you mean "closest"?)`, or nothing.

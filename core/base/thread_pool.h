@@ -13,11 +13,11 @@ namespace tyndall {
 
 inline constexpr int max_threads = 4096;  ///< the largest number that options and the window accept
 
-/// A fixed set of threads that run one job at a time: a function that is called for each number below a count.
+/// A fixed set of threads that run one job at a time: a function that is called for each index below a count.
 class ThreadPool {
  public:
-  /// size >= 1 threads; 0: see thread_count(). Throws IoError, which names the limit, if the system
-  /// does not let so many start.
+  /// size: number of threads; 0: see thread_count(). Throws IoError, which names the limit, if the system does not
+  /// allow so many threads.
   explicit ThreadPool(int size);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -25,10 +25,9 @@ class ThreadPool {
 
   int size() const { return static_cast<int>(threads_.size()); }
 
-  /// Calls job(i) for every i in [0, count), each once, on the thread pool's threads, and returns when all have
-  /// returned. If a job throws, no further ones begin, and what the first one threw is thrown here when all have
-  /// returned. Only one call at a time, and none from within a job. poll, if given, is called on the calling thread
-  /// every 50 ms meanwhile.
+  /// Calls job(i) once for each i in [0, count) on the pool's threads, and returns when all calls have returned. If a
+  /// call throws, no further calls begin, and the first exception is thrown here when all have returned. Only one call
+  /// of for_each() at a time, and none from within a job. poll: if given, is called on the calling thread every 50 ms.
   void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
 
  private:

@@ -4,16 +4,16 @@
 /// Three numbers for places, directions and colours, and their arithmetic.
 namespace tyndall {
 
-/// A point, a direction or a colour (linear Rec.709: x red, y green, z blue). Vec3<float> is a single one, Vec3 of a
-/// group of lanes holds one in each lane; Vec3d is what users write into scene files.
+/// A point, a direction or a colour (linear Rec.709: x red, y green, z blue). Vec3<float> is a single vector; Vec3 of a
+/// group of lanes holds one vector for each lane; Vec3d is the type of scene files.
 template <class F>
 struct Vec3 {
   F x{}, y{}, z{};
   bool operator==(const Vec3&) const = default;
 };
 
-/// Groups of lanes are zero only where {} asks for it: kernels have many that are set later, and to clear them first
-/// takes up to a twentieth of their time.
+/// Vectors of groups of lanes are zero only if initialised by {}: kernels have many that are assigned later, and
+/// clearing all of them takes up to a twentieth of the time.
 template <class F>
 requires(lanes_of<F> > 1) struct Vec3<F> {
   F x, y, z;
@@ -65,7 +65,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> point_at(Vec3<F> origin, F t, Vec3<F> direction) {
   return {mul_add(t, direction.x, origin.x), mul_add(t, direction.y, origin.y), mul_add(t, direction.z, origin.z)};
 }
-/// d mirrored at the plane with unit normal n.
+/// Returns d reflected at the plane with unit normal n: d - 2 (d · n) n.
 template <class F>
 TYNDALL_INLINE Vec3<F> reflect(Vec3<F> d, Vec3<F> n) {
   return point_at(d, F(-2) * dot(d, n), n);

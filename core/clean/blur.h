@@ -1,8 +1,8 @@
 #pragma once
 #include "core/clean/cells.h"
 
-/// A small blur that knows nothing of what is seen: for glass, soft focus and motion, which the regression cannot
-/// explain.
+/// A small blur that does not use the first-seen features (albedo, normal, depth). It helps behind glass, in soft focus
+/// and in motion, which the regression cannot explain.
 namespace tyndall::filter {
 
 inline constexpr int chunk = 256;  ///< pixels of a row that are treated together
@@ -17,7 +17,7 @@ TYNDALL_INLINE int mirrored(int i, int count) {
   return maximum(0, minimum(j, count - 1));
 }
 
-/// Asks for the memory that a later row will be read from: rows are too short for the processor to foresee it.
+/// Prefetches the memory of a later row: rows are too short for the processor to foresee the access.
 TYNDALL_INLINE void fetch(const FilterView& v, const float* plane, int y, int x) {
   __builtin_prefetch(plane + std::ptrdiff_t{y} * v.stride + x);  // behind the picture it does nothing
 }
@@ -34,16 +34,16 @@ TYNDALL_INLINE bool emission_near(const FilterView& v, int y, int x0, int count)
   return any;
 }
 
-/// What is blurred: a half, of whose sharp emission nothing is spread: the dark around a light that is smaller than a
-/// pixel would be spoilt by far more than the light gains.
+/// Returns the values of a half that are to be blurred. If `lit`, without its sharp emission: a light smaller than a
+/// pixel gains little by being blurred, and would spoil the dark pixels around it.
 template <class F, bool lit>
 TYNDALL_INLINE F blurred_part(const FilterView& v, int output, std::ptrdiff_t at) {
   const F half = load<F>(v.half[output] + at);
   return lit ? neg_mul_add(load<F>(v.sharp + at), load<F>(v.emission[output] + at), half) : half;
 }
 
-/// Binomial filter of 5 x 5 taps, of `count` pixels from x0 on in row y; mirrored at the borders. A half that the
-/// regression has left as it was stays so.
+/// Blurs `count` pixels of row y, from x0 on, with a binomial filter of 5 x 5 taps, mirrored at the picture's borders.
+/// Pixels of a half that the regression left unchanged stay unchanged.
 template <class F, bool lit>
 TYNDALL_INLINE void blur_lit_chunk(const FilterView& v, int y, int x0, int count, ChunkOfHalves& to) {
   constexpr int reach = blur_reach;

@@ -2,29 +2,29 @@
 #include "core/base/lanes.h"
 #include "core/clean/filter_view.h"
 
-/// The picture is cut into cells. This file collects the columns of numbers by which the regression describes a cell's
-/// pixels, and sums the products of each two columns.
+/// Collects, for each cell of the picture, the columns of numbers by which the regression describes the cell's pixels,
+/// and sums the products of each two columns.
 namespace tyndall::filter {
 
-/// The sum of two numbers, as base/lanes_simd_pairs.h has it for groups of lanes.
+/// The sum of two numbers; base/lanes_simd_pairs.h has the version for groups of lanes.
 TYNDALL_INLINE float pair_sums(float a, float b) { return a + b; }
 
 TYNDALL_INLINE int minimum(int a, int b) { return a < b ? a : b; }
 TYNDALL_INLINE int maximum(int a, int b) { return a > b ? a : b; }
 
-/// As many cells beside each other as F has lanes: a row of their pixels fills cell_edge groups of lanes.
+/// A row of cells, one for each lane of F: a row of their pixels fills cell_edge groups of lanes.
 template <class F>
 struct Strip {
   static constexpr int cells = lanes_of<F>, width = cell_edge * cells;
   /// The columns of one group of lanes, row by row; 0 outside of the picture.
   alignas(64) float column[cell_columns][cell_edge * lanes_of<F>];
-  /// Of each product of two columns the sums over the rows of each group.
+  /// For each product of two columns: its sums over the rows of each group.
   alignas(64) float part[all_sums][width];
   /// x of the pixels of a row, counted from the middle of each cell, over the width of a block.
   alignas(64) float across[width];
 };
 
-/// Sums of cell_edge neighbours each: lane i has that of cell i of a strip.
+/// Adds up each cell_edge neighbours of a row: lane i is the sum of cell i of a strip.
 template <class F>
 TYNDALL_INLINE F fold(const float* row) {
   constexpr int n = lanes_of<F>;
@@ -34,7 +34,7 @@ TYNDALL_INLINE F fold(const float* row) {
   return pair_sums(pair_sums(pair(0), pair(2)), pair_sums(pair(4), pair(6)));
 }
 
-/// Copies the first `rows` rows of a group of lanes from a plane; the others become 0.
+/// Copies the first `rows` rows of a group of lanes from a plane, and sets the rows below them to 0.
 template <class F>
 TYNDALL_INLINE void take_rows(const float* plane, std::ptrdiff_t stride, int rows, float* to) {
   for (int y = 0; y < rows; ++y) store(to + y * lanes_of<F>, load<F>(plane + y * stride));
@@ -43,10 +43,10 @@ TYNDALL_INLINE void take_rows(const float* plane, std::ptrdiff_t stride, int row
 
 inline constexpr float middle_of_cell = 0.5f * (cell_edge - 1), per_block = 1.0f / (2 * cell_edge);
 
-/// Fills the columns of the group of lanes from x on. rows: how many of its rows lie in the picture.
-/// Where lights are seen, their emission is taken off the halves, because the regression would smear it over the pixels
-/// around; it is added again to what the regression predicts. It also stays one of the terms, because in a pixel that a
-/// light covers in part, it hides the rest in part.
+/// Fills the columns of the group of lanes from x on. rows: number of its rows inside the picture. Where a light is
+/// seen, its emission is subtracted from the halves, because the regression would smear it over the pixels around, and
+/// added again after the prediction. The emission also remains a term of the regression, because a light that covers a
+/// part of a pixel hides that part of the rest.
 template <class F>
 TYNDALL_INLINE void fill_group(const FilterView& v, int x, int y0, int rows, bool shines, const float* across,
                                Strip<F>& strip) {

@@ -16,8 +16,9 @@ inline constexpr int window_reach = 6;  ///< a choice is made from 13 x 13 pixel
 inline constexpr int hole_reach = 1;  ///< … without the middle 3 x 3: with its own residuals, they would not tell the
                                       ///< error of what was chosen any more
 
-/// Whether pixels that are k columns (or rows) away from the middle may share its noise, if the rows (or columns) do so
-/// too. spacing: of pixels that share second vertices, see FilterView; 0: none do.
+/// Whether the noise of pixels k columns (or rows) away from the middle may depend on the middle's noise, given that
+/// their rows (or columns) allow it. spacing: in pixels, of the groups that share second vertices (see FilterView); 0:
+/// no groups.
 template <int spacing>
 constexpr bool in_hole(int k) {
   const int away = k < 0 ? -k : k, beyond = spacing > 0 ? away % spacing : away;
@@ -43,14 +44,15 @@ TYNDALL_INLINE F places(int x) {
   return splat<F>(static_cast<float>(x)) + load<F>(place);
 }
 
-/// How many pixels a window around `at` covers in one direction, without those outside of the picture.
+/// Number of pixels that a window around `at` covers in one direction, inside the picture. reach: of the window to each
+/// side; size: of the picture.
 template <class F>
 TYNDALL_INLINE F covered(F at, int reach, int size) {
   const F last = splat<F>(static_cast<float>(size - 1)), half = splat<F>(static_cast<float>(reach));
   return max(min(at + half, last) - max(at - half, F(0.0f)) + F(1.0f), F(1.0f));
 }
 
-/// How many pixels of the square window around (x, y) are in the picture; lane i is for x + i.
+/// Number of pixels of the square window around (x, y) that are inside the picture; lane i is for x + i.
 template <class F>
 TYNDALL_INLINE F pixels_around(const FilterView& v, int y, int x, int reach) {
   return covered(places<F>(x), reach, v.width) * covered(splat<F>(static_cast<float>(y)), reach, v.height);
@@ -71,9 +73,9 @@ TYNDALL_INLINE void clear_behind(float* row, int width) {
   for (int x = width; x < width + row_margin; ++x) row[x] = 0;
 }
 
-/// The level of the picture that errors are relative to: the mean around a pixel, which is less by chance than its own.
-/// Where the pixel is by far darker than those around, and wherever lights are seen sharply, it is the pixel's own, if
-/// that is less: next to a light nothing else tells how dark it is.
+/// Returns the level to which errors at a pixel are relative: the mean of the 3 x 3 pixels around, which is less noisy
+/// than the pixel's own value. Where the pixel is much darker than its neighbours, and wherever a light is seen
+/// sharply, the level is at most the pixel's own value: next to a light no neighbour tells how dark the pixel is.
 template <class F>
 TYNDALL_INLINE F level_around(const FilterView& v, int y, int x) {
   const std::ptrdiff_t at = y * v.stride + x;
@@ -82,12 +84,13 @@ TYNDALL_INLINE F level_around(const FilterView& v, int y, int x) {
   return select(less(F(0.0f), load<F>(v.sharp + at)), darker, select(less(darker, F(0.1f) * around), darker, around));
 }
 
-/// A pixel of which the two pictures differ by more than about the root of this, relative to its level, counts less: it
-/// was met by a rare bright path, and would decide alone what happens to all pixels around.
+/// A pixel counts less if the two pictures differ there by more than about the root of this number, relative to the
+/// level: it was hit by a rare bright path and would alone decide for all pixels around.
 inline constexpr float rare_distance = 30;
 
-/// Both of a pixel's sums over channels are relative to levels. Their colour is the pixel's: what differs by the same
-/// amount in all channels is by far more in those that are dark.
+/// Sums, over the channels of a pixel, the gain of the other picture and its squared distance, both relative to the
+/// level. Weights each channel by the pixel's mean colour: an error of 0.01 matters more in a channel of level 0.02
+/// than in one of 0.9.
 template <class F>
 TYNDALL_INLINE void compare_pixels(const FilterView& v, const ChunkOfHalves& q, std::ptrdiff_t at, int x, F level) {
   F gain = F(0.0f), distance = F(0.0f), sum = F(1e-12f);
@@ -121,7 +124,8 @@ TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   clear_behind(v.distance + y * v.stride, v.width);
 }
 
-/// How many pixels of the window around (x, y) decide: all in the picture but those in the hole; lane i is for x + i.
+/// Number of pixels that decide at (x, y): those of the window inside the picture, without the hole in its middle; lane
+/// i is for x + i.
 template <int spacing, class F>
 TYNDALL_INLINE F deciding_pixels(const FilterView& v, int y, int x) {
   const F last = splat<F>(static_cast<float>(v.width - 1)), at = places<F>(x);
@@ -142,7 +146,7 @@ TYNDALL_INLINE F deciding_pixels(const FilterView& v, int y, int x) {
   return max(all_rows * columns + rows * (all_columns - columns), F(1.0f));
 }
 
-/// Sums over the columns of a window: of all its rows, and of those that the hole has no part of.
+/// Sums over the columns of a window: over all rows, and over the rows outside of the hole.
 struct WindowColumns {
   static constexpr int gain = 0, squares = 1, distance = 2, sums = 3;
   alignas(64) float all[sums][chunk + 64], outer[sums][chunk + 64];  // from x0 - row_margin on
@@ -173,8 +177,8 @@ TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, W
   }
 }
 
-/// The sum over the window around x. It is added up anew for each x, because a running sum, from which a bright pixel
-/// is subtracted, would keep that pixel's rounding.
+/// Returns the sum over the window around x. The sum is computed anew for each x: a running sum would keep the rounding
+/// errors of a bright pixel that has left the window.
 template <int spacing, class F>
 TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
   const float *all = columns.all[sum] + row_margin + x, *outer = columns.outer[sum] + row_margin + x;
@@ -183,8 +187,8 @@ TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
   return total;
 }
 
-/// The fraction of the rival with which the mixture has the least error, in [0, 1]. doubt: the gain counts only beyond
-/// so many of its standard errors; 0 for the raw picture, which is right on average in any scene.
+/// Returns the fraction of the rival in the mixture with the least error, in [0, 1]. doubt: the gain counts only as far
+/// as it exceeds this many of its standard errors; 0 for the raw picture, which has no bias in any scene.
 template <int spacing, class F>
 TYNDALL_INLINE F fraction_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0,
                                    int x) {

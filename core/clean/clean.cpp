@@ -69,14 +69,14 @@ void put_picture(const FilterView& view, float scale, int y, float* rgb) {
     rgb[0] = scale * red[x], rgb[1] = scale * green[x], rgb[2] = scale * blue[x];
 }
 
-/// Whether few pixels make up most of the sum of all pixels' errors, of whose squares the sum is `squares`. Small
-/// pictures show some spread by chance alone: the second term takes off as much.
+/// Whether a few pixels make up most of the sum of all pixels' errors. squares: the sum of the squared errors. The
+/// second term subtracts the spread that small pictures show by chance.
 bool few_matter(double sum, double squares, double pixels) {
   return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
 }
 
-/// Does for one pixel what judge_of() does for a row, with a level that is known, in units of the planes. Returns the
-/// squared relative error.
+/// Judges one pixel as judge_of() judges a row, but with a known level, in units of the planes. Returns the squared
+/// relative error.
 double judge_at_level(const FilterView& v, std::size_t pixel, Vec3f level) {
   const auto width = static_cast<std::size_t>(v.width);
   const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel / width) * v.stride + static_cast<int>(pixel % width);
@@ -110,7 +110,7 @@ ErrorSum errors_of_rows(const FilterView& v, int first, int end) {
   return sum;
 }
 
-/// Resizes in so small steps that it gives up soon.
+/// Resizes in steps small enough to stop soon after `give_up` is set.
 void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool>& give_up) {
   constexpr std::size_t step = std::size_t{1} << 18u;
   numbers.reserve(count);
@@ -188,7 +188,7 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
     });
     return !give_up;
   };
-  // Rows of pixels are dealt out in bands: a thread then finds the rows around one in its cache.
+  // Rows of pixels are dealt out in bands, so that a thread finds neighbouring rows in its cache.
   const auto each_pixel_row = [&](const auto& step) {
     return each(m.cells_y, [&](int band) {
       const int end = std::min((band + 1) * cell_edge, v.height);
@@ -200,7 +200,7 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
            each_pixel_row([&](int y) { m.steps.mix(v, rival, y); });
   };
   const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
-  // The room for the result is made by one thread while the others sum: the system takes its time over new memory.
+  // One thread allocates the result while the others sum, because the system takes time to provide new memory.
   const auto make_room = [&] {
     m.made.width = v.width, m.made.height = v.height;
     grow(m.made.rgb, 3 * width * height, give_up);
@@ -231,7 +231,7 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
   });
   if (!copied) return false;
   const double pixels = static_cast<double>(width * height);
-  // Squared bias, which the errors hold beside noise, may be negative by chance.
+  // The errors are noise plus squared bias, and the estimate of the latter may be negative by chance.
   const double error = std::max(errors.sum(), std::accumulate(m.row_noise.begin(), m.row_noise.end(), 0.0));
   m.made.relative_error = std::sqrt(error / pixels);
   m.made.rests_on_few_pixels = few_matter(error, errors.squares(), pixels);

@@ -10,26 +10,28 @@
 #include <memory>
 #include <vector>
 
-/// The clean view: a filtered picture that knows its error. Films and their hashes are never filtered.
+/// The clean view: a filtered picture with an estimate of its error. Films and their hashes are never filtered.
 ///
-/// Each half of the film is filtered from itself alone (regression.h), then what the halves say of each other decides,
-/// pixel by pixel, how much of the filtered, a blurred or the raw picture helps, and how wrong the result still is
-/// (choice.h). So the more samples there are the more of the raw picture shows, and the error has no floor.
+/// The filter runs on the two independent halves of the samples, each by itself (regression.h). Where the halves
+/// disagree, less of the filter's result is used: pixel by pixel the result is mixed from the filtered, a blurred and
+/// the raw picture, and the disagreement is the error estimate (choice.h). With more samples more of the raw picture
+/// shows, so that the error has no floor.
 namespace tyndall {
 namespace filter {
 struct FilterSteps;
 }
 
-/// What is seen first through a pixel, free of noise; the mean of what its parts see, those that see nothing as zeros.
+/// The surface seen first through a pixel, free of noise: the mean over the parts of the pixel. A part that sees
+/// nothing counts as zeros.
 struct FirstSeen {
   Vec3f albedo, normal;
   float nearness = 0;  ///< 1 / (1 + depth over its harmonic mean in the picture), in [0, 1); 0: nothing is seen
   bool sharp = true;   ///< lights and sky are not seen by chance there, as they are in glass and in brushed metal
 };
 
-/// Zeros at first, and at a multiple of 64 bytes, as a group of lanes is. They take memory once they are written to, by
-/// the thread that does so, and in large pages where the system has them: a picture's planes would else spend as much
-/// time on getting memory as on being filtered.
+/// A row of floats, aligned to 64 bytes as a group of lanes needs, initially zero. The memory is taken from the system
+/// page by page when it is first written, by the thread that writes, and in large pages where possible: otherwise
+/// getting the memory of a picture's planes would take as long as filtering it.
 class ZeroedFloats {
  public:
   /// Throws std::bad_alloc.
@@ -51,7 +53,8 @@ class Planes {
  public:
   static constexpr int margin = 16;
 
-  /// Zeros. Keeps its memory where the size is the same, with whatever it holds within the rows, and returns false.
+  /// Makes all numbers zero. If the size is unchanged, the memory and the old numbers within the rows are kept, and
+  /// false is returned.
   bool resize(int width, int height, int count);
   int width() const { return width_; }
   std::ptrdiff_t stride() const { return stride_; }
@@ -66,7 +69,8 @@ class Planes {
   ZeroedFloats data_;
 };
 
-/// A picture to be filtered: both halves, as means over samples, and the light that came straight from lights and sky.
+/// A picture to be filtered: the means of both halves of its samples, and the part of them that came straight from
+/// lights and sky.
 struct CleanInput {
   int width = 0, height = 0;
   float scale = 1;                      ///< a power of two: radiance is that times the numbers in the planes
@@ -78,8 +82,8 @@ struct CleanInput {
   Planes seen;                          ///< 8: albedo, normal, nearness, 1 where sharp
 };
 
-/// Fills all but `seen` with a film's region. Where one half of a pixel is empty it gets what the other has.
-/// Returns false if `give_up` was set before the end; the planes are then of no use.
+/// Fills all but `seen` from a film's region. If one half of a pixel has no samples, it gets the other half's mean.
+/// Returns false if `give_up` was set before the end; the planes are then unusable.
 bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanInput& input);
 /// Makes room in `seen`.
 void resize_first_seen(int width, int height, CleanInput& input);
@@ -92,9 +96,10 @@ struct CleanPicture {
   std::vector<float> rgb;  ///< 3 floats a pixel, linear, top row first; never negative
   /// Estimated relative error: its square estimates the picture's relMSE.
   double relative_error = std::numeric_limits<double>::infinity();
-  /// Whether the estimate means little, because few pixels make up most of it: see ErrorEstimate::rests_on_few_pixels.
+  /// Whether a few pixels make up most of the estimate, which then means little: see
+  /// ErrorEstimate::rests_on_few_pixels.
   bool rests_on_few_pixels = false;
-  /// The same of each pixel, from the 13 x 13 pixels around it.
+  /// Estimated relative error of each pixel, from the 13 x 13 pixels around it.
   std::vector<float> pixel_error;
 };
 
@@ -102,16 +107,16 @@ struct CleanPicture {
 class Cleaner {
  public:
   explicit Cleaner(Target target);
-  /// With these steps instead of an instruction set's: for tests that count them.
+  /// Uses these steps in place of an instruction set's: for tests that count calls.
   explicit Cleaner(const filter::FilterSteps& steps);
   ~Cleaner();
   Cleaner(Cleaner&&) noexcept;
   Cleaner& operator=(Cleaner&&) noexcept;
 
-  /// Filters a picture whose pixels all have samples in both halves. Returns false, and leaves `out` as it was, if
-  /// `give_up` is set before the end: then each thread ends after the row of pixels, or of 8 x 8 pixels, that it is at,
-  /// which takes less than 1 ms. levels_of: tells the levels of the pixels that decide the error (see ask_levels()),
-  /// and has to notice `give_up` itself; empty: they are found from the picture alone. The same bits for any number of
+  /// Filters a picture whose pixels all have samples in both halves. Returns false and leaves `out` unchanged if
+  /// `give_up` is set before the end: each thread then finishes its row of pixels, or of 8 x 8 pixels, in less than 1
+  /// ms. levels_of: returns the levels of the pixels that decide the error (see ask_levels()) and must itself stop at
+  /// `give_up`; empty: levels are estimated from the picture alone. The result has the same bits for any number of
   /// threads. Throws std::bad_alloc.
   bool run(const CleanInput& input, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanPicture& out,
            const LevelsOf& levels_of = {});

@@ -2,9 +2,9 @@
 #include "core/clean/judge.h"
 #include "core/clean/predict.h"
 
-/// The filter's entry points as templates over the number type F. Each instruction set has a small .cpp file, which
-/// chooses F. They are static, so that each file has its own: of an ordinary template the linker keeps one copy for all
-/// files, and one with wide instructions would crash older CPUs.
+/// The filter's entry points as templates over the number type F, instantiated by one small .cpp file for each
+/// instruction set. The functions are static, so that each file has its own copy: of an ordinary template the linker
+/// keeps one copy for all files, and a copy with wide instructions would crash older CPUs.
 namespace tyndall::filter {
 
 template <class F>

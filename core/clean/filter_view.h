@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The filter's numbers as plain pointers, which is all that the code of the instruction sets reads. It must not call a
-/// container's member functions: the linker keeps one copy of each for all files, and one with wide instructions would
-/// crash older CPUs.
+/// The filter's data as plain pointers: the only data that the code of the instruction sets reads. That code must not
+/// call a container's member functions: the linker keeps one copy of each for all files, and a copy with wide
+/// instructions would crash older CPUs.
 namespace tyndall::filter {
 
 /// Planes have room to the left and right of each row, so that whole groups of lanes can be read everywhere.
@@ -15,15 +15,16 @@ inline constexpr int row_margin = 16;
 /// The picture is cut into cells of cell_edge x cell_edge pixels. A block is 2 x 2 cells: blocks overlap by half.
 inline constexpr int cell_edge = 8, cell_pixels = cell_edge * cell_edge;
 
-// The columns of numbers that a cell has, one number a pixel: 1, x, y and what is seen first (albedo, normal, depth),
-// which both halves share; then the emission of each half, and the halves themselves.
+// The columns of a cell, one number a pixel: first 1, x, y and the first-seen features (albedo, normal, depth), which
+// both halves share; then the emission of each half; then the halves themselves.
 inline constexpr int seen_features = 7, plain_terms = 3 + seen_features, emission_terms = 3,
                      terms = plain_terms + emission_terms, outputs = 6;
 inline constexpr int depth_column = plain_terms - 1;  ///< > 0 where anything is seen
 inline constexpr int emission_column = plain_terms, half_column = emission_column + 2 * emission_terms,
                      cell_columns = half_column + outputs;
 
-/// A product of the columns i >= j that is summed for each cell. A cell has plain_sums of them, with emission all_sums.
+/// A product of two columns i >= j that is summed for each cell. A cell has plain_sums such products; a cell with
+/// emission has all_sums.
 struct ColumnPair {
   std::uint8_t i, j;
 };
@@ -42,7 +43,7 @@ struct FilterView {
   std::ptrdiff_t stride = 0;
   float floor = 0;          ///< what is added to squared levels, in squared units of the planes
   float trust_in_dark = 0;  ///< 1 with so many samples that a pixel is hardly dark by chance, else 0
-  // For glows_into_dark(). The more samples there are, the less a pixel is dark by chance, and the less it takes.
+  // For glows_into_dark(): with more samples fewer pixels are dark by chance, and smaller differences are enough.
   float by_far = 0;                           ///< how many times brighter than raw a picture that glows is, at least
   float quiet = 0;                            ///< largest relative variance of raw pixels that count as known
   bool grouped = false;                       ///< groups of pixels share their noise: see film/groups.h
@@ -55,7 +56,7 @@ struct FilterView {
   float* level;              ///< mean of the six planes of `filtered`
   float *gain, *distance;    ///< by how much another picture would lower the error, and its squared distance
   const ColumnPair* pairs;   ///< all_sums of them
-  // Of each cell, one row of cells after the other, sum by sum; a border of empty cells around.
+  // For each cell, in rows of cells and sum by sum, with a border of empty cells around the picture.
   float* sums;
   std::uint8_t* shines;            ///< whether the cell has emission
   std::ptrdiff_t cell_stride = 0;  ///< from a sum of a row of cells to the next
@@ -69,8 +70,8 @@ struct FilterView {
 /// The pictures that may be mixed into the regression's result where they lower the error, in this order.
 enum class Rival { blurred, raw };
 
-/// The filter's steps. Each takes one row of its kind and reads only what earlier steps wrote, so that the rows of a
-/// step can be shared between threads in any way without changing a bit.
+/// The filter's steps. Each processes one row and reads only the results of earlier steps, so that any distribution of
+/// rows over threads gives the same bits.
 struct FilterSteps {
   void (*sum_cells)(const FilterView& view, int cell_row);          ///< rows of cells
   void (*fit_blocks)(const FilterView& view, int block_row);        ///< one more than rows of cells
@@ -82,7 +83,7 @@ struct FilterSteps {
   void (*tell)(const FilterView& view, int y, float* pixel_error);  ///< fills a row of CleanPicture::pixel_error
 };
 
-// Each is in a file of its own, which is compiled with that instruction set's flags.
+// Each function is in a file of its own, compiled with that instruction set's flags.
 FilterSteps scalar_filter();
 FilterSteps sse4_filter();
 FilterSteps avx2_filter();

@@ -1,10 +1,10 @@
 #pragma once
 #include "core/clean/choice.h"
 
-/// How wrong the chosen picture is: choice.h has the formula.
+/// Estimates the error of the chosen picture by the formula in choice.h.
 namespace tyndall::filter {
 
-/// What a channel of both halves shows in the 3 x 3 pixels around each lane's pixel.
+/// Statistics of one channel, over both halves, in the 3 x 3 pixels around each lane's pixel.
 template <class F>
 struct Surroundings {
   F others;  ///< mean of the pixels but the middle one
@@ -27,12 +27,14 @@ TYNDALL_INLINE Surroundings<F> look_around(const FilterView& v, int channel, int
   return {max(F(0.5f) * (sum - own) / max(pixels - F(1.0f), F(1.0f)), F(0.0f)), F(0.25f) * squares / pixels};
 }
 
-/// The level of the picture that a pixel's error is relative to. It is the raw mean of the pixels around it, without
-/// the pixel itself, because a bright speck that is measured by itself would look like a small error. Where the pixel
-/// is brighter than those around, the level is raised towards its own mean, the more its two halves agree. Where it is
-/// darker than the noise around explains and something is seen that is not sharp, as at the rim of a glass sphere, the
-/// level is lowered towards it. Not elsewhere: pixels that are dark by chance, whose halves are then both off in the
-/// same way, would count more than those that are bright by chance, and the error would seem twice as large.
+/// Returns the level to which a pixel's error is relative: the raw mean of the pixels around it, without the pixel
+/// itself, because a bright speck measured relative to itself would look like a small error.
+///
+/// The level is raised towards the pixel's own mean where the pixel is brighter than its neighbours, and more so where
+/// its two halves agree. The level is lowered towards the pixel's mean where the pixel is darker than the noise around
+/// explains and a feature is seen that is not sharp, for example at the rim of a glass sphere. Elsewhere it is not
+/// lowered: pixels that are dark by chance have both halves wrong in the same direction; they would count more than
+/// pixels bright by chance and make the error look twice as large.
 template <class F>
 TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surroundings<F>& around) {
   const F both = a + b, apart = F(2.0f) * (a - b);
@@ -44,11 +46,11 @@ TYNDALL_INLINE F known_level(const FilterView& v, F a, F b, F sharp, const Surro
   return mul_add(fraction, above, around.others);
 }
 
-/// Whether the filter has spread light over a sharp edge into the dark, as beside a caustic: raw is by far darker than
-/// the picture, at a pixel and at two more of the 3 x 3 pixels around at least, and the halves agree about all nine too
-/// well for pixels that are dark by chance. Two others must be brighter than the picture, or holes would be torn into
-/// dark floors, unless the halves agree so well that nothing is left to chance. Never at the left and right borders,
-/// where what stands beside the picture counts as unknown.
+/// Whether the filter has spread light over a sharp edge into the dark, for example beside a caustic. True if the raw
+/// picture is much darker than the filtered one at the pixel and at two or more of its 8 neighbours, and the halves
+/// agree about all 9 pixels better than pixels do that are dark by chance. Besides, two neighbours must be brighter
+/// than the filtered picture (else dark floors would get holes), unless the halves agree so well that chance is
+/// excluded. Always false at the left and right borders, where pixels beside the picture count as unknown.
 template <class F>
 TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
   const auto sum = [](const float* const* planes, std::ptrdiff_t at) __attribute__((always_inline)) {
@@ -77,10 +79,10 @@ TYNDALL_INLINE auto glows_into_dark(const FilterView& v, int y, int x) {
   return mask_and(mask_and(glows, known), mask_and(less(F(2.5f), dark), edge));
 }
 
-/// Errors are relative to the lesser of the picture and the level that is known from raw. What glows into the dark, and
-/// what is not finite because numbers were too large for single precision, becomes raw. Light is never negative: where
-/// the filter's is, as a linear function may fall below 0 beside a bright speck, 0 is nearer to the truth. The error is
-/// that of the filter's.
+/// Estimates the error of each pixel of a row, relative to the smaller of the filtered picture and the level known from
+/// the raw picture; then replaces bad pixels. A pixel becomes raw where light glows into the dark and where the result
+/// is not finite (numbers too large for single precision). Negative results, which a linear function may have beside a
+/// bright speck, become 0, which is nearer to the truth; the error stays that of the filter's result.
 template <class F>
 TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
   for (int x = 0; x < v.width; x += lanes_of<F>) {
@@ -109,8 +111,8 @@ TYNDALL_INLINE void judge_of(const FilterView& v, int y) {
   clear_behind(v.error + y * v.stride, v.width);
 }
 
-/// The relative error of each pixel of a row: the root of the mean of view.error over the window around it. A mean that
-/// is negative by chance counts as 0.
+/// Fills in the relative error of each pixel of a row: the root of the mean of view.error over the window around the
+/// pixel. A mean that is negative by chance counts as 0.
 template <class F>
 TYNDALL_INLINE void tell_of(const FilterView& v, int y, float* pixel_error) {
   alignas(64) float column[chunk + 64], root[chunk + 64];  // from x0 - row_margin on; from x0 on

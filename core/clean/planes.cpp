@@ -16,12 +16,13 @@ namespace {
 
 constexpr std::size_t large_page = std::size_t{1} << 21u, group = 64;
 
-/// Numbers are divided by this so that their squares, summed over windows, fit into single precision. It is 1 unless a
-/// light is brighter than 2^25.
+/// Returns the divisor of all numbers, so that their squares, summed over windows, fit into single precision: 1 unless
+/// a light is brighter than 2^25.
 float scale_of(const Film& film) { return static_cast<float>(std::max(film.quantum * 0x1p-25, 1.0)); }
 
-/// The factor that turns the sums of a half with so many samples into the means that planes hold; 0 for an empty half.
-/// Most pixels have as many samples as the one before, and a division takes longer than all the rest.
+/// Returns the factor from the sums of a half to its means in the planes; 0 for a half without samples. The last factor
+/// is kept: most pixels have as many samples as the one before, and the division would take longer than everything
+/// else.
 class PerSample {
  public:
   explicit PerSample(double quantum) : quantum_(quantum) {}
@@ -62,7 +63,7 @@ bool is_dark(const EmissionSums& sums) {
   return (sum[0][0] | sum[0][1] | sum[0][2] | sum[1][0] | sum[1][1] | sum[1][2]) == 0;
 }
 
-/// Dark rows, as most are, are not written where they are 0 already: memory that is never touched takes no time.
+/// Does not write dark rows (most rows) that are 0 already: memory that is never touched costs no time.
 void read_emission_row(const Film& film, int y, CleanInput& input) {
   const auto width = static_cast<std::size_t>(input.width), first = static_cast<std::size_t>(y) * width;
   const EmissionSums* sums = film.emission.data() + first;

@@ -1,10 +1,11 @@
 #pragma once
 #include "core/clean/regression.h"
 
-/// What the regression makes of a picture: each pixel takes what the four blocks around predict of it.
+/// Applies the regression: each pixel becomes the mean of the predictions of the four blocks around it, weighted
+/// bilinearly.
 namespace tyndall::filter {
 
-/// What a prediction reads of one cell, pixel by pixel: the terms, and the emission of both halves.
+/// Input of a prediction for one cell, pixel by pixel: the terms, and the emission of both halves.
 struct CellTerms {
   alignas(64) float of[emission_column + 2 * emission_terms][cell_pixels];
   int rows;     ///< how many of its rows lie in the picture; those below repeat the last one
@@ -14,7 +15,7 @@ struct CellTerms {
 /// Copies a row of a cell.
 TYNDALL_INLINE void copy_row(const float* from, float* to) { __builtin_memcpy(to, from, cell_edge * sizeof(float)); }
 
-/// Copies a cell's pixels from a plane. Those to the right of the picture get what is there: they are not used.
+/// Copies a cell's pixels from a plane. Pixels to the right of the picture get arbitrary values and are not used.
 TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int rows, float* to) {
   for (int y = 0; y < cell_edge; ++y)
     copy_row(plane + minimum(y, rows - 1) * stride, to + std::ptrdiff_t{y} * cell_edge);
@@ -40,7 +41,7 @@ TYNDALL_INLINE void fill_terms(const FilterView& v, int cell_x, int cell_y, Cell
     take_cell(v.emission[k] + at, v.stride, cell.rows, cell.of[emission_column + k]);
 }
 
-/// The coefficients of the four blocks that a cell belongs to, for places counted from the cell's own middle.
+/// The coefficients of the four blocks that a cell belongs to, for places counted from the middle of the cell.
 struct CellBlocks {
   float of[4][outputs][terms];
 };
@@ -58,7 +59,7 @@ TYNDALL_INLINE void take_blocks(const FilterView& v, int cell_x, int cell_row, C
   }
 }
 
-/// The weights with which each pixel of a cell mixes the predictions of the four blocks that it is in: bilinear tents.
+/// Fills in the bilinear weights with which each pixel of a cell mixes the predictions of its four blocks.
 TYNDALL_INLINE void fill_tents(float (*tent)[cell_pixels]) {
   for (int y = 0; y < cell_edge; ++y)
     for (int x = 0; x < cell_edge; ++x) {
@@ -70,8 +71,8 @@ TYNDALL_INLINE void fill_tents(float (*tent)[cell_pixels]) {
     }
 }
 
-/// The predictions of all outputs for a group of pixels from `pixel` on, and their mean behind them. all_terms: whether
-/// there are more than the plain ones.
+/// Computes the predictions of all outputs for a group of pixels from `pixel` on, followed by their mean. all_terms:
+/// whether the cell has the terms of emission besides the plain ones.
 template <class F, bool all_terms>
 TYNDALL_INLINE void predict_pixels(const CellTerms& cell, const CellBlocks& blocks, const float (*tent)[cell_pixels],
                                    int pixel, float (*out)[cell_pixels]) {
@@ -96,8 +97,8 @@ TYNDALL_INLINE void predict_pixels(const CellTerms& cell, const CellBlocks& bloc
   store(out[outputs] + pixel, F(1.0f / outputs) * level);
 }
 
-/// Whether a half shows no light but what came straight from lights or the sky, in those of the 3 x 3 pixels around
-/// where nothing is seen.
+/// Whether all light of a half came straight from lights or the sky, in those of the 3 x 3 pixels around in which
+/// nothing is seen.
 TYNDALL_INLINE bool is_dark(const FilterView& v, int half, int x0, int y0) {
   for (int y = maximum(y0 - 1, 0); y <= minimum(y0 + 1, v.height - 1); ++y)
     for (int x = maximum(x0 - 1, 0); x <= minimum(x0 + 1, v.width - 1); ++x) {
@@ -110,8 +111,8 @@ TYNDALL_INLINE bool is_dark(const FilterView& v, int half, int x0, int y0) {
   return true;
 }
 
-/// Leaves a half as it is where nothing is seen and it is dark: what is seen next to there would glow into the dark.
-/// Only where emission is recorded, as else the sky, which is seen there, cannot be told from such a glow.
+/// Leaves a half unfiltered where nothing is seen and the half is dark: otherwise neighbouring surfaces would glow into
+/// the dark. Only where emission is recorded; without it such a glow cannot be told from the sky that is seen there.
 TYNDALL_INLINE void keep_dark(const FilterView& v, const CellTerms& cell, int x0, int y0, float (*out)[cell_pixels]) {
   if (!v.has_emission()) return;
   float nearest = 1;
@@ -143,7 +144,7 @@ TYNDALL_INLINE void keep_dark(const FilterView& v, const CellTerms& cell, int x0
   }
 }
 
-/// Writes what was made of a cell to the picture.
+/// Writes the filtered pixels of a cell to the picture.
 TYNDALL_INLINE void put_cell(const FilterView& v, int x0, int y0, int rows, const float (*out)[cell_pixels]) {
   const int columns = minimum(cell_edge, v.width - x0);
   for (int output = 0; output <= outputs; ++output) {

@@ -2,17 +2,17 @@
 #include "core/clean/cells.h"
 
 /// Block regression. Within each block of 16 x 16 pixels a half of the picture is approximated by a linear function of
-/// the place and of what is seen there; blocks overlap by half. Noisy features count less (a ridge of their own noise).
-/// Every product of two columns is summed once for each cell of 8 x 8 pixels, and a block adds up the sums of its four
-/// cells. Each lane solves another block.
+/// the place and of the first-seen features; blocks overlap by half. Noisy features count less (a ridge of their own
+/// noise). Every product of two columns is summed once for each cell of 8 x 8 pixels, and a block adds up the sums of
+/// its four cells. Each lane solves another block.
 ///
 /// The regression on noisy features is from Bitterli et al., Nonlinearly Weighted First-order Regression for Denoising
-/// Monte Carlo Renderings, Computer Graphics Forum 35 (2016); the blocks with shared sums from He, Sun, Tang, Guided
-/// Image Filtering, TPAMI 35 (2013).
+/// Monte Carlo Renderings, Computer Graphics Forum 35 (2016); the blocks with shared sums are from He, Sun, Tang,
+/// Guided Image Filtering, TPAMI 35 (2013).
 namespace tyndall::filter {
 
-/// The index, among the sums of a cell, of the product of the terms i >= j for a half; below it that of the product of
-/// a channel and a term.
+/// The index, among the sums of a cell, of the product of the terms i >= j for a half. channel_sum(), below: of the
+/// product of a channel and a term.
 TYNDALL_INLINE int product_sum(int half, int i, int j) {
   if (i < plain_terms) return i * (i + 1) / 2 + j;
   const int first = plain_sums + half * emission_sums, k = i - plain_terms;
@@ -26,7 +26,7 @@ TYNDALL_INLINE int channel_sum(int output, int i) {
          channel * emission_terms + i - plain_terms;
 }
 
-/// The sums of four cells that make a block, for a group of blocks that follow each other in x.
+/// The sums of the four cells of a block, for a group of blocks that follow each other in x.
 template <class F>
 struct BlockCells {
   const float* part[4];  ///< first sums of the first block's cells: upper left, upper right, lower left, lower right
@@ -36,8 +36,8 @@ struct BlockCells {
     return (load<F>(part[0] + s * stride) + load<F>(part[1] + s * stride)) +
            (load<F>(part[2] + s * stride) + load<F>(part[3] + s * stride));
   }
-  /// Moves the sum of a product with x from the cells' middles to the block's, which is a quarter of a block away: the
-  /// right cells' sums minus the left ones'. down(): the same for y.
+  /// Moves the sum of a product with x from the middles of the cells to the middle of the block, a quarter of a block
+  /// away: adds a quarter of the right cells' sums minus the left cells'. down(): the same for y.
   TYNDALL_INLINE F across(int s) const {
     return F(0.25f) * ((load<F>(part[1] + s * stride) - load<F>(part[0] + s * stride)) +
                        (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
@@ -87,7 +87,7 @@ struct Normal {
   F factor[terms * (terms + 1) / 2];
 };
 
-/// Differences of a feature below this count as its noise and do not tell things apart.
+/// Differences of a feature below this value count as noise of the feature.
 TYNDALL_INLINE float feature_floor(int term) {
   return term < 3 ? 0.05f : term < 6 ? 0.02f : term < 9 ? 0.03f : term < 10 ? 0.01f : 0.02f;
 }

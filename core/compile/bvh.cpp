@@ -25,9 +25,9 @@ constexpr int count_primitive_kinds() {
 }
 static_assert(count_primitive_kinds() == primitive_kinds, "leaves have slots for every kind of primitive");
 
-/// Turns the binary tree into nodes of up to eight children, with the least cost by the surface area heuristic: all
-/// ways to fill nodes are weighed, from the leaves up. H. Ylitie, T. Karras, S. Laine, Efficient Incoherent Ray
-/// Traversal on GPUs Through Compressed Wide BVHs, HPG 2017; here each child of a node costs something as well.
+/// Converts the binary tree to nodes of up to eight children, with the lowest cost by the surface area heuristic: all
+/// possibilities to fill nodes are weighed, from the leaves up. H. Ylitie, T. Karras, S. Laine, Efficient Incoherent
+/// Ray Traversal on GPUs Through Compressed Wide BVHs, HPG 2017; here each child of a node has a cost, too.
 class Widener {
  public:
   Widener(const BinaryTree& tree, Bvh& out) : tree_(tree), out_(out) {}
@@ -70,8 +70,9 @@ class Widener {
     return children;
   }
 
-  /// The least costs of a part of the binary tree that fills at most 1, 2 … 8 slots of a wide node. Until its parent is
-  /// weighed, the first is that of a wide node, or leaf, made of it, and the others are not known.
+  /// The lowest costs of a part of the binary tree that fills at most 1, 2 … 8 slots of a wide node. Until the part's
+  /// parent is weighed, the first entry is the cost of a wide node or leaf made of the part, and the others are
+  /// unknown.
   using Costs = std::array<float, bvh_width>;
   static constexpr float node_cost = 4, child_cost = 1;  // times of tests over that of a sphere
 
@@ -80,11 +81,11 @@ class Widener {
   float cost(int node, int slots) const {
     return costs_[static_cast<std::size_t>(node)][static_cast<std::size_t>(slots - 1)];
   }
-  /// The same of a node's two sides, of which the left one fills so many of the slots.
+  /// The cost of a node's two sides, if the left side fills `left` of the slots.
   float cost_of_both(int node, int left, int slots) const {
     return cost(binary(node).left, left) + cost(binary(node).right, slots - left);
   }
-  /// How many of the slots the left side best fills.
+  /// Returns the number of slots that the left side fills at the lowest cost.
   int best_left(int node, int slots) const {
     int best = 1;
     for (int left = 2; left < slots; ++left)
@@ -92,7 +93,7 @@ class Widener {
     return best;
   }
 
-  /// Weighs the parts of the binary tree, from its leaves up: a node follows its parent in the list.
+  /// Computes the costs of all parts of the binary tree, from its leaves up: a node follows its parent in the list.
   void weigh() {
     costs_.resize(tree_.nodes.size());
     for (int i = static_cast<int>(tree_.nodes.size()) - 1; i >= 0; --i) {
@@ -117,7 +118,7 @@ class Widener {
     }
   }
 
-  /// Appends what fills the slots at the least cost.
+  /// Appends the children that fill the slots at the lowest cost.
   void collect(int node, int slots, std::vector<int>& children) const {
     while (slots > 1 && cost(node, slots) == cost(node, slots - 1)) --slots;
     if (slots == 1)

@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <vector>
 
-/// The tree of boxes by which rays find the few primitives that they may meet.
+/// The bounding volume hierarchy (BVH): a tree of boxes by which rays find the few primitives that they may hit.
 namespace tyndall {
 
 inline constexpr int bvh_width = 8;  ///< most children of a node
 inline constexpr int bvh_max_primitives = 1 << 24;
 inline constexpr int bvh_stack = 640;  ///< more nodes than can wait in a traversal: 7 in each of 48 + 24 + 2 levels
 
-/// The children's boxes, component by component, so that one ray can be tested against all of them, or many rays
-/// against one. Groups of 16 lanes may load 16 values from the start of a row of 8: that stays within the node, because
+/// The children's boxes, component by component, so that one ray can be tested against all boxes, or many rays against
+/// one. Groups of 16 lanes may load 16 values from the start of a row of 8: the load stays within the node, because
 /// other members follow.
 struct alignas(64) BvhNode {
   float low[3][bvh_width], high[3][bvh_width];
@@ -27,8 +27,8 @@ struct BvhLeaf {
   PrimitiveKind kind = PrimitiveKind::sphere;
 };
 
-/// A tree of axis-parallel boxes over primitives. The boxes of children lie within that of their parent, exactly, also
-/// in float; the traversal relies on that.
+/// A tree of axis-parallel boxes over primitives. The boxes of children lie exactly within their parent's box, also in
+/// float; the traversal relies on this.
 struct Bvh {
   std::vector<BvhNode> nodes;  ///< node 0 is the root; never empty
   std::vector<BvhLeaf> leaves;

@@ -15,7 +15,8 @@ constexpr int bins = 16;
 constexpr std::size_t max_in_leaf = 8;
 constexpr int deepest_heuristic = 48;  // below this depth ranges are halved, so that the traversal's stack is bounded
 
-/// Time for a node over that for a primitive's test. For spheres 3 to 6 were found as good, for boxes 1.3 to 2.
+/// Returns the time to visit a node over the time to test a primitive. Values of 3 to 6 were about equally good for
+/// spheres, 1.3 to 2 for boxes.
 float traversal_cost(PrimitiveKind kind) { return kind == PrimitiveKind::box ? 1.5f : 4.0f; }
 
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -29,7 +30,7 @@ Vec3f centroid(const Bounds& b) {
   return {0.5f * b.low.x + 0.5f * b.high.x, 0.5f * b.low.y + 0.5f * b.high.y, 0.5f * b.low.z + 0.5f * b.high.z};
 }
 
-/// An input and its place in the list. The builder reorders these themselves, so that each range lies together in
+/// An input and its index in the list. The builder reorders the items themselves, so that each range is contiguous in
 /// memory.
 struct Item {
   BvhInput input;
@@ -41,8 +42,8 @@ struct Around {
   Bounds bounds = nothing, centers = nothing;
 };
 
-/// The items along an axis: how many have their centroid in each bin, and the box around them. The box of an empty bin
-/// is not set.
+/// The items along an axis: for each bin the number of items whose centroid is in it, and the box around these items
+/// (undefined if the bin is empty).
 struct Bins {
   std::array<Bounds, bins> boxes;
   std::array<int, bins> counts{};
@@ -77,7 +78,8 @@ class Builder {
     return std::span(items_).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
   }
 
-  /// The subtree over a range: its root, then the left and the right half. Halves of large ranges are built at once.
+  /// Returns the subtree over a range: its root, then the left half, then the right half. Halves of large ranges are
+  /// built in parallel.
   std::vector<BinaryNode> build(Range range) {
     constexpr int min_for_thread = 1 << 13, deepest_thread = 4;
     if (range.end - range.begin < min_for_thread || range.depth >= deepest_thread) return build_alone(range);
@@ -85,7 +87,7 @@ class Builder {
     std::vector<BinaryNode> nodes = room_for(range);
     nodes.push_back(at.node);
     if (at.middle < 0) return nodes;
-    // No launch policy: if the system has no further thread, the job runs here when its result is asked for.
+    // No launch policy: if the system cannot start another thread, get() runs the job here.
     auto right = std::async([this, range, at] { return build({at.middle, range.end, range.depth + 1}); });
     nodes[0].left = 1;
     append(nodes, build({range.begin, at.middle, range.depth + 1}));
@@ -134,7 +136,7 @@ class Builder {
     return nodes;
   }
 
-  /// The node of a range, and where the range is split; -1: it becomes a leaf.
+  /// The node of a range, and the index at which the range is split; -1: the node becomes a leaf.
   struct Split {
     BinaryNode node;
     int middle;
@@ -186,7 +188,7 @@ class Builder {
     return by_kind < count ? by_kind : count / 2;
   }
 
-  /// Moves the items that `first` is true for to the front, in their order, and returns how many there are.
+  /// Moves the items for which `first` is true to the front, in their order, and returns their number.
   int part(std::span<Item> list, auto first) {
     const auto others = scratch_.begin() + (list.data() - items_.data());
     auto end_of_others = others;
@@ -226,7 +228,8 @@ class Builder {
     return best;
   }
 
-  /// Most ranges are short and leave most bins empty. Behind an empty bin a plane parts the items as before it.
+  /// Skips empty bins, which most ranges have, as they are short: a plane behind an empty bin parts the items like the
+  /// plane before it.
   static void sweep(const Bins& all, int axis, Plane& best) {
     std::array<float, bins> right_cost;
     float cost_so_far = infinity;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// The binary tree from which build_bvh makes one of up to eight children a node.
+/// The binary tree from which build_bvh() makes a tree of up to eight children a node.
 namespace tyndall {
 
 struct BinaryNode {
@@ -20,8 +20,8 @@ struct BinaryTree {
 /// Half of the surface of a box; 0 for one that holds nothing.
 float half_area(const Bounds& b);
 
-/// Splits by the surface area heuristic over bins. Large subtrees are built by several threads, which does not change
-/// the result: it is a pure function of the input.
+/// Splits by the surface area heuristic over bins. Several threads build large subtrees; the result is a pure function
+/// of the input.
 BinaryTree build_binary_tree(const std::vector<BvhInput>& input);
 
 }  // namespace tyndall

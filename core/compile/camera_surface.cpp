@@ -8,7 +8,7 @@
 namespace tyndall {
 namespace {
 
-// Of the largest number in play. Single precision rounds to 2^-24, and tests of spheres square and subtract.
+// Relative to the largest number involved. Single precision rounds to 2^-24, and tests of spheres square and subtract.
 constexpr double rounding_fraction = 0x1p-21, touching_sphere = 0x1p-24, touching_flat = 0x1p-40;
 constexpr double lens_rounding = 0x1p-22;  // of heights of points of the lens, over its radius
 
@@ -60,7 +60,7 @@ class NearestSurface {
     keep(normal, dot(normal, arm), 0, size, element);
   }
 
-  /// size: of the largest number that is rounded where rays are tested against the surface. curvature: 0 for flats.
+  /// size: the largest number that is rounded in tests of rays against the surface. curvature: 0 for flats.
   void keep(Vec3d normal, double height, double curvature, double size, std::int32_t element) {
     const double largest = std::max(size, largest_component(eye_ - origin_)), rounding = rounding_fraction * largest;
     const double touching = (curvature == 0 ? touching_flat : touching_sphere) * largest + lens_rounding * lens_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double radians = pi / 180;
 
-/// Without a lens the focus does not matter, and so must not round anything another way.
+/// Without a lens the focus distance has no effect, and must not change how other numbers are rounded.
 double focus_distance(const Camera& camera) {
   if (camera.defocus_angle == 0) return length(camera.look_from - camera.look_at);
   return camera.focus_distance.value_or(length(camera.look_from - camera.look_at));

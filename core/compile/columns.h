@@ -2,7 +2,7 @@
 #include "core/compile/flatten.h"
 #include "core/compile/render_scene.h"
 
-/// The second half of compiling: each part of the scene as columns of floats.
+/// The second half of compiling: converts each part of the scene to columns of floats.
 namespace tyndall {
 
 inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
@@ -12,7 +12,7 @@ void push(std::vector<float> (&columns)[3], Vec3d v);
 
 /// Of the whole lens, scene units; 0: a pinhole.
 double lens_radius(const Camera& camera);
-/// All but the surface on which the camera stands: see camera_surface.h.
+/// Fills in all but the surface on which the camera stands: see camera_surface.h.
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);
@@ -20,7 +20,7 @@ std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
 std::shared_ptr<const std::vector<float>> gradient_table();
 
-/// For a point corner + a u + b v: a and b are the dot products of a and b here with the point's way from the corner.
+/// For a point p = corner + a u + b v: a and b are the dot products of p - corner with the members a and b.
 struct Reciprocal {
   Vec3d a, b;
 };
@@ -36,7 +36,7 @@ struct BoxFace {
 };
 BoxFace box_face_edges(const Box<>& box, std::int32_t face);
 
-/// Which columns of elements are filled beside those that every scene needs.
+/// The columns of elements to be filled beside those that every scene needs.
 struct MoreColumns {
   bool uv = false;      ///< for image textures
   bool motion = false;  ///< for moving spheres

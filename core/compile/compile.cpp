@@ -93,8 +93,8 @@ struct SlotFiller {
   }
 };
 
-/// Makes the tree, if there are enough primitives for one, and returns the order in which primitives fill the columns.
-/// The tree of `before` is kept if the geometry is equal.
+/// Builds the tree if there are enough primitives, and returns the order in which primitives fill the columns. The tree
+/// of `before` is kept if the geometry is equal.
 std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
                                       RenderScene& out) {
   std::vector<std::int32_t> order(flat.shapes.size());
@@ -145,8 +145,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
       m.center = to_float(place(volume.placement, sphere.center) - out.origin);
       m.radius = static_cast<float>(sphere.radius);
     }
-    // A boundary that is no surface gets element numbers of its own, after all others, because rays can start within
-    // it.
+    // A boundary that is no surface gets its own element numbers, after all others, because rays can start within it.
     m.first = volume.surface ? first_element[static_cast<std::size_t>(*volume.surface)]
                              : out.elements.count() + 6 * static_cast<std::int32_t>(out.media.size());
     m.density = static_cast<float>(volume.medium.density);
@@ -164,8 +163,8 @@ KernelSet min_kernel(const RenderScene& s) {
   return media_or_textures ? KernelSet::no_specular_paths : KernelSet::no_media_no_textures;
 }
 
-/// Whether the scene holds nothing that second vertices cannot be shared around: a vertex on a moving sphere is there
-/// at one time only.
+/// Whether second vertices can be reused in the scene. Moving spheres prevent it: a vertex on a moving sphere exists at
+/// one time only.
 bool can_reuse_paths(const RenderScene& s) { return s.integrator == Integrator::mis && !s.features.moving_spheres; }
 
 bool samples_lights(Integrator integrator) {

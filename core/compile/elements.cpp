@@ -10,7 +10,7 @@ void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
   map.offset[i] = static_cast<float>(-dot(row, zero_at));
 }
 
-/// Where elements are appended, and which columns they fill.
+/// Appends the elements of one shape to the columns.
 struct Appender {
   const PlacedShape& shape;
   Vec3d origin;

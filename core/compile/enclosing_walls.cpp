@@ -7,7 +7,7 @@
 namespace tyndall {
 namespace {
 
-/// How far something reaches below (<= 0) and above (>= 0) a plane.
+/// Extent of something along the normal of a plane: below (<= 0) and above (>= 0) the plane.
 struct Reach {
   double low = 0, high = 0;
 };

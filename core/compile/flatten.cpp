@@ -15,7 +15,7 @@ struct CosSin {
   double cos, sin;
 };
 
-/// Cosine and sine of an angle, which are exact for multiples of 90 degrees.
+/// Returns the cosine and sine of an angle, exactly for multiples of 90 degrees.
 CosSin cos_sin(double degrees) {
   const double remainder = std::fmod(degrees, 360.0);
   if (std::fmod(remainder, 90.0) == 0) {
@@ -71,8 +71,8 @@ std::uint64_t hash_of(const PlacedShape& placed) {
   return hash;
 }
 
-/// Leaves out exact copies of earlier shapes. Where surfaces coincide, rays meet the first; a ray that leaves it could
-/// otherwise meet a copy, because its start is rounded.
+/// Drops exact copies of earlier shapes. Where surfaces coincide, rays hit the first; a ray that leaves it could
+/// otherwise hit a copy, because its start is rounded.
 void drop_copies(std::vector<PlacedShape>& shapes) {
   std::vector<std::pair<std::uint64_t, std::size_t>> keys;
   keys.reserve(shapes.size());

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-/// The first half of compiling: resolves groups and transforms. All is in double and in world space.
+/// The first half of compiling: resolves groups and transforms, in double and in world space.
 namespace tyndall {
 
 /// A rotation about the y axis by `degrees`, then a translation.
@@ -16,7 +16,7 @@ struct Placement {
   bool operator==(const Placement&) const = default;
 };
 
-/// The placement that first does `inner`, then `outer`.
+/// Returns the placement that applies `inner` first, then `outer`.
 Placement compose(const Placement& outer, const Placement& inner);
 Placement placement_of(const Transform& list);
 Vec3d rotate(const Placement& p, Vec3d v);  ///< a direction

@@ -119,10 +119,10 @@ class TreeBuilder {
     double cost() const { return power * dot(high - low, high - low); }
   };
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  /// Among the lights of a node the mean inverse squared distance to them is about that at this fraction of the squared
-  /// half diagonal: for lights spread evenly in a sphere it is 3 / radius², and a cube's half diagonal has twice the
-  /// square of the radius of a sphere as large. With 1 in its place, which is never too much, V was 1.5 to 3.3 times
-  /// higher.
+  /// Fraction of the squared half diagonal at which the mean inverse squared distance to the lights of a node, as seen
+  /// from among them, is about right. For lights spread evenly in a sphere the mean is 3 / radius², and a cube's
+  /// squared half diagonal is twice the squared radius of a sphere as large. With 1, which is never too much, V was 1.5
+  /// to 3.3 times higher.
   static constexpr double closeness = 1.0 / 6;
   static constexpr int deepest_by_cost = 48;  // below, ranges are halved, so that no tree is deeper than 80
 

@@ -10,17 +10,18 @@ namespace tyndall {
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
                       Vec3d origin, Elements& elements);
 
-/// Fills `tree` from center, power and reach2 if there are more than max_lights_by_contribution. Ranges are split where
-/// the sum of both sides' power times squared extent is least. After A. Conty Estevez, C. Kulla, Importance Sampling of
-/// Many Lights with Adaptive Tree Splitting, PACMCGIT 1(2), 2018; lights here shine to all sides.
+/// Fills `tree` from center, power and reach2 if there are more than max_lights_by_contribution lights. Each range is
+/// split where the sum over both sides of power times squared extent is smallest. After A. Conty Estevez, C. Kulla,
+/// Importance Sampling of Many Lights with Adaptive Tree Splitting, PACMCGIT 1(2), 2018; lights here emit to all sides.
 void build_light_tree(Lights& lights);
 
-/// Lights in media, whose bright glow needs a way of sampling of its own (see core/trace/flight.h): the pairs of a
-/// medium and a light for which it pays to sample distances along a ray by the angle under which the light sees them.
+/// Returns the pairs of a medium and a light for which distances along a ray are sampled by the angle under which the
+/// light sees them (equiangular sampling, see core/kernel/flight.h), because the glow around the light is so bright.
+///
 /// The conditions were found by measuring: where they hold, the same error takes 1.5 to 16 times less time; where they
-/// do not, it could take twice as long. The medium scatters and its half width is at most 4 mean free paths; the centre
-/// of the light is at most 1.5 half widths from the medium's centre; and the radius of the light is at most a tenth of
-/// the medium's half width and of the light's distance to the camera.
+/// do not, it could take twice as long. The medium scatters, and its half width is at most 4 mean free paths; the
+/// centre of the light is at most 1.5 half widths from the medium's centre; the radius of the light is at most a tenth
+/// of the medium's half width and of the light's distance to the camera.
 NearLights find_near_lights(const RenderScene& scene);
 
 }  // namespace tyndall

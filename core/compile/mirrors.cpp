@@ -19,8 +19,8 @@ FlatMirror mirror_of(std::size_t shape, const Placement& placement, const BoxFac
   return mirror;
 }
 
-/// Whether the line from a light's image through the face may come to a quad on its front or back: the face has to
-/// reach in between the image and the quad's plane.
+/// Whether light from a light's image through the face may reach a quad on its front or back: the face has to reach in
+/// between the image and the quad's plane.
 bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, const Receiver& quad) {
   const Vec3d on_plane = quad.extent.points.front();
   const double start = dot(quad.normal, image - on_plane);
@@ -33,8 +33,9 @@ bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, const Recei
   return high > -reach && low < std::abs(start) + reach;
 }
 
-/// Whether light that seems to come from within `reach` of a light's image may meet a receiver: some of it has to be on
-/// the light's side of the mirror, within the pyramid from the image through the face. May be yes too often, never no.
+/// Whether light that seems to come from within `reach` of a light's image may reach a receiver: a part of the receiver
+/// has to be on the light's side of the mirror, within the pyramid from the image through the face. May wrongly be
+/// true, never wrongly false.
 bool may_light(const FlatMirror& m, Vec3d image, double reach, const Receiver& receiver) {
   const std::vector<Vec3d>& points = receiver.extent.points;
   const double height = dot(image - m.middle, m.normal);

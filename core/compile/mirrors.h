@@ -4,7 +4,7 @@
 
 #include <vector>
 
-/// Flat mirrors: what light takes exact specular paths off, beside spheres.
+/// Flat mirrors as parts of exact specular paths, beside spheres and slabs.
 namespace tyndall {
 
 /// A quad, or a face of a box, of metal without fuzz.
@@ -16,10 +16,10 @@ struct FlatMirror {
   Vec3d normal;       ///< unit; out of a box
   double depth = 0;   ///< of the box behind the face; 0: a quad
 };
-/// Those that no other flat covers, even in part. flats: of the scene.
+/// Returns the mirrors that no other flat covers, even in part. flats: all flats of the scene.
 std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene);
 
-/// What scatters light evenly, so that the light of specular paths shows on it.
+/// A diffuse surface or a medium, on which the light of specular paths shows.
 struct Receiver {
   Extent extent;
   bool is_quad = false;
@@ -27,8 +27,9 @@ struct Receiver {
 };
 std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene);
 
-/// What a light sends to a mirror, as a measure for choosing. 0: nothing, or nothing that goes on to a receiver, or the
-/// light is so large that chance finds it well enough.
+/// Returns the worth of a pair of a mirror and a light, >= 0, roughly the power that the light sends to the mirror:
+/// pairs are chosen by it. 0: no light arrives, or none goes on to a receiver, or the light is so large that BSDF
+/// sampling finds it well enough.
 double worth_of(const FlatMirror& mirror, const Lights& lights, std::size_t light, Vec3d origin,
                 const std::vector<Receiver>& receivers);
 

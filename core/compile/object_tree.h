@@ -5,14 +5,15 @@
 
 namespace tyndall {
 
-/// Numbers for all objects of a scene, from 0, and where each stands: paths of indices into Scene::objects and the
-/// lists of its groups. Two numbers an object, because a scene may have millions.
+/// Numbers all objects of a scene, from 0, and gives the path of each: the indices into Scene::objects and the lists of
+/// its groups. Stores two numbers an object, because a scene may have millions.
 class ObjectTree {
  public:
   /// Makes room for as many objects.
   void reserve(std::size_t objects) { steps_.reserve(objects); }
 
-  /// The number of the object at `index` in the list of a group, whose number is `group`; -1: in Scene::objects.
+  /// Adds the object at `index` in the list of a group and returns its number. group: number of the group; -1:
+  /// Scene::objects.
   std::int32_t add(std::int32_t group, std::size_t index) {
     steps_.push_back({group, static_cast<std::int32_t>(index)});
     return static_cast<std::int32_t>(steps_.size()) - 1;

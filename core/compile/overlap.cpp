@@ -11,7 +11,7 @@ namespace {
 constexpr double touching = 1e-6;  // fraction of the radius by which things may overlap without counting
 constexpr int moments = 64;        // number of moments at which a moving sphere is compared with flat shapes
 
-/// Least and greatest distance of two centres while they move.
+/// Minimum and maximum distance of two moving centres.
 struct Distances {
   double minimum, greatest;
 };
@@ -27,9 +27,9 @@ double distance_to_segment(Vec3d point, Vec3d start, Vec3d segment) {
   return length(point - start - t * segment);
 }
 
-/// Whether something comes closer to the body's centre than its radius. distance(center): how far the thing is from
-/// such a place of the centre. A moving body is compared at `moments` + 1 moments; what could come close between two of
-/// them counts as if it did.
+/// Whether something comes closer to the body's centre than its radius. distance(center): distance of the thing from
+/// such a place of the centre. A moving body is tested at `moments` + 1 moments; a thing that could come close between
+/// two of them counts as close.
 template <class Distance>
 bool comes_close(const RoundBody& body, const Distance& distance) {
   const bool moves = length(body.motion) > 0;
@@ -123,8 +123,8 @@ Block block_of(const Box<>& b, const Placement& placement) {
           {rotate(placement, {half.x, 0, 0}), rotate(placement, {0, half.y, 0}), rotate(placement, {0, 0, half.z})}};
 }
 
-/// By the theorem of the separating axis: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for
-/// Rapid Interference Detection, SIGGRAPH 1996.
+/// By the separating axis theorem: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for Rapid
+/// Interference Detection, SIGGRAPH 1996.
 bool are_apart(const Block& a, const Block& b) {
   const Vec3d segment = b.middle - a.middle;
   const auto separates = [&](Vec3d axis) {

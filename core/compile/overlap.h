@@ -5,26 +5,27 @@
 #include <initializer_list>
 #include <vector>
 
-/// Whether things meet: whether something reaches into a sphere, over the whole time from 0 to 1; and whether boxes and
+/// Tests for overlap: whether a shape or medium reaches into a sphere at any time from 0 to 1, and whether boxes and
 /// flats meet or coincide.
 namespace tyndall {
 
-/// A sphere in world space that moves from `center` by `motion`.
+/// A sphere in world space that moves from `center` to `center + motion` while time runs from 0 to 1.
 struct RoundBody {
   Vec3d center, motion;
   double radius = 1;  ///< > 0
 };
 RoundBody round_body(const Sphere<>& sphere, const Placement& placement);
 
-/// Whether a surface other than the shapes in `own` (indices into Flattened::shapes), or a medium, is in `body` or
-/// reaches into it. Touching by less than a millionth of its radius does not count; where something moves past a flat,
-/// the answer may be yes too often, never no.
+/// Whether a medium, or a surface of a shape that is not in `own` (indices into Flattened::shapes), is in `body` or
+/// reaches into it. An overlap below a millionth of the radius does not count. Where something moves past a flat, the
+/// answer may wrongly be true, never wrongly false.
 bool is_overlapped(const Flattened& flat, const RoundBody& body, std::initializer_list<std::size_t> own);
 
 /// Distance from a point to the nearest point of the parallelogram with the edges u and v from `corner`.
 double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v);
 
-/// A box of any directions, or a parallelogram: all middle + a edge[0] + b edge[1] + c edge[2] for a, b, c in [-1, 1].
+/// A box of any orientation, or a parallelogram: all points middle + a edge[0] + b edge[1] + c edge[2] for a, b, c in
+/// [-1, 1].
 struct Block {
   Vec3d middle;
   std::array<Vec3d, 3> edge;
@@ -43,8 +44,8 @@ struct Flat {
 };
 std::vector<Flat> list_flats(const Flattened& flat);
 
-/// Whether another flat lies in the plane of a parallelogram and covers some of it. Which of the two a ray meets is
-/// decided by rounding. shape: to which it belongs.
+/// Whether another flat lies in the plane of a parallelogram and covers a part of it, so that rounding decides which of
+/// the two a ray hits. shape: index of the shape to which the parallelogram belongs.
 bool is_covered(const Block& parallelogram, std::size_t shape, const std::vector<Flat>& flats);
 
 }  // namespace tyndall

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-/// What kernels read: flat float arrays, made from a Scene by compile(). Positions are relative to `origin`.
+/// The scene as kernels read it: flat float arrays, made from a Scene by compile(). Positions are relative to `origin`.
 namespace tyndall {
 
-/// Which models a scene contains. By these a kernel is chosen that leaves others out, which changes no bit of the
-/// picture.
+/// The models that a scene contains. They select a kernel that leaves out other models; which kernel runs changes no
+/// bit of the picture.
 struct SceneFeatures {
   bool spheres = false, moving_spheres = false, quads = false, boxes = false;
   bool media = false, phase_functions = false;                      ///< phase_functions: some medium has g != 0
@@ -42,18 +42,18 @@ constexpr bool needs_trait(const SceneFeatures& features) {
     some = some || features.materials[k];
   return some;
 }
-/// Names of the needs that are set, in the order above.
+/// Names of the features that are set, in the order above.
 std::vector<std::string> names_of(const SceneFeatures& features);
 
 /// The surface on which the camera stands (camera_surface.h). Camera rays that start within rounding of it leave it
-/// like all other rays that leave a surface, so that they cannot meet the place where they start.
+/// like all other rays that leave a surface, so that they cannot hit the place where they start.
 struct CameraSurface {
   std::int32_t element = -1;  ///< -1: the camera stands on none
   Vec3f normal;               ///< unit, outward, where the centre of the lens is
   float height = 0;           ///< of the centre of the lens above the surface, scene units; negative: below it
   float curvature = 0;        ///< 1 / radius of a sphere; 0: flat
-  /// Scene units. A start at most `rounding` from the surface counts as on it for rays that go on away from it on the
-  /// side where the start is; one at most `touching` from it for all rays.
+  /// Scene units. A start within `touching` of the surface counts as on it for all rays; a start within `rounding`
+  /// counts as on it for rays that go away from the surface on the side of the start.
   float rounding = 0, touching = 0;
 };
 
@@ -94,12 +94,13 @@ struct Elements {
   std::vector<float> move_x, move_y, move_z;  ///< filled only if some sphere moves
   std::vector<std::int32_t> material;
   std::vector<std::int32_t> light;  ///< index into Lights, or -1
-  /// For image textures. Flats: u and v as affine functions of the point (8 floats). Spheres: cosine and sine of the
-  /// rotation into the sphere's own frame in the first two. Filled only if there are image textures.
+  /// For image textures; empty without image textures. Flats: u and v as affine functions of the point (8 floats).
+  /// Spheres: cosine and sine of the rotation into the sphere's own frame, in the first two floats.
   std::vector<float> uv;
-  /// For textures: of flats the distance from the origin, along the normal, of the plane in which a texture is looked
-  /// up. It is the flat's own, but where that lies on the border between two layers of a checker's cells, within the
-  /// layer that floor() says, so that rounding does not choose the cell. Spheres: 0. Filled only if there are textures.
+  /// For textures; empty without textures. Flats: distance from the origin, along the normal, of the plane in which the
+  /// texture is looked up. This is the flat's own plane, unless the flat lies on the border between two layers of a
+  /// checker: then the plane lies within the layer that floor() gives, so that rounding does not choose the cell.
+  /// Spheres: 0.
   std::vector<float> plane;
   std::vector<std::int32_t> object;  ///< the number of the object that it belongs to, in RenderScene::objects
   int count() const { return static_cast<int>(material.size()); }
@@ -137,11 +138,11 @@ struct MediumColumns {
   bool weighs = false;  ///< it only absorbs, and paths carry less behind it instead of ending there: flight.h
 };
 
-/// A binary tree of lights, by which one of many is chosen. Columns by node. Node 0 is the root, node 1 is not used,
-/// and the children of a node are neighbours: 2 k and 2 k + 1.
+/// A binary tree of lights, from which one of many lights is chosen. Columns by node. Node 0 is the root, node 1 is not
+/// used, and the children of a node are neighbours: 2 k and 2 k + 1.
 struct LightTree {
   std::vector<float> center[3];  ///< of a box that holds the node's lights
-  /// Sum of the lights' powers; the least that a squared distance from the centre counts as.
+  /// Sum of the powers of the node's lights; lower limit of the squared distance from the centre.
   std::vector<float> power, reach2;
   std::vector<std::int32_t> child;  ///< >= 0: the first child; < 0: leaf of light -1 - child
   std::vector<std::int32_t> parent;
@@ -152,7 +153,7 @@ struct LightTree {
 struct Lights {
   enum Kind : std::int32_t { rectangle, parallelogram, sphere };  ///< rectangle: edges at right angles
   std::vector<std::int32_t> kind, element;
-  /// Flats: a corner, and unit edges; spheres: the centre, and its way over the shutter in edge_u.
+  /// Flats: a corner and unit edges. Spheres: the centre in corner, and its motion over the shutter in edge_u.
   std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
   std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
   std::vector<float> area;
@@ -164,8 +165,8 @@ struct Lights {
 };
 inline constexpr int max_lights_by_contribution = 16;
 
-/// Pairs of a medium and a small light in it or close to it. The light that scatters next to such a light has no upper
-/// bound (inverse square), so integrator mis samples distances with regard to the light (core/trace/flight.h).
+/// Pairs of a medium and a small light in or near it. The light scattered next to such a light has no upper bound
+/// (inverse square law), so integrator mis samples distances by equiangular sampling (core/kernel/flight.h).
 struct NearLights {
   std::vector<std::int32_t> medium, light;
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
@@ -190,9 +191,10 @@ enum SlabNumber {
   numbers_of_slab = 18
 };
 
-/// Spheres of glass, mirror spheres, flat mirrors and slabs, and for each the lights whose radiance integrator mis
-/// looks for through it or off it. Flat mirrors have places behind the spheres, as mirror spheres of radius 0. Slabs
-/// have places behind the mirrors, as spheres of glass that hold them; their element is that of their first face.
+/// Glass spheres, mirror spheres, flat mirrors and slabs, and for each the lights to which integrator mis solves for
+/// specular paths. Flat mirrors have indices behind the spheres, and columns like mirror spheres of radius 0. Slabs
+/// have indices behind the mirrors, and columns like glass spheres that enclose them; their element is that of their
+/// first face.
 struct SpecularPairs {
   // Columns by sphere: one sphere, or two around one centre.
   std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
@@ -210,8 +212,8 @@ struct SpecularPairs {
   std::vector<std::int32_t> sphere_of;  ///< by element: 2 · sphere + (1: inner sphere), or -1
 };
 
-/// The variants of the kernels, by the models that they hold or leave out. A scene that does not have the models which
-/// a variant leaves out gives the same picture with it, to the last bit.
+/// The variants of the kernels, by the models that they leave out. A scene without these models gives the same picture
+/// with the variant, bit by bit.
 enum class KernelSet { everything, specular_paths_only, no_specular_paths, no_media_no_textures };
 inline constexpr int kernel_sets = 4;
 const char* name_of(KernelSet set);

@@ -3,7 +3,7 @@
 namespace tyndall {
 namespace {
 
-/// What a kind of material is called among the needs: as scene files call it, unless it says otherwise.
+/// Returns the name of a kind of material as a feature: its name in scene files, unless the kind defines another.
 template <class Kind>
 constexpr const char* feature_name() {
   if constexpr (requires { Kind::feature; })

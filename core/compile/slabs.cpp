@@ -14,7 +14,7 @@ Block grown(const Slab& p, double room) {
   return {p.middle, {(p.half[0] + room) * p.edge[0], (p.half[1] + room) * p.edge[1], (p.half[2] + room) * p.edge[2]}};
 }
 
-/// A thin block around a face of the slab, which leaves its rim out. side: -1, 1.
+/// Returns a thin block around a face of the slab, without the face's rim. side: -1 or 1.
 Block face_of(const Slab& p, std::size_t edge, double side, double thin) {
   Block block = grown(p, -10 * thin);
   block.middle = p.middle + side * p.half[edge] * p.edge[edge];
@@ -39,7 +39,7 @@ double distance_to(const Slab& p, Vec3d point) {
   return std::sqrt(squared);
 }
 
-/// Whether the surface of a sphere is in the slab or reaches into it, at any time. May be yes too often.
+/// Whether the surface of a sphere is in the slab or reaches into it, at any time. May wrongly be true.
 bool crosses(const Slab& slab, const RoundBody& body, double slack) {
   constexpr int times = 64;
   const int steps = length(body.motion) > 0 ? times : 0;
@@ -54,7 +54,7 @@ bool crosses(const Slab& slab, const RoundBody& body, double slack) {
   return false;
 }
 
-/// Whether the spheres leave the slab's inside free.
+/// Whether no sphere reaches into the slab.
 bool spheres_keep_out(const Flattened& flat, const Slab& slab, double slack) {
   return std::none_of(flat.shapes.begin(), flat.shapes.end(), [&](const PlacedShape& shape) {
     const auto* sphere = std::get_if<Sphere<>>(&shape.shape);
@@ -62,7 +62,7 @@ bool spheres_keep_out(const Flattened& flat, const Slab& slab, double slack) {
   });
 }
 
-/// Whether the flats do. Faces that one of them touches are marked as closed.
+/// Whether no flat reaches into the slab. Marks the faces that a flat touches as closed.
 bool flats_keep_out(const std::vector<Flat>& flats, Slab& slab, double slack) {
   const double radius = std::hypot(slab.half[0], slab.half[1], slab.half[2]) + slack;
   for (const Flat& flat : flats) {
@@ -74,7 +74,8 @@ bool flats_keep_out(const std::vector<Flat>& flats, Slab& slab, double slack) {
   return true;
 }
 
-/// Whether a medium fills the slab or leaves it free. If it fills it, its density is added to the slab's media.
+/// Whether a medium fills the slab completely or leaves it free. If it fills the slab, its density is added to the
+/// slab's.
 bool is_even(const PlacedVolume& volume, Slab& slab, double slack) {
   const std::vector<Vec3d> corners = corners_of(slab);
   const auto holds = [&](const auto& is_in) { return std::all_of(corners.begin(), corners.end(), is_in); };
@@ -96,7 +97,8 @@ bool is_even(const PlacedVolume& volume, Slab& slab, double slack) {
   return filled || free;
 }
 
-/// Completes a slab by what is around it. Returns false if specular paths cannot pass it.
+/// Fills in the properties of a slab that depend on its surroundings. Returns false if specular paths cannot pass
+/// through it.
 bool look_around(const Flattened& flat, const std::vector<Flat>& flats, Slab& slab) {
   const double longest = std::max({slab.half[0], slab.half[1], slab.half[2]}), slack = contact * longest;
   if (std::min({slab.half[0], slab.half[1], slab.half[2]}) < 100 * slack) return false;

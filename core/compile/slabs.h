@@ -4,7 +4,7 @@
 
 #include <vector>
 
-/// Slabs: boxes of glass through which light takes exact specular paths.
+/// Slabs: boxes of glass through which specular paths are solved exactly.
 namespace tyndall {
 
 /// A box of glass, in world space.
@@ -18,15 +18,16 @@ struct Slab {
   int closed = 0;             ///< see SlabNumber
 };
 
-/// The least index with which light that enters a box by one face cannot leave by a face at right angles to it: the
-/// square root of 2, and a little.
+/// The least refractive index at which light that enters a box by one face cannot leave by a face at right angles to
+/// it: a little above the square root of 2.
 inline constexpr double min_slab_index = 1.4143;
 
-/// All slabs. Boxes of a lower index are left out, and boxes that a surface, or the boundary of a medium, reaches into.
-/// flats: of the scene.
+/// Returns all slabs. Left out are boxes of a lower index, and boxes into which a surface or the boundary of a medium
+/// reaches. flats: all flats of the scene.
 std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene);
 
-/// What a light sends to a slab, as a measure for choosing. 0: the light is so large that chance finds it well enough.
+/// Returns the worth of a pair of a slab and a light, >= 0, roughly the power that the light sends to the slab: pairs
+/// are chosen by it. 0: the light is so large that BSDF sampling finds it well enough.
 double worth_of(const Slab& slab, const Lights& lights, std::size_t light, Vec3d origin);
 
 /// Appends its numbers; see SlabNumber.

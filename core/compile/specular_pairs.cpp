@@ -34,7 +34,7 @@ bool concentric(const RoundBody& a, const RoundBody& b) {
   return length(a.center - b.center) <= slack && length(a.motion - b.motion) <= slack;
 }
 
-/// Whether another sphere is in the same place. Which of the two a ray meets is decided by rounding.
+/// Whether another sphere is at the same place, so that rounding decides which of the two a ray hits.
 bool is_doubled(const Flattened& flat, std::size_t own, const RoundBody& body) {
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const auto* sphere = std::get_if<Sphere<>>(&flat.shapes[i].shape);
@@ -82,8 +82,8 @@ struct SpecularPair {
   double worth;
 };
 
-/// How much light a light sends to a sphere, roughly, by which pairs are chosen. 0: the light is so large as seen from
-/// the sphere that paths find it by chance well enough.
+/// Returns the worth of a pair of a sphere and a light, >= 0, roughly the power that the light sends to the sphere:
+/// pairs are chosen by it. 0: the light is so large as seen from the sphere that BSDF sampling finds it well enough.
 double worth_of(const RoundBody& body, bool solid_glass, const Lights& lights, std::size_t k, Vec3d origin) {
   const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
   const double reach = std::sqrt(static_cast<double>(lights.reach2[k])) + 0.5 * length(body.motion);
@@ -94,14 +94,14 @@ double worth_of(const RoundBody& body, bool solid_glass, const Lights& lights, s
   return static_cast<double>(lights.power[k]) * fraction * fraction;
 }
 
-/// Whether what is within a shell is not what is around it. Such shells are left to chance: the turn of a path through
-/// them may have more than one least or greatest value, and specular_deflection.h would then miss some of the ways.
+/// Whether the inside of a shell differs from its outside. Such shells are left to BSDF sampling: the deflection of a
+/// path through them may have more than one minimum or maximum, so that specular_deflection.h would miss some paths.
 bool is_filled_shell(const std::vector<Candidate>& list, const Candidate& outer) {
   if (outer.holds < 0) return false;
   return std::abs(outer.index * list[static_cast<std::size_t>(outer.holds)].index - 1) > like_outside;
 }
 
-/// All that specular paths may go by, and where their light shows.
+/// All specular objects, and the receivers on which their light shows.
 struct Found {
   std::vector<Candidate> spheres;
   std::vector<FlatMirror> mirrors;
@@ -148,9 +148,8 @@ std::vector<SpecularPair> list_pairs(const Found& found, const RenderScene& comp
   return pairs;
 }
 
-/// Takes those pairs of a sphere and a light for less whose sphere does not see the whole light. The chance of a pair
-/// should go with the root of its light's mean square, and the light that is left falls on a fraction of the places
-/// only.
+/// Lowers the worth of pairs whose sphere does not see the whole light. The probability of a pair should be
+/// proportional to the root of its light's mean square, and the remaining light reaches a fraction of the places only.
 void weigh_by_visibility(const Flattened& flat, const Found& found, const RenderScene& compiled,
                          std::vector<SpecularPair>& pairs) {
   if (pairs.size() * flat.shapes.size() > max_visibility_tests) return;

@@ -2,19 +2,23 @@
 #include "core/compile/flatten.h"
 #include "core/compile/render_scene.h"
 
-/// Which caustics are computed exactly (specular paths, see core/specular/specular_light.h), and which are left to
-/// chance.
+/// Chooses the caustics that are solved for exactly (specular paths by manifold next event estimation, see
+/// core/kernel/specular_light.h). All other caustics are left to BSDF sampling.
 namespace tyndall {
 
-/// Pairs of a sphere, flat mirror or slab and a light. The spheres are those that reflect or refract light exactly:
-/// metal without fuzz, solid glass, and glass shells, two spheres around one centre, if the same is inside of them as
-/// around them. The flat mirrors are quads and faces of boxes, of metal without fuzz. The slabs are boxes of glass: see
-/// slabs.h. The lights are those whose radius is at most a quarter of their distance from the sphere (0.15 of it if
-/// they shine through solid glass from outside), or a quarter of the radius of a sphere that holds them, or half of
-/// their distance from the mirror or slab: larger ones are found by BSDF sampling about as fast. There are no pairs if
-/// no surface or medium of the scene scatters evenly. A pair of a sphere is worth less if the sphere does not see the
-/// whole light (visibility.h); in scenes of very many pairs and shapes that is not looked at. compiled: the scene with
-/// its elements and lights.
+/// Returns the pairs of a specular object (sphere, flat mirror or slab) and a light whose specular paths are solved
+/// for; no pairs if no surface or medium of the scene is diffuse. compiled: the scene with its elements and lights.
+///
+/// - Spheres: metal without fuzz, solid glass, and glass shells (two spheres around one centre) with the same medium
+/// inside as outside.
+/// - Flat mirrors: quads and faces of boxes, of metal without fuzz.
+/// - Slabs: boxes of glass, see slabs.h.
+/// - Lights: the radius of the light is at most 1/4 of its distance from the sphere (0.15 of it if it shines through
+/// solid glass from outside), or 1/4 of the radius of a sphere around it, or 1/2 of its distance from the mirror or
+/// slab. BSDF sampling finds larger lights about as fast.
+///
+/// A pair is worth less if its sphere does not see the whole light (visibility.h); this is not tested in scenes of very
+/// many pairs and shapes.
 SpecularPairs find_specular_pairs(const Flattened& flat, const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

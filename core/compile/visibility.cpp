@@ -15,7 +15,7 @@ constexpr double at_start =
 
 Vec3d middle_of(const RoundBody& body) { return body.center + 0.5 * body.motion; }
 
-/// A point of a unit disc across a unit direction, for u and v in [0, 1).
+/// Returns the point (u, v), each in [0, 1), of a unit disc at right angles to a unit direction.
 Vec3d on_disc(Vec3d direction, double u, double v) {
   const Basis<double> across = basis_around(direction);
   const Pair<double> place = in_disc(Pair<double>{u, v});
@@ -45,8 +45,8 @@ bool blocks(const Flat& flat, Vec3d from, Vec3d segment) {
   return std::abs(dot(cross(at, v), normal)) < square && std::abs(dot(cross(u, at), normal)) < square;
 }
 
-/// What is close enough to the paths between two places to block one of them. reach: farthest that a way is from the
-/// line between the places.
+/// Returns the obstacles that are close enough to the lines of sight between two places to block one. reach: largest
+/// distance of such a line from the line between the places.
 Obstacles list_near(const Obstacles& all, Vec3d from, Vec3d to, double reach) {
   const Vec3d segment = to - from;
   const auto is_near = [&](Vec3d middle, double radius) {
@@ -88,8 +88,8 @@ double visible_fraction(const Obstacles& obstacles, const Lights& lights, std::s
   const Vec3d to_sphere = normalize(target - light_center);
   int open = 0;
   for (int i = 0; i < rays; ++i) {
-    // Steps by powers of the reciprocal root of x^5 = x + 1 fill four dimensions evenly.
-    // M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+    // Steps by powers of the reciprocal root of x^5 = x + 1 fill four dimensions evenly. M. Roberts, The Unreasonable
+    // Effectiveness of Quasirandom Sequences, 2018.
     const auto part = [i](double step) { return std::fmod((i + 0.5) * step, 1.0); };
     const Vec3d from = light_point_at(lights, light, to_sphere, part(0.8566749), part(0.7338919)) + origin;
     const Vec3d to = target + sphere.radius * on_disc(to_sphere, part(0.6287067), part(0.5385973));
