@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// The scene file: JSON with comments. app/README.md shows the format, assets/scene.schema.json describes it.
+/// The scene file: JSON with comments. app/cli/README.md shows the format, assets/scene.schema.json describes it.
 namespace tyndall {
 
 /// One override of a value in the file's JSON, applied before validation: pointer "/materials/gold/fuzz", value JSON
