@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The job for GitHub that app/README.md shows: it is YAML, and its steps do what the page says of them, run as GitHub runs
+# The job for GitHub that app/cli/README.md shows: it is YAML, and its steps do what the page says of them, run as GitHub runs
 # them in a container, by "sh -e". The step that installs the package is left to app/package_nightly.sh.
 . "$(dirname "$0")/_common.sh"
 python3 -c 'import yaml' 2>probe || { echo 'skipped: python3-yaml is missing'; exit 77; }
-python3 - "$source_root/app/README.md" <<'PYTHON' || fail 'no job'
+python3 - "$source_root/app/cli/README.md" <<'PYTHON' || fail 'no job'
 import re, sys, yaml
 block = re.search(r"```yaml\n(.*?)```", open(sys.argv[1], encoding="utf-8").read(), re.S).group(1)
 job = yaml.safe_load(block)["jobs"]["pictures"]
