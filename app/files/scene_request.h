@@ -1,5 +1,6 @@
 #pragma once
 #include "app/text/values.h"
+#include "core/scene/place.h"
 #include "core/scene/scene.h"
 
 #include <optional>

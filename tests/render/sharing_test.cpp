@@ -1,5 +1,6 @@
 #include "core/render/pass.h"
-#include "core/trace/scene_view.h"
+#include "core/reuse/probe.h"
+#include "core/targets/scalar.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"

@@ -29,8 +29,8 @@ struct Axes {
 
 /// Two unit vectors at right angles to a third and to each other.
 inline Axes axes_around(Vec3d unit_vector) {
-  const Vec3d s = normalize(cross(unit, std::abs(unit.x) > 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
-  return {s, cross(unit, s)};
+  const Vec3d s = normalize(cross(unit_vector, std::abs(unit_vector.x) > 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
+  return {s, cross(unit_vector, s)};
 }
 
 /// The unit vector at an angle to the axis whose cosine is 1 - versine.

@@ -22,7 +22,7 @@ struct RoomSurface {
   Placement placement;     ///< spheres: turns textures
   int material = 0;
   double area() const;
-  Vec3d center_at(double time) const { return center + time * direction; }
+  Vec3d center_at(double time) const { return center + time * motion; }
 };
 
 struct RoomHit {

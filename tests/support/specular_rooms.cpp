@@ -60,7 +60,7 @@ Scene with(Scene scene, auto change) {
 
 void open_shutter(Scene& scene) { scene.camera.shutter_open = 0.2, scene.camera.shutter_close = 0.9; }
 
-void add_medium(Scene& scene) { add_medium(scene, Box<>{{-2.9, 0.1, -2.9}, {1.8, 2.9, 2.9}}, {0.3, 0.3}, 0.9); }
+void fill_with_medium(Scene& scene) { add_medium(scene, Box<>{{-2.9, 0.1, -2.9}, {1.8, 2.9, 2.9}}, {0.3, 0.3}, 0.9); }
 
 std::vector<SpecularRoom> balls() {
   const auto ball = [](const Material& material, double light_radius = 0.05) {
@@ -119,7 +119,7 @@ std::vector<SpecularRoom> bulbs() {
            beside_center,
            [&](Scene& s) {
              shell(s);
-             add_medium(s);
+             fill_with_medium(s);
            },
            large_light),
        512, edges},
@@ -136,7 +136,7 @@ std::vector<SpecularRoom> in_medium_and_moving() {
   const auto foggy = [](const Material& material) {
     return with(under_hood(large_light), [&](Scene& s) {
       add(s, sphere(sphere_center, 1), material);
-      add_medium(s);
+      fill_with_medium(s);
     });
   };
   return {
@@ -155,7 +155,7 @@ std::vector<SpecularRoom> in_medium_and_moving() {
        with(under_hood(large_light),
             [](Scene& s) {
               add_shell(s, sphere_center, 0.85);
-              add_medium(s);
+              fill_with_medium(s);
             }),
        512, edges},
       {"fog in glass",
@@ -183,7 +183,7 @@ std::vector<SpecularRoom> mirrors() {
        with(under_hood(large_light),
             [&](Scene& s) {
               tilted(s);
-              add_medium(s);
+              fill_with_medium(s);
             }),
        512, 0.006},
   };

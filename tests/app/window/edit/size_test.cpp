@@ -15,7 +15,7 @@ Scene scene_of(std::variant<Sphere<>, Quad<>, Box<>> shape, Transform transform 
   return scene;
 }
 template <class Shape>
-const Shape& shape_of(const Scene& scene) {
+const Shape& only_shape(const Scene& scene) {
   return std::get<Shape>(std::get<Solid3d>(scene.objects[0].kind).shape);
 }
 
@@ -28,9 +28,9 @@ TEST_CASE("a sphere's grip is its radius, which keeps its sign") {
   CHECK(grips[0].at == Vec3d{1, 2.5, 3});
   CHECK(grips[0].value == 0.5);
   set_size(scene, {0}, 0, 0.75, 0.01);
-  CHECK(shape_of<Sphere<>>(scene).radius == -0.75);
+  CHECK(only_shape<Sphere<>>(scene).radius == -0.75);
   set_size(scene, {0}, 0, -3, 0.01);
-  CHECK(shape_of<Sphere<>>(scene).radius == -0.01);
+  CHECK(only_shape<Sphere<>>(scene).radius == -0.01);
 }
 
 TEST_CASE("a box's grips are its faces, turned with it; the face opposite stays") {
@@ -45,7 +45,7 @@ TEST_CASE("a box's grips are its faces, turned with it; the face opposite stays"
     CHECK(size_grips(larger, {0}, {0, 1, 0})[k].value == grips[k].value + 1);
     CHECK(size_grips(larger, {0}, {0, 1, 0})[k ^ 1].value == grips[k ^ 1].value);
     set_size(larger, {0}, k, -100, 0.1);  // beyond the other face
-    const Box<>& box = shape_of<Box<>>(larger);
+    const Box<>& box = only_shape<Box<>>(larger);
     const Vec3d edges = box.max - box.min;
     CHECK(std::min({edges.x, edges.y, edges.z}) == doctest::Approx(0.1));
   }
@@ -57,8 +57,8 @@ TEST_CASE("a quad's grips are the lengths of its edges") {
   REQUIRE(grips.size() == 2);
   CHECK(grips[0].value == 5);
   set_size(scene, {0}, 0, 10, 0.1);
-  CHECK(shape_of<Quad<>>(scene).u == Vec3d{6, 0, 8});
-  CHECK(shape_of<Quad<>>(scene).v == Vec3d{0, 2, 0});
+  CHECK(only_shape<Quad<>>(scene).u == Vec3d{6, 0, 8});
+  CHECK(only_shape<Quad<>>(scene).v == Vec3d{0, 2, 0});
 }
 
 TEST_CASE("groups have no grips") {
