@@ -69,7 +69,8 @@ template <class Owner, class T>
 JsonValue property(const Field<Owner, T>& field) {
   JsonObject out;
   add_type(out, meaning_of(field), static_cast<const T*>(nullptr));
-  if constexpr (requires { to_json(Owner().*field.value); })  // a value that may be absent has no default
+  constexpr bool may_be_absent = requires(T value) { value.has_value(); };  // such a value has no default
+  if constexpr (!may_be_absent && requires { to_json(Owner().*field.value); })
     if (!field.required) out.push_back({"default", to_json(Owner().*field.value)});
   out.push_back({"description", sentence(field.help + choices(static_cast<const T*>(nullptr)), field.unit)});
   return object(std::move(out));
