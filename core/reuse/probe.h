@@ -1,6 +1,6 @@
 #pragma once
 #include "core/trace/scene_view.h"
-#include "core/trace/work.h"
+#include "core/trace/tile_job.h"
 
 namespace tyndall {
 

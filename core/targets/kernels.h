@@ -1,6 +1,6 @@
 #pragma once
 #include "core/film/film.h"
-#include "core/trace/work.h"
+#include "core/trace/tile_job.h"
 
 #include <optional>
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/trace/work.h"
+#include "core/trace/tile_job.h"
 
 namespace tyndall {
 

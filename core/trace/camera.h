@@ -2,7 +2,7 @@
 #include "core/base/ray.h"
 #include "core/base/sampling.h"
 #include "core/trace/scene_view.h"
-#include "core/trace/work.h"
+#include "core/trace/tile_job.h"
 
 /// Camera rays: which samples a tile job holds, and the ray with which each of them starts.
 namespace tyndall {

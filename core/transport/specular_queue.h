@@ -1,8 +1,8 @@
 #pragma once
 #include "core/specular/specular_light.h"
 #include "core/trace/lane_pool.h"
+#include "core/transport/alone_samples.h"
 #include "core/transport/direct_light.h"
-#include "core/transport/work_film.h"
 
 /// Light that specular paths bring to the events of a path: solved for (core/specular), and added to the film apart
 /// from what the path itself gathers.

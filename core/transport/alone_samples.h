@@ -1,7 +1,7 @@
 #pragma once
 #include "core/film/film.h"
 #include "core/trace/camera.h"
-#include "core/trace/work.h"
+#include "core/trace/tile_job.h"
 #include "core/transport/direct_light.h"
 
 /// The samples of a tile job whose paths go alone, and where their light goes.
