@@ -14,8 +14,8 @@ struct ThreadCount {
   std::string from = "option";
 };
 
-/// requested > 0: that many. Else one for each processor that the process may use: those of its affinity, but no more than
-/// its quota, rounded up, and at least 1. root: see cgroup_folders().
+/// requested > 0: that many. Else one for each processor that the process may use: those of its affinity, but no more
+/// than its quota, rounded up, and at least 1. root: see cgroup_folders().
 ThreadCount thread_count(int requested = 0, const std::filesystem::path& root = "/");
 
 /// How many processors the quotas of the process's control groups come to, rounded up, at least 1: the least of cpu.max
