@@ -3,6 +3,7 @@ install(TARGETS tyndall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES assets/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
 install(DIRECTORY assets/scenes assets/textures assets/verify DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall
         FILES_MATCHING REGEX "\\.(json|csv|png|jpg)$")
+install(DIRECTORY app/book/tyndall/book DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
 install(PROGRAMS assets/farm/slurm.sh assets/farm/parallel.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/farm)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(FILES app/README.md app/FARMS.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

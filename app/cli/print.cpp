@@ -1,3 +1,4 @@
+#include "app/book/book_folder.h"
 #include "app/cli/commands.h"
 #include "app/text/standard_streams.h"
 
@@ -5,6 +6,11 @@ namespace tyndall {
 
 int run(const PrintCommand& command) {
   write_standard_output(command.text);
+  return 0;
+}
+
+int run(const BookCommand&) {
+  write_standard_output(book_folder().string() + "\n");
   return 0;
 }
 

@@ -108,6 +108,8 @@ struct InspectCommand {
 
 struct ScenesCommand {};
 
+struct BookCommand {};
+
 struct ConvertCommand {
   SceneRequest scene;
   std::filesystem::path output;  ///< "-": standard output
@@ -120,7 +122,7 @@ struct PrintCommand {
 };
 
 using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,
-                             DenoiseCommand, InspectCommand, ScenesCommand, ConvertCommand, PrintCommand>;
+                             DenoiseCommand, InspectCommand, ScenesCommand, BookCommand, ConvertCommand, PrintCommand>;
 
 /// The command line as a whole: which command, and its request. arguments[0] is what follows the program's name. Throws
 /// UsageError. Of files only the existence is looked at, to tell a misspelt command from a scene's file.

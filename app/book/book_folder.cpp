@@ -1,0 +1,24 @@
+#include "app/book/book_folder.h"
+
+#include "core/base/error.h"
+
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+fs::path book_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const char* assets = std::getenv("TYNDALL_ASSETS");
+  const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
+  for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})
+    if (!folder.empty() && fs::is_regular_file(folder / "rtweekend.h", error)) return folder;
+  throw IoError("the folder of the books' headers was not found: neither share/tyndall/book of the installation nor " +
+                (program / "book").string() + " has rtweekend.h");
+}
+
+}  // namespace tyndall

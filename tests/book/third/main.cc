@@ -1,0 +1,53 @@
+// Written for Tyndall's tests in the style of the third edition: the loop over pixels is here, with ray_color().
+#include "aarect.h"
+#include "box.h"
+#include "camera.h"
+#include "color.h"
+#include "constant_medium.h"
+#include "hittable_list.h"
+#include "material.h"
+#include "moving_sphere.h"
+#include "rtweekend.h"
+#include "sphere.h"
+
+#include <fstream>
+#include <iostream>
+
+color ray_color(const ray& r, const color& background, const hittable& world, int left) {
+  hit_record found;
+  if (left <= 0) return color(0, 0, 0);
+  if (!world.hit(r, 0.001, infinity, found)) return background;
+  ray next;
+  color share;
+  color shine = found.mat_ptr->emitted(found.u, found.v, found.p);
+  if (!found.mat_ptr->scatter(r, found, share, next)) return shine;
+  return shine + share * ray_color(next, background, world, left - 1);
+}
+
+int main() {
+  const int width = 48, height = 36, samples = 5, depth = 9;
+  hittable_list world;
+  auto grey = make_shared<lambertian>(color(0.5, 0.5, 0.5));
+  world.add(make_shared<xz_rect>(-5, 5, -5, 5, 0, grey));
+  world.add(make_shared<flip_face>(make_shared<xy_rect>(-1, 1, 1, 2, -3, make_shared<diffuse_light>(color(4, 4, 4)))));
+  world.add(make_shared<yz_rect>(0, 2, -2, 2, -4, grey));
+  world.add(make_shared<moving_sphere>(point3(1, 1, 0), point3(1, 1.5, 0), 0.0, 1.0, 1.0, make_shared<metal>(color(0.8, 0.8, 0.9), 0.1)));
+  world.add(make_shared<box>(point3(-2, 0, 0), point3(-1, 1, 1), grey));
+  world.add(make_shared<sphere>(point3(-2, 2, 1), -0.5, make_shared<dielectric>(1.5)));
+  camera cam(point3(0, 2, 9), point3(0, 1, 0), vec3(0, 1, 0), 40, 4.0 / 3.0, 0.2, 9.0, 0.25, 0.75);
+
+  std::ofstream picture("picture.ppm");
+  picture << "P3\n" << width << ' ' << height << "\n255\n";
+  for (int j = height - 1; j >= 0; --j) {
+    std::cerr << "\rlines left: " << j << ' ' << std::flush;
+    for (int i = 0; i < width; ++i) {
+      color sum(0, 0, 0);
+      for (int s = 0; s < samples; ++s) {
+        auto u = (i + random_double()) / (width - 1);
+        auto v = (j + random_double()) / (height - 1);
+        sum += ray_color(cam.get_ray(u, v), color(0.1, 0.2, 0.4), world, depth);
+      }
+      write_color(picture, sum, samples);
+    }
+  }
+}
