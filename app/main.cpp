@@ -1,3 +1,4 @@
+#include "app/book/load_program.h"
 #include "app/cli/commands.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
@@ -37,6 +38,8 @@ int main(int argc, char** argv) {
     return fail(error, wrong_usage);
   } catch (const tyndall::NoSuchLayer& error) {
     return fail(error, wrong_usage);
+  } catch (const tyndall::ProgramInterrupted& error) {
+    return fail(error, 128 + error.signal);
   } catch (const std::bad_alloc&) {
     tyndall::complain("not enough memory" + tyndall::memory_limit_text());
   } catch (const std::exception& error) {

@@ -182,7 +182,8 @@ Command read_scenes(Arguments arguments) {
 Command read_book(Arguments arguments) {
   const auto app = new_command(
       "book",
-      "Prints the folder of headers by which programs of \"Ray Tracing in One Weekend\" compile, all editions.\n\n"
+      "Prints the folder of headers by which programs of \"Ray Tracing in One Weekend\" and its sequels\n"
+      "compile, all editions.\n\n"
       "'tyndall main.cc' does all of this by itself. By hand, a program that is built with these headers\n"
       "writes Tyndall's picture where it wrote its own: on standard output as a PPM, or with -o FILE\n"
       "(or TYNDALL_OUTPUT=FILE) in any format. On a terminal with a display it opens the window.",

@@ -1,7 +1,9 @@
 #include "app/cli/options_render.h"
 
+#include "app/book/load_program.h"
 #include "app/cli/setting_options.h"
 #include "core/base/target.h"
+#include "core/base/text.h"
 #include "core/base/thread_pool.h"
 #include "core/render/clean_film.h"
 
@@ -154,16 +156,31 @@ void add_progress(CLI::App& app, ProgressStyle& style) {
 }
 
 void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
-  add_argument(app, "SCENE",
-               "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
-               "by Tyndall, or - for standard input" +
-                   note,
-               scene.what);
+  const auto take = [&app, &scene](const std::vector<std::string>& arguments) {
+    scene.what = arguments[0];
+    scene.program.allowed = true;
+    for (std::size_t k = 1; k < arguments.size(); ++k) {
+      if (!is_program(arguments[0]) || !is_program(arguments[k]))
+        throw UsageError("unexpected argument " + in_quotes(arguments[k]) + " (see " + app.get_name() + " --help)");
+      scene.program.more_files.emplace_back(arguments[k]);
+    }
+  };
+  app.add_option_function<std::vector<std::string>>("SCENE", take,
+                                                    "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
+                                                    "by Tyndall, - for standard input, or MAIN.cc (.cpp, .cxx): a\n"
+                                                    "program of \"Ray Tracing in One Weekend\", which is compiled and\n"
+                                                    "run (see tyndall book); its other source files may follow" +
+                                                        note)
+      ->option_text(" ")
+      ->type_name("")
+      ->take_all();
   add_values(app, "--set", "POINTER=VALUE",
              "override one value of the scene's JSON before it is checked, e.g.\n"
              "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"
              "repeatable, in order",
              [&scene](Text t) { scene.overrides.push_back(read_override(t)); });
+  add_values(app, "-I,--include", "DIR", "of a program: a folder of headers; repeatable",
+             [&scene](Text t) { scene.program.include_folders.emplace_back(t); });
 }
 
 Command read_view(const std::vector<std::string>& arguments) {

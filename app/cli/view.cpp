@@ -80,6 +80,7 @@ int run(const ViewCommand& command) {
   const auto read_edits = [request = command.scene](const std::string& what) mutable {
     request.what = what;
     request.overrides.clear();
+    request.program.allowed = false;
     return open_scene(request);
   };
   const LoadedScene loaded = open();

@@ -3,6 +3,8 @@
 #include "core/scene/place.h"
 #include "core/scene/scene.h"
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -38,9 +40,18 @@ void apply(const Changes<Settings>& changes, Settings& settings) {
   });
 }
 
+/// What belongs to a program whose scene is wanted, see app/book.
+struct ProgramParts {
+  std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
+  /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
+  bool allowed = false;
+  std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
+};
+
 /// A scene, and what options change in it.
 struct SceneRequest {
-  std::string what = "showroom";  ///< file, built-in name, image, or "-": standard input
+  std::string what = "showroom";  ///< file, built-in name, image, C++ source file, or "-": standard input
+  ProgramParts program;
   std::vector<Override> overrides;
   std::optional<Size> size;
   Changes<RenderSettings> render;

@@ -112,6 +112,13 @@ std::string name_of(const std::string& text) {
   }
 }
 
+/// Reads the scene from the text, which is there.
+void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
+  loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
+  for (const Texture& texture : loaded.scene.textures)
+    if (const auto* image = std::get_if<Image>(&texture.kind)) loaded.files.push_back(loaded.folder / image->file);
+}
+
 BuiltIn built_in(const std::string& name, const fs::path& path) {
   const std::string text = read_file(path.string());
   BuiltIn scene{name, name_of(text), "", path};
@@ -163,9 +170,17 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     if (!image) loaded.source = what;
     loaded.files = {what};
   }
-  loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
-  for (const Texture& texture : loaded.scene.textures)
-    if (const auto* image = std::get_if<Image>(&texture.kind)) loaded.files.push_back(loaded.folder / image->file);
+  read_text_of(loaded, overrides);
+  return loaded;
+}
+
+LoadedScene load_scene_text(const std::string& text, const std::string& name, const fs::path& folder,
+                            const std::vector<Override>& overrides) {
+  LoadedScene loaded;
+  loaded.name = name;
+  loaded.folder = folder;
+  loaded.text = text;
+  read_text_of(loaded, overrides);
   return loaded;
 }
 

@@ -15,12 +15,17 @@ struct LoadedScene {
                                  ///< standard input
   std::filesystem::path folder;  ///< where the scene's relative texture files are
   std::string text;              ///< the scene file's text, before overrides
-  std::vector<std::filesystem::path> files;  ///< all that was read: the scene's file or image, and its textures
+  std::vector<std::filesystem::path> files;    ///< all that was read: the scene's file or image, and its textures
+  std::vector<std::filesystem::path> sources;  ///< of the program that wrote the scene; empty: none did
 };
 
 /// Loads a scene. what: the name of a built-in scene, a scene file, an image that Tyndall wrote (PNG or EXR), or "-"
 /// for standard input. A name goes before a file of the same name: "./cover" is the file. Throws SceneError.
 LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides = {});
+
+/// Loads a scene from its text. name: what messages call it; folder: where its relative texture files are.
+LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                            const std::vector<Override>& overrides = {});
 
 /// What reading a scene file depends on: the file itself and the textures that it names, whether or not they are there
 /// and can be read. For those who wait until a broken one is mended.

@@ -45,6 +45,23 @@ TEST_CASE("without a command: the window") {
   CHECK(view.threads == 2);
 }
 
+TEST_CASE("programs: more source files and folders of headers, and leave to compile what was named") {
+  const auto render = std::get<RenderCommand>(
+      read_command({"render", "main.cc", "-I", "a", "b.cpp", "c.cxx", "-Id", "--include", "e", "-o", "x.png"}));
+  const ProgramParts& parts = render.scene.program;
+  CHECK(render.scene.what == "main.cc");
+  CHECK(parts.more_files == std::vector<std::filesystem::path>{"b.cpp", "c.cxx"});
+  CHECK(parts.include_folders == std::vector<std::filesystem::path>{"a", "d", "e"});
+  CHECK(parts.allowed);
+  CHECK(std::get<ViewCommand>(read_command({"main.cc"})).scene.program.allowed);
+  CHECK_FALSE(std::get<ViewCommand>(read_command({})).scene.program.allowed);
+  CHECK_FALSE(std::get<VerifyCommand>(read_command({"verify"})).method.program.allowed);
+  for (const Arguments& arguments :
+       {Arguments{"inspect", "main.cc", "a.json"}, Arguments{"inspect", "a.json", "main.cc"}})
+    CHECK(refusal(arguments) == "unexpected argument \"" + arguments[2] + "\" (see tyndall inspect --help)");
+  CHECK(std::holds_alternative<BookCommand>(read_command({"book"})));
+}
+
 TEST_CASE("the window takes limits, at which the picture pauses") {
   const auto view =
       std::get<ViewCommand>(read_command({"view", "a.json", "--spp", "16", "--time", "2.5", "--target-error", "0.02"}));
@@ -219,7 +236,8 @@ TEST_CASE("chart: methods with flags of their own, reference, budget") {
 
 TEST_CASE("help names every command and option, with units and defaults") {
   const std::string overview = printed({"--help"});
-  for (const char* name : {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
+  for (const char* name :
+       {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert", "book"})
     CHECK(has(overview, std::string("\n  ") + name + " "));
   CHECK(printed({"-h"}) == overview);
   for (const char* argument : {"--version", "-V", "version"}) CHECK(has(printed({argument}), "tyndall "));
@@ -252,12 +270,12 @@ TEST_CASE("help names every command and option, with units and defaults") {
   CHECK(has(render, "else 64"));
   CHECK(has(render, "else 1000"));
   CHECK(has(printed({"compare", "--help"}), "depends on the unit of radiance"));
-  for (const char* command : {"view", "merge", "inspect", "scenes", "convert"})
+  for (const char* command : {"view", "merge", "inspect", "scenes", "convert", "book"})
     CHECK(has(printed({command, "--help"}), std::string("Usage: tyndall ") + command));
 }
 
 TEST_CASE("help fits into 100 columns") {
-  for (const char* command : {"view", "render", "compare", "merge", "inspect", "scenes", "convert"}) {
+  for (const char* command : {"view", "render", "compare", "merge", "inspect", "scenes", "convert", "book"}) {
     const std::string text = printed({command, "--help"});
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = text.find('\n', at);

@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// A program to be run, in a process group of its own, without input.
+struct ChildPlan {
+  std::vector<std::string> command;      ///< the program, by its path or as PATH finds it, and its arguments
+  std::filesystem::path folder;          ///< where it runs
+  std::vector<std::string> environment;  ///< "NAME=VALUE", in addition to this program's own
+  std::string pipe_variable;             ///< the variable that tells it the number of a pipe for messages; empty: none
+  double seconds = 60;                   ///< after which it is ended
+  double seconds_after_message = 60;     ///< likewise, after its first message
+  std::size_t most_errors = 65536;       ///< bytes of its standard error that are kept
+  bool keep_last_errors = false;         ///< the last bytes, else the first
+  std::function<bool()> go_on;           ///< asked now and then; false ends it; may be empty
+  bool watch_signals = true;             ///< SIGINT, SIGTERM and SIGHUP of this program end it, too
+};
+
+/// How it ended.
+struct ChildEnd {
+  int exit_code = 0;
+  int signal = 0;                ///< that ended it; 0: none
+  int start_error = 0;           ///< why it could not be started, an error number; 0: it was
+  bool timed_out = false;        ///< it took too long, and was ended
+  bool awaited_input = false;    ///< it read standard input, where nothing ever comes, and was ended
+  bool given_up = false;         ///< go_on said so, and it was ended
+  int interrupted = 0;           ///< the signal of this program for which it was ended; 0: none
+  std::string errors, messages;  ///< what it wrote on standard error and into the pipe
+
+  bool succeeded() const { return exit_code == 0 && signal == 0 && start_error == 0 && !ended(); }
+  bool ended() const { return timed_out || awaited_input || given_up || interrupted != 0; }
+};
+
+/// Runs it to its end, or ends it. In any case all processes of its group are gone when this returns. Standard output
+/// goes nowhere.
+ChildEnd run_child(const ChildPlan& plan);
+
+/// The signal's name, and what it is mostly for: "SIGFPE, a division by 0".
+std::string signal_name(int signal);
+
+}  // namespace tyndall

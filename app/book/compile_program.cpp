@@ -1,0 +1,189 @@
+#include "app/book/compile_program.h"
+
+#include "app/book/child.h"
+#include "app/text/values.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double most_seconds = 120;
+constexpr std::size_t most_output = std::size_t(1) << 20;
+constexpr std::size_t longest_error = 240;  // letters of one message
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// "FILE:3:7" at the beginning of a message, if that file is the reader's; else empty.
+std::string reader_place(const std::string& line, const ProgramLayout& layout) {
+  for (const std::string& name : layout.shown_names) {
+    if (line.rfind(name + ":", 0) != 0) continue;
+    const std::size_t end = line.find_first_not_of("0123456789:", name.size());
+    std::string place = line.substr(0, std::min(end, line.size()));
+    while (!place.empty() && place.back() == ':') place.pop_back();
+    return place;
+  }
+  return "";
+}
+
+/// The name between the first quotes of a message of GCC's or Clang's.
+std::string quoted_name(const std::string& message) {
+  const std::size_t begin = message.find('\'');
+  const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
+  return end == std::string::npos ? "" : message.substr(begin + 1, end - begin - 1);
+}
+
+/// "triangle: Tyndall has no such shape (triangle.h)"; empty: the class is none of those that Tyndall would have to
+/// know.
+std::string no_such_class(const std::string& name, const ProgramLayout& layout) {
+  const auto own = layout.own_classes.find(name);
+  if (own == layout.own_classes.end()) return "";
+  const std::string base = own->second.base;
+  const bool shape = base == "hittable" || base == "hitable" || base == "Hittable" || base == "hittable_list";
+  const bool material = base == "material" || base == "Material";
+  const bool texture = base == "texture" || base == "Texture";
+  if (!shape && !material && !texture) return "";
+  return name + ": Tyndall has no such " +
+         (shape      ? "shape"
+          : material ? "material"
+                     : "texture") +
+         " (a class of your own in " + own->second.file + ")";
+}
+
+/// The class of the reader's own that the file defines, if it is a shape, a material or a texture: what a message from
+/// such a file is about.
+std::string own_class_in(const std::string& place, const ProgramLayout& layout) {
+  for (const auto& [name, own] : layout.own_classes)
+    if (place.rfind(own.file + ":", 0) == 0 && own.file != layout.shown_names.front()) {
+      const std::string sentence = no_such_class(name, layout);
+      if (!sentence.empty()) return sentence;
+    }
+  return "";
+}
+
+std::string undefined_reference(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    const std::size_t at = line.find("undefined reference to ");
+    if (at != std::string::npos)
+      return line.substr(at) + " (if another source file defines it, name that, too: tyndall main.cc other.cc)";
+  }
+  return "";
+}
+
+/// Compilers by their names, each with arguments that the user gave.
+std::vector<std::vector<std::string>> compilers() {
+  const char* chosen = std::getenv("CXX");
+  std::istringstream words(chosen ? chosen : "");
+  std::vector<std::string> command;
+  for (std::string word; words >> word;) command.push_back(word);
+  if (!command.empty()) return {command};
+  return {{"c++"}, {"g++"}, {"clang++"}};
+}
+
+[[noreturn]] void fail_without_compiler() {
+  const char* chosen = std::getenv("CXX");
+  if (chosen && *chosen)
+    throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
+  throw IoError(
+      "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
+}
+
+/// Throws for what has nothing to do with the reader's code.
+void check_end(const ProgramTask& task, const std::string& compiler, const ChildEnd& end) {
+  const std::string& name = task.name;
+  if (end.interrupted != 0) throw ProgramInterrupted(name + ": interrupted while it was compiled", end.interrupted);
+  if (end.given_up) throw ProgramInterrupted(name + ": given up while it was compiled", SIGTERM);
+  if (end.timed_out) throw IoError(compiler + " took more than 120 s to compile " + name + ", and was ended");
+  if (end.errors.find("No space left on device") != std::string::npos)
+    throw IoError(task.folder.parent_path().string() + ": temporary folder: No space left on device");
+  const std::size_t killed = end.errors.find("Killed signal terminated program");
+  if (end.signal != 0 || killed != std::string::npos)
+    throw IoError(compiler + " was ended by " + signal_name(end.signal != 0 ? end.signal : SIGKILL) +
+                  " while it compiled " + name);
+}
+
+/// Compiles by the first compiler that can be started.
+ChildEnd compile(const ProgramTask& task, const std::vector<std::string>& arguments) {
+  for (const std::vector<std::string>& compiler : compilers()) {
+    ChildPlan plan;
+    plan.command = compiler;
+    plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
+    plan.folder = task.folder / "code";
+    plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string()};  // what it leaves behind goes with the folder
+    plan.seconds = most_seconds;
+    plan.most_errors = most_output;
+    plan.go_on = task.go_on;
+    plan.watch_signals = task.watch_signals;
+    ChildEnd end = run_child(plan);
+    if (end.start_error == ENOENT || end.start_error == EACCES) continue;
+    if (end.start_error != 0)
+      throw IoError(compiler[0] + " cannot be started: " + std::generic_category().message(end.start_error));
+    check_end(task, compiler[0], end);
+    return end;
+  }
+  fail_without_compiler();
+}
+
+}  // namespace
+
+std::string first_error(const std::string& output, const ProgramLayout& layout) {
+  const std::vector<std::string> lines = lines_of(output);
+  const std::string required = "required from", requested = "requested here";
+  std::string caller;  // the reader's line that a template was needed for
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::string place = reader_place(lines[k], layout);
+    if (!place.empty() && lines[k].find(required) != std::string::npos) caller = place;
+    const std::size_t fatal = lines[k].find("fatal error: "), at = std::min(fatal, lines[k].find("error: "));
+    if (at == std::string::npos || lines[k].find("undefined reference") != std::string::npos) continue;
+    std::string text = lines[k].substr(at + (at == fatal ? 13 : 7));
+    for (std::size_t next = k + 1; place.empty() && caller.empty() && next < lines.size(); ++next)
+      if (lines[next].find(requested) != std::string::npos) caller = reader_place(lines[next], layout);
+    const std::string where = place.empty() ? caller : place;
+    if (where.empty()) continue;
+    const std::string own = no_such_class(quoted_name(text), layout);
+    if (!own.empty()) return where + ": " + own;
+    const std::string about = own_class_in(where, layout);
+    return where + ": " + shortened(text, longest_error) + (about.empty() ? "" : "; " + about);
+  }
+  const std::string undefined = undefined_reference(lines);
+  if (!undefined.empty()) return layout.shown_names.front() + ": " + shortened(undefined, longest_error);
+  return layout.shown_names.front() + ": cannot be compiled: " +
+         shortened(lines.empty() ? "the compiler does not say why" : lines.front(), longest_error);
+}
+
+void compile_program(const ProgramTask& task, const ProgramLayout& layout, const std::vector<fs::path>& include_folders,
+                     const fs::path& program) {
+  std::vector<std::string> errors;
+  for (const char* standard : {"-std=c++17", "-std=c++20"}) {
+    std::vector<std::string> arguments{
+        standard, "-O0", "-w", "-pthread", "-fmax-errors=1", "-fdiagnostics-color=never"};
+    arguments.insert(arguments.end(), layout.options.begin(), layout.options.end());
+    for (const fs::path& folder : include_folders) arguments.push_back("-I" + folder.string());
+    arguments.insert(arguments.end(), layout.units.begin(), layout.units.end());
+    arguments.insert(arguments.end(), {"-o", program.string()});
+    const ChildEnd end = compile(task, arguments);
+    if (end.succeeded()) return;
+    errors.push_back(all_printable(first_error(end.errors, layout)));
+  }
+  // What is wrong at the same place for both is told in the words of the older one, which are plainer. Else the code is
+  // C++20, and the older one's error means nothing.
+  const auto place = [](const std::string& error) { return error.substr(0, error.find(": ")); };
+  throw UsageError(place(errors[0]) == place(errors[1]) ? errors[0] : errors[1]);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,34 @@
+#pragma once
+#include "app/book/program_layout.h"
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace tyndall {
+
+/// The user asked for an end, by a signal, while a program was compiled or run.
+struct ProgramInterrupted : std::runtime_error {
+  ProgramInterrupted(const std::string& text, int number) : std::runtime_error(text), signal(number) {}
+  int signal;
+};
+
+/// What compiling and running have in common.
+struct ProgramTask {
+  std::string name;              ///< what messages call the program
+  std::filesystem::path folder;  ///< of temporary files, that exists
+  std::function<bool()> go_on;   ///< see ChildPlan
+  bool watch_signals = true;
+};
+
+/// Compiles a program whose texts are in the folder `code` of the task's. include_folders: whole paths. By $CXX, else
+/// by c++, g++ or clang++, as C++17, else as C++20. Throws UsageError with the first error of the reader's code,
+/// IoError where there is no compiler or it fails by itself, ProgramInterrupted.
+void compile_program(const ProgramTask& task, const ProgramLayout& layout,
+                     const std::vector<std::filesystem::path>& include_folders, const std::filesystem::path& program);
+
+/// The first error that the compiler tells of, in one line: "main.cc:3:7: ...", at the place in the reader's own files.
+/// A class of the reader's that ours have no place for is named instead.
+std::string first_error(const std::string& output, const ProgramLayout& layout);
+
+}  // namespace tyndall

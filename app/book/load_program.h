@@ -1,0 +1,34 @@
+#pragma once
+#include "app/book/compile_program.h"
+#include "app/book/program_layout.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// Whether the name is a C++ source file's: it ends in .cc, .cpp or .cxx.
+bool is_program(const std::string& name);
+
+struct ProgramRequest {
+  ProgramSources sources;       ///< as the user named them
+  double seconds = 20;          ///< that the program may run
+  std::function<bool()> go_on;  ///< asked now and then; false gives up; may be empty
+  bool watch_signals = true;    ///< SIGINT, SIGTERM and SIGHUP end it; false where a window watches them
+};
+
+/// What a program has described.
+struct ProgramScene {
+  std::string json;                          ///< a scene file's text, with size, samples and depth
+  std::vector<std::string> notes;            ///< what the user should know, a line each
+  std::vector<std::filesystem::path> files;  ///< of the reader's, that were read
+};
+
+/// Compiles the program and runs it in an empty temporary folder, where it finds copies of the files that its strings
+/// name. No file of the reader's is written to. This runs the reader's code: only for files that the user has named.
+/// Throws UsageError where the program cannot be taken over, IoError where the system fails, ProgramInterrupted; all in
+/// one line.
+ProgramScene load_program(const ProgramRequest& request);
+
+}  // namespace tyndall

@@ -1,0 +1,259 @@
+#include "app/book/program_layout.h"
+
+#include "app/book/scratch_folder.h"
+#include "app/book/source_text.h"
+#include "app/text/values.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Further names of the books' headers, and of classes that readers put into headers of their own.
+constexpr std::string_view other_headers[] = {"bvhnode",      "checkertexture", "colour",       "dielectric",
+                                              "diffuselight", "flipface",       "imagetexture", "isotropic",
+                                              "lambertian",   "metal",          "noisetexture", "rect",
+                                              "rotatey",      "solidcolor",     "translate",    "xyrect"};
+
+/// The books' classes, as key_of() calls them. A header that defines one takes the place of ours.
+constexpr std::string_view book_classes[] = {"aabb",
+                                             "box",
+                                             "bvhnode",
+                                             "camera",
+                                             "checkertexture",
+                                             "color",
+                                             "constantmedium",
+                                             "constanttexture",
+                                             "cosinepdf",
+                                             "dielectric",
+                                             "diffuselight",
+                                             "flipface",
+                                             "flipnormals",
+                                             "hitable",
+                                             "hitablelist",
+                                             "hitrecord",
+                                             "hittable",
+                                             "hittablelist",
+                                             "hittablepdf",
+                                             "imagetexture",
+                                             "interval",
+                                             "isotropic",
+                                             "lambertian",
+                                             "material",
+                                             "metal",
+                                             "mixturepdf",
+                                             "movingsphere",
+                                             "noisetexture",
+                                             "onb",
+                                             "pdf",
+                                             "perlin",
+                                             "point3",
+                                             "quad",
+                                             "ray",
+                                             "rotatey",
+                                             "rtwimage",
+                                             "scatterrecord",
+                                             "solidcolor",
+                                             "sphere",
+                                             "spherepdf",
+                                             "texture",
+                                             "translate",
+                                             "vec3",
+                                             "xyrect",
+                                             "xzrect",
+                                             "yzrect"};
+
+template <std::size_t count>
+bool contains(const std::string_view (&list)[count], const std::string& name) {
+  return std::find(std::begin(list), std::end(list), name) != std::end(list);
+}
+
+bool is_book_class(const std::string& name) { return contains(book_classes, key_of(name)); }
+
+/// Whether a header with another name does what one of the books' does.
+bool replaces_ours(const std::string& code) {
+  for (const auto& [name, base] : classes_of(code))
+    if (is_book_class(name)) return true;
+  const std::vector<std::string> constants = constants_of(code);
+  const bool endless = std::find(constants.begin(), constants.end(), "infinity") != constants.end();
+  const bool degrees = has_word(code, "degrees_to_radians") && has_word(code, "return");
+  return endless || degrees || code.find("double random_double") != std::string::npos;
+}
+
+/// For #line: a string of C++.
+std::string escaped(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return out;
+}
+
+class Layouter {
+ public:
+  Layouter(const ProgramSources& sources, const fs::path& headers) : sources_(sources), headers_(headers) {}
+
+  ProgramLayout lay_out() {
+    for (const fs::path& file : sources_.files) layout_.units.push_back(add(file, file.string(), ".cpp"));
+    if (!uses_books_)
+      throw UsageError(printable(sources_.files.front().string()) +
+                       ": includes none of the books' headers (vec3.h, hittable.h, camera.h ...), so there is no scene "
+                       "that Tyndall could take over");
+    layout_.options = random_options(random_text_.empty() ? all_text_ : random_text_);
+    for (const std::string& name : constants_) {
+      if (name == "pi") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_PI");
+      if (name == "infinity") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_INFINITY");
+    }
+    return std::move(layout_);
+  }
+
+ private:
+  /// Reads a file of the reader's. Returns its code without comments; text: all of it.
+  std::string read(const fs::path& file, std::string& text) {
+    text = read_text(file);
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    if (std::find(layout_.files.begin(), layout_.files.end(), file) == layout_.files.end())
+      layout_.files.push_back(file);
+    std::string code = without_comments(text);
+    all_text_ += code;
+    add_data(code);
+    return code;
+  }
+
+  /// Adds a file that is compiled, or included by one. Returns its name in the folder where that happens.
+  std::string add(const fs::path& file, const std::string& shown, const char* ending) {
+    const std::string known = copies_[identity(file)];
+    if (!known.empty()) return known;
+    const std::string name = "file_" + std::to_string(copies_.size()) + ending;
+    copies_[identity(file)] = name;
+    layout_.shown_names.push_back(shown);
+    std::string text;
+    const std::string code = read(file, text);
+    for (std::string& constant : constants_of(code)) constants_.insert(std::move(constant));
+    for (const auto& [own, base] : classes_of(code))
+      if (!base.empty()) layout_.own_classes[own] = {base, shown};
+    std::string out = "#line 1 \"" + escaped(shown) + "\"\n";
+    std::size_t done = 0;
+    for (const Include& include : includes_of(text)) {
+      const std::string replacement = replacement_of(include, file, shown);
+      if (replacement.empty()) continue;
+      out += text.substr(done, include.line_begin - done) + "#include " + replacement;
+      done = include.line_end;
+    }
+    // A copy is included once, even where the reader's header says so by #pragma once, which would be a matter of its
+    // name.
+    layout_.texts[name] =
+        std::string(ending == std::string(".h") ? "#pragma once\n" : "") + out + text.substr(done) + "\n";
+    return name;
+  }
+
+  /// What is included in place of it; empty: it stays.
+  std::string replacement_of(const Include& include, const fs::path& from, const std::string& shown) {
+    std::string found_as;
+    const fs::path found = find(include, from, shown, found_as);
+    const std::string key = key_of(include.name);
+    if (is_ours(key) && (include.quoted || !found.empty())) return ours(found, found_as);
+    if (found.empty() || !include.quoted) return "";
+    std::string text = without_comments(read_text(found));
+    if (replaces_ours(text)) return ours(found, found_as);
+    return "\"" + add(found, found_as, ".h") + "\"";
+  }
+
+  std::string ours(const fs::path& replaced, const std::string& shown) {
+    uses_books_ = true;
+    if (!replaced.empty()) see(replaced, shown);
+    return "<rtweekend.h>";
+  }
+
+  /// Looks at a header that ours take the place of, and at those that it includes.
+  void see(const fs::path& file, const std::string& shown) {
+    if (!seen_.insert(identity(file)).second) return;
+    std::string text;
+    const std::string code = read(file, text);
+    for (const char* word : {"random_double", "randomDouble", "random_float"})
+      if (has_word(code, word)) random_text_ += code;
+    const std::map<std::string, std::string> classes = classes_of(code);
+    for (const auto& [name, base] : classes)
+      if (!is_book_class(name)) layout_.own_classes[name] = {base, shown};
+    if (has_word(code, "ray_color") && (classes.contains("camera") || classes.contains("Camera"))) {
+      const auto sky = sky_of(code);
+      layout_.sky = sky.value_or("");
+      layout_.unknown_sky = !sky;
+    }
+    for (const Include& include : includes_of(text)) {
+      std::string found_as;
+      const fs::path found = find(include, file, shown, found_as);
+      if (!found.empty() && include.quoted) see(found, found_as);
+    }
+  }
+
+  bool is_ours(const std::string& key) const {
+    if (contains(other_headers, key)) return true;
+    std::error_code error;
+    for (fs::directory_iterator at(headers_, error), end; !error && at != end; at.increment(error))
+      if (at->path().extension() == ".h" && key_of(at->path().filename().string()) == key) return true;
+    return false;
+  }
+
+  /// The reader's file; empty: there is none. found_as: what messages call it.
+  fs::path find(const Include& include, const fs::path& from, const std::string& shown, std::string& found_as) const {
+    std::vector<fs::path> folders;
+    const fs::path own = from.parent_path();
+    if (include.quoted) folders.push_back(own);
+    folders.insert(folders.end(), sources_.include_folders.begin(), sources_.include_folders.end());
+    if (include.quoted) folders.insert(folders.end(), {own / "include", own / ".." / "include", own / ".."});
+    std::error_code error;
+    for (const fs::path& folder : folders) {
+      const fs::path file = (folder / include.name).lexically_normal();
+      if (!fs::is_regular_file(file, error)) continue;
+      const fs::path beside = (fs::path(shown).parent_path() / file.lexically_relative(own)).lexically_normal();
+      found_as = (folder == own ? beside : file).string();
+      return file;
+    }
+    return {};
+  }
+
+  static fs::path identity(const fs::path& file) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(file, error);
+    return error ? file : whole;
+  }
+
+  /// Files that the program may read: it runs in another folder.
+  void add_data(const std::string& code) {
+    constexpr std::size_t longest = 200;
+    constexpr std::uintmax_t largest = 64 << 20;
+    const fs::path folder = sources_.files.front().parent_path();
+    for (const std::string& name : strings_of(code)) {
+      const fs::path file = fs::path(name).lexically_normal();
+      const bool plain = !name.empty() && name.size() < longest && file.is_relative() && file.has_extension();
+      if (!plain || file.extension() == ".h" || file.extension() == ".hpp" || *file.begin() == "..") continue;
+      std::error_code error;
+      const fs::path whole = folder / file;
+      if (!fs::is_regular_file(whole, error) || fs::file_size(whole, error) > largest) continue;
+      if (std::find(layout_.data.begin(), layout_.data.end(), file) == layout_.data.end()) layout_.data.push_back(file);
+    }
+  }
+
+  const ProgramSources& sources_;
+  fs::path headers_;
+  ProgramLayout layout_;
+  bool uses_books_ = false;
+  std::map<fs::path, std::string> copies_;
+  std::set<fs::path> seen_;
+  std::set<std::string> constants_;
+  std::string all_text_, random_text_;  ///< of all files, and of replaced headers that draw random numbers
+};
+
+}  // namespace
+
+ProgramLayout lay_out(const ProgramSources& sources, const fs::path& headers) {
+  return Layouter(sources, headers).lay_out();
+}
+
+}  // namespace tyndall

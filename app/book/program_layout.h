@@ -1,0 +1,39 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// The source files of a program, as the user named them.
+struct ProgramSources {
+  std::vector<std::filesystem::path> files;            ///< that with main() first
+  std::vector<std::filesystem::path> include_folders;  ///< -I
+};
+
+/// A class of the reader's own in a header that one of ours takes the place of.
+struct OwnClass {
+  std::string base, file;
+};
+
+/// A program as it is compiled: its files with other includes. Those of the books' headers lead to ours, those of the
+/// reader's other headers to copies, so that a sphere.h beside main.cc is never found. Each begins with a #line, so
+/// that the compiler's messages name the reader's file.
+struct ProgramLayout {
+  std::map<std::string, std::string> texts;     ///< by the file's name in the folder where it is compiled
+  std::vector<std::string> units;               ///< those of the texts that are compiled
+  std::vector<std::string> shown_names;         ///< what messages call the files
+  std::vector<std::filesystem::path> files;     ///< all of the reader's that were read
+  std::map<std::string, OwnClass> own_classes;  ///< by name
+  std::vector<std::filesystem::path> data;      ///< files beside the program that its strings name, relative to it
+  std::vector<std::string> options;             ///< for the compiler: see tyndall/book/parts/random.h
+  std::string sky;                              ///< of a camera that sets no background, JSON; empty: the book's
+  bool unknown_sky = false;                     ///< the reader's camera.h has another one, which cannot be told
+};
+
+/// Reads the program. headers: the folder of ours. Throws IoError for a file that cannot be read, UsageError if the
+/// program includes none of the books' headers.
+ProgramLayout lay_out(const ProgramSources& sources, const std::filesystem::path& headers);
+
+}  // namespace tyndall

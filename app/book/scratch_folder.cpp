@@ -1,0 +1,66 @@
+#include "app/book/scratch_folder.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace tyndall {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+}  // namespace
+
+ScratchFolder::ScratchFolder() {
+  const char* chosen = std::getenv("TMPDIR");
+  const fs::path temporary = chosen && *chosen ? chosen : "/tmp";
+  std::string name = (temporary / "tyndall-book-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw IoError(printable(temporary.string()) + ": cannot make a temporary folder: " + reason(errno));
+  std::error_code error;
+  path_ = fs::canonical(name, error);
+  if (error) path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+  if (!error) return;
+  for (fs::recursive_directory_iterator at(path_, error), end; !error && at != end; at.increment(error))
+    fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, error);  // a program took them away
+  fs::remove_all(path_, error);
+}
+
+void ScratchFolder::write(const fs::path& name, const std::string& text) const {
+  const fs::path file = path_ / name;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  errno = 0;
+  std::ofstream out(file, std::ios::binary);
+  out << text << std::flush;
+  if (!out || error)
+    throw IoError(printable(path_.string()) +
+                  ": cannot write temporary files: " + reason(error ? error.value() : errno));
+}
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) throw IoError(printable(file.string()) + ": is no file");
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in.is_open() || in.bad()) throw IoError(printable(file.string()) + ": cannot be read: " + reason(errno));
+  return text;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,196 @@
+#include "app/book/source_text.h"
+
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+
+namespace tyndall {
+namespace {
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// Words, numbers and single signs of text without comments; strings are left out.
+std::vector<std::string> tokens_of(std::string_view text) {
+  std::vector<std::string> tokens;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = at;
+    if (is_word(text[at])) {
+      while (at < text.size() && (is_word(text[at]) || text[at] == '.')) ++at;
+      tokens.emplace_back(text.substr(begin, at - begin));
+    } else if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at)
+        if (text[at] == '\\') ++at;
+      ++at;
+    } else {
+      if (std::isspace(static_cast<unsigned char>(text[at])) == 0) tokens.emplace_back(1, text[at]);
+      ++at;
+    }
+  }
+  return tokens;
+}
+
+bool is_access(const std::string& word) {
+  return word == "public" || word == "protected" || word == "private" || word == "virtual";
+}
+
+/// "1.0,0.7,1" as JSON's [1,0.7,1]; nothing if these are not three plain numbers.
+std::optional<std::string> colour_json(const std::string& list) {
+  std::string json;
+  int count = 0;
+  for (std::size_t at = 0; at <= list.size(); ++count) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    std::string word = list.substr(at, end - at);
+    if (!word.empty() && word.back() == 'f') word.pop_back();
+    double value = 0;
+    if (!number_from_text(word, value) || !(value >= 0)) return {};
+    json += (count > 0 ? "," : "") + number_text(value);
+    at = end + 1;
+  }
+  return count == 3 ? std::optional("[" + json + "]") : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(std::string_view text) {
+  std::vector<Include> found;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::size_t at = begin;
+    const auto skip_blanks = [&] {
+      while (at < end && is_blank(text[at])) ++at;
+    };
+    const auto skip = [&](std::string_view word) {
+      skip_blanks();
+      const bool there = text.substr(at, std::min(word.size(), end - at)) == word;
+      if (there) at += word.size();
+      return there;
+    };
+    if (skip("#") && skip("include")) {
+      skip_blanks();
+      const bool quoted = at < end && text[at] == '"', angled = at < end && text[at] == '<';
+      const std::size_t close = quoted || angled ? text.find(quoted ? '"' : '>', at + 1) : std::string_view::npos;
+      if (close < end) found.push_back({begin, end, std::string(text.substr(at + 1, close - at - 1)), quoted});
+    }
+    begin = end + 1;
+  }
+  return found;
+}
+
+std::string without_comments(std::string_view text) {
+  std::string out(text);
+  char inside = 0;  // '/': to the end of the line; '*': to the closing sign; '"' or '\'': a string
+  for (std::size_t at = 0; at < out.size(); ++at) {
+    const char c = out[at], next = at + 1 < out.size() ? out[at + 1] : '\0';
+    const bool in_comment = inside == '/' || inside == '*';
+    if (inside == 0 && c == '/' && (next == '/' || next == '*')) {
+      inside = next;
+      out[at] = out[at + 1] = ' ';
+      ++at;
+    } else if (inside == '*' && c == '*' && next == '/') {
+      out[at] = out[at + 1] = ' ';
+      ++at;
+      inside = 0;
+    } else if (c == '\n' && inside != '*') {
+      inside = 0;
+    } else if (in_comment) {
+      if (c != '\n') out[at] = ' ';
+    } else if (inside != 0 && c == '\\') {
+      ++at;
+    } else if (c == inside) {
+      inside = 0;
+    } else if (inside == 0 && (c == '"' || (c == '\'' && (at == 0 || !is_word(out[at - 1]))))) {
+      inside = c;
+    }
+  }
+  return out;
+}
+
+std::string key_of(std::string_view name) {
+  name.remove_prefix(std::min(name.find_last_of("/\\") + 1, name.size()));
+  name = name.substr(0, name.find_last_of('.'));
+  std::string key;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return key;
+}
+
+std::map<std::string, std::string> classes_of(std::string_view text) {
+  std::map<std::string, std::string> classes;
+  const std::vector<std::string> tokens = tokens_of(text);
+  for (std::size_t k = 0; k + 2 < tokens.size(); ++k) {
+    if ((tokens[k] != "class" && tokens[k] != "struct") || (k > 0 && tokens[k - 1] == "enum")) continue;
+    std::size_t at = k + 2;
+    if (tokens[at] == "final") ++at;
+    std::string base;
+    for (bool bases = at < tokens.size() && tokens[at] == ":"; bases && ++at < tokens.size() && tokens[at] != "{";)
+      if (base.empty() && !is_access(tokens[at]) && is_word(tokens[at][0])) base = tokens[at];
+    if (at < tokens.size() && tokens[at] == "{") classes[tokens[k + 1]] = base;
+  }
+  return classes;
+}
+
+std::vector<std::string> constants_of(std::string_view text) {
+  std::vector<std::string> names;
+  const std::vector<std::string> tokens = tokens_of(text);
+  int depth = 0;
+  for (std::size_t k = 0; k + 1 < tokens.size(); ++k) {
+    const bool typed = k > 0 && (tokens[k - 1] == "double" || tokens[k - 1] == "float" || tokens[k - 1] == "auto");
+    if (depth == 0 && typed && (tokens[k + 1] == "=" || tokens[k + 1] == "{")) names.push_back(tokens[k]);
+    if (tokens[k] == "{") ++depth;
+    if (tokens[k] == "}") --depth;
+  }
+  return names;
+}
+
+std::vector<std::string> strings_of(std::string_view text) {
+  std::vector<std::string> strings;
+  for (std::size_t at = text.find('"'); at < text.size(); at = text.find('"', at + 1)) {
+    const std::size_t end = text.find_first_of("\"\n", at + 1);
+    if (end == std::string_view::npos) break;
+    if (text[end] == '"') strings.emplace_back(text.substr(at + 1, end - at - 1));
+    at = end;
+  }
+  return strings;
+}
+
+bool has_word(std::string_view text, std::string_view word) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_word(text[at - 1])) && (end == text.size() || !is_word(text[end]))) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> random_options(const std::string& text) {
+  if (has_word(text, "random_device")) return {};  // other numbers each time
+  for (const char* engine : {"mt19937", "mt19937_64"}) {
+    if (!has_word(text, engine)) continue;
+    std::vector<std::string> options{"-DTYNDALL_BOOK_ENGINE=std::" + std::string(engine)};
+    std::smatch seed;
+    if (std::regex_search(text, seed, std::regex(std::string(engine) + R"(\s+\w+\s*[({]\s*(\d+)u?\s*[)}])")))
+      options.push_back("-DTYNDALL_BOOK_SEED=" + seed[1].str());
+    return options;
+  }
+  const bool only_drand48 = has_word(text, "drand48") && !has_word(text, "rand");
+  return only_drand48 ? std::vector<std::string>{"-DTYNDALL_BOOK_DRAND48"} : std::vector<std::string>{};
+}
+
+std::optional<std::string> sky_of(const std::string& text) {
+  if (has_word(text, "background")) return "[0,0,0]";  // a member, which is black until main() sets it
+  std::string dense;
+  for (const char c : text)
+    if (std::isspace(static_cast<unsigned char>(c)) == 0) dense += c;
+  static const std::regex blend(
+      R"(\(1(?:\.0*)?f?-(\w+)\)\*(?:color|vec3|Color|Vec3)\(([^()]*)\)\+\1\*(?:color|vec3|Color|Vec3)\(([^()]*)\))");
+  std::smatch found;
+  if (!std::regex_search(dense, found, blend)) return {};
+  const auto bottom = colour_json(found[2].str()), top = colour_json(found[3].str());
+  if (!bottom || !top) return {};
+  return R"({"type":"gradient","bottom":)" + *bottom + R"(,"top":)" + *top + "}";
+}
+
+}  // namespace tyndall

@@ -1,0 +1,1 @@
+#error "the header beside main.cc was found"
