@@ -41,3 +41,14 @@ TEST_CASE("methods named by options replace the scene's") {
   CHECK(settings.integrator == Integrator::nee);
   CHECK(settings.sampler == SamplerKind::random);
 }
+
+TEST_CASE("a program is compiled only where that is allowed") {
+  SceneRequest request;
+  request.what = "nowhere/main.cc";
+  CHECK_THROWS_WITH(
+      open_scene(request),
+      "nowhere/main.cc: found a program, expected a scene file or an image; a program is compiled and run "
+      "only where it is named on the command line");
+  request.program.allowed = true;
+  CHECK_THROWS_WITH(open_scene(request), "nowhere/main.cc: found no such file, expected a C++ source file");
+}

@@ -1,0 +1,131 @@
+#include "app/book/child.h"
+
+#include <doctest/doctest.h>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+using namespace tyndall;
+
+namespace {
+
+ChildPlan shell(const std::string& script) {
+  ChildPlan plan;
+  plan.command = {"sh", "-c", script};
+  plan.folder = "/";
+  plan.seconds = 20;
+  return plan;
+}
+
+/// Within a second; what nobody has waited for yet counts as gone.
+bool is_gone(int process) {
+  for (int k = 0; k < 100; ++k) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string number, name, state;
+    if (kill(process, 0) != 0 || (file >> number >> name >> state && state == "Z")) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+double seconds_of(const ChildPlan& plan, ChildEnd& end) {
+  const auto begin = std::chrono::steady_clock::now();
+  end = run_child(plan);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+TEST_CASE("a child's exit code, its errors, its messages, and its variables") {
+  ChildPlan plan = shell("echo $ONE >&2; echo out; echo told >&$PIPE; exit 3");
+  plan.environment = {"ONE=1 and more"};
+  plan.pipe_variable = "PIPE";
+  const ChildEnd end = run_child(plan);
+  CHECK(end.exit_code == 3);
+  CHECK(end.errors == "1 and more\n");
+  CHECK(end.messages == "told\n");
+  CHECK_FALSE(end.ended());
+}
+
+TEST_CASE("errors are kept from the first or from the last on") {
+  ChildPlan plan = shell("printf 0123456789 >&2");
+  plan.most_errors = 4;
+  CHECK(run_child(plan).errors == "0123");
+  plan.keep_last_errors = true;
+  CHECK(run_child(plan).errors == "6789");
+}
+
+TEST_CASE("a child that is ended by a signal, one that is not there, one without a folder") {
+  CHECK(run_child(shell("kill -SEGV $$")).signal == SIGSEGV);
+  ChildPlan plan = shell("");
+  plan.command = {"/nowhere/program"};
+  CHECK(run_child(plan).start_error == ENOENT);
+  plan = shell("");
+  plan.folder = "/nowhere";
+  CHECK(run_child(plan).start_error == ENOENT);
+}
+
+TEST_CASE("a child that takes too long is ended, with all that it has started") {
+  ChildPlan plan = shell("(sleep 60; echo late) & sleep 60");
+  plan.seconds = 0.2;
+  ChildEnd end;
+  CHECK(seconds_of(plan, end) < 10);
+  CHECK(end.timed_out);
+}
+
+TEST_CASE("what a child has left running is ended with it") {
+  ChildPlan plan = shell("sleep 60 2>&1 & echo $! >&2");
+  ChildEnd end;
+  CHECK(seconds_of(plan, end) < 10);
+  REQUIRE(end.exit_code == 0);
+  CHECK(is_gone(std::stoi(end.errors)));
+}
+
+TEST_CASE("after its first message a child has less time") {
+  ChildPlan plan = shell("echo told >&$PIPE; sleep 60");
+  plan.pipe_variable = "PIPE";
+  plan.seconds_after_message = 0.2;
+  ChildEnd end;
+  CHECK(seconds_of(plan, end) < 10);
+  CHECK(end.timed_out);
+  CHECK(end.messages == "told\n");
+}
+
+TEST_CASE("a child that nobody wants any more is ended") {
+  ChildPlan plan = shell("sleep 60");
+  int asked = 0;
+  plan.go_on = [&asked] { return ++asked < 5; };
+  ChildEnd end;
+  CHECK(seconds_of(plan, end) < 10);
+  CHECK(end.given_up);
+}
+
+TEST_CASE("a signal ends the child, and whoever watched before learns of it, too") {
+  static volatile std::sig_atomic_t seen = 0;
+  const auto before = std::signal(SIGTERM, [](int number) { seen = number; });
+  ChildPlan plan = shell("kill -TERM " + std::to_string(getpid()) + "; sleep 60");
+  ChildEnd end;
+  CHECK(seconds_of(plan, end) < 10);
+  CHECK(end.interrupted == SIGTERM);
+  CHECK(seen == SIGTERM);
+  seen = 0;
+  std::raise(SIGTERM);
+  CHECK(seen == SIGTERM);  // it is in its place again
+  std::signal(SIGTERM, before);
+}
+
+TEST_CASE("a child that waits for input is ended, where the system tells") {
+  if (!std::filesystem::exists("/proc/self/syscall")) return;
+  ChildPlan plan = shell("read word");
+  ChildEnd end;
+  CHECK(seconds_of(plan, end) < 10);
+  CHECK(end.awaited_input);
+}

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# A program is compiled and run only where it is named as the scene on the command line. Any other way to a C++ source
+# file never starts a compiler.
+. "$(dirname "$0")/_program.sh"
+mkdir folder
+program folder/main <<<'int main() { std::ofstream(getenv("MARK")) << "ran"; }'
+export MARK=$PWD/mark
+printf '#!/bin/sh\necho compiled >"%s"\nexit 1\n' "$MARK" >compiler
+chmod +x compiler
+export CXX=$PWD/compiler
+
+refuses() { # CODE COMMAND...: fails so, and nothing was compiled
+  expect "$@"
+  [ ! -e "$MARK" ] || fail "compiled by: ${*:2}"
+  rm -f "$MARK"
+}
+echo '{ "tyndall": 1, "textures": { "t": { "type": "image", "file": "folder/main.cc" } } }' >texture.json
+refuses 2 "$tyndall" inspect texture.json
+refuses 2 "$tyndall" convert texture.json -o out.json
+expect 2 "$tyndall" inspect - <folder/main.cc
+[ ! -e "$MARK" ] || fail 'compiled from standard input'
+cp folder/main.cc renamed.json
+refuses 2 "$tyndall" inspect renamed.json
+"$tyndall" render showroom --size 8x8 --spp 1 -q -o picture.png
+refuses 3 "$tyndall" compare picture.png folder/main.cc
+refuses 3 "$tyndall" compare folder/main.cc picture.png
+"$tyndall" compare picture.png --baseline kept --update >/dev/null
+cp folder/main.cc kept/
+refuses 1 "$tyndall" compare folder --baseline kept
+refuses 0 "$tyndall" compare picture.png --baseline kept
+refuses 3 "$tyndall" chart showroom --reference folder/main.cc --budget 1 -o chart.svg
+refuses 2 "$tyndall" merge folder/main.cc -o out.exr
+refuses 2 "$tyndall" denoise folder/main.cc -o out.png
+refuses 2 "$tyndall" render showroom --set /textures/t='{"type":"image","file":"folder/main.cc"}' -o out.png
+grep -rlE '\.(cc|cpp|cxx)|c\+\+' "$source_root/assets/desktop" && fail 'the desktop opens C++ files by the program'
+
+# Named as the scene it is compiled: the mark is one.
+expect 2 "$tyndall" inspect folder/main.cc
+[ -e "$MARK" ] || fail 'the mark is never made'
+
+finish
