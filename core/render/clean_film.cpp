@@ -60,8 +60,7 @@ bool CoarseCleaner::run(int step, const RenderEngine& engine, double quantum, co
     film_ = make_film(scene.width, scene.height, whole, 0, quantum, scene.has_lights());
   film_.quantum = quantum;
   cleaner_.change_scene();
-  return Pass(whole, 0, min_clean_spp, 1, 0, {.reuses_paths = scene.reuses_paths})
-             .run(coarse.thread_pool, coarse.kernels, scene, film_, give_up) &&
+  return Pass(whole, 0, min_clean_spp, 1, 0, {.reuses_paths = scene.reuses_paths}).run(coarse, film_, give_up) &&
          cleaner_.run(film_, coarse, nullptr, give_up, out);
 }
 

@@ -14,6 +14,7 @@ constexpr int default_spp = 4096;  // samples a pixel, where the scene names non
 /// Whether the second request is for another picture than the first.
 bool is_edit(const RenderRequest& before, const RenderRequest& after) {
   if (after.film && after.film != before.film) return true;
+  if (after.samples != before.samples) return true;
   if (after.scene == before.scene) return false;
   return !before.scene || !after.scene || !change_between(*before.scene, *after.scene).none();
 }

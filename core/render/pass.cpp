@@ -122,37 +122,36 @@ Region Pass::tile(int index) const {
           std::min(y + tile_, region_.y1)};
 }
 
-bool Pass::run(ThreadPool& thread_pool, const Kernels& kernels, const SceneView& scene, Film& film,
-               const std::atomic<bool>& give_up, const std::function<void()>& poll) {
+bool Pass::run(const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up,
+               const std::function<void()>& poll) {
   const auto job = [&](int index) {
     auto& done = done_[static_cast<std::size_t>(index)];
     if (done || give_up.load(std::memory_order_relaxed)) return;
     if (wanted_.empty()) {
-      run_tile(index, kernels, scene, film);
+      run_tile(index, engine, film);
       done = 1;
     } else {
-      done = fill_tile(index, kernels, scene, film, give_up);
+      done = fill_tile(index, engine, film, give_up);
     }
   };
-  thread_pool.for_each(columns_ * rows_, job, poll);
+  engine.thread_pool.for_each(columns_ * rows_, job, poll);
   film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
   return std::all_of(done_.begin(), done_.end(), [](std::uint8_t d) { return d != 0; });
 }
 
-void Pass::run_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film) {
+void Pass::run_tile(int index, const RenderEngine& engine, Film& film) {
   const Region where = tile(index);
   TileBuffer& tile_film = buffer();
   tile_film.clear(where, step_, !film.emission.empty());
   TileCounts counts;
-  kernels.render_tile(scene, {where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
-                      tile_film.emission_or_null());
+  engine.render_tile({where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
+                     tile_film.emission_or_null());
   add_tile(where, step_, first_ == film.first_sample, film);
   add_counts(counts);
 }
 
 /// Runs units until the tile's pixels have what is wanted. False if `give_up` was set before.
-bool Pass::fill_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film,
-                     const std::atomic<bool>& give_up) {
+bool Pass::fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up) {
   const Region where = tile(index);
   TileBuffer& tile_film = buffer();
   for (;;) {
@@ -161,7 +160,7 @@ bool Pass::fill_tile(int index, const Kernels& kernels, const SceneView& scene, 
     tile_film.clear(where, 1, !film.emission.empty());
     TileCounts counts;
     const TileJob lacking{where, 1, 0, 0, 0, tile_film.first.data(), tile_film.last.data()};
-    kernels.render_tile(scene, lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null());
+    engine.render_tile(lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null());
     add_tile(where, 1, false, film);
     add_counts(counts);
   }

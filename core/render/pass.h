@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/thread_pool.h"
 #include "core/film/film.h"
+#include "core/render/sample_source.h"
 #include "core/targets/kernels.h"
 
 #include <atomic>
@@ -11,11 +12,21 @@
 /// Takes samples with all threads, so that it can be interrupted within 2 ms without losing what was computed.
 namespace tyndall {
 
-/// What a pass needs to run: threads, kernels and the scene that these read.
+/// What a pass needs to run: threads, and kernels with the scene that these read, or another source of samples.
 struct RenderEngine {
   ThreadPool& thread_pool;
   const Kernels& kernels;
   const SceneView& scene;
+  const SampleSource* samples = nullptr;  ///< null: the kernels take them
+
+  /// See Kernels::render_tile.
+  void render_tile(const TileJob& job, double film_quantum, FilmPixel* pixels, TileCounts& counts,
+                   EmissionSums* emission = nullptr) const {
+    if (samples)
+      sample_tile(*samples, scene, job, film_quantum, pixels);
+    else
+      kernels.render_tile(scene, job, film_quantum, pixels, counts, emission);
+  }
 };
 
 /// How a pass is cut into tile jobs.
@@ -40,8 +51,8 @@ class Pass {
   /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then it returns
   /// within one unit. Returns whether all are done. A sample of index film.first_sample replaces what its pixel held,
   /// so that a film can be begun anew without clearing it. poll: see ThreadPool::for_each.
-  bool run(ThreadPool& thread_pool, const Kernels& kernels, const SceneView& scene, Film& film,
-           const std::atomic<bool>& give_up, const std::function<void()>& poll = {});
+  bool run(const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up,
+           const std::function<void()>& poll = {});
 
   std::uint64_t rays() const { return rays_; }
   std::uint64_t shadow_rays() const { return shadow_rays_; }
@@ -54,9 +65,8 @@ class Pass {
  private:
   void cut(Tiling tiling, std::uint32_t samples);
   Region tile(int index) const;
-  void run_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film);
-  bool fill_tile(int index, const Kernels& kernels, const SceneView& scene, Film& film,
-                 const std::atomic<bool>& give_up);
+  void run_tile(int index, const RenderEngine& engine, Film& film);
+  bool fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
   void add_tile(const Region& where, int step, bool replace, Film& film);
   void add_counts(const TileCounts& counts);
 

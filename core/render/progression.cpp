@@ -175,7 +175,7 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
   Pass& pass = schedule_.next(film_, limits.spp, tally_.last_paths_per_second, engine);
   const Clock::time_point start = Clock::now();
   running_from_ = options_.count_breaks ? last_write_ : start;
-  const bool whole = pass.run(engine.thread_pool, engine.kernels, engine.scene, film_, give_up, poll);
+  const bool whole = pass.run(engine, film_, give_up, poll);
   last_write_ = Clock::now();
   pass_seconds_ += seconds_between(start, last_write_);
   tally_.seconds += seconds_between(*running_from_, last_write_);

@@ -99,7 +99,8 @@ void RenderLoop::follow(const ReceivedRequest& next) {
 bool RenderLoop::take_scene() {
   bool goes_on = false;
   try {
-    ShownScene next{prepare(request_.wanted.scene, shown_.prepared.get()), request_.edit, request_.since};
+    ShownScene next{prepare(request_.wanted.scene, shown_.prepared.get()), request_.wanted.samples, request_.edit,
+                    request_.since};
     const bool camera_only =
         shown_.prepared && !change_between(shown_.prepared->scene(), next.prepared->scene()).others;
     const double budget = picture_budget(camera_only, seconds_between(shown_.submitted, next.submitted));
@@ -178,8 +179,9 @@ void RenderLoop::yield() {
 }
 
 /// Shows what the picture will look like once it has samples to filter. A request that cannot wait interrupts this.
+/// The samples for it are taken through a camera of larger pixels, which a source of samples has not.
 void RenderLoop::make_coarse_clean() {
-  if (request_.limit() < min_clean_spp || picture_.taken() >= min_clean_spp) return;
+  if (shown_.samples || request_.limit() < min_clean_spp || picture_.taken() >= min_clean_spp) return;
   if (!clean_.make_coarse(picture_.film(), first_pictures_.paths_per_second(), engine(), mail_.give_up())) return;
   publish();
   mail_.wait_until_shown(frames_);

@@ -15,6 +15,7 @@ namespace tyndall {
 /// The scene that is rendered.
 struct ShownScene {
   std::shared_ptr<const PreparedScene> prepared;  ///< null: none came yet
+  std::shared_ptr<const SampleSource> samples;    ///< see RenderRequest
   std::uint64_t edit = 0;
   Clock::time_point submitted;  ///< when the edit or its newest restart was asked for
 };
@@ -45,7 +46,7 @@ class RenderLoop {
   void make_coarse_clean();
   bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(request_.limit())); }
   bool unfinished(std::uint32_t limit) const { return shown_.prepared && picture_.taken() < limit; }
-  RenderEngine engine() const { return {*thread_pool_, kernels_, shown_.prepared->view()}; }
+  RenderEngine engine() const { return {*thread_pool_, kernels_, shown_.prepared->view(), shown_.samples.get()}; }
 
   Mailbox& mail_;
   Kernels kernels_;

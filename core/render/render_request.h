@@ -1,6 +1,7 @@
 #pragma once
 #include "core/film/film.h"
 #include "core/render/frame.h"
+#include "core/render/sample_source.h"
 #include "core/scene/scene.h"
 
 #include <cstdint>
@@ -16,6 +17,10 @@ struct RenderRequest {
   /// Samples of this scene that were taken before, by the same version and instruction set: the picture goes on from
   /// them, and the film is used up. Null: none; one that is not of the scene's size counts as none.
   std::shared_ptr<Film> film{};
+  /// Where the picture's samples come from; null: the kernels take them from the scene. With a source, what the scene
+  /// has to say is the size, the number of samples, seed and sampler; best it has no objects. When what the source
+  /// returns has changed, `restarts` has to.
+  std::shared_ptr<const SampleSource> samples{};
   View view = View::beauty;
   bool clean = false;             ///< frames carry a clean view
   int threads = 0;                ///< how many render; 0: as many as before

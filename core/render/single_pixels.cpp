@@ -51,6 +51,7 @@ bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film,
 
 LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels,
                    const std::atomic<bool>& give_up) {
+  if (engine.samples) return {};
   return [&](const std::vector<std::size_t>& pixels) { return levels.of(pixels, film, engine, give_up); };
 }
 

@@ -30,7 +30,8 @@ class PixelLevels {
   std::unordered_map<std::size_t, Vec3f> known_;  ///< by their places in the film
 };
 
-/// Asks `levels` for those of a film's pixels. What is returned refers to all four arguments.
+/// Asks `levels` for those of a film's pixels. What is returned refers to all four arguments. Empty where samples come
+/// from a caller's function, which may be slow: thousands more of each of some pixels are not asked of it.
 LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels, const std::atomic<bool>& give_up);
 
 /// The pixels of the film with subpixel lights (trace/subpixel_lights.h), in ascending order of their places. None if

@@ -22,7 +22,7 @@ std::vector<double> give_way(ThreadPool& thread_pool, const SceneView& view, Fil
   bool whole = false;
   Clock::time_point returned;
   std::thread runner([&] {
-    whole = pass.run(thread_pool, kernels, view, film, give_up);
+    whole = pass.run({thread_pool, kernels, view}, film, give_up);
     returned = Clock::now();
   });
   std::this_thread::sleep_for(after);

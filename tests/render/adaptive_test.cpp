@@ -99,7 +99,7 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   for (bool done = false; !done; ++abandoned) {
     stop.tiles_left = 3;
     stop.give_up = false;
-    done = pass.run(thread_pool, stopping, view.view(), film, stop.give_up);
+    done = pass.run({thread_pool, stopping, view.view()}, film, stop.give_up);
     for (std::size_t i = 0; i < wanted.size(); ++i) REQUIRE(film.pixels[i].taken <= wanted[i]);
   }
   CHECK(abandoned > 10);

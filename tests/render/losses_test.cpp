@@ -107,7 +107,7 @@ TEST_CASE("rejected samples: a pass counts those of both halves") {
   const std::atomic<bool> no = false;
   Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum, false);
   Pass pass(film.region, 0, 16);
-  REQUIRE(pass.run(thread_pool, scalar_kernels(), view.view(), film, no));
+  REQUIRE(pass.run({thread_pool, scalar_kernels(), view.view()}, film, no));
   std::uint64_t rejected[2] = {0, 0};
   for (const FilmPixel& pixel : film.pixels)
     for (int half = 0; half < 2; ++half) rejected[half] += pixel.rejected[half];
@@ -164,13 +164,13 @@ TEST_CASE("cut paths: the same sum for any threads, tiles and shards, in interru
     Film film = make_film(61, 43, whole.region, 0, scene.film_quantum, !whole.emission.empty());
     const std::atomic<bool> no = false, yes = true;
     Pass pass(whole.region, 0, 24, 1, 0, {16});
-    pass.run(thread_pool, kernels, view.view(), film, yes);
+    pass.run({thread_pool, kernels, view.view()}, film, yes);
     for (int time = 0; time < 2; ++time)
-      CHECK(pass.run(thread_pool, kernels, view.view(), film, no));  // then nothing is left
+      CHECK(pass.run({thread_pool, kernels, view.view()}, film, no));  // then nothing is left
     CHECK(film == whole);
     Film uneven = make_film(61, 43, whole.region, 0, scene.film_quantum, !whole.emission.empty());
     Pass upper({0, 0, 61, 20}, 0, 24);
-    CHECK(upper.run(thread_pool, kernels, view.view(), uneven, no));
+    CHECK(upper.run({thread_pool, kernels, view.view()}, uneven, no));
     Progression picture;
     picture.go_on(std::move(uneven), {});
     CHECK(

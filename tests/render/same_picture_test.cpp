@@ -134,7 +134,7 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
       for (bool done = false; !done;) {
         stop.tiles_left = 3;
         stop.give_up = false;
-        done = pass.run(thread_pool, stopping, view.view(), film, stop.give_up);
+        done = pass.run({thread_pool, stopping, view.view()}, film, stop.give_up);
         abandoned += done ? 0 : 1;
         for (const FilmPixel& pixel : film.pixels) REQUIRE((pixel.taken == first || pixel.taken == last));
       }
@@ -155,9 +155,9 @@ TEST_CASE("same picture: coarse passes and the rest of the first sample are the 
       Film film = make_film(width, height, whole.region, 0, scene.film_quantum, !whole.emission.empty());
       const std::atomic<bool> give_up = false;
       Pass coarse(whole.region, 0, 1, step), rest(whole.region, 0, 1, 1, step);
-      CHECK(coarse.run(thread_pool, kernels, view.view(), film, give_up));
+      CHECK(coarse.run({thread_pool, kernels, view.view()}, film, give_up));
       CHECK(coarse.paths() == static_cast<std::uint64_t>(((width + step - 1) / step) * ((height + step - 1) / step)));
-      CHECK(rest.run(thread_pool, kernels, view.view(), film, give_up));
+      CHECK(rest.run({thread_pool, kernels, view.view()}, film, give_up));
       CHECK(coarse.paths() + rest.paths() == width * height);
       CHECK(film == whole);
     }

@@ -25,7 +25,7 @@ Film picture_of(Scene scene, bool sharing, std::uint32_t seed, std::uint32_t spp
   Pass pass(film.region, 0, spp, 1, 0, {0, sharing});
   ThreadPool thread_pool(2);
   const std::atomic<bool> give_up = false;
-  CHECK(pass.run(thread_pool, available_kernels().back(), view, film, give_up));
+  CHECK(pass.run({thread_pool, available_kernels().back(), view}, film, give_up));
   return film;
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("sharing: pixels that lack different numbers of samples get the sample
   for (const int edge : {0, 5, 16}) {
     Film film = few;
     Pass pass(film, wanted, Tiling{edge, true});
-    CHECK(pass.run(thread_pool, available_kernels().back(), view.view(), film, give_up));
+    CHECK(pass.run({thread_pool, available_kernels().back(), view.view()}, film, give_up));
     const Film middle = picture_of(scene, true, 0, 5);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const Film& expected = wanted[i] == 9 ? whole : wanted[i] == 5 ? middle : few;
