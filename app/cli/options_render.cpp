@@ -188,11 +188,14 @@ Command read_view(const std::vector<std::string>& arguments) {
   command.arguments = arguments;
   const auto app =
       new_command("view [SCENE] [options]",
-                  "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.",
+                  "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
+                  "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
+                  "writes them, to be enlarged, exposed, compared with --reference and saved.",
                   "Examples:\n"
                   "  tyndall view cornell-box\n"
                   "  tyndall view fog.json --set /camera/vfov=30 --spp 256\n"
-                  "  tyndall view snapshot.png --reference reference.exr");
+                  "  tyndall view snapshot.png --reference reference.exr\n"
+                  "  ./mine | tyndall view - --reference cover.exr");
   add_scene(*app, command.scene, " [showroom]");
   add_view_limits(*app, command);
   add_image_options(*app, command.scene);
@@ -202,6 +205,11 @@ Command read_view(const std::vector<std::string>& arguments) {
       *app, "--reference", "FILE",
       "an image of the same scene and size, to show the true error against;\nFILE.exr:LAYER takes a layer of an EXR",
       [&](Text t) { command.reference = t; });
+  add_gamma2(
+      *app,
+      "a picture from standard input is read as the books' programs\nwrite it, by the square of its numbers, not by "
+      "sRGB's curve",
+      command.ppm);
   add_value(*app, "--ui-log", "FILE",
             "for tests: write what is on the screen and how long things took;\n- for standard output",
             [&](Text t) { command.ui_log = t; });

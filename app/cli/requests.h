@@ -23,6 +23,7 @@ struct ViewCommand {
   double target_error = 0;                                      ///< the same for its estimated error; 0: none
   int threads = 0;                                              ///< 0: see thread_count()
   std::string isa;                                              ///< "": the best
+  PpmCurve ppm = PpmCurve::srgb;                                ///< of a picture from standard input
   std::filesystem::path reference;                              ///< image that errors are measured against; empty: none
   std::filesystem::path ui_log;                                 ///< diagnostic of the window, for tests; empty: none
 };

@@ -1,24 +1,32 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/files/arriving_picture.h"
 #include "app/files/memory.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
+#include "app/window/window.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
-#include "app/window/window.h"
 #endif
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <utility>
 
 namespace tyndall {
 namespace {
+
+constexpr const char* standard_input = "standard input";
 
 /// The word as a shell needs it.
 std::string shell_argument(const std::string& argument) {
@@ -72,9 +80,75 @@ void check_memory(const Scene& scene) {
 #endif
 }
 
-}  // namespace
+[[noreturn]] void fail_without_display(const std::string& why, const std::string& instead) {
+  throw IoError(why + "; " + instead);
+}
 
-int run(const ViewCommand& command) {
+/// Opens the window; where there is none, says what to do instead. options: made only when it is needed.
+template <class Options>
+int open_window(const std::string& instead, [[maybe_unused]] const Options& options) {
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) fail_without_display("no display for a window", instead);
+#ifdef TYNDALL_WINDOW
+  try {
+    return run_window(options());
+  } catch (const IoError& error) {
+    fail_without_display(error.what(), instead);
+  }
+#else
+  fail_without_display("this build has no window", instead);
+#endif
+}
+
+void check_files(const ViewCommand& command, std::vector<std::filesystem::path> inputs) {
+  if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
+  check_outputs({{"--ui-log", command.ui_log}}, inputs);
+}
+
+/// Options that change a scene, or how one is rendered, say nothing of a picture.
+void refuse_scene_options(const ViewCommand& command) {
+  const SceneRequest& request = command.scene;
+  const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
+  if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
+  throw UsageError(
+      "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
+      "nothing in a picture");
+}
+
+/// A scene of the picture's size that has nothing else, to be shown in its place.
+LoadedScene scene_of(const ArrivingPicture& picture, const ViewCommand& command) {
+  LoadedScene loaded;
+  loaded.name = standard_input;
+  loaded.folder = ".";
+  loaded.is_picture = true;
+  loaded.scene.width = picture.width(), loaded.scene.height = picture.height();
+  loaded.scene.render.spp = 1;
+  apply(command.scene.display, loaded.scene.display);
+  return loaded;
+}
+
+/// Shows what a program writes to standard input, as it comes. first: the byte with which it begins.
+int view_picture(const ViewCommand& command, char first) {
+  refuse_scene_options(command);
+  check_files(command, {});
+  const auto picture = std::make_shared<ArrivingPicture>(STDIN_FILENO, first, standard_input, command.ppm);
+  const LoadedScene loaded = scene_of(*picture, command);
+  check_memory(loaded.scene);
+  return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
+    WindowOptions options;
+    options.scene = loaded;
+    options.threads = command.threads;
+    options.isa = command.isa;
+    options.reference = command.reference;
+    options.ui_log = command.ui_log;
+    options.picture = picture;
+    return options;
+  });
+}
+
+int view_scene(const ViewCommand& command) {
+  if (command.ppm == PpmCurve::gamma2)
+    throw UsageError(
+        "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
   const auto open = [request = command.scene] { return open_scene(request); };
   // Without the values of --set: edits begin with these, and may have changed them since.
   const auto read_edits = [request = command.scene](const std::string& what) mutable {
@@ -86,31 +160,27 @@ int run(const ViewCommand& command) {
   const LoadedScene loaded = open();
   find_kernels(command.isa);
   check_memory(loaded.scene);
-  std::vector<std::filesystem::path> inputs = loaded.files;
-  if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
-  check_outputs({{"--ui-log", command.ui_log}}, inputs);
-  const std::string instead = "; the same picture without a window: " + headless_command(command);
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) throw IoError("no display for a window" + instead);
-#ifdef TYNDALL_WINDOW
-  tell_alpha(loaded);
-  try {
+  check_files(command, loaded.files);
+  return open_window("the same picture without a window: " + headless_command(command), [&] {
+    tell_alpha(loaded);
     const auto& arguments = command.arguments;
     const bool named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
-    return run_window({loaded,
-                       open,
-                       read_edits,
-                       command.threads,
-                       command.isa,
-                       command.reference,
-                       command.ui_log,
-                       named,
-                       {command.time_limit, command.target_error}});
-  } catch (const IoError& error) {
-    throw IoError(error.what() + instead);
-  }
-#else
-  throw IoError("this build has no window" + instead);
-#endif
+    return WindowOptions{loaded,          open,        read_edits,
+                         command.threads, command.isa, command.reference,
+                         command.ui_log,  named,       {command.time_limit, command.target_error}};
+  });
+}
+
+}  // namespace
+
+int run(const ViewCommand& command) {
+  if (command.scene.what != "-") return view_scene(command);
+  const auto first = first_byte_of(STDIN_FILENO);
+  if (!first)
+    throw UsageError(std::string(standard_input) + ": found nothing, expected a scene, or a picture (P3 or P6)");
+  if (*first == 'P') return view_picture(command, *first);
+  std::ungetc(*first, stdin);
+  return view_scene(command);
 }
 
 }  // namespace tyndall

@@ -68,7 +68,8 @@ std::string man_page(const std::vector<CommandPage>& commands) {
       "value is a slider, or renders it without one. Pictures are the same bits for any number of threads, and\n"
       "for parts that were rendered on many machines and merged.\n.PP\n"
       "\\fISCENE\\fR is a scene file, the name of a built\\-in scene, a PNG or EXR that Tyndall made, or \\- for\n"
-      "standard input.\n.SH COMMANDS\n";
+      "standard input. Where that begins with P3 or P6, \\fBtyndall view \\-\\fR shows the picture that another\n"
+      "program writes, row by row: \\fB./mine | tyndall view \\-\\fR.\n.SH COMMANDS\n";
   for (const CommandPage& command : commands)
     text += ".TP\n.B " + command.name + "\n" + escaped(command.summary) + "\n";
   for (const CommandPage& command : commands) text += command_text(command);

@@ -12,7 +12,7 @@ namespace tyndall {
 void Closing::begin(Dialog& dialog) {
   if (step_ == Step::writes || step_ == Step::done) return;
   discards_ = false;
-  const Document* unsaved = session_.editor().unsaved();
+  const Document* unsaved = session_.unsaved();
   if (!unsaved) return finish();
   step_ = Step::asking;
   dialog = close_dialog(*unsaved->origin);
@@ -22,7 +22,7 @@ void Closing::draw(Ui& ui, const Rect& area, const Dialog& dialog) {
   if (step_ == Step::asking && dialog.kind != Dialog::Kind::close) step_ = Step::none;
   if (step_ == Step::saves && dialog.kind == Dialog::Kind::none) {
     step_ = Step::none;  // what was cancelled or failed leaves the window open
-    if (!session_.editor().unsaved()) finish();
+    if (!session_.unsaved()) finish();
   }
   if (step_ == Step::writes) draw_progress(ui, area);
 }

@@ -3,6 +3,7 @@
 #include "app/window/accuracy/views.h"
 #include "app/window/document/open_document.h"
 #include "app/window/palette_list.h"
+#include "app/window/requires_scene.h"
 #include "app/window/tools/camera_control.h"
 
 #include <utility>
@@ -33,6 +34,8 @@ void Commands::act(const Request& request) {
   if (entry) panels_.leave_row = request.action != Action::deselect;
   if (request.action == Action::rename) shows_panels_ = true;
   pacing_.on_event();
+  if (session_.shows_picture() && requires_scene(request))
+    return session_.messages().say("this is a picture without a scene: it can be looked at, compared and saved");
   if (picture_.act(request.action) || objects_.act(request.action)) return;
   act_on_window(request);
   act_on_rendering(request);

@@ -108,6 +108,7 @@ void MainWindow::use_preferences() {
 
 /// What was opened or saved is among the recent files from then on.
 void MainWindow::note_files() {
+  if (session_.shows_picture()) return;
   const std::shared_ptr<const Origin>& origin = session_.editor().document().origin;
   if (std::exchange(noted_, origin) == origin) return;
   gallery_.note_file(origin->file.empty() ? std::filesystem::path(origin->what) : origin->file);
@@ -175,7 +176,8 @@ void MainWindow::follow_window_size(const WindowSize& size, float dots) {
   const PictureSize shown{static_cast<int>(std::lround(image.width() * dots)),
                           static_cast<int>(std::lround(image.height() * dots))};
   const bool seen = shown.width > 0 && shown.height > 0;
-  session_.set_picture_size(panels_.model.at_window && seen ? std::optional(shown) : std::nullopt);
+  const bool follows = panels_.model.at_window && seen && !session_.shows_picture();
+  session_.set_picture_size(follows ? std::optional(shown) : std::nullopt);
 }
 
 ShownState MainWindow::shown_state() const {
@@ -195,6 +197,7 @@ void MainWindow::fill_panels() {
   panels_.model.title = title;
   panels_.model.what = what_of(*session_.editor().document().origin);
   panels_.model.recent = gallery_.recent();
+  panels_.model.has_scene = !session_.shows_picture();
   panels_.model.threads = session_.wanted().threads;
   panels_.model.kept_method = session_.split() ? session_.method(Half::kept) : "";
   panels_.model.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
@@ -214,7 +217,7 @@ void MainWindow::draw_interface(const Layout& layout) {
       ui_, layout.status,
       status_cells(panels_.model.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
                    {session_.wanted().paused, accuracy.is_true(), session_.split(), session_.editor().edited(),
-                    &accuracy.curves(Half::current, Kind::clean).current()}));
+                    &accuracy.curves(Half::current, Kind::clean).current(), session_.arrived()}));
   draw_message(ui_, layout.area, session_.messages().current());
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;
@@ -241,7 +244,7 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
     if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
   }
-  const bool grounded = mouse.control || objects_.active();
+  const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
   const bool flies =
       tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
   if (flies) pacing_.wake_at(now + min_frame_interval);
@@ -251,6 +254,11 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
 void MainWindow::apply_panels(double now) {
   assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
   if (ui_.changed) {
+    if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
+      const Display display = panels_.scene.display;
+      panels_.scene = session_.editor().scene();
+      panels_.scene.display = display;
+    }
     const std::uint64_t gesture = tools_.gestures.current();
     tools_.start.finish_edit(session_.editor().scene(), panels_.scene, gesture);
     session_.editor().edit(std::move(panels_.scene), gesture);
@@ -265,7 +273,8 @@ void MainWindow::apply_panels(double now) {
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();
-  platform_.set_title(document.origin->title + (session_.editor().edited() ? " (edited)" : "") + " – Tyndall");
+  platform_.set_title(document.origin->title +
+                      (session_.editor().edited() && !session_.shows_picture() ? " (edited)" : "") + " – Tyndall");
 }
 
 /// Takes a message off the screen when its time has come; errors stay.

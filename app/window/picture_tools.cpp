@@ -77,9 +77,9 @@ void PictureTools::place(Layout& layout, float dots) {
                              frame ? frame->height : scene.height, dots);
 }
 
-/// Alt + wheel and Alt + drag.
+/// Alt + wheel and Alt + drag, and without Alt where there is no camera to move.
 bool PictureTools::drag_picture(const Mouse& mouse, const Layout& layout, bool free) {
-  const bool over = free && mouse.alt && layout.area.contains(mouse.x, mouse.y);
+  const bool over = free && (mouse.alt || session_.shows_picture()) && layout.area.contains(mouse.x, mouse.y);
   if (over && mouse.wheel != 0) zoom_.enlarge(std::pow(1.25f, mouse.wheel), mouse.x, mouse.y);
   for (int button = 0; button < 3 && over && button_ < 0; ++button)
     if (mouse.clicked[button]) button_ = button;

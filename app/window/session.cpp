@@ -32,6 +32,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
                wake},
               loading_, messages_, log),
       kept_(state_folder(), wake),
+      picture_(options.picture),
       references_(editor_, accuracy_, messages_, wake),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
@@ -39,10 +40,11 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       saving_(wake) {
   wanted_.threads = thread_count(options.threads).count;
   read_preferences_file();
-  restore_edits(options);
+  if (!picture_) restore_edits(options);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
   if (options.scene.source.empty()) editor_.open_film(options.scene);
+  if (picture_) picture_->start(wake);
 }
 
 /// The edited scene, copied once for all who go on using it.
@@ -68,7 +70,10 @@ void Session::set_picture_size(std::optional<PictureSize> size) {
   timer_.on_change(clock_seconds());
 }
 
-Session::~Session() { closing_ = true; }
+Session::~Session() {
+  closing_ = true;
+  if (picture_) picture_->stop();
+}
 
 std::string Session::finish_files() {
   closing_ = true;
@@ -98,6 +103,7 @@ void Session::submit(double now) {
   if (std::exchange(limited_edit_, 0) > 0) wanted_.paused = false;
   const auto before = std::exchange(wanted_.scene, rendered_scene());
   wanted_.film = std::exchange(opened_film_, nullptr);
+  wanted_.samples = shows_picture() ? picture_->source() : nullptr;
   if (wanted_.film && !same_picture(*wanted_.scene, editor_.document().origin->saved))
     wanted_.film = nullptr;  // it was edited meanwhile
   if (split()) kept_scene_ = with_kept_settings(*wanted_.scene);
@@ -157,6 +163,7 @@ bool Session::collect() {
   came = editor_.collect() || came;
   came = references_.collect() || came;
   came = tell_of_keeping() || came;
+  came = collect_rows() || came;
   const auto problem = renderers_.reply().problem;
   if (problem == told_problem_) return came;
   told_problem_ = problem;
@@ -165,7 +172,7 @@ bool Session::collect() {
 }
 
 bool Session::at_rest() const {
-  const bool known = !timer_.waits() && !editor_.file_changed();
+  const bool known = !timer_.waits() && !editor_.file_changed() && (!picture_ || arrival_.ended);
   return known && renderers_.finished() && !references_.busy() && loading_.idle() && saving_.idle() &&
          !accuracy_.busy();
 }
@@ -249,7 +256,8 @@ void Session::snapshot() {
   if (timer_.waits()) submit(clock_seconds());  // so that the snapshot shows the newest edit
   Document document = editor_.document();
   document.scene = *rendered_scene();
-  Snapshot snapshot{document, snapshots_.next_base(stem_of(document.origin->title)), isa_, wanted_.threads};
+  const std::string stem = shows_picture() ? "image" : stem_of(document.origin->title);
+  Snapshot snapshot{document, snapshots_.next_base(stem), isa_, wanted_.threads, !shows_picture()};
   messages_.say_until_done("saving " + snapshot.base.filename().string() + " …");
   const std::filesystem::path base = snapshot.base;
   const std::uint64_t edit = renderers_.edit(Half::current);

@@ -44,6 +44,11 @@ class Session {
   const RendererPair& renderers() const { return renderers_; }
   const LiveAccuracy& accuracy() const { return accuracy_; }
 
+  /// Whether what is shown is a picture that another program writes, without a scene that could be edited.
+  bool shows_picture() const { return editor_.document().origin->is_picture; }
+  /// How much of that picture is there, a few words; "": none is shown.
+  std::string arrived() const;
+
   /// What the renderers are asked for, in a split view of the right half. Goes to them with the next send(); all parts
   /// but the scene, its film and `clean` can be changed here.
   RenderRequest& wanted() { return wanted_; }
@@ -78,6 +83,8 @@ class Session {
   /// Waits until no file is being written any more, for a window that is about to go. Returns what could not be
   /// written, a sentence; "": all was.
   std::string finish_files();
+  /// Edits that no file has; null: there are none. What is changed about a picture without a scene is no edit.
+  const Document* unsaved() const;
   /// The user does not want the edits: they are not kept any longer.
   void discard_edits();
   /// Whether something is still to be written, and how much: a snapshot counts once.
@@ -127,6 +134,7 @@ class Session {
   const std::shared_ptr<const Scene>& shared_scene();
   std::shared_ptr<const Scene> rendered_scene();
   bool tell_of_keeping();
+  bool collect_rows();
   void restore_edits(const WindowOptions& options);
   void read_preferences_file();
   void pause_at_limits(const Frame& frame);
@@ -155,6 +163,8 @@ class Session {
   bool discarded_ = false;                               ///< edits are not kept any more
   Keeping::Kind told_keeping_ = Keeping::Kind::nothing;  ///< what the user was told last
   Autosave kept_;
+  std::shared_ptr<ArrivingPicture> picture_;  ///< null: none was given
+  Arrival arrival_;                           ///< of the picture, as it is known here
   References references_;
   NumberedFiles snapshots_, charts_;
   JobQueue loading_, saving_;  // last: their jobs use the others

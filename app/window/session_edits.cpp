@@ -48,13 +48,18 @@ bool Session::tell_of_keeping() {
 void Session::keep_edits() {
   if (editor_.changes() == kept_changes_ || discarded_) return;
   kept_changes_ = editor_.changes();
-  const Document* unsaved = editor_.unsaved();
+  const Document* unsaved = this->unsaved();
   if (unsaved == &editor_.document())
     kept_.keep(shared_scene(), unsaved->origin);
   else if (unsaved)
     kept_.keep(std::make_shared<const Scene>(unsaved->scene), unsaved->origin);
   else
     kept_.keep(nullptr, nullptr);
+}
+
+const Document* Session::unsaved() const {
+  const Document* edits = editor_.unsaved();
+  return edits && edits->origin->is_picture ? nullptr : edits;
 }
 
 void Session::discard_edits() {

@@ -60,10 +60,21 @@ void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& st
   cells.push_back({state.is_true ? "estimated" : raw, percent(frame.relative_error), state.is_true ? 3 : 1});
 }
 
+/// Of a picture that another program writes: nothing is rendered, but it may be compared.
+std::vector<StatusCell> cells_of_picture(const Frame* frame, const ErrorCurve& run, const Document& document,
+                                         const StatusState& state) {
+  std::vector<StatusCell> cells{{"", state.arrived, 0}};
+  if (frame) cells.push_back({"", fmt::format("{} x {} pixels", frame->width, frame->height), 3});
+  if (frame && state.is_true) cells.push_back({"true error", measured(&run, frame->edit), 1});
+  cells.push_back({document.origin->title, "", 2});
+  return cells;
+}
+
 }  // namespace
 
 std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
                                      StatusState state) {
+  if (!state.arrived.empty()) return cells_of_picture(frame, run, document, state);
   std::vector<StatusCell> cells{{state.split ? "B" : "", state_of(frame, state.paused), 0}};
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);

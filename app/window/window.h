@@ -1,9 +1,11 @@
 #pragma once
+#include "app/files/arriving_picture.h"
 #include "core/scene/load.h"
 
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 
 /// The window as the command line sees it: what it can be told, and the call that runs it.
@@ -26,6 +28,9 @@ struct WindowOptions {
   std::filesystem::path ui_log;     ///< diagnostic, see ui_log.h; empty: none, "-": standard output
   bool scene_named = true;  ///< the user named the scene; else edits of any scene that were not saved are restored
   PauseLimits limits{};
+  /// A picture that is shown in the scene's place while it comes; `scene` then has its size and nothing else, and one
+  /// sample a pixel. Null: the scene is rendered.
+  std::shared_ptr<ArrivingPicture> picture{};
 };
 
 /// Opens the window and returns the exit code when it is closed. Throws IoError where there is no display (neither

@@ -153,6 +153,7 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     loaded.name = "standard input";
     loaded.folder = ".";
     loaded.text = read_all(stdin, loaded.name);
+    if (is_image(loaded.text)) throw SceneError(loaded.name, "a picture", "a scene; 'tyndall view -' shows a P3 or P6");
   } else if (const fs::path built_in = built_in_file(what); !built_in.empty()) {
     loaded.folder = built_in.parent_path();
     loaded.files = {built_in};

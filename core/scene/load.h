@@ -17,6 +17,7 @@ struct LoadedScene {
   std::string text;              ///< the scene file's text, before overrides
   std::vector<std::filesystem::path> files;    ///< all that was read: the scene's file or image, and its textures
   std::vector<std::filesystem::path> sources;  ///< of the program that wrote the scene; empty: none did
+  bool is_picture = false;  ///< there is none, but a picture that is shown in its place; `scene` has its size alone
 };
 
 /// Loads a scene. what: the name of a built-in scene, a scene file, an image that Tyndall wrote (PNG or EXR), or "-"

@@ -34,4 +34,26 @@ done
 expect 2 "$tyndall" missing.json
 complains 'missing.json'
 
+# A picture that a program writes: kept in a file instead. What is nothing, or no picture, is that.
+expect_piped() { # CODE TEXT ARGUMENTS...
+  local code=$1 text=$2 got=0
+  shift 2
+  printf "$text" | "$tyndall" view - "$@" >out 2>err || got=$?
+  [ "$got" -eq "$code" ] || fail "exit code $got instead of $code for '$text': $(cat err)"
+}
+expect_piped 3 'P3\n2 1\n255\n1 2 3\n'
+complains '> image.ppm'
+expect_piped 3 '{ "tyndall": 1 }'
+complains 'tyndall render - -o image.png'
+expect_piped 2 ''
+complains 'standard input: found nothing' 'P3 or P6'
+expect_piped 2 'P3\n2 x 255'
+complains 'standard input' 'found "x"'
+expect_piped 2 'P3 20'
+complains 'standard input: ended where the height'
+expect_piped 2 'P3 2 1 255 1 2 3' --size 4x4
+complains 'found a picture, expected a scene'
+expect_piped 2 '{ "tyndall": 1 }' --gamma2
+complains '--gamma2' 'found a scene'
+
 finish

@@ -57,7 +57,9 @@ Reference read_reference(const fs::path& name, const Document& document) {
   check_finite(name, reference.image);
   if (picture.bits < 32) reference.about += " (" + std::to_string(picture.bits) + " bit)";
   const auto [file, layer] = picture_name(name);
-  if (const auto scene = scene_in(file, document)) reference.scene = *scene, reference.known_method = true;
+  // A picture without a scene is compared with any of its size.
+  const auto scene = document.origin->is_picture ? std::nullopt : scene_in(file, document);
+  if (scene) reference.scene = *scene, reference.known_method = true;
   if (picture.kind != ImageKind::exr || layer) return reference;
   if (const auto film = read_film(file)) {
     const double error = estimated_relative_error(*film);

@@ -17,6 +17,7 @@ struct Origin {
   std::filesystem::path folder;  ///< relative texture files are relative to it
   std::uint64_t text_hash = 0;   ///< fnv1a() of what the file held when it was read or written last; 0: not known
   bool comments = false;         ///< the file has comments, which saving would lose
+  bool is_picture = false;       ///< there is no scene, but a picture that is shown in its place
   Scene saved;                   ///< what the file holds
 };
 

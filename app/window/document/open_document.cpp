@@ -46,6 +46,7 @@ Document document_of(const LoadedScene& loaded) {
   origin->folder = loaded.folder;
   if (!loaded.source.empty()) origin->text_hash = fnv1a(loaded.text);
   origin->comments = !loaded.source.empty() && has_comments(loaded.text);
+  origin->is_picture = loaded.is_picture;
   origin->saved = loaded.scene;
   return {loaded.scene, std::move(origin)};
 }

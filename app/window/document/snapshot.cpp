@@ -15,7 +15,27 @@ namespace tyndall {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Writes the files; returns their names, for the user.
+std::string write_files(const Snapshot& snapshot, const Picture& picture) {
+  std::vector<fs::path> files{snapshot.base.string() + ".png"};
+  if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
+  const std::vector<std::string> problems = write_images(picture, files);
+  if (!problems.empty()) throw ImageFileError(fmt::format("{}", fmt::join(problems, "; ")));
+  return files[0].filename().string() + (files.size() > 1 ? " and .exr" : "");
+}
+
+std::string write_without_scene(const Snapshot& snapshot, const Film& film) {
+  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+  const auto nothing = [](const fs::path&) { return Embedded{"", "", {}, false}; };
+  return "saved " + write_files(snapshot, {film, image, snapshot.document.scene.display, nothing, {}});
+}
+
+}  // namespace
+
 std::string write_snapshot(const Snapshot& snapshot, Film film) {
+  if (!snapshot.has_scene) return write_without_scene(snapshot, film);
   const Scene& scene = snapshot.document.scene;
   const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   RenderResult result;
@@ -33,14 +53,11 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
                                           {TYNDALL_VERSION, result.kernels.isa, false}};
                         },
                         [&] { return layers_of(*prepared, result.film, result.kernels); }};
-  std::vector<fs::path> files{snapshot.base.string() + ".png"};
-  if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
-  const std::vector<std::string> problems = write_images(picture, files);
-  if (!problems.empty()) throw ImageFileError(fmt::format("{}", fmt::join(problems, "; ")));
+  const std::string files = write_files(snapshot, picture);
   const FilmTotals& sum = finished.totals;
   const bool uneven = !scene.render.adaptive && sum.min_taken != sum.max_taken;  // within a pass, or refined first
-  return "saved " + files[0].filename().string() + (files.size() > 1 ? " and .exr" : "") + ", " +
-         std::to_string(finished.spp) + (uneven ? " to " + std::to_string(sum.max_taken) : "") + " spp";
+  return "saved " + files + ", " + std::to_string(finished.spp) +
+         (uneven ? " to " + std::to_string(sum.max_taken) : "") + " spp";
 }
 
 Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,

@@ -14,9 +14,10 @@ struct Snapshot {
   std::filesystem::path base;  ///< the files' names without their endings
   std::string isa;             ///< of the kernel that renders
   int threads = 1;
+  bool has_scene = true;  ///< the files hold the scene, and the EXR what it is made of; else the picture alone
 };
 
-/// Writes BASE.png and BASE.exr (in builds with OpenEXR) from a film, with the scene in them. Returns what to tell the
+/// Writes BASE.png and BASE.exr (in builds with OpenEXR) from a film. Returns what to tell the
 /// user. Throws ImageFileError.
 std::string write_snapshot(const Snapshot& snapshot, Film film);
 

@@ -18,6 +18,10 @@ constexpr Tab tabs[] = {{"Object", ""},
                         {"Objects", "Objects"},
                         {"Scenes", "Scenes"}};
 
+bool is_shown(const PanelState& state, std::string_view part) {
+  return state.model.has_scene || !is_part_of_scene(part);
+}
+
 constexpr float chart_height = 166;  // in units of the design
 
 constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -37,11 +41,13 @@ void draw_tabs(Ui& ui, PanelState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * s, 4 * s});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
   float text_width = ImGui::CalcTextSize("...").x;
-  for (const Tab& tab : tabs) text_width += ImGui::CalcTextSize(tab.name).x;
-  const auto count = static_cast<float>(std::size(tabs));
+  float count = 0;
+  for (const Tab& tab : tabs)
+    if (is_shown(state, tab.name)) text_width += ImGui::CalcTextSize(tab.name).x, ++count;
   const float room = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX() - count * space;
   const float spare = std::max(0.0f, std::floor((room - text_width) / (count + 1)));
   for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
+    if (!is_shown(state, tabs[k].name)) continue;
     const bool lit = k == state.tabs.lit;
     ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::chosen : palette::panel);
     ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::text : palette::dim);
@@ -160,6 +166,7 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
     for (const Part& part : {Part{"Background", background_panel}, Part{"Objects", objects_panel},
                              Part{"Scenes", scenes_panel}, Part{"Window", window_panel}})
       parts.push_back(part);
+    std::erase_if(parts, [&state](const Part& part) { return !is_shown(state, part.name); });
     draw_parts(ui, state, parts);
     scroll_column(ui);
   }
@@ -176,6 +183,10 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
 }
 
 }  // namespace
+
+bool is_part_of_scene(std::string_view part) {
+  return part == "Object" || part == "Camera" || part == "Render" || part == "Background" || part == "Objects";
+}
 
 std::span<const Tab> column_tabs() { return tabs; }
 

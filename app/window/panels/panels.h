@@ -15,6 +15,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The column of panels. Panels change the scene that they are given (a copy) and leave requests; they start nothing.
@@ -32,6 +33,7 @@ struct PanelModel {
   const SmallPictures* pictures = nullptr;    ///< of scenes; null: there are none
   std::string what;                           ///< the open scene, by what load_scene takes
   std::string title;                          ///< of the open scene
+  bool has_scene = true;                      ///< false: a picture without one is shown
   int clean = 0;                              ///< see Action::clean_as
   int threads = 1;
   bool at_window = false;  ///< the picture has as many pixels as the window shows; else as the file says
@@ -51,6 +53,8 @@ struct Tab {
   const char* section;  ///< its heading; "": that of the selected object
 };
 std::span<const Tab> column_tabs();
+/// Whether a part of the column is about the scene, so that a picture without one does not have it.
+bool is_part_of_scene(std::string_view part);
 /// The sections that stay folded from one start to the next: all but those of objects, and the histogram, which begins
 /// folded because it takes time with each picture.
 std::span<const char* const> lasting_sections();

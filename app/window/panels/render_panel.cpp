@@ -136,20 +136,23 @@ std::string contents_text(const Scene& scene) {
   return text;
 }
 
+/// Why a view cannot be shown; null: it can.
+const char* missing_for_view(const PanelModel& model, int number) {
+  if (!model.has_scene && view_entry(number).view != View::beauty) return "a picture without a scene has none";
+  return shows_errors(number) && !model.can_show_errors ? "needs a reference: see Speed and accuracy" : nullptr;
+}
+
 std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × " + std::to_string(frame->lanes) : ""; }
 
 }  // namespace
 
 void image_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Image", "rendering goes on")) return;
+  if (!section(ui, "Image", state.model.has_scene ? "rendering goes on" : "")) return;
   ui.scope = "image.";
   field_rows(ui, state.scene.display, &state.model.saved->display);
-  clean_row(ui, state);
+  if (state.model.has_scene) clean_row(ui, state);
   Choice choices[view_count];
-  for (int k = 0; k < view_count; ++k) {
-    const bool missing = shows_errors(k) && !state.model.can_show_errors;
-    choices[k] = {view_entry(k).name, missing ? "needs a reference: see Speed and accuracy" : nullptr};
-  }
+  for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.model, k)};
   int view = state.model.view;
   if (choice_row(ui, {"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)}, choices, view, 3))
     state.requests.push_back({Action::view, view});

@@ -1,0 +1,187 @@
+#include "app/files/arriving_picture.h"
+
+#include "app/text/values.h"
+#include "core/base/error.h"
+#include "core/base/seconds.h"
+#include "core/image/image_io_file.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr std::size_t piece = 65536;  // bytes; as many as a pipe of Linux holds
+
+/// Reads up to `size` bytes; 0: there are no more.
+std::size_t read_some(int file, std::uint8_t* to, std::size_t size) {
+  for (;;) {
+    const ssize_t got = ::read(file, to, size);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR) throw IoError("standard input: cannot read: " + std::generic_category().message(errno));
+  }
+}
+
+}  // namespace
+
+std::optional<char> first_byte_of(int file) {
+  std::uint8_t byte = 0;
+  return read_some(file, &byte, 1) == 1 ? std::optional(static_cast<char>(byte)) : std::nullopt;
+}
+
+/// Written by the thread that reads, and read by those that render: only what has arrived.
+struct ArrivingPicture::Pixels {
+  std::size_t width = 0, height = 0;
+  std::vector<float> rgb{};
+  std::atomic<std::size_t> arrived = 0;  ///< whole pixels
+
+  Vec3f at(double x, double y) const {
+    const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+    if (pixel >= arrived.load(std::memory_order_acquire)) return {};
+    return {rgb[3 * pixel], rgb[3 * pixel + 1], rgb[3 * pixel + 2]};
+  }
+};
+
+ArrivingPicture::ArrivingPicture(int file, char first, const std::string& name, PpmCurve curve)
+    : file_(file), name_(name), reader_(name, curve), bytes_{static_cast<std::uint8_t>(first)} {
+  try {
+    for (std::size_t got = 1; got > 0 && !reader_.header();) {
+      bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(reader_.take(bytes_, light_, true)));
+      if (reader_.header()) break;
+      bytes_.resize(piece);
+      bytes_.resize(got = read_some(file_, bytes_.data(), piece));
+    }
+    if (!reader_.header()) reader_.end(light_);
+  } catch (const ImageFileError& error) {
+    throw UsageError(error.what());
+  }
+  if (!reader_.header()) throw UsageError(name + ": ended where " + reader_.expected() + " of a picture is expected");
+  pixels_ = std::make_shared<Pixels>();
+  pixels_->width = static_cast<std::size_t>(width()), pixels_->height = static_cast<std::size_t>(height());
+  source_ = std::make_shared<const SampleSource>(
+      SampleSource{[pixels = pixels_](double x, double y, std::uint64_t) { return pixels->at(x, y); }});
+}
+
+void ArrivingPicture::start(std::function<void()> on_news) {
+  pixels_->rgb.resize(3 * pixels_->width * pixels_->height);
+  on_news_ = std::move(on_news);
+  if (pipe2(leave_.data(), O_CLOEXEC) != 0)
+    throw IoError("no pipe can be opened: " + std::generic_category().message(errno));
+  thread_.emplace([this](const StopToken&) { read(); });
+}
+
+void ArrivingPicture::stop() {
+  if (!thread_) return;
+  close(leave_[1]);  // which the thread sees
+  thread_.reset();
+  close(leave_[0]);
+}
+
+Arrival ArrivingPicture::arrival() const {
+  const std::lock_guard lock(mutex_);
+  return arrival_;
+}
+
+/// longest: seconds that it waits at most; < 0: as long as it takes.
+ArrivingPicture::Wake ArrivingPicture::wait(double longest) const {
+  pollfd watched[] = {{file_, POLLIN, 0}, {leave_[0], POLLIN, 0}};
+  const int milliseconds = longest < 0 ? -1 : static_cast<int>(std::ceil(1000 * longest));
+  const bool woken = poll(watched, 2, milliseconds) > 0;
+  if (woken && watched[1].revents != 0) return Wake::leaves;
+  return woken ? Wake::bytes : Wake::time;
+}
+
+void ArrivingPicture::read() {
+  using Clock = std::chrono::steady_clock;
+  const double period = std::max(0.1, 1e-7 * static_cast<double>(pixels_->width * pixels_->height));
+  take(std::exchange(bytes_, {}));
+  tell();
+  Clock::time_point told = Clock::now();
+  for (bool news = false;;) {
+    const Wake wake = wait(news ? std::max(0.0, period - seconds_since(told)) : -1);
+    if (wake == Wake::leaves) return;
+    if (wake == Wake::bytes) {
+      if (!take_bytes()) break;
+      news = true;
+    }
+    if (news && seconds_since(told) >= period) tell(), told = Clock::now(), news = false;
+  }
+  end();
+  tell();
+}
+
+/// Takes what has come. False: no more will.
+bool ArrivingPicture::take_bytes() {
+  bytes_.resize(piece);
+  try {
+    const std::size_t got = read_some(file_, bytes_.data(), piece);
+    take({bytes_.data(), got});
+    return got > 0;
+  } catch (const IoError& error) {
+    damage_ = error.what();
+    return false;
+  }
+}
+
+void ArrivingPicture::take(std::span<const std::uint8_t> bytes) {
+  if (!damage_.empty()) return;
+  try {
+    const auto behind = bytes.subspan(reader_.take(bytes, light_));
+    const auto is_seen = [](std::uint8_t byte) { return !is_space(static_cast<char>(byte)); };
+    if (std::any_of(behind.begin(), behind.end(), is_seen))
+      damage_ = name_ + ": what follows the last pixel is not shown";
+  } catch (const ImageFileError& error) {
+    damage_ = error.what();
+  }
+  publish();
+}
+
+/// No more will come.
+void ArrivingPicture::end() {
+  if (damage_.empty()) try {
+      reader_.end(light_);
+    } catch (const ImageFileError& error) {
+      damage_ = error.what();
+    }
+  ended_ = true;
+  publish();
+}
+
+/// Shows the renderers what has come.
+void ArrivingPicture::publish() {
+  const std::size_t before = pixels_->arrived, pixels = light_.size() / 3;
+  const auto end = light_.begin() + static_cast<std::ptrdiff_t>(3 * pixels);
+  std::copy(light_.begin(), end, pixels_->rgb.begin() + static_cast<std::ptrdiff_t>(3 * before));
+  light_.erase(light_.begin(), end);
+  pixels_->arrived.store(before + pixels, std::memory_order_release);
+}
+
+/// Says how much has come, if that is news.
+void ArrivingPicture::tell() {
+  Arrival now;
+  now.rows = static_cast<int>(pixels_->arrived / pixels_->width);
+  now.ended = ended_ || !damage_.empty() || reader_.whole();
+  if (now.ended) {
+    const auto add = [&](const std::string& text) { now.said += (now.said.empty() ? "" : "; ") + text; };
+    if (!damage_.empty()) add(damage_);
+    if (!reader_.whole()) add("ended at row " + std::to_string(now.rows) + " of " + std::to_string(height()));
+    if (const auto remark = reader_.remark()) add(*remark);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (now == arrival_) return;
+    arrival_ = now;
+  }
+  on_news_();
+}
+
+}  // namespace tyndall

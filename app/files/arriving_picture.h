@@ -1,0 +1,77 @@
+#pragma once
+#include "core/base/stoppable.h"
+#include "core/image/pnm_reader.h"
+#include "core/render/sample_source.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+/// A picture that another program writes into a pipe, as P3 or P6, while its rows are shown.
+namespace tyndall {
+
+/// How much of an arriving picture is there.
+struct Arrival {
+  int rows = 0;        ///< whole ones
+  bool ended = false;  ///< no further pixels will come
+  std::string said{};  ///< what the user should know at the end, a sentence; "": nothing
+  bool operator==(const Arrival&) const = default;
+};
+
+/// The first byte of a file that cannot be read twice; nothing: it has none. Throws IoError.
+std::optional<char> first_byte_of(int file);
+
+/// Reads a picture on a thread of its own, and goes on reading what nobody wants after its last pixel or after damage,
+/// so that the program which writes it never has to wait. The pixels that have come are a source of samples.
+class ArrivingPicture {
+ public:
+  /// Waits for the picture's size. file: stays the caller's; first: its first byte, which was read already; name: what
+  /// messages call it. Throws UsageError for what is no such picture.
+  ArrivingPicture(int file, char first, const std::string& name, PpmCurve curve);
+  ~ArrivingPicture() { stop(); }
+  ArrivingPicture(const ArrivingPicture&) = delete;
+  ArrivingPicture& operator=(const ArrivingPicture&) = delete;
+
+  int width() const { return static_cast<int>(reader_.header()->width); }
+  int height() const { return static_cast<int>(reader_.header()->height); }
+  /// Of black where no pixel has come yet.
+  std::shared_ptr<const SampleSource> source() const { return source_; }
+
+  /// Begins to read the pixels. on_news: called from a thread when arrival() has changed, at most ten times a second,
+  /// less often for pictures of more than a million pixels, which take longer to be shown.
+  void start(std::function<void()> on_news);
+  /// Reads no further, and calls on_news no more.
+  void stop();
+  Arrival arrival() const;
+
+ private:
+  struct Pixels;
+  enum class Wake { bytes, time, leaves };
+  Wake wait(double longest) const;
+  bool take_bytes();
+  void take(std::span<const std::uint8_t> bytes);
+  void end();
+  void publish();
+  void tell();
+  void read();
+
+  int file_;
+  std::string name_;
+  PnmReader reader_;
+  std::vector<std::uint8_t> bytes_;  ///< those that were read last
+  std::vector<float> light_;         ///< of numbers that came since the last whole pixel
+  std::shared_ptr<Pixels> pixels_;
+  std::shared_ptr<const SampleSource> source_;
+  std::string damage_;  ///< why what follows is not looked at; "": it is
+  bool ended_ = false;  ///< nothing follows
+  std::function<void()> on_news_;
+  mutable std::mutex mutex_;  ///< guards arrival_
+  Arrival arrival_;
+  std::array<int, 2> leave_{-1, -1};  ///< a pipe that wakes the thread
+  std::optional<StoppableThread> thread_;
+};
+
+}  // namespace tyndall
