@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
+#include "core/scene/place.h"
 
 #include <fmt/core.h>
 #include <sys/resource.h>

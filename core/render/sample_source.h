@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/vec.h"
-#include "core/trace/work.h"
+#include "core/trace/tile_job.h"
 
 #include <cstdint>
 #include <functional>
