@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t most_messages = std::size_t(300) << 20;  // more than the largest scene
+constexpr std::size_t max_messages = std::size_t(300) << 20;  // more than the largest scene
 
 std::atomic<int> received_signal{0};  // a signal handler can reach nothing but globals
 constexpr int watched[] = {SIGINT, SIGTERM, SIGHUP};
@@ -139,17 +139,17 @@ bool awaits_input(pid_t process) {
 }
 
 /// Appends what the pipe has; closes it at its end.
-void drain(int& from, std::string& text, std::size_t most, bool keep_last) {
+void drain(int& from, std::string& text, std::size_t limit, bool keep_last) {
   char buffer[65536];
   const ssize_t size = read(from, buffer, sizeof buffer);
   if (size < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (size <= 0) return Pipe::close_end(from);
   text.append(buffer, static_cast<std::size_t>(size));
-  if (text.size() <= most) return;
+  if (text.size() <= limit) return;
   if (keep_last)
-    text.erase(0, text.size() - most);
+    text.erase(0, text.size() - limit);
   else
-    text.resize(most);
+    text.resize(limit);
 }
 
 class Child {
@@ -180,8 +180,8 @@ class Child {
     int status = 0;
     while (!ended_ && waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
-    const Clock::time_point most = Clock::now() + std::chrono::milliseconds(500);
-    while ((errors_.read >= 0 || messages_.read >= 0) && Clock::now() < most) take(end, 50);
+    const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
+    while ((errors_.read >= 0 || messages_.read >= 0) && Clock::now() < deadline) take(end, 50);
   }
 
  private:
@@ -199,8 +199,8 @@ class Child {
   void take(ChildEnd& end, int milliseconds) {
     pollfd polled[2] = {{errors_.read, POLLIN, 0}, {messages_.read, POLLIN, 0}};
     if (poll(polled, 2, milliseconds) <= 0) return;
-    if (polled[0].revents) drain(errors_.read, end.errors, plan_.most_errors, plan_.keep_last_errors);
-    if (polled[1].revents) drain(messages_.read, end.messages, most_messages, false);
+    if (polled[0].revents) drain(errors_.read, end.errors, plan_.max_errors, plan_.keep_last_errors);
+    if (polled[1].revents) drain(messages_.read, end.messages, max_messages, false);
   }
 
   const ChildPlan& plan_;

@@ -14,7 +14,7 @@ struct ChildPlan {
   std::string pipe_variable;             ///< the variable that tells it the number of a pipe for messages; empty: none
   double seconds = 60;                   ///< after which it is ended
   double seconds_after_message = 60;     ///< likewise, after its first message
-  std::size_t most_errors = 65536;       ///< bytes of its standard error that are kept
+  std::size_t max_errors = 65536;        ///< bytes of its standard error that are kept
   bool keep_last_errors = false;         ///< the last bytes, else the first
   std::function<bool()> go_on;           ///< asked now and then; false ends it; may be empty
   bool watch_signals = true;             ///< SIGINT, SIGTERM and SIGHUP of this program end it, too

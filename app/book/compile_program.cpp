@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double most_seconds = 120;
-constexpr std::size_t most_output = std::size_t(1) << 20;
+constexpr double max_seconds = 120;
+constexpr std::size_t max_output = std::size_t(1) << 20;
 constexpr std::size_t longest_error = 240;  // letters of one message
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -125,8 +125,8 @@ ChildEnd compile(const ProgramTask& task, const std::vector<std::string>& argume
     plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
     plan.folder = task.folder / "code";
     plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string()};  // what it leaves behind goes with the folder
-    plan.seconds = most_seconds;
-    plan.most_errors = most_output;
+    plan.seconds = max_seconds;
+    plan.max_errors = max_output;
     plan.go_on = task.go_on;
     plan.watch_signals = task.watch_signals;
     ChildEnd end = run_child(plan);
@@ -174,7 +174,7 @@ void compile_program(const ProgramTask& task, const ProgramLayout& layout, const
         standard, "-O0", "-w", "-pthread", "-fmax-errors=1", "-fdiagnostics-color=never"};
     arguments.insert(arguments.end(), layout.options.begin(), layout.options.end());
     for (const fs::path& folder : include_folders) arguments.push_back("-I" + folder.string());
-    arguments.insert(arguments.end(), layout.units.begin(), layout.units.end());
+    arguments.insert(arguments.end(), layout.compiled_files.begin(), layout.compiled_files.end());
     arguments.insert(arguments.end(), {"-o", program.string()});
     const ChildEnd end = compile(task, arguments);
     if (end.succeeded()) return;

@@ -99,7 +99,7 @@ class Layouter {
   Layouter(const ProgramSources& sources, const fs::path& headers) : sources_(sources), headers_(headers) {}
 
   ProgramLayout lay_out() {
-    for (const fs::path& file : sources_.files) layout_.units.push_back(add(file, file.string(), ".cpp"));
+    for (const fs::path& file : sources_.files) layout_.compiled_files.push_back(add(file, file.string(), ".cpp"));
     if (!uses_books_)
       throw UsageError(printable(sources_.files.front().string()) +
                        ": includes none of the books' headers (vec3.h, hittable.h, camera.h ...), so there is no scene "

@@ -22,7 +22,7 @@ struct OwnClass {
 /// that the compiler's messages name the reader's file.
 struct ProgramLayout {
   std::map<std::string, std::string> texts;     ///< by the file's name in the folder where it is compiled
-  std::vector<std::string> units;               ///< those of the texts that are compiled
+  std::vector<std::string> compiled_files;      ///< those of the texts that are compiled
   std::vector<std::string> shown_names;         ///< what messages call the files
   std::vector<std::filesystem::path> files;     ///< all of the reader's that were read
   std::map<std::string, OwnClass> own_classes;  ///< by name

@@ -9,7 +9,7 @@
 namespace tyndall {
 namespace {
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_name_char(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// Words, numbers and single signs of text without comments; strings are left out.
@@ -17,8 +17,8 @@ std::vector<std::string> tokens_of(std::string_view text) {
   std::vector<std::string> tokens;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t begin = at;
-    if (is_word(text[at])) {
-      while (at < text.size() && (is_word(text[at]) || text[at] == '.')) ++at;
+    if (is_name_char(text[at])) {
+      while (at < text.size() && (is_name_char(text[at]) || text[at] == '.')) ++at;
       tokens.emplace_back(text.substr(begin, at - begin));
     } else if (text[at] == '"') {
       for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at)
@@ -32,8 +32,8 @@ std::vector<std::string> tokens_of(std::string_view text) {
   return tokens;
 }
 
-bool is_access(const std::string& word) {
-  return word == "public" || word == "protected" || word == "private" || word == "virtual";
+bool is_access(const std::string& name) {
+  return name == "public" || name == "protected" || name == "private" || name == "virtual";
 }
 
 /// "1.0,0.7,1" as JSON's [1,0.7,1]; nothing if these are not three plain numbers.
@@ -42,10 +42,10 @@ std::optional<std::string> colour_json(const std::string& list) {
   int count = 0;
   for (std::size_t at = 0; at <= list.size(); ++count) {
     const std::size_t end = std::min(list.find(',', at), list.size());
-    std::string word = list.substr(at, end - at);
-    if (!word.empty() && word.back() == 'f') word.pop_back();
+    std::string name = list.substr(at, end - at);
+    if (!name.empty() && name.back() == 'f') name.pop_back();
     double value = 0;
-    if (!number_from_text(word, value) || !(value >= 0)) return {};
+    if (!number_from_text(name, value) || !(value >= 0)) return {};
     json += (count > 0 ? "," : "") + number_text(value);
     at = end + 1;
   }
@@ -62,10 +62,10 @@ std::vector<Include> includes_of(std::string_view text) {
     const auto skip_blanks = [&] {
       while (at < end && is_blank(text[at])) ++at;
     };
-    const auto skip = [&](std::string_view word) {
+    const auto skip = [&](std::string_view name) {
       skip_blanks();
-      const bool there = text.substr(at, std::min(word.size(), end - at)) == word;
-      if (there) at += word.size();
+      const bool there = text.substr(at, std::min(name.size(), end - at)) == name;
+      if (there) at += name.size();
       return there;
     };
     if (skip("#") && skip("include")) {
@@ -101,7 +101,7 @@ std::string without_comments(std::string_view text) {
       ++at;
     } else if (c == inside) {
       inside = 0;
-    } else if (inside == 0 && (c == '"' || (c == '\'' && (at == 0 || !is_word(out[at - 1]))))) {
+    } else if (inside == 0 && (c == '"' || (c == '\'' && (at == 0 || !is_name_char(out[at - 1]))))) {
       inside = c;
     }
   }
@@ -127,7 +127,7 @@ std::map<std::string, std::string> classes_of(std::string_view text) {
     if (tokens[at] == "final") ++at;
     std::string base;
     for (bool bases = at < tokens.size() && tokens[at] == ":"; bases && ++at < tokens.size() && tokens[at] != "{";)
-      if (base.empty() && !is_access(tokens[at]) && is_word(tokens[at][0])) base = tokens[at];
+      if (base.empty() && !is_access(tokens[at]) && is_name_char(tokens[at][0])) base = tokens[at];
     if (at < tokens.size() && tokens[at] == "{") classes[tokens[k + 1]] = base;
   }
   return classes;
@@ -157,30 +157,30 @@ std::vector<std::string> strings_of(std::string_view text) {
   return strings;
 }
 
-bool has_word(std::string_view text, std::string_view word) {
-  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || !is_word(text[at - 1])) && (end == text.size() || !is_word(text[end]))) return true;
+bool has_name(std::string_view text, std::string_view name) {
+  for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !is_name_char(text[at - 1])) && (end == text.size() || !is_name_char(text[end]))) return true;
   }
   return false;
 }
 
 std::vector<std::string> random_options(const std::string& text) {
-  if (has_word(text, "random_device")) return {};  // other numbers each time
+  if (has_name(text, "random_device")) return {};  // other numbers each time
   for (const char* engine : {"mt19937", "mt19937_64"}) {
-    if (!has_word(text, engine)) continue;
+    if (!has_name(text, engine)) continue;
     std::vector<std::string> options{"-DTYNDALL_BOOK_ENGINE=std::" + std::string(engine)};
     std::smatch seed;
     if (std::regex_search(text, seed, std::regex(std::string(engine) + R"(\s+\w+\s*[({]\s*(\d+)u?\s*[)}])")))
       options.push_back("-DTYNDALL_BOOK_SEED=" + seed[1].str());
     return options;
   }
-  const bool only_drand48 = has_word(text, "drand48") && !has_word(text, "rand");
+  const bool only_drand48 = has_name(text, "drand48") && !has_name(text, "rand");
   return only_drand48 ? std::vector<std::string>{"-DTYNDALL_BOOK_DRAND48"} : std::vector<std::string>{};
 }
 
 std::optional<std::string> sky_of(const std::string& text) {
-  if (has_word(text, "background")) return "[0,0,0]";  // a member, which is black until main() sets it
+  if (has_name(text, "background")) return "[0,0,0]";  // a member, which is black until main() sets it
   std::string dense;
   for (const char c : text)
     if (std::isspace(static_cast<unsigned char>(c)) == 0) dense += c;

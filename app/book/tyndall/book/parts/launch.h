@@ -13,9 +13,9 @@
 namespace tyndall_book {
 
 inline std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
+  std::string argument = "'";
+  for (const char c : text) argument += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return argument + "'";
 }
 
 /// The folder above, by its name alone: a link to a folder is not followed.

@@ -64,13 +64,13 @@ class LoopProbe {
 };
 
 inline void LoopProbe::check_progress() {
-  constexpr long most = 2000000;
-  constexpr std::clock_t most_seconds = 5;
+  constexpr long limit = 2000000;
+  constexpr std::clock_t max_seconds = 5;
   if (std::this_thread::get_id() != thread_)
     refuse("main() computes its picture in threads of its own: Tyndall takes over a loop in one thread");
   if (begin_ == 0) begin_ = std::clock() + 1;
-  const bool late = known_ == 0 && rays_ % 1024 == 0 && std::clock() - begin_ > most_seconds * CLOCKS_PER_SEC;
-  if (rays_ > most || late)
+  const bool late = known_ == 0 && rays_ % 1024 == 0 && std::clock() - begin_ > max_seconds * CLOCKS_PER_SEC;
+  if (rays_ > limit || late)
     refuse(
         "the loop in main() ends no pixel by write_color() or on std::cout: Tyndall sees nothing that it could take "
         "over");
@@ -119,12 +119,12 @@ struct probe_material : material {
 };
 
 inline bool LoopProbe::take_hit(const hittable& world, hit_record& record) {
-  constexpr long most = 100000;
+  constexpr long limit = 100000;
   check_progress();
   if (!world_) world_ = &world;
   if (world_ != &world) refuse("ray_color() in main() asks several objects for hits: Tyndall takes over one world");
   ++hits_, ++ray_hits_;
-  if (ray_hits_ > most) refuse("ray_color() in main() has no limit of depth");
+  if (ray_hits_ > limit) refuse("ray_color() in main() has no limit of depth");
   if (known_ < mirrors || (known_ == dimmed && ray_hits_ > 1)) return false;
   static probe_material seen;
   record = hit_record();
@@ -233,11 +233,11 @@ inline void LoopProbe::finish(std::ostream* out) {
   std::_Exit(0);
 }
 
-inline void take_written_pixel(const vec3& shares) { LoopProbe::get().take_pixel(shares, true, nullptr); }
+inline void take_written_pixel(const vec3& fractions) { LoopProbe::get().take_pixel(fractions, true, nullptr); }
 
 inline bool probe_hit(const hittable& world, hit_record& record) {
   base_called() = &world;
-  return !asks_who_answers() && LoopProbe::get().take_hit(world, record);
+  return !is_probing_answers() && LoopProbe::get().take_hit(world, record);
 }
 
 // Before main(), in its thread. The stream must be there first, also where a compiler begins with inline variables.

@@ -95,9 +95,9 @@ inline const void*& base_called() {
   return object;
 }
 /// Whether functions are only called to see whose they are.
-inline bool& asks_who_answers() {
-  static bool asks = false;
-  return asks;
+inline bool& is_probing_answers() {
+  static bool probing = false;
+  return probing;
 }
 
 }  // namespace tyndall_book

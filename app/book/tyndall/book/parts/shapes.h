@@ -35,13 +35,13 @@ struct hittable {
     if (tyndall_book::of_class<T>(*this)) return;
     hit_record record;
     const ray away(vec3(1e9, 1e9, 1e9), vec3(1, 1, 1));
-    tyndall_book::asks_who_answers() = true;
+    tyndall_book::is_probing_answers() = true;
     tyndall_book::base_called() = nullptr;
     hit(away, interval(0.001, tyndall_book::endless), record);
     const bool first = tyndall_book::base_called() == this;
     tyndall_book::base_called() = nullptr;
     hit(away, 0.001, tyndall_book::endless, record);
-    tyndall_book::asks_who_answers() = false;
+    tyndall_book::is_probing_answers() = false;
     if (!first || tyndall_book::base_called() != this) tyndall_refuse();
   }
 };

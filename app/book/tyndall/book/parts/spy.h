@@ -10,7 +10,7 @@
 namespace tyndall_book {
 
 /// Told when main() has written the three numbers of a pixel on standard output, each a share of the largest.
-void take_written_pixel(const vec3& shares);
+void take_written_pixel(const vec3& fractions);
 
 /// Reads what main() writes by std::cout. Text goes on to standard output; a picture that begins (P3) does not: of that
 /// the size is kept, and its pixels are told.
@@ -38,7 +38,7 @@ class OutputSpy : public std::streambuf {
     return size;
   }
   int sync() override {
-    const bool may_begin = word_ == "P" || word_ == "P3";
+    const bool may_begin = token_ == "P" || token_ == "P3";
     if (!in_picture_ && !may_begin) send();
     return before_->pubsync();
   }
@@ -47,31 +47,31 @@ class OutputSpy : public std::streambuf {
   OutputSpy() : before_(std::cout.rdbuf(this)) {}
 
   void send() {
-    before_->sputn(word_.data(), static_cast<std::streamsize>(word_.size()));
-    word_.clear();
+    before_->sputn(token_.data(), static_cast<std::streamsize>(token_.size()));
+    token_.clear();
   }
   void put(char c) {
     const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
     if (!in_picture_) {
-      if (blank && word_ == "P3") {
+      if (blank && token_ == "P3") {
         in_picture_ = true;
-        word_.clear();
+        token_.clear();
         return;
       }
-      word_ += c;
+      token_ += c;
       if (blank) send();
       return;
     }
     if (c == '#') in_comment_ = true;
     if (c == '\n') in_comment_ = false;
-    if (!blank && !in_comment_) word_ += c;
-    if (blank && !word_.empty()) take_word();
+    if (!blank && !in_comment_) token_ += c;
+    if (blank && !token_.empty()) take_token();
   }
-  void take_word() {
+  void take_token() {
     char* end = nullptr;
-    const double value = std::strtod(word_.c_str(), &end);
+    const double value = std::strtod(token_.c_str(), &end);
     const bool is_number = *end == '\0';
-    word_.clear();
+    token_.clear();
     if (!is_number) return;
     if (header_ < 3) {
       size_[header_++] = value;
@@ -84,7 +84,7 @@ class OutputSpy : public std::streambuf {
   }
 
   std::streambuf* before_;
-  std::string word_;
+  std::string token_;
   bool in_picture_ = false, in_comment_ = false;
   int header_ = 0, channel_ = 0;  ///< numbers read, of the header and of a pixel
   double size_[3] = {0, 0, 0};    ///< width, height, largest number
