@@ -83,7 +83,7 @@ bool replaces_ours(const std::string& code) {
     if (is_book_class(name)) return true;
   const std::vector<std::string> constants = constants_of(code);
   const bool endless = std::find(constants.begin(), constants.end(), "infinity") != constants.end();
-  const bool degrees = has_word(code, "degrees_to_radians") && has_word(code, "return");
+  const bool degrees = has_name(code, "degrees_to_radians") && has_name(code, "return");
   return endless || degrees || code.find("double random_double") != std::string::npos;
 }
 
@@ -175,12 +175,12 @@ class Layouter {
     if (!seen_.insert(identity(file)).second) return;
     std::string text;
     const std::string code = read(file, text);
-    for (const char* word : {"random_double", "randomDouble", "random_float"})
-      if (has_word(code, word)) random_text_ += code;
+    for (const char* name : {"random_double", "randomDouble", "random_float"})
+      if (has_name(code, name)) random_text_ += code;
     const std::map<std::string, std::string> classes = classes_of(code);
     for (const auto& [name, base] : classes)
       if (!is_book_class(name)) layout_.own_classes[name] = {base, shown};
-    if (has_word(code, "ray_color") && (classes.contains("camera") || classes.contains("Camera"))) {
+    if (has_name(code, "ray_color") && (classes.contains("camera") || classes.contains("Camera"))) {
       const auto sky = sky_of(code);
       layout_.sky = sky.value_or("");
       layout_.unknown_sky = !sky;

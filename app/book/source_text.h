@@ -29,7 +29,7 @@ std::vector<std::string> constants_of(std::string_view text);
 /// What stands between quotes, on one line, without escapes.
 std::vector<std::string> strings_of(std::string_view text);
 /// Whether the word stands in the text as a whole.
-bool has_word(std::string_view text, std::string_view word);
+bool has_name(std::string_view text, std::string_view word);
 
 /// The generator of random numbers that the text uses in place of rand(): options for the compiler, see
 /// tyndall/book/parts/random.h. Empty: rand(), or one whose numbers nobody can repeat.
