@@ -57,7 +57,7 @@ TEST_CASE("a child's exit code, its errors, its messages, and its variables") {
 
 TEST_CASE("errors are kept from the first or from the last on") {
   ChildPlan plan = shell("printf 0123456789 >&2");
-  plan.most_errors = 4;
+  plan.max_errors = 4;
   CHECK(run_child(plan).errors == "0123");
   plan.keep_last_errors = true;
   CHECK(run_child(plan).errors == "6789");
