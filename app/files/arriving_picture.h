@@ -41,7 +41,7 @@ class ArrivingPicture {
   std::shared_ptr<const SampleSource> source() const { return source_; }
 
   /// Begins to read the pixels. on_news: called from a thread when arrival() has changed, at most ten times a second,
-  /// less often for pictures of more than a million pixels, which take longer to be shown.
+  /// less often for pictures of more than 300,000 pixels, which take longer to be shown.
   void start(std::function<void()> on_news);
   /// Reads no further, and calls on_news no more.
   void stop();

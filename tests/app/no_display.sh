@@ -38,7 +38,7 @@ complains 'missing.json'
 expect_piped() { # CODE TEXT ARGUMENTS...
   local code=$1 text=$2 got=0
   shift 2
-  printf "$text" | "$tyndall" view - "$@" >out 2>err || got=$?
+  printf '%b' "$text" | "$tyndall" view - "$@" >out 2>err || got=$?
   [ "$got" -eq "$code" ] || fail "exit code $got instead of $code for '$text': $(cat err)"
 }
 expect_piped 3 'P3\n2 1\n255\n1 2 3\n'

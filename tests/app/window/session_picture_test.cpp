@@ -41,6 +41,10 @@ struct PictureSession : OpenedSession {
     if (ends[1] >= 0) close(ends[1]);
     ends[1] = -1;
   }
+  /// Whether so much of the picture has come; pixels are shown as soon as they are there, which is told of later.
+  bool says(const std::string& arrived) {
+    return comes_true([&] { return session->arrived() == arrived; });
+  }
   /// Whether the frame of the newest request has these values of red.
   bool shows(const std::array<float, 4>& red) {
     return comes_true([&] {
@@ -63,7 +67,7 @@ TEST_CASE("a picture that is being written is shown row by row, and stays where 
   CHECK_FALSE(opened.session->at_rest());
   opened.write_rows("255 0 0 255 0 0 ");
   REQUIRE(opened.shows({1, 1, 0, 0}));
-  CHECK(opened.session->arrived() == "row 1 of 2");
+  CHECK(opened.says("row 1 of 2"));
   opened.close_writer();
   REQUIRE(opened.comes_true([&] { return opened.session->at_rest(); }));
   CHECK(opened.session->arrived() == "ended at row 1 of 2");
@@ -75,7 +79,7 @@ TEST_CASE("how a picture is displayed is no edit that could be lost; a snapshot 
   PictureSession opened("picture_display");
   opened.write_rows("255 0 0 0 0 0 255 0 0 0 0 0\n");
   REQUIRE(opened.shows({1, 0, 1, 0}));
-  CHECK(opened.session->arrived() == "all 2 rows");
+  CHECK(opened.says("all 2 rows"));
   Scene scene = opened.session->editor().scene();
   scene.display.exposure = 1;
   opened.session->editor().edit(scene, 0);

@@ -126,3 +126,15 @@ TEST_CASE("a scene without light says what it lacks, and not that its error is 0
   dark.scene.materials[0].kind = Light<>{};
   CHECK(text_of(status_cells(&frame, {}, dark, {})).find("error=") != std::string::npos);
 }
+
+TEST_CASE("the status line of a picture that a program writes tells how much is there, and nothing of rendering") {
+  Frame frame;
+  frame.edit = 3;
+  frame.width = 40, frame.height = 30;
+  const std::string text = text_of(status_cells(&frame, {}, document(), {.arrived = "row 7 of 30"}));
+  CHECK(text == "=row 7 of 30;=40 x 30 pixels;showroom.json=;");
+  const ErrorCurve run{"", {{1, 1e-4}}, 3};
+  const std::string compared =
+      text_of(status_cells(&frame, run, document(), {.is_true = true, .arrived = "all 30 rows"}));
+  CHECK(compared.find("true error=1 %;") != std::string::npos);
+}
