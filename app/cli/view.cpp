@@ -149,7 +149,10 @@ int view_scene(const ViewCommand& command) {
   if (command.ppm == PpmCurve::gamma2)
     throw UsageError(
         "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
-  const auto open = [request = command.scene] { return open_scene(request); };
+  const auto open = [request = command.scene](const std::function<bool()>& go_on) mutable {
+    request.program.go_on = go_on;
+    return open_scene(request);
+  };
   // Without the values of --set: edits begin with these, and may have changed them since.
   const auto read_edits = [request = command.scene](const std::string& what) mutable {
     request.what = what;
@@ -157,7 +160,7 @@ int view_scene(const ViewCommand& command) {
     request.program.allowed = false;
     return open_scene(request);
   };
-  const LoadedScene loaded = open();
+  const LoadedScene loaded = open_scene(command.scene);
   find_kernels(command.isa);
   check_memory(loaded.scene);
   check_files(command, loaded.files);

@@ -21,7 +21,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       limits_(options.limits),
       accuracy_(wake),
       renderers_(thread_count(options.threads).count, options.isa, std::move(on_frame)),
-      editor_(options.scene, options.reload,
+      editor_(options.scene, reload_of(options),
               {[this] { timer_.on_change(input_time_ > 0 ? input_time_ : clock_seconds()); },
                [this] { accuracy_.clear(), set_split(false); },
                [isa = options.isa](const LoadedScene& loaded) { return read_opened_film(loaded, isa); },
@@ -45,6 +45,12 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
   submit(clock_seconds());
   if (options.scene.source.empty()) editor_.open_film(options.scene);
   if (picture_) picture_->start(wake);
+}
+
+/// Reads the first scene again, as long as the window is open; empty: cannot be read again.
+std::function<LoadedScene()> Session::reload_of(const WindowOptions& options) {
+  if (!options.reload) return {};
+  return [this, reload = options.reload] { return reload([this] { return !closing_; }); };
 }
 
 /// The edited scene, copied once for all who go on using it.

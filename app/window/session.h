@@ -136,6 +136,7 @@ class Session {
   bool tell_of_keeping();
   bool collect_rows();
   void restore_edits(const WindowOptions& options);
+  std::function<LoadedScene()> reload_of(const WindowOptions& options);
   void read_preferences_file();
   void pause_at_limits(const Frame& frame);
 

@@ -19,7 +19,9 @@ struct PauseLimits {
 
 struct WindowOptions {
   LoadedScene scene;
-  std::function<LoadedScene()> reload;  ///< reads the scene again, as the command line asked for it; may be empty
+  /// Reads the scene again, as the command line asked for it, unless go_on says meanwhile that nobody waits for it any
+  /// more; may be empty.
+  std::function<LoadedScene(const std::function<bool()>& go_on)> reload;
   /// Reads kept edits: a scene file, with the settings that the command line gives.
   std::function<LoadedScene(const std::string&)> read_edits = [](const std::string& what) { return load_scene(what); };
   int threads = 0;                  ///< 0: see thread_count()

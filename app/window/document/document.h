@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 /// A scene under edit, and the file that it came from.
 namespace tyndall {
@@ -19,6 +20,7 @@ struct Origin {
   bool comments = false;         ///< the file has comments, which saving would lose
   bool is_picture = false;       ///< there is no scene, but a picture that is shown in its place
   Scene saved;                   ///< what the file holds
+  std::vector<std::filesystem::path> sources;  ///< of the program that wrote the scene, which saving never replaces
 };
 
 /// A scene that is being edited. What undo goes back to includes where it came from: opening a scene is an edit too.

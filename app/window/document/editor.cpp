@@ -1,5 +1,6 @@
 #include "app/window/document/editor.h"
 
+#include "app/book/load_program.h"
 #include "app/window/document/open_document.h"
 #include "core/scene/change.h"
 #include "core/scene/check.h"
@@ -124,8 +125,13 @@ void Editor::read_in_background(const std::function<JobQueue::Result()>& read) {
 }
 
 void Editor::open(const std::string& what) {
-  read_in_background([this, what]() -> JobQueue::Result {
-    const LoadedScene loaded = load_scene(what);
+  const bool first = reload_ && what == reloads_;
+  if (is_program(what) && !first)
+    return messages_.say(title_of(what) + " is a program, which is compiled and run only where it is named on the " +
+                             "command line: tyndall " + title_of(what),
+                         true);
+  read_in_background([this, what, first]() -> JobQueue::Result {
+    const LoadedScene loaded = first && is_program(what) ? reload_() : load_scene(what);
     return [this, next = document_of(loaded), film = events_.film_of(loaded)] { show(next, false, film); };
   });
 }
@@ -141,6 +147,7 @@ void Editor::open_film(const LoadedScene& scene) {
 }
 
 void Editor::reload() {
+  reads_again_ = true;
   const std::string what = document().origin->what;
   const fs::path file = document().origin->file;
   const bool first = reload_ && what == reloads_;
@@ -155,6 +162,7 @@ void Editor::reload() {
       if (!file.empty()) needed = files_of_scene(file);
     }
     return [this, what, next = std::move(next), wrong, needed = std::move(needed)] {
+      reads_again_ = false;
       if (document().origin->what == what) take_reading(next ? &*next : nullptr, wrong, needed);
     };
   });
@@ -230,7 +238,7 @@ bool Editor::save(const fs::path& file) {
 }
 
 bool Editor::collect() {
-  if (!file_changed_.exchange(false)) return false;
+  if (reads_again_ || !file_changed_.exchange(false)) return false;
   reload();
   return true;
 }

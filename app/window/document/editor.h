@@ -68,7 +68,8 @@ class Editor {
   /// program has changed the file since, which the user is asked about.
   void restore(Document document, bool file_changed);
 
-  /// Opens a file or a built-in scene, in the background. what: as the command line takes it.
+  /// Opens a file or a built-in scene, in the background. what: as the command line takes it. Of programs only the one
+  /// that was named there is opened: anything else would compile and run what the user has only looked at.
   void open(const std::string& what);
   /// Reads the film of the first scene, if that was opened from an image, in the background.
   void open_film(const LoadedScene& scene);
@@ -111,6 +112,7 @@ class Editor {
   std::string unreadable_;                ///< what is wrong with the files as they are now; empty: nothing
   std::optional<Document> changed_file_;  ///< what the file holds, while the user is asked about it
   std::atomic<bool> file_changed_ = false;
+  bool reads_again_ = false;   ///< the next reading waits for the end of this one, which may take seconds for a program
   std::string watched_scene_;  ///< Origin::what
   std::vector<std::filesystem::path> watched_;
   std::vector<std::filesystem::path> unreadable_files_;  ///< what a reading depends on that has failed; watched, too

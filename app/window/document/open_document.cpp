@@ -48,6 +48,7 @@ Document document_of(const LoadedScene& loaded) {
   origin->comments = !loaded.source.empty() && has_comments(loaded.text);
   origin->is_picture = loaded.is_picture;
   origin->saved = loaded.scene;
+  origin->sources = loaded.sources;
   return {loaded.scene, std::move(origin)};
 }
 
@@ -64,6 +65,7 @@ std::shared_ptr<const Origin> save_document(const Document& document, const fs::
   origin->text_hash = fnv1a(text);
   origin->comments = false;
   origin->saved = scene;
+  origin->sources.clear();
   return origin;
 }
 
@@ -79,6 +81,7 @@ std::vector<fs::path> watched_files(const Document& document) {
   const Origin& origin = *document.origin;
   if (origin.what.empty()) return files;
   if (!origin.file.empty()) files.push_back(origin.file);
+  files.insert(files.end(), origin.sources.begin(), origin.sources.end());
   for (const Texture& texture : document.scene.textures)
     if (const auto* image = std::get_if<Image>(&texture.kind)) files.push_back(origin.folder / image->file);
   return files;

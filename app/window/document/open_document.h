@@ -23,7 +23,8 @@ std::shared_ptr<const Origin> save_document(const Document& document, const std:
 /// Whether the file holds something else than when it was read or written last, readable or not. Reads it.
 bool file_differs(const Origin& origin);
 
-/// The files that the document shows, to be watched: its scene file, if that is where it came from, and its textures.
+/// The files that the document shows, to be watched: its scene file or the program's source files, if that is where it
+/// came from, and its textures.
 /// None of standard input, which cannot be read again.
 std::vector<std::filesystem::path> watched_files(const Document& document);
 
