@@ -91,6 +91,7 @@ class Commands:
         small = ["--size", "32x18", "-q"]
         self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
         shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
+        shutil.copy(self.root / "tests/book/third/main.cc", self.fixtures / "main.cc")
         try:
             for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4"), ("fog", "0:4")):
                 self.output(["render", "cornell-smoke", "--samples", samples, *small, "-o", name + ".exr"])
