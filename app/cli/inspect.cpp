@@ -103,12 +103,6 @@ std::string listed(const std::map<std::string, int>& counts, bool nouns) {
   return text.empty() ? "none" : text;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
-
 /// The objects that elements belong to, the first few by name.
 std::string named(const Report& report, const std::vector<std::int32_t>& elements) {
   constexpr std::size_t maximum = 3;
@@ -207,7 +201,7 @@ std::string table(const Report& report) {
   row("defocus", c.defocus ? "yes" : "no");
   row("primitives", std::to_string(report.prepared->columns().primitives()) +
                         (report.prepared->columns().bvh ? ", in a tree" : ", each tested for every ray"));
-  row("models", listed(names_of(report.prepared->columns().features)));
+  row("models", joined(names_of(report.prepared->columns().features)));
   row("kernel", name_of(report.kernel));
   if (report.gain) row("", gain_text(*report.gain));
   row("memory",

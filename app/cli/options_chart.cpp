@@ -37,7 +37,6 @@ Command read_chart(const std::vector<std::string>& arguments) {
                   "Examples:\n"
                   "  tyndall chart cornell-smoke -o smoke.svg\n"
                   "  tyndall chart fog.json --method 'mis=' --method 'no MIS=--integrator nee' -o fog.svg");
-  bool quiet = false;
   add_scene(*app, command.scene);
   add_value(*app, "-o,--output", "FILE.svg", "the chart; required", [&](const std::string& t) { command.output = t; });
   add_values(*app, "--method", "NAME=FLAGS",
@@ -55,12 +54,10 @@ Command read_chart(const std::vector<std::string>& arguments) {
             "worker threads [the processors that this process may use:\naffinity, and quota rounded up]",
             [&](const std::string& t) { command.threads = static_cast<int>(read_whole(t, 1, max_threads)); });
   add_progress(*app, command.progress);
-  app->add_flag("-q,--quiet", quiet, "no progress");
   if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !command.scene.what.empty(), "SCENE");
   require(*app, !command.output.empty(), "an output (-o FILE.svg)");
   if (command.scene.what != "all") read_file_name(command.output.string(), ".svg");
-  if (quiet) command.progress = ProgressStyle::none;
   return command;
 }
 

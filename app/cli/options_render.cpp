@@ -153,6 +153,8 @@ void add_progress(CLI::App& app, ProgressStyle& style) {
   const std::string help = wrapped("on standard error" + choices_text(style) + " [auto]", help_width);
   add_value(
       app, "--progress", "NAME", help, [&](Text t) { read_option(t, {}, style); }, choices(style));
+  app.add_flag_callback(
+      "-q,--quiet", [&style] { style = ProgressStyle::none; }, "no progress");
 }
 
 void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
@@ -227,10 +229,8 @@ Command read_render(const std::vector<std::string>& arguments) {
                   "  tyndall render cornell-box -o box.png\n"
                   "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"
                   "  tyndall render box.png --set /camera/vfov=30 -o closer.png");
-  bool quiet = false;
   add_scene(*app, command.scene);
   add_output(*app, command);
-  app->add_flag("-q,--quiet", quiet, "no progress");
   add_limits(*app, command);
   add_image_options(*app, command.scene);
   add_method_options(*app, command.scene);
@@ -239,7 +239,6 @@ Command read_render(const std::vector<std::string>& arguments) {
   require(*app, !command.scene.what.empty(), "SCENE");
   require(*app, command.replay || !command.outputs.empty(), "an output (-o FILE)");
   refuse_conflicts(command);
-  if (quiet) command.progress = ProgressStyle::none;
   return command;
 }
 
@@ -255,17 +254,14 @@ Command read_verify(const std::vector<std::string>& arguments) {
                   "  tyndall verify\n"
                   "  tyndall verify plate fog-ball/ --isa scalar\n"
                   "  tyndall verify plate --fresnel schlick      # the books' rule fails");
-  bool quiet = false;
   add_arguments(*app, "NAME", "beginnings of the names of cases, e.g. plate [all]", command.names);
   app->add_flag("--thorough", command.thorough, "standard errors of at most 1e-4 of the value instead of 1e-3");
   app->add_flag("--json", command.json, "print JSON");
   add_progress(*app, command.progress);
-  app->add_flag("-q,--quiet", quiet, "no progress");
   app->option_defaults()->group("Method");
   add_settings(*app, command.method.render, {"spp", "adaptive"});
   add_machine_options(*app, command.threads, command.isa);
   if (auto help = parse(*app, arguments)) return PrintCommand{*help};
-  if (quiet) command.progress = ProgressStyle::none;
   return command;
 }
 

@@ -19,6 +19,7 @@ void add_isa(CLI::App& app, std::string& isa);
 void add_gamma2(CLI::App& app, const std::string& help, PpmCurve& ppm);
 /// -o FILE, repeatable, and the options that say how images are written. help: what the command says of -o.
 void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& files, ImageForm& form);
+/// --progress, and -q in place of "--progress none".
 void add_progress(CLI::App& app, ProgressStyle& style);
 
 /// Adds SCENE and --set. note: text that is added to the help of SCENE.

@@ -71,23 +71,15 @@ struct Pictures {
   std::vector<std::string> notes;
 };
 
-/// "a, b, c and 4 more"
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t maximum = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), maximum); ++i) text += (i > 0 ? ", " : "") + names[i];
-  return names.size() > maximum ? text + " and " + std::to_string(names.size() - maximum) + " more" : text;
-}
-
 /// What is left out of a folder, a line for each reason.
 void add_notes(const fs::path& folder, const PictureFolder& found, std::vector<std::string>& notes) {
   std::vector<std::string> others = found.others;
   std::erase(others, tolerances_name);
   if (!others.empty())
     notes.push_back(folder.string() + ": left out, as their names end in none of " + picture_endings + ": " +
-                    listed(others));
+                    listed(others, 3));
   if (!found.loops.empty())
-    notes.push_back(folder.string() + ": left out, as links to folders around them: " + listed(found.loops));
+    notes.push_back(folder.string() + ": left out, as links to folders around them: " + listed(found.loops, 3));
 }
 
 /// What a picture that is named itself is called in the baseline: its file's own name and, where one was asked for, the

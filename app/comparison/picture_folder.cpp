@@ -1,9 +1,9 @@
 #include "app/comparison/picture_folder.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace tyndall {
 namespace {
@@ -11,8 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_picture(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_case(file.extension().string());
   const std::string endings = picture_endings + std::string(" ");
   return !ending.empty() && endings.find(ending + " ") != endings.npos;
 }

@@ -3,6 +3,7 @@
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/markup.h"
+#include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
 
@@ -134,9 +135,7 @@ std::string junit_report(const std::vector<CheckedPicture>& pictures) {
       continue;
     }
     ++failed;
-    std::string message;
-    for (const std::string& failure : picture.failures) message += (message.empty() ? "" : "; ") + failure;
-    cases += ">\n    <failure message=\"" + in_xml(message) + "\"/>\n  </testcase>\n";
+    cases += ">\n    <failure message=\"" + in_xml(joined(picture.failures, "; ")) + "\"/>\n  </testcase>\n";
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"tyndall compare\" tests=\"{}\" failures=\"{}\" "

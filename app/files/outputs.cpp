@@ -8,17 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <span>
 
 namespace tyndall {
 namespace {
 
-std::string ending(const std::filesystem::path& file) {
-  std::string text = file.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
+std::string ending(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
 
 /// The file's name, or for standard output one that ends in its format.
 std::filesystem::path name_with_ending(const std::filesystem::path& file, const ImageForm& form) {

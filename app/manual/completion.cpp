@@ -1,15 +1,10 @@
 #include "app/manual/page.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 
 namespace tyndall {
 namespace {
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
 
 /// The help up to its first "; ", colon or line end, in single quotes for a shell.
 std::string short_help(const std::string& help) {

@@ -3,7 +3,6 @@
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -98,9 +97,8 @@ Override read_override(const std::string& text) {
 }
 
 std::filesystem::path read_file_name(const std::string& text, const std::string& ending) {
-  std::string tail = std::filesystem::path(text).extension().string();
-  std::transform(tail.begin(), tail.end(), tail.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (tail != ending) refuse(text, "a name that ends in " + ending);
+  if (lower_case(std::filesystem::path(text).extension().string()) != ending)
+    refuse(text, "a name that ends in " + ending);
   return text;
 }
 

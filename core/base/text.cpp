@@ -133,6 +133,23 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
+std::string joined(const std::vector<std::string>& texts, std::string_view between) {
+  std::string out;
+  for (std::size_t i = 0; i < texts.size(); ++i) out += std::string(i ? between : "") + texts[i];
+  return out;
+}
+
+std::string listed(const std::vector<std::string>& names, std::size_t maximum) {
+  if (names.size() <= maximum) return joined(names);
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(maximum);
+  return joined({names.begin(), end}) + " and " + std::to_string(names.size() - maximum) + " more";
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
 std::string number_text(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value < 0 ? "-inf" : "inf";

@@ -26,6 +26,14 @@ std::string shortened(std::string_view text, std::size_t limit);
 /// A JSON string: in quotes, with ", \ and control characters escaped.
 std::string in_quotes(std::string_view text);
 
+/// The texts one after the other, with `between` between them.
+std::string joined(const std::vector<std::string>& texts, std::string_view between = ", ");
+/// "a, b and 7 more": the first `maximum` of the names, and how many there are beside them.
+std::string listed(const std::vector<std::string>& names, std::size_t maximum);
+
+/// The text with small letters in place of the capitals A to Z.
+std::string lower_case(std::string text);
+
 /// The shortest decimal that reads back as the same double; "nan", "inf" and "-inf" where there is none.
 std::string number_text(double value);
 

@@ -1,9 +1,7 @@
 #include "core/image/image_io.h"
 
+#include "core/base/text.h"
 #include "core/image/image_io_file.h"
-
-#include <algorithm>
-#include <cctype>
 
 namespace tyndall {
 namespace {
@@ -89,9 +87,7 @@ std::optional<std::string> read_embedded_scene(const std::filesystem::path& file
 }
 
 bool is_image_output(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_case(file.extension().string());
   return ending == ".png" || ending == ".exr" || ending == ".pfm" || ending == ".hdr" || ending == ".ppm";
 }
 

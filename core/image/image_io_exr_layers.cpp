@@ -92,11 +92,9 @@ std::vector<ChannelGroup> groups_of(const Imf::Header& header, int part, bool se
 }
 
 /// `"a", "b" and 7 more`; at most 24 of them.
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t maximum = 24;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), maximum); ++i) text += (i > 0 ? ", " : "") + in_quotes(names[i]);
-  return names.size() > maximum ? text + " and " + std::to_string(names.size() - maximum) + " more" : text;
+std::string quoted(std::vector<std::string> names) {
+  for (std::string& name : names) name = in_quotes(name);
+  return listed(names, 24);
 }
 
 /// The names of the layers that can be asked for.
@@ -126,8 +124,8 @@ template <class Error>
   if (std::all_of(groups.begin(), groups.end(), [](const ChannelGroup& group) { return group.deep; }))
     refuse<ImageFileError>(file, deep_data);
   const std::vector<std::string> layers = layer_names(groups);
-  std::string text = "found no channels R, G and B, nor Y, but " + listed(channel_names(groups));
-  if (!layers.empty()) text += "; " + file.filename().string() + ":LAYER takes a layer: " + listed(layers);
+  std::string text = "found no channels R, G and B, nor Y, but " + quoted(channel_names(groups));
+  if (!layers.empty()) text += "; " + file.filename().string() + ":LAYER takes a layer: " + quoted(layers);
   refuse<ImageFileError>(file, text);
 }
 
@@ -137,8 +135,8 @@ template <class Error>
   const std::string hint = did_you_mean(name, {layers.begin(), layers.end()});
   if (layers.empty())
     refuse<NoSuchLayer>(file, "found no layer " + in_quotes(name) + ", expected none: it has the channels " +
-                                  listed(channel_names(groups)));
-  refuse<NoSuchLayer>(file, "found no layer " + in_quotes(name) + hint + ", expected one of " + listed(layers));
+                                  quoted(channel_names(groups)));
+  refuse<NoSuchLayer>(file, "found no layer " + in_quotes(name) + hint + ", expected one of " + quoted(layers));
 }
 
 /// The group as the picture that was asked for; refuses what is none.
@@ -147,7 +145,7 @@ ExrLayer checked(const std::filesystem::path& file, const ChannelGroup& group, c
   if (group.shown()) return group.layer;
   std::vector<std::string> channels;
   for (const std::string& ending : group.endings) channels.push_back(joined(group.names[0], ending));
-  refuse<NoSuchLayer>(file, "found layer " + in_quotes(name) + " with the channels " + listed(channels) +
+  refuse<NoSuchLayer>(file, "found layer " + in_quotes(name) + " with the channels " + quoted(channels) +
                                 ", expected R, G and B, or X, Y and Z, or Y; a single channel is taken by its name");
 }
 

@@ -3,6 +3,7 @@
 #include "app/window/system/imgui_compat.h"
 #include "app/window/tools/camera_control.h"
 #include "app/window/tools/projection.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 
@@ -100,10 +101,7 @@ void draw_lines(Ui& ui, const Rect& visible, const std::vector<std::string>& lin
   }
   draw.PopClipRect();
   ImGui::PopFont();
-  if (!ui.log) return;
-  std::string all;
-  for (const std::string& line : lines) all += (all.empty() ? "" : " | ") + line;
-  ui.log->widget("inspector", box, all);
+  if (ui.log) ui.log->widget("inspector", box, joined(lines, " | "));
 }
 
 }  // namespace tyndall

@@ -1,6 +1,7 @@
 #include "app/window/menus/palette.h"
 
 #include "app/window/system/imgui_compat.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 #include <cctype>
@@ -15,11 +16,6 @@ constexpr int max_lines = 12;
 
 constexpr ImGuiWindowFlags palette_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /// The text without spaces and signs.
 std::string squeezed(std::string text) {
@@ -46,7 +42,7 @@ constexpr int ranks = 5;
 
 /// How likely the text, in small letters, means an item: 0 most likely, `ranks` not at all.
 int rank_of(const PaletteItem& item, const std::string& text) {
-  const std::string label = lower(item.label), also = lower(item.also), sought = squeezed(text);
+  const std::string label = lower_case(item.label), also = lower_case(item.also), sought = squeezed(text);
   const std::size_t colon = label.find(": ");
   const std::string name = squeezed(label), end = colon == std::string::npos ? name : squeezed(label.substr(colon));
   if (!sought.empty()) {
@@ -81,7 +77,7 @@ bool palette_line(Ui& ui, const PaletteItem& item, bool marked, bool scroll) {
 std::vector<int> matching_items(const std::vector<PaletteItem>& items, const std::string& text) {
   std::vector<int> ranked[ranks];
   for (std::size_t k = 0; k < items.size(); ++k)
-    if (const int rank = rank_of(items[k], lower(text)); rank < ranks) ranked[rank].push_back(static_cast<int>(k));
+    if (const int rank = rank_of(items[k], lower_case(text)); rank < ranks) ranked[rank].push_back(static_cast<int>(k));
   std::vector<int> all;
   for (const std::vector<int>& next : ranked) all.insert(all.end(), next.begin(), next.end());
   return all;

@@ -1,9 +1,9 @@
 #include "app/window/panels/list_rows.h"
 #include "app/window/panels/panels.h"
 #include "app/window/panels/wheel.h"
+#include "core/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace tyndall {
 namespace {
@@ -17,11 +17,6 @@ struct ObjectLine {
   bool group = false, open = false;
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 bool is_open(const ObjectsView& view, const ObjectPath& path, std::size_t size) {
   return (size <= max_unfolded) != view.toggled.contains(path);
 }
@@ -30,7 +25,7 @@ bool is_open(const ObjectsView& view, const ObjectPath& path, std::size_t size) 
 /// shown, wherever it is.
 void add_lines(const PanelState& state, const std::vector<Object>& objects, ObjectPath& path,
                std::vector<ObjectLine>& out) {
-  const std::string wanted = lower(state.objects.search);
+  const std::string wanted = lower_case(state.objects.search);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     path.push_back(static_cast<int>(i));
     const Material* material = material_of(state.scene, objects[i]);
@@ -39,7 +34,7 @@ void add_lines(const PanelState& state, const std::vector<Object>& objects, Obje
                     group != nullptr,
                     group && (!wanted.empty() || is_open(state.objects, path, group->objects.size()))};
     if (group) line.note = std::to_string(group->objects.size()) + " in " + line.note;
-    const bool found = wanted.empty() || lower(line.label + " " + line.note).find(wanted) != std::string::npos;
+    const bool found = wanted.empty() || lower_case(line.label + " " + line.note).find(wanted) != std::string::npos;
     const bool open = line.open;
     if (found) out.push_back(std::move(line));
     if (open) add_lines(state, group->objects, path, out);
