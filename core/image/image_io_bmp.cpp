@@ -1,5 +1,4 @@
 #include "core/image/image_io_file.h"
-#include "core/image/image_io_stb.h"
 #include "core/image/picture_file.h"
 
 #include <algorithm>
@@ -13,11 +12,7 @@ namespace {
 /// what it would misread is refused here, and all that pixels take must be in the file.
 struct BmpHeader {
   std::span<const std::uint8_t> bytes;
-  std::uint32_t number(std::size_t at, std::size_t size = 4) const {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) value |= std::uint32_t{bytes[at + i]} << 8 * i;
-    return value;
-  }
+  std::uint32_t number(std::size_t at, std::size_t size = 4) const { return low_first(bytes, at, size); }
   std::uint32_t pixels() const { return number(10); }
   std::uint32_t size() const { return number(14); }
   bool is_os2() const { return size() == 12; }

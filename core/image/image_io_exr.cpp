@@ -221,6 +221,8 @@ void write_checkpoint(const std::filesystem::path& file, const Film& film, const
 
 namespace tyndall {
 
+// What stands for all that reads and writes EXR files.
+
 bool has_openexr() { return false; }
 
 void write_exr(const std::filesystem::path& file, const Film&, const std::vector<Layer>&, const Embedded&,
@@ -230,6 +232,25 @@ void write_exr(const std::filesystem::path& file, const Film&, const std::vector
 
 void write_checkpoint(const std::filesystem::path& file, const Film&, const Embedded&) {
   cannot_write(file, without_openexr);
+}
+
+LinearImage read_exr(const std::filesystem::path& file, const std::optional<std::string>&) {
+  cannot_read(file, without_openexr);
+}
+
+std::optional<Film> read_film(const std::filesystem::path& file) {
+  if (image_kind(read_bytes(file, 16)) == ImageKind::exr) cannot_read(file, without_openexr);
+  return {};
+}
+
+std::optional<Film> read_film_frame(const std::filesystem::path& file) { return read_film(file); }
+
+std::optional<FilmLabel> read_film_label(const std::filesystem::path&) { return {}; }
+
+std::optional<std::string> read_embedded_stats(const std::filesystem::path&) { return {}; }
+
+std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
+  cannot_read(file, without_openexr);
 }
 
 }  // namespace tyndall

@@ -1,10 +1,7 @@
-#include "core/film/rounds.h"
-#include "core/image/image_io.h"
-#include "core/image/image_io_exr.h"
-#include "core/image/image_io_file.h"
-
 #ifdef TYNDALL_OPENEXR
 
+#include "core/film/rounds.h"
+#include "core/image/image_io.h"
 #include "core/image/image_io_exr_open.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -120,16 +117,20 @@ void check_sum(const std::filesystem::path& file, const Imf::Header& header, con
     damaged_film(file, "it is not what its checksum says");
 }
 
-std::optional<Film> read_frame_of(const std::filesystem::path& file, Imf::MultiPartInputFile& exr) {
-  if (!exr.header(0).channels().findChannel("film.taken")) return {};
-  return read_frame(file, exr.header(0));
+/// What `read` finds in an EXR that holds a film; nothing in all other files.
+template <class Read>
+auto with_film(const std::filesystem::path& file, const Read& read)
+    -> std::optional<decltype(read(std::declval<Imf::MultiPartInputFile&>()))> {
+  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
+  return with_exr(file, [&](Imf::MultiPartInputFile& exr) {
+    const bool has = exr.header(0).channels().findChannel("film.taken") != nullptr;
+    return has ? std::optional(read(exr)) : std::nullopt;
+  });
 }
 
-std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::MultiPartInputFile& exr) {
+Film read_film_of(const std::filesystem::path& file, Imf::MultiPartInputFile& exr) {
   const Imf::ChannelList& present = exr.header(0).channels();
-  std::optional<Film> frame = read_frame_of(file, exr);
-  if (!frame) return {};
-  Film& film = *frame;
+  Film film = read_frame(file, exr.header(0));
   const auto count = static_cast<std::size_t>(film.region.width()) * static_cast<std::size_t>(film.region.height());
   film.pixels.resize(count);
   ExrTarget target{{}, exr.header(0).dataWindow()};
@@ -150,25 +151,21 @@ std::optional<Film> read_film_of(const std::filesystem::path& file, Imf::MultiPa
   check_counts(file, film);
   read_planned(file, exr.header(0), film);
   check_sum(file, exr.header(0), film);
-  return frame;
+  return film;
 }
 
 }  // namespace
 
 std::optional<Film> read_film(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
-  return with_exr(file, [&](Imf::MultiPartInputFile& exr) { return read_film_of(file, exr); });
+  return with_film(file, [&](Imf::MultiPartInputFile& exr) { return read_film_of(file, exr); });
 }
 
 std::optional<Film> read_film_frame(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
-  return with_exr(file, [&](Imf::MultiPartInputFile& exr) { return read_frame_of(file, exr); });
+  return with_film(file, [&](Imf::MultiPartInputFile& exr) { return read_frame(file, exr.header(0)); });
 }
 
 std::optional<FilmLabel> read_film_label(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) != ImageKind::exr) return {};
-  return with_exr(file, [&](Imf::MultiPartInputFile& exr) -> std::optional<FilmLabel> {
-    if (!exr.header(0).channels().findChannel("film.taken")) return {};
+  return with_film(file, [&](Imf::MultiPartInputFile& exr) {
     check_format(file, exr.header(0));
     return label_in(exr.header(0));
   });
@@ -179,32 +176,10 @@ std::optional<std::string> read_embedded_stats(const std::filesystem::path& file
 }
 
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name) {
-  return with_exr(file, [&](Imf::MultiPartInputFile& exr) -> std::optional<std::string> {
+  return with_exr(file, [&](Imf::MultiPartInputFile& exr) {
     const auto* text = exr.header(0).findTypedAttribute<Imf::StringAttribute>(name);
-    if (text == nullptr) return {};
-    return text->value();
+    return text == nullptr ? std::nullopt : std::optional(text->value());
   });
-}
-
-}  // namespace tyndall
-
-#else
-
-namespace tyndall {
-
-std::optional<Film> read_film(const std::filesystem::path& file) {
-  if (image_kind(read_bytes(file, 16)) == ImageKind::exr) cannot_read(file, without_openexr);
-  return {};
-}
-
-std::optional<Film> read_film_frame(const std::filesystem::path& file) { return read_film(file); }
-
-std::optional<FilmLabel> read_film_label(const std::filesystem::path&) { return {}; }
-
-std::optional<std::string> read_embedded_stats(const std::filesystem::path&) { return {}; }
-
-std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
-  cannot_read(file, without_openexr);
 }
 
 }  // namespace tyndall

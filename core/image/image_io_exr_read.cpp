@@ -1,6 +1,3 @@
-#include "core/image/image_io_exr.h"
-#include "core/image/image_io_file.h"
-
 #ifdef TYNDALL_OPENEXR
 
 #include "core/image/image_io_exr_open.h"
@@ -107,16 +104,6 @@ LinearImage read_exr(const std::filesystem::path& file, const std::optional<std:
       convert_to_rec709(file, header, image.rgb);
     return image;
   });
-}
-
-}  // namespace tyndall
-
-#else
-
-namespace tyndall {
-
-LinearImage read_exr(const std::filesystem::path& file, const std::optional<std::string>&) {
-  cannot_read(file, without_openexr);
 }
 
 }  // namespace tyndall

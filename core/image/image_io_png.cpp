@@ -2,7 +2,8 @@
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
 
-#include <array>
+#include <zlib.h>
+
 #include <cassert>
 #include <initializer_list>
 #include <limits>
@@ -21,19 +22,8 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t signature_size = 8;
 constexpr std::size_t header_end = signature_size + 12 + 13;  // the signature and the chunk IHDR
 
-/// CRC-32 as PNG defines it (ISO/IEC 15948, annex D).
-std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> made{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-      made[n] = n;
-      for (int bit = 0; bit < 8; ++bit) made[n] = (made[n] >> 1) ^ ((made[n] & 1u) != 0 ? 0xedb88320u : 0u);
-    }
-    return made;
-  }();
-  std::uint32_t crc = 0xffffffffu;
-  for (const std::uint8_t byte : bytes) crc = table[(crc ^ byte) & 0xffu] ^ (crc >> 8);
-  return ~crc;
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
 }
 
 void put_u32(Bytes& to, std::uint32_t value) {
@@ -48,7 +38,7 @@ void put_chunk(Bytes& to, std::string_view type, std::initializer_list<std::stri
   const std::size_t start = to.size();
   to.insert(to.end(), type.begin(), type.end());
   for (const std::string_view part : data) to.insert(to.end(), part.begin(), part.end());
-  put_u32(to, crc32(std::span(to).subspan(start)));
+  put_u32(to, checksum(std::span(to).subspan(start)));
 }
 
 /// Text as an iTXt chunk, not compressed, without language.
@@ -66,10 +56,30 @@ Bytes checked_png(const std::filesystem::path& file, const LinearImage& image, c
   return png;
 }
 
+/// A chunk of a PNG.
+struct Chunk {
+  std::string_view type;
+  std::span<const std::uint8_t> checked, data;  ///< checked: type and data, of which the checksum is
+  std::uint32_t checksum = 0;
+};
+
+/// The chunk that begins at `at`, which then is where the next one begins; nothing if the file ends within it.
+std::optional<Chunk> take_chunk(std::span<const std::uint8_t> png, std::size_t& at) {
+  if (png.size() - at < 12) return {};
+  const std::size_t length = get_u32(png.subspan(at));
+  if (length > png.size() - at - 12) return {};
+  const auto checked = png.subspan(at + 4, length + 4);
+  at += length + 12;
+  return Chunk{
+      {reinterpret_cast<const char*>(checked.data()), 4}, checked, checked.subspan(4), get_u32(png.subspan(at - 4))};
+}
+
 /// The text in the data of an iTXt chunk, if the chunk has that keyword.
-std::optional<std::string> text_of(const std::filesystem::path& file, std::string_view data,
-                                   const std::string& keyword) {
+std::optional<std::string> text_of(const std::filesystem::path& file, const Chunk& chunk, const std::string& keyword) {
+  std::string_view data(reinterpret_cast<const char*>(chunk.data.data()), chunk.data.size());
   if (!data.starts_with(keyword + '\0')) return {};
+  if (checksum(chunk.checked) != chunk.checksum)
+    cannot_read(file, "damaged: the checksum of the text " + keyword + " is wrong");
   data.remove_prefix(keyword.size() + 1);
   if (data.size() < 2) cannot_read(file, "damaged: the chunk iTXt is cut off");
   if (data[0] != 0) cannot_read(file, "the text " + keyword + " is compressed: another program has rewritten the file");
@@ -102,22 +112,17 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
 }
 
 void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
-  for (std::size_t at = signature_size; png.size() - at >= 12;) {
-    const std::size_t length = get_u32(png.subspan(at));
-    if (length > png.size() - at - 12) break;
-    if (get_u32(png.subspan(at + 4)) == 0x49454e44u) return;  // IEND
-    at += length + 12;
-  }
+  std::size_t at = signature_size;
+  while (const auto chunk = take_chunk(png, at))
+    if (chunk->type == "IEND") return;
   cannot_read(file, "damaged: the PNG ends in the middle");
 }
 
 std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type) {
-  for (std::size_t at = signature_size; png.size() - at >= 12;) {
-    const std::size_t length = get_u32(png.subspan(at));
-    const std::string_view found(reinterpret_cast<const char*>(png.data()) + at + 4, 4);
-    if (found == type) return png.subspan(at + 8, length);
-    if (found == "IEND") break;
-    at += length + 12;
+  std::size_t at = signature_size;
+  while (const auto chunk = take_chunk(png, at)) {
+    if (chunk->type == type) return chunk->data;
+    if (chunk->type == "IEND") break;
   }
   return {};
 }
@@ -125,19 +130,11 @@ std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint
 std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,
                                     const std::string& keyword) {
   assert(image_kind(png) == ImageKind::png);
-  for (std::size_t at = signature_size; png.size() - at >= 12;) {
-    const std::size_t length = get_u32(png.subspan(at));
-    if (length > png.size() - at - 12) break;
-    const auto chunk = png.subspan(at + 4, length + 4);
-    const std::string_view content(reinterpret_cast<const char*>(chunk.data()), chunk.size());
-    if (content == "IEND") return {};
-    if (content.starts_with("iTXt" + keyword + '\0') && crc32(chunk) != get_u32(png.subspan(at + 8 + length))) {
-      cannot_read(file, "damaged: the checksum of the text " + keyword + " is wrong");
-    }
-    if (content.starts_with("iTXt")) {
-      if (auto text = text_of(file, content.substr(4), keyword)) return text;
-    }
-    at += length + 12;
+  std::size_t at = signature_size;
+  while (const auto chunk = take_chunk(png, at)) {
+    if (chunk->type == "IEND") return {};
+    if (chunk->type != "iTXt") continue;
+    if (auto text = text_of(file, *chunk, keyword)) return text;
   }
   cannot_read(file, "damaged: the PNG ends in the middle");
 }

@@ -2,9 +2,8 @@
 // and the writers of PNG and HDR. Each further decoder is one more way in for a hostile file. stb's PNG decoder does
 // not look at checksums, its JPEG decoder writes past a damaged Huffman table, and its HDR decoder loops forever on a
 // file that is cut off.
-#include "core/image/image_io_stb.h"
-
 #include "core/image/image_io_file.h"
+#include "core/image/picture_file.h"
 
 #include <cstddef>
 #include <cstdlib>

@@ -1,5 +1,4 @@
 #include "core/image/image_io_file.h"
-#include "core/image/image_io_stb.h"
 #include "core/image/picture_file.h"
 
 #include <cmath>
@@ -12,11 +11,7 @@ namespace {
 /// Truevision TGA File Format Specification, version 2.0.
 struct TgaHeader {
   std::span<const std::uint8_t> bytes;
-  std::uint32_t number(std::size_t at, std::size_t size) const {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) value |= std::uint32_t{bytes[at + i]} << 8 * i;
-    return value;
-  }
+  std::uint32_t number(std::size_t at, std::size_t size) const { return low_first(bytes, at, size); }
   bool has_palette() const { return bytes[1] == 1; }
   bool is_mapped() const { return (bytes[2] & 7) == 1; }
   bool has_runs() const { return bytes[2] >= 8; }

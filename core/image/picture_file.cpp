@@ -41,6 +41,12 @@ PictureFile picture_of(const Samples& samples, double power) {
   return picture;
 }
 
+std::uint32_t low_first(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) value |= std::uint32_t{bytes[at + i]} << 8 * i;
+  return value;
+}
+
 void add_remark(PictureFile& picture, const std::filesystem::path& file, const std::string& text) {
   picture.remarks.push_back(file.string() + ": " + printable(text));
 }

@@ -49,6 +49,13 @@ Orientation exif_orientation(std::span<const std::uint8_t> tiff);
 /// ISO 15076-1 (ICC.1:2010), sections 7.2, 9.2 and 10.
 bool is_srgb_profile(std::span<const std::uint8_t> profile);
 
+/// The number in `size` of the bytes from `at` on, lowest byte first; bytes beyond the end count as 0.
+std::uint32_t low_first(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size);
+
+/// The pixels of a BMP or TGA, by stb. Its header has been checked: its size is believed, and all pixels are in the
+/// file. 4 channels where the file has alpha, else 3.
+Samples decode_stb(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
 /// What a remark says of a profile that is not sRGB's.
 inline constexpr const char* other_profile =
     "its colour profile (ICC) is not that of sRGB; its pixels are read as sRGB";
