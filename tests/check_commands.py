@@ -31,7 +31,7 @@ PLACEHOLDERS = {
     "SCENE": "cornell-box", "IMAGE": "a.exr", "REFERENCE": "b.exr", "PART": "a.exr b.exr", "PART...": "a.exr b.exr",
     "FILM.exr": "fog.exr", "DIR": "kept",
     "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
-    "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
+    "MAIN.cc": "main.cc", "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
 }
 OTHER_OPTIONS = {"--all", "--nightly", "--preset", "--build", "--target"}  # of ./test and CMake
 

@@ -7,7 +7,7 @@ install(DIRECTORY app/book/tyndall/book DESTINATION ${CMAKE_INSTALL_DATADIR}/tyn
 install(PROGRAMS assets/farm/slurm.sh assets/farm/parallel.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/farm)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(FILES app/README.md app/FARMS.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-foreach(page IN ITEMS cli window)
+foreach(page IN ITEMS book cli window)
   install(FILES app/${page}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${page})
 endforeach()
 install(FILES assets/desktop/tyndall.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)

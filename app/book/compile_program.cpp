@@ -70,7 +70,7 @@ std::string no_such_class(const std::string& name, const ProgramLayout& layout) 
 std::string own_class_in(const std::string& place, const ProgramLayout& layout) {
   for (const auto& [name, own] : layout.own_classes)
     if (place.rfind(own.file + ":", 0) == 0 && own.file != layout.shown_names.front()) {
-      const std::string sentence = no_such_class(name, layout);
+      std::string sentence = no_such_class(name, layout);
       if (!sentence.empty()) return sentence;
     }
   return "";
@@ -153,12 +153,13 @@ std::string first_error(const std::string& output, const ProgramLayout& layout) 
     std::string text = lines[k].substr(at + (at == fatal ? 13 : 7));
     for (std::size_t next = k + 1; place.empty() && caller.empty() && next < lines.size(); ++next)
       if (lines[next].find(requested) != std::string::npos) caller = reader_place(lines[next], layout);
-    const std::string where = place.empty() ? caller : place;
-    if (where.empty()) continue;
-    const std::string own = no_such_class(quoted_name(text), layout);
-    if (!own.empty()) return where + ": " + own;
-    const std::string about = own_class_in(where, layout);
-    return where + ": " + shortened(text, longest_error) + (about.empty() ? "" : "; " + about);
+    std::string sentence = place.empty() ? caller : place;
+    if (sentence.empty()) continue;
+    const std::string own = no_such_class(quoted_name(text), layout), about = own_class_in(sentence, layout);
+    sentence += ": ";
+    if (!own.empty()) return sentence.append(own);
+    sentence += shortened(text, longest_error);
+    return about.empty() ? sentence : sentence.append("; ").append(about);
   }
   const std::string undefined = undefined_reference(lines);
   if (!undefined.empty()) return layout.shown_names.front() + ": " + shortened(undefined, longest_error);
@@ -173,7 +174,7 @@ void compile_program(const ProgramTask& task, const ProgramLayout& layout, const
     std::vector<std::string> arguments{
         standard, "-O0", "-w", "-pthread", "-fmax-errors=1", "-fdiagnostics-color=never"};
     arguments.insert(arguments.end(), layout.options.begin(), layout.options.end());
-    for (const fs::path& folder : include_folders) arguments.push_back("-I" + folder.string());
+    for (const fs::path& folder : include_folders) arguments.insert(arguments.end(), {"-I", folder.string()});
     arguments.insert(arguments.end(), layout.compiled_files.begin(), layout.compiled_files.end());
     arguments.insert(arguments.end(), {"-o", program.string()});
     const ChildEnd end = compile(task, arguments);

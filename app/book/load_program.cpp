@@ -75,7 +75,7 @@ constexpr const char* goal = "camera::render() or the pixels of a loop";
 
 /// The folder that the program runs in, with copies of what it may read.
 fs::path running_folder(const ScratchFolder& scratch, const ProgramLayout& layout, const fs::path& reader) {
-  const fs::path folder = scratch.path() / "run" / "here";
+  fs::path folder = scratch.path() / "run" / "here";
   std::error_code error;
   fs::create_directories(folder, error);
   for (const fs::path& file : layout.data) {

@@ -127,9 +127,9 @@ class Layouter {
 
   /// Adds a file that is compiled, or included by one. Returns its name in the folder where that happens.
   std::string add(const fs::path& file, const std::string& shown, const char* ending) {
-    const std::string known = copies_[identity(file)];
+    std::string known = copies_[identity(file)];
     if (!known.empty()) return known;
-    const std::string name = "file_" + std::to_string(copies_.size()) + ending;
+    std::string name = "file_" + std::to_string(copies_.size()) + ending;
     copies_[identity(file)] = name;
     layout_.shown_names.push_back(shown);
     std::string text;
@@ -209,7 +209,7 @@ class Layouter {
     if (include.quoted) folders.insert(folders.end(), {own / "include", own / ".." / "include", own / ".."});
     std::error_code error;
     for (const fs::path& folder : folders) {
-      const fs::path file = (folder / include.name).lexically_normal();
+      fs::path file = (folder / include.name).lexically_normal();
       if (!fs::is_regular_file(file, error)) continue;
       const fs::path beside = (fs::path(shown).parent_path() / file.lexically_relative(own)).lexically_normal();
       found_as = (folder == own ? beside : file).string();

@@ -85,6 +85,7 @@ std::string without_comments(std::string_view text) {
   for (std::size_t at = 0; at < out.size(); ++at) {
     const char c = out[at], next = at + 1 < out.size() ? out[at + 1] : '\0';
     const bool in_comment = inside == '/' || inside == '*';
+    const bool closes = (c == '\n' && inside != '*') || (!in_comment && inside != 0 && c == inside);
     if (inside == 0 && c == '/' && (next == '/' || next == '*')) {
       inside = next;
       out[at] = out[at + 1] = ' ';
@@ -93,14 +94,12 @@ std::string without_comments(std::string_view text) {
       out[at] = out[at + 1] = ' ';
       ++at;
       inside = 0;
-    } else if (c == '\n' && inside != '*') {
+    } else if (closes) {
       inside = 0;
     } else if (in_comment) {
       if (c != '\n') out[at] = ' ';
     } else if (inside != 0 && c == '\\') {
       ++at;
-    } else if (c == inside) {
-      inside = 0;
     } else if (inside == 0 && (c == '"' || (c == '\'' && (at == 0 || !is_name_char(out[at - 1]))))) {
       inside = c;
     }

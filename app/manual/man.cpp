@@ -67,9 +67,12 @@ std::string man_page(const std::vector<CommandPage>& commands) {
       "Tyndall computes pictures by following light paths at random. It opens a scene in a window, where each\n"
       "value is a slider, or renders it without one. Pictures are the same bits for any number of threads, and\n"
       "for parts that were rendered on many machines and merged.\n.PP\n"
-      "\\fISCENE\\fR is a scene file, the name of a built\\-in scene, a PNG or EXR that Tyndall made, or \\- for\n"
-      "standard input. Where that begins with P3 or P6, \\fBtyndall view \\-\\fR shows the picture that another\n"
-      "program writes, row by row: \\fB./mine | tyndall view \\-\\fR.\n.SH COMMANDS\n";
+      "\\fISCENE\\fR is a scene file, the name of a built\\-in scene, a PNG or EXR that Tyndall made, \\- for "
+      "standard\n"
+      "input, or a C++ source file (.cc, .cpp, .cxx): a program of the books \\(dqRay Tracing in One Weekend\\(dq,\n"
+      "which is compiled and run. Where standard input begins with P3 or P6, \\fBtyndall view \\-\\fR shows the "
+      "picture\n"
+      "that another program writes, row by row: \\fB./mine | tyndall view \\-\\fR.\n.SH COMMANDS\n";
   for (const CommandPage& command : commands)
     text += ".TP\n.B " + command.name + "\n" + escaped(command.summary) + "\n";
   for (const CommandPage& command : commands) text += command_text(command);
@@ -78,7 +81,11 @@ std::string man_page(const std::vector<CommandPage>& commands) {
          "output\n"
          "or display error; 130: Ctrl\\-C; 128 and its number: another signal.\n"
          ".SH ENVIRONMENT\n.TP\n.B TYNDALL_ASSETS\nthe folder that holds the built\\-in scenes and known answers\n"
-         ".TP\n.B NO_COLOR\nno colours in progress\n";
+         ".TP\n.B NO_COLOR\nno colours in progress\n"
+         ".TP\n.B CXX\nthe compiler of programs of the books; else c++, g++ or clang++\n"
+         ".TP\n.B TYNDALL_OUTPUT\nread by programs that were built with the headers of \\(dqtyndall book\\(dq: the "
+         "file of their "
+         "picture\n";
 }
 
 }  // namespace tyndall

@@ -32,6 +32,7 @@ using Material = material;
 using Lambertian = lambertian;
 using Metal = metal;
 using Dielectric = dielectric;
+using dialectric = dielectric;
 using DiffuseLight = diffuse_light;
 using Isotropic = isotropic;
 using Texture = texture;

@@ -70,6 +70,7 @@ using hitable_list = hittable_list;
 /// Tyndall builds a tree of its own. Editions 1 to 3 draw an axis for each node, which the drawing here follows.
 struct bvh_node : hittable_list {
   bvh_node(const hittable_list& list) : hittable_list(list) {}
+  bvh_node(tyndall_book::ref<hittable> object) : hittable_list(object) {}
   bvh_node(const hittable_list& list, double, double) : hittable_list(list) { draw(list.objects.size()); }
   bvh_node(hittable** list, int count, double, double) : hittable_list(list, count) { draw(objects.size()); }
   bvh_node(const std::vector<shared_ptr<hittable>>& list, std::size_t from, std::size_t to) {
