@@ -4,10 +4,10 @@
 #include "core/trace/tile_job.h"
 #include "core/transport/direct_light.h"
 
-/// The samples of a tile job whose paths go alone, and where their light goes.
+/// The samples of a tile job in kernels whose paths share no vertices, and where their light goes.
 namespace tyndall {
 
-/// Where the samples of a tile job go.
+/// Where the light of a tile job's samples goes.
 struct TileFilm {
   double per_quantum;
   FilmPixel* pixels;
@@ -15,8 +15,8 @@ struct TileFilm {
   TileCounts& counts;
 };
 
-/// The samples of a tile job, each of which is a path of its own. It is what the path loop takes samples from and gives
-/// their light to; core/reuse has another one, for paths that share vertices.
+/// The samples of a tile job, each of which is a path of its own. The path loop takes samples from it and gives it
+/// their light; core/reuse has the counterpart for paths that share vertices.
 struct AloneSamples {
   TileSamples list;
   TileFilm film;
@@ -31,21 +31,21 @@ struct AloneSamples {
     list.take(to);
   }
 
-  /// Called at each event in the lanes `met`, before it scatters.
+  /// Called at each event in the lanes `met`, before the path scatters.
   template <class F>
   TYNDALL_INLINE void on_event(const auto&, Paths<F>&, const Event<F>&, MaskOf<F>) {}
-  /// Called before light is sought, in lanes whose path goes on. Returns the lanes that roulette is to spare.
+  /// Called before light is sampled, in lanes whose path goes on. Returns the lanes that are exempt from roulette.
   template <class F>
   TYNDALL_INLINE MaskOf<F> on_scatter(const auto&, Paths<F>&, const Event<F>&, MaskOf<F>) {
     return less(F(1.0f), F(0.0f));
   }
-  /// Where light belongs that is found apart from the path, for add().
+  /// Slot for add() of light that reaches this path by another route than the path itself: specular paths.
   template <class F>
   TYNDALL_INLINE IntOf<F> slot_of(const Paths<F>& p) const {
     return p.slot;
   }
 
-  /// Adds the samples of the lanes `ended` to the tile job's pixels; max_depth ended those in `cut`.
+  /// Adds the samples of the lanes `ended` to the tile job's pixels. cut: those of them that max_depth ended.
   template <class F>
   TYNDALL_INLINE void on_end(const auto& s, const Paths<F>& p, std::uint32_t ended, std::uint32_t cut) {
     if (!ended) return;

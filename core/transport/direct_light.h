@@ -2,10 +2,10 @@
 #include "core/trace/lights.h"
 #include "core/transport/paths.h"
 
-/// Light straight from lights: asked for by a shadow ray, and found by paths that hit a light.
+/// Direct light: by shadow rays to lights, and by paths that hit a light.
 namespace tyndall {
 
-/// The places where a group of lanes is about to scatter: points of surfaces and points within media.
+/// The places where a group of lanes is about to scatter: points on surfaces and points in media.
 template <class F>
 struct Event {
   MaskOf<F> surface, medium;  ///< which lanes are at a surface, which in a medium; never both
@@ -15,12 +15,12 @@ struct Event {
   Incident<F> incident;   ///< only set if any lane is at a surface
   SurfacePoint<F> at;     ///< likewise
   IntOf<F> kind;          ///< of the material: its place in SceneView::MaterialList
-  F connect_probability;  ///< probability of asking for a specular path; only in scenes with specular paths
-  F g;                    ///< of the medium
+  F connect_probability;  ///< that a specular path is requested; only in scenes with specular paths
+  F g;                    ///< asymmetry of the medium's phase function
 };
 
-/// An event of which no more is known than the ray that led to it. What describes surfaces is left as it is: to clear
-/// it in every step would take up to a tenth of the time in media.
+/// An event of which only the ray that led to it is known. What describes surfaces is left uninitialised: to clear it
+/// in every step would take up to a tenth of the time in media.
 template <class F>
 TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Sampler<F>& sampler) {
   const auto none = less(F(1.0f), F(0.0f));
@@ -32,14 +32,14 @@ TYNDALL_INLINE Event<F> event_on(const Ray<F>& ray, const Sampler<F>& sampler) {
   return e;
 }
 
-/// Lanes whose event is at a diffuse surface or in a medium: those that specular paths lead to.
+/// Lanes whose event is at a diffuse surface or in a medium: specular paths lead to such events only.
 template <class F>
 TYNDALL_INLINE MaskOf<F> accepts_specular_paths(const auto& s, const Event<F>& e) {
   return mask_or(e.medium, mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind)));
 }
 
-/// Lanes whose event scatters a light that does not depend on the direction in which it leaves: at a diffuse surface,
-/// or in a medium without a preferred direction.
+/// Lanes whose event scatters light equally in all directions (but for a surface's cosine): at a diffuse surface, or in
+/// a medium with g = 0.
 template <class F>
 TYNDALL_INLINE MaskOf<F> is_diffuse(const auto& s, const Event<F>& e) {
   const auto surface = mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind));
@@ -47,16 +47,16 @@ TYNDALL_INLINE MaskOf<F> is_diffuse(const auto& s, const Event<F>& e) {
   return mask_or(surface, mask_and(e.medium, equal(e.g, F(0.0f))));
 }
 
-/// Which light an event asks for, and how the event was found.
+/// The light that an event samples, and the flight that led to the event.
 template <class F>
 struct LightQuery {
-  LightChoice<F> choice;   ///< with the probability with which choose_light() takes this light there
+  LightChoice<F> choice;   ///< the light, and the probability with which choose_light() takes it there
   Pair<F> u;               ///< random numbers for the point of the light
   MediumFlight<F> flight;  ///< the flight that led to the event
-  bool by_angle;           ///< that flight was ended by angle for this very light
+  bool by_angle;           ///< the flight was ended by angle, for this very light
 };
 
-/// Ray::from of a shadow ray.
+/// Ray::from of a shadow ray in `direction`.
 template <class F>
 TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F> direction) {
   if constexpr (samples_lights_behind<decltype(s)>) {
@@ -67,12 +67,12 @@ TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F
   }
 }
 
-/// Light that arrives at an event straight from a light, estimated by one shadow ray to one light. With integrator mis
-/// it is weighed by the power heuristic (E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
-/// section 9.2) against two other ways to sample the same path. All densities are divided by that of free flight and
-/// light sampling; let r be that of scattering towards the light, q that of ending the flight by angle. Then the
-/// weights are 1 / (1 + r² + q²) for light sampling, r² / (1 + r² + q²) for scattering, q² / (1 + r² + q²) for flights
-/// by angle.
+/// Radiance that arrives at an event straight from a light, times throughput and albedo: estimated by one shadow ray to
+/// one light. With integrator mis it is weighted by the power heuristic (E. Veach, Robust Monte Carlo Methods for Light
+/// Transport Simulation, 1997, section 9.2) against two other ways to sample the same path. Let r be the pdf of
+/// scattering towards the light and q that of ending the flight by angle, both over the pdf of free flight and light
+/// sampling. The weights are 1 / (1 + r² + q²) for light sampling, r² / (1 + r² + q²) for scattering, q² / (1 + r² +
+/// q²) for flights by angle.
 template <class F>
 TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                     const LightQuery<F>& query, std::uint32_t& shadow_rays) {
@@ -105,7 +105,7 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   return select(arrives, weight * (p.throughput * e.colour * radiance), zero3<F>());
 }
 
-/// Weight of the radiance of a light that a ray met by chance: 1 where no shadow ray could have asked for it.
+/// Weight of the radiance of a light that a ray hit by BSDF sampling; 1 where no shadow ray could have sampled it.
 template <class F>
 TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> element, F distance, MaskOf<F> lit) {
   const auto could = mask_and(lit, less(F(0.0f), p.pdf));

@@ -2,10 +2,10 @@
 #include "core/trace/shade.h"
 #include "core/transport/direct_light.h"
 
-/// What paths meet: points of surfaces and points within media.
+/// What paths meet: points on surfaces and points in media.
 namespace tyndall {
 
-/// Looks up what the lanes in e.surface have met: the point, its material and its colour.
+/// Looks up what the lanes in e.surface have hit: the point, its material and its colour.
 template <class F>
 TYNDALL_INLINE void meet_surfaces(const auto& s, const Ray<F>& ray, const Hit<F>& hit, Event<F>& e) {
   e.at = surface_at(s, ray, hit.t, hit.element);
@@ -13,7 +13,7 @@ TYNDALL_INLINE void meet_surfaces(const auto& s, const Ray<F>& ray, const Hit<F>
   e.colour = surface_colour(s, e.at, e.surface);
 }
 
-/// Adds the radiance of the lights that lanes in e.surface have hit, and takes these lanes out of e.surface: lights
+/// Adds the radiance of the lights that lanes in e.surface have hit, and removes these lanes from e.surface: lights
 /// reflect nothing.
 template <class F>
 TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, Event<F>& e, auto& recorder) {
@@ -31,7 +31,7 @@ TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, 
   e.surface = mask_and_not(e.surface, lit);
 }
 
-/// Describes how the lanes in e.surface meet their surfaces. unit_vector: see Incident.
+/// Sets the incident direction, normals and point of the lanes in e.surface. unit_vector: see Incident.
 template <class F>
 TYNDALL_INLINE void describe_incidence(const auto& s, const Paths<F>& p, Vec3<F> unit_vector, Event<F>& e) {
   const F towards = dot(p.ray.direction, e.at.normal);
@@ -45,7 +45,7 @@ TYNDALL_INLINE void describe_incidence(const auto& s, const Paths<F>& p, Vec3<F>
   e.from = select(e.surface, e.at.element * IntOf<F>(4) + inside, e.from);
 }
 
-/// Draws where the paths scatter in media (see fly_through_media()), and takes away what media absorbs until there.
+/// Draws where the paths scatter in media (fly_through_media()), and applies absorption up to there to the throughput.
 template <class F>
 TYNDALL_INLINE void cross_media(const auto& s, Paths<F>& p, MaskOf<F> active, F& nearest, MediumEvent<F>& event) {
   fly_through_media(s, p.ray, p.sampler, active, nearest, event);

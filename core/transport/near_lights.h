@@ -1,14 +1,14 @@
 #pragma once
 #include "core/transport/event.h"
 
-/// Direct light in media close to a small light. For each ray that crosses media a pair of a medium and a light near it
-/// is drawn, a place on the ray is sampled by the angle at which the light sees it (see Equiangular), and the light is
-/// asked for light there.
+/// Direct light in media close to a small light. For each ray that crosses media, a pair of a medium and a light near
+/// it is drawn, a place on the ray is sampled by the angle at which the light sees it (see Equiangular), and there the
+/// light is sampled.
 namespace tyndall {
 
 /// What fly_by_angle() samples for each lane: a pair of a medium and a light near it, and a flight that ends in the
-/// medium at a distance chosen for that light. What describes the medium is only set in lanes in which it happens,
-/// except for the texture, which is -1 in the others.
+/// medium at a distance chosen for that light. The members that describe the medium are set only in lanes that happen;
+/// texture is -1 in other lanes.
 template <class F>
 struct NearEvent {
   MaskOf<F> happens;  ///< the ray crosses the medium
@@ -19,7 +19,7 @@ struct NearEvent {
   IntOf<F> texture, from;
 };
 
-/// to_surface: distance along the ray to the next surface.
+/// Samples a place in media by angle. to_surface: distance along the ray to the next surface.
 template <class F>
 TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
   const F count = splat<F>(static_cast<float>(s.near_count));
@@ -56,8 +56,8 @@ TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, 
   return event;
 }
 
-/// Describes the free flight that ended at the event `found`, so that its density can be weighed against that of a
-/// flight ended by angle. lengths: of the ray, to its event (x) and to the next surface (y).
+/// Describes the free flight that ended at the event `found`, so that its pdf can be weighed against that of a flight
+/// ended by angle. lengths: of the ray, to its event (x) and to the next surface (y).
 template <class F>
 TYNDALL_INLINE MediumFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray, const MediumEvent<F>& found,
                                               Pair<F> lengths) {
@@ -65,9 +65,9 @@ TYNDALL_INLINE MediumFlight<F> free_flight_to(const SceneView& s, const Ray<F>& 
   return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, pdf};
 }
 
-/// The radiance that lights send to the places sampled by angle. It is a call, because it holds nearly all of the code
-/// with which surfaces look for light; a second copy of that would take seconds to compile in each kernel. Its
-/// arguments are copies, so that the path loop can keep its own values in registers.
+/// Radiance that lights send to the places sampled by angle. It is not inlined, because it holds nearly all of the code
+/// of direct_light(): a second copy would take seconds to compile in each kernel. Its arguments are copies, so that the
+/// path loop can keep its own values in registers.
 template <class F>
 [[gnu::noinline]] static Vec3<F> light_by_angle(const SceneView& s, Ray<F> ray, Vec3<F> throughput, Sampler<F> sampler,
                                                 MaskOf<F> lanes, F to_surface, std::uint32_t& shadow_rays) {
@@ -88,10 +88,9 @@ template <class F>
   return direct_light(s, p, e, near.happens, query, shadow_rays);
 }
 
-/// Adds to the radiance of `p` the radiance that lights send to the places sampled by angle. Also sets p.flight to the
-/// free flight that ended at the event `found`. throughput: at the start of the ray, because what media take away on
-/// the way to such a place is part of what is weighed. lengths: of the ray, to its event (x) and to the next surface
-/// (y).
+/// Adds to the radiance of `p` the light of the places sampled by angle, and sets p.flight to the free flight that
+/// ended at the event `found`. throughput: at the start of the ray, because the weights include what media absorb up to
+/// such a place. lengths: of the ray, to its event (x) and to the next surface (y).
 template <class F>
 TYNDALL_INLINE void add_near_lights(const auto& s, Paths<F>& p, Vec3<F> throughput, const MediumEvent<F>& found,
                                     MaskOf<F> active, Pair<F> lengths, std::uint32_t& shadow_rays) {

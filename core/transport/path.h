@@ -11,13 +11,13 @@
 ///
 /// where x0 is on the lens and xk on a light or in the background (M. Pharr, W. Jakob, G. Humphreys, Physically Based
 /// Rendering, 4th edition, section 13.2). Each step makes the paths in all lanes one vertex longer; no lane waits for
-/// the others (path_pool.h). Light that can be found in more than one way is weighed by the power heuristic (E. Veach,
-/// Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2): by sampling the BSDF or the phase
-/// function, by sampling lights, and in scenes that have them, by specular paths (core/specular) and by flights that
-/// end next to small lights in media (near_lights.h).
+/// the others (path_pool.h). Light that several strategies can find is weighted by the power heuristic (E. Veach,
+/// Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2): sampling the BSDF or the phase
+/// function, sampling lights, and in scenes that have them, specular paths (core/specular) and flights that end next to
+/// small lights in media (near_lights.h).
 namespace tyndall {
 
-/// A recorder that records nothing. One that does is told, in this order, of each step of a path: see core/targets.
+/// A recorder that records nothing. Others (core/targets) get these calls, in this order, in each step of a path.
 struct NoRecorder {
   TYNDALL_INLINE void on_event(const auto&...) {}
   TYNDALL_INLINE void on_weight_against_specular_paths(const auto&) {}
@@ -25,18 +25,18 @@ struct NoRecorder {
   TYNDALL_INLINE void on_end(const auto&...) {}
 };
 
-/// Which lanes a step has ended.
+/// The lanes that a step leaves alive, and those that it cut.
 template <class F>
 struct StepResult {
-  MaskOf<F> survivors;  ///< these go on
-  MaskOf<F> cut;        ///< max_depth ended these
+  MaskOf<F> survivors;  ///< their paths go on
+  MaskOf<F> cut;        ///< max_depth ended their paths
 };
 
 /// Takes the paths in `active` one step further: to the next surface, the next event in a medium, or out of the scene.
-/// Lanes that end then have their whole sample in p.radiance, but for what waits in `waiting`.
+/// Lanes that end have their whole sample in p.radiance, except for the requests still in `waiting`.
 ///
-/// s:        a SceneView, cut down to the models that this kernel has
-/// samples:  what the paths belong to, see AloneSamples
+/// s:        a SceneView, reduced to the models that this kernel has
+/// samples:  source of the samples and receiver of their light, see AloneSamples
 /// waiting:  requests for the light of specular paths
 /// recorder: see NoRecorder
 template <class F>
@@ -68,7 +68,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   if (s.has_lights_in_media()) add_near_lights(s, p, at_start, found, active, Pair<F>{hit.t, to_surface}, shadow_rays);
   recorder.on_event(s, p, hit, found, e);
 
-  // ---- what ends here: a path that carries nothing any more, or no finite number, or that is as long as max_depth
+  // ---- ends: of paths that carry no light, or a number that is not finite, or that are as long as max_depth
   const auto met = mask_or(e.surface, e.medium);
   samples.on_event(s, p, e, met);
   Vec3<F> carried = p.throughput * e.colour;
@@ -114,7 +114,7 @@ TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& count
   SpecularQueue<F> waiting{};
   Paths<F> p{};
   p.sampler.kind = s.sampler;
-  // One loop for both, because a second one for the last requests would put their code into each kernel twice.
+  // One loop for paths and for the last requests: a second loop would put the code of requests into each kernel twice.
   for (bool sampling = true; sampling || waiting.count > 0;) {
     take_paths(s, p, pool, samples);
     sampling = p.alive != 0;

@@ -4,14 +4,14 @@
 #include "core/transport/paths.h"
 
 /// Paths between two events. All lanes take a step together: either with new samples, whose rays lie side by side and
-/// meet much the same things, or with paths that had events before. When fewer paths go on after a step than make
-/// another one worth while, they wait here until there are enough of them to fill all lanes.
+/// hit much the same objects, or with paths that already had events. When too few paths survive a step to make another
+/// one worth while, they wait here until there are enough to fill all lanes.
 namespace tyndall {
 
 template <class F>
 using PathPool = LanePool<F, 29, 9>;
 
-/// What Paths hold as one bit for each lane (straight, first, second), as a number in each lane.
+/// The bit masks of Paths (straight, first, second) as one integer in each lane, whose bits 0, 1 and 2 are the marks.
 template <class F>
 TYNDALL_INLINE IntOf<F> marks_of(const auto& s, const Paths<F>& p) {
   const auto mark = [](std::uint32_t lanes, std::int32_t value) __attribute__((always_inline)) {
@@ -29,8 +29,8 @@ TYNDALL_INLINE void set_marks(const auto& s, IntOf<F> marks, Paths<F>& p) {
   if (s.has_reuse()) p.first = marked(2), p.second = marked(4);
 }
 
-/// Calls number(row, x) or integer(row, x) for each part of the paths that differs between those that wait. What a
-/// scene does not need is left out.
+/// Calls number(row, x) or integer(row, x) for each member of the paths that differs between waiting paths. row: its
+/// column in the pool. Members that the scene does not use are left out.
 template <class F>
 TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, const auto& integer) {
   IntOf<F> low = as_int(p.sampler.low), high = as_int(p.sampler.high);
@@ -60,14 +60,14 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
   }
 }
 
-/// Adds the paths that are alive to those that wait.
+/// Moves the paths that are alive to the pool.
 template <class F>
 TYNDALL_INLINE void let_wait(const auto& s, Paths<F>& p, PathPool<F>& pool) {
   append_lanes<F>(s, p, mask_from_bits<F>(p.alive), pool);
   p.alive = 0;
 }
 
-/// Takes the paths that came last, as many as there are lanes.
+/// Takes the paths that were added last, as many as there are lanes.
 template <class F>
 TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, PathPool<F>& pool) {
   using U = UintOf<F>;
@@ -79,7 +79,7 @@ TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, PathPool<F>& pool) 
   p.alive = first_lanes(count);
 }
 
-/// Begins the next samples, one in each lane.
+/// Starts the next samples, one in each lane.
 template <class F>
 TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   const NewSamples<F> fresh = take_samples<F>(samples, s);
@@ -94,13 +94,13 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   p.alive = first_lanes(fresh.count);
 }
 
-/// So many paths take the next step together, without waiting for more: idle lanes cost less than to store all paths
-/// and load them again. With 3/4 of the lanes in place of 7/8, media takes 5 % more time, and next-week 2 %.
+/// At least this many paths take the next step without waiting for more: idle lanes cost less than storing and loading
+/// all paths. With 3/4 of the lanes instead of 7/8, media takes 5 % more time, and next-week 2 %.
 template <class F>
 inline constexpr int enough_lanes = lanes_of<F> - lanes_of<F> / 8;
 
-/// Fills the lanes for the next step, if too few paths of the last one go on. If no path is alive then, all samples are
-/// done.
+/// Refills the lanes before the next step if too few paths of the last one survived. If no path is alive afterwards,
+/// all samples are done.
 template <class F>
 TYNDALL_INLINE void take_paths(const auto& s, Paths<F>& p, PathPool<F>& pool, auto& samples) {
   if constexpr (!PathPool<F>::waits) {

@@ -1,19 +1,19 @@
 #pragma once
 #include "core/transport/event.h"
 
-/// How paths go on from an event: by the BSDF or the phase function, and by Russian roulette.
+/// How paths continue from an event: by the BSDF or the phase function, and by Russian roulette.
 namespace tyndall {
 
-/// Whether light that arrives after an event counts as seen by way of a mirror: the event sends it into one direction,
-/// or into a lobe with a density above 8 per steradian, about 20 degrees wide.
+/// Whether light that arrives after an event counts as seen in a mirror: the event sends the path into one direction,
+/// or into a lobe of a pdf above 8 per steradian, about 20 degrees wide.
 template <class F>
 TYNDALL_INLINE MaskOf<F> is_narrow_lobe(F pdf) {
   return mask_not(mask_and(less(F(0.0f), pdf), less(pdf, F(8.0f))));
 }
 
-/// Steers the lanes that look for a subpixel light through its glass: into it at first and out of it at last, and each
-/// order of the events between is as likely. Returns the weight of each lane: the fraction of the light that goes its
-/// way over the probability of taking it. Although it seldom runs it is no call, which would keep the paths and their
+/// Steers lanes with a route to a subpixel light through glass: the first event enters, the last one leaves, and each
+/// order of the events between is equally likely. Returns the weight of each lane: the probability of its event at
+/// unsteered glass over that with steering. It seldom runs, but is inlined: a call would keep the paths and their
 /// events in memory.
 template <class F>
 TYNDALL_INLINE F seek_subpixel_light(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
@@ -38,9 +38,8 @@ TYNDALL_INLINE F seek_subpixel_light(const auto& s, Paths<F>& p, const Event<F>&
   return select(mask_and(lanes, steered), weight, one);
 }
 
-/// Gives the paths new directions. Returns which lanes go on; the others were absorbed. weight: by which each lane's
-/// throughput is to be multiplied; it is 1 unless it looks for a subpixel light or its material has samples of other
-/// weights.
+/// Samples new directions. Returns the lanes that go on; the other lanes were absorbed. weight: factor on each lane's
+/// throughput; 1 unless the lane is steered to a subpixel light or its material has weighted samples.
 template <class F>
 TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, Vec3<F> unit_vector, Pair<F> u,
                                  F& weight) {
@@ -79,9 +78,9 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
   return goes_on;
 }
 
-/// Russian roulette: ends paths at random, the sooner the less they carry, and lets the survivors carry more by as much
-/// as the ended ones would have. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
-/// Only paths whose throughput is below `min_carried` are at risk.
+/// Russian roulette: ends paths at random, the more likely the less they carry, and divides the throughput of the
+/// survivors by the probability of survival. Paths with a throughput of at least `min_carried` are never ended. J.
+/// Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
   const F survival = F(1 / min_carried) * max_component(p.throughput);
@@ -93,7 +92,7 @@ TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
   return mask_and_not(lanes, ended);
 }
 
-/// Roulette that leaves the lanes in `exempt` alone.
+/// Roulette that never ends the lanes in `exempt`.
 template <class F>
 TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> exempt) {
   return mask_or(roulette(p, mask_and_not(lanes, exempt)), mask_and(lanes, exempt));

@@ -4,18 +4,18 @@
 #include "core/transport/alone_samples.h"
 #include "core/transport/direct_light.h"
 
-/// Light that specular paths bring to the events of a path: solved for (core/specular), and added to the film apart
-/// from what the path itself gathers.
+/// Light that specular paths bring to the events of a path. It is solved for (core/specular), and added to the film
+/// apart from the radiance that the path itself gathers.
 namespace tyndall {
 
-/// Requests that wait. Only few lanes of a group are at an event that asks for specular paths at a time, so they wait
-/// until there are enough of them to fill all lanes. First come, first served: so the light of one path's events is
-/// found in their order.
+/// Waiting requests. At any time only few lanes of a group are at an event that requests specular paths, so requests
+/// wait until they fill all lanes. The queue is first in, first out, so that the events of one path are answered in
+/// their order.
 template <class F>
 using SpecularQueue = LanePool<F, 11, 7>;
 
-/// Asks for specular paths, at random, from events at diffuse surfaces and in media. With one lane the answer is added
-/// to the path's radiance at once. slot: where the light belongs.
+/// Requests specular paths, at random, from events at diffuse surfaces and in media. With one lane the answer is added
+/// to the path's radiance at once. slot: where the light is to be added.
 template <class F>
 TYNDALL_INLINE void request_specular_paths(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, IntOf<F> slot,
                                            SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
@@ -39,8 +39,8 @@ TYNDALL_INLINE void request_specular_paths(const auto& s, Paths<F>& p, Event<F>&
   }
 }
 
-/// Answers the first requests of the queue, as many as there are lanes, and removes them. Calls add(slot, light) for
-/// each in turn that brings some.
+/// Answers the first requests of the queue, as many as there are lanes, and removes them. Calls add(slot, light) in
+/// turn for each request whose light is not 0.
 template <class F>
 TYNDALL_INLINE void answer_requests(const auto& s, SpecularQueue<F>& waiting, TileCounts& counts, const auto& add) {
   constexpr int lanes = lanes_of<F>;
