@@ -4,13 +4,12 @@
 #include "core/trace/scene_view.h"
 #include "core/trace/tile_job.h"
 
-/// Camera rays: which samples a tile job holds, and the ray with which each of them starts.
+/// Camera rays: which samples a tile job holds, and the ray that each of them starts with.
 namespace tyndall {
 
-/// Ray::from of rays that leave the lens at `offset` from its centre, for a camera that stands on a surface: they go
-/// out of the surface or into it where they start on it (see CameraSurface), and start nowhere elsewhere. Over a sphere
-/// a point of the lens is higher by the square of its distance from the normal over the sphere's diameter, up to third
-/// order.
+/// Ray::from of rays that leave the lens at `offset` from its centre, for a camera that stands on a surface. Rays that
+/// start on the surface go out of it or into it (see CameraSurface); other rays get from_nowhere. Over a sphere a point
+/// of the lens is higher by the squared distance from the normal over the sphere's diameter, up to third order.
 template <class F>
 TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> offset, Vec3<F> direction) {
   using I = IntOf<F>;
@@ -19,7 +18,7 @@ TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> off
   const F curvature = splat<F>(c.curvature);
   const F height = splat<F>(c.height) + mul_add(F(0.5f) * curvature, across2, rise);
   const auto outward = less_equal(F(0.0f), dot(direction, point_at(normal, curvature, offset)));
-  const F ahead = select(outward, height, -height);  // how far the start is on the side to which the ray goes
+  const F ahead = select(outward, height, -height);  // height of the start on the side to which the ray goes
   const auto on = mask_and(less_equal(abs(height), splat<F>(c.rounding)), less_equal(splat<F>(-c.touching), ahead));
   const std::int32_t first = 4 * c.element;
   return select(on,
@@ -28,9 +27,8 @@ TYNDALL_INLINE IntOf<F> leave_camera_surface(const CameraSurface& c, Vec3<F> off
                 I(from_nowhere));
 }
 
-/// The ray through a point (x, y) of the picture, in pixels from its upper left corner. lens: where it leaves the lens,
-/// a point in the unit disc.
-/// Ray Tracing in One Weekend, section 13.2 "Generating Sample Rays".
+/// The ray through the point (x, y) of the picture, in pixels from its upper left corner. lens: where it leaves the
+/// lens, a point in the unit disc. Ray Tracing in One Weekend, section 13.2 "Generating Sample Rays".
 template <class F>
 TYNDALL_INLINE Ray<F> camera_ray(const CameraColumns& c, F x, F y, Pair<F> lens, F time) {
   const Vec3<F> target = point_at(point_at(splat<F>(c.corner), x, splat<F>(c.du)), y, splat<F>(c.dv));
@@ -59,7 +57,7 @@ TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Sampler<F>&
 
 inline constexpr int max_tile_pixels = 4096;
 
-/// Samples that are to be taken next, one in each lane.
+/// The samples to take next, one in each lane.
 template <int lanes>
 struct CameraSamples {
   alignas(64) std::int32_t x[lanes] = {}, y[lanes] = {};  ///< pixel, in full-image coordinates
@@ -68,19 +66,19 @@ struct CameraSamples {
   int count = 0;
 };
 
-/// The samples of a tile job, in the order in which lanes take them: first one sample of every pixel, then the next one
-/// of every pixel, and so on.
+/// The samples of a tile job, in the order in which lanes take them: one sample of every pixel, then a second one of
+/// every pixel, and so on.
 struct TileSamples {
   std::uint16_t column[max_tile_pixels], row[max_tile_pixels];  ///< within the tile
-  std::uint32_t start[max_tile_pixels];                         ///< first sample of each pixel
+  std::uint32_t start[max_tile_pixels];                         ///< index of each pixel's first sample
   int x0, y0, width;                                            ///< of the tile
   const std::uint32_t *first_of, *last_of;                      ///< see TileJob
   int pixels;
   int pixel;            ///< the next one, as an index into these lists
-  std::uint32_t round;  ///< its next sample, counted from the pixel's first
+  std::uint32_t round;  ///< number of the pixel's next sample, counted from 0
   std::uint32_t rounds;
-  std::uint32_t next_finish;       ///< the round before which no pixel has all its samples
-  SubpixelLights subpixel_lights;  ///< those in the rows of the tile
+  std::uint32_t next_finish;       ///< no pixel is done before this round
+  SubpixelLights subpixel_lights;  ///< of the rows of the tile
 
   TYNDALL_INLINE bool empty() const { return round >= rounds; }
   TYNDALL_INLINE int place(int i) const { return row[i] * width + column[i]; }
@@ -101,7 +99,7 @@ struct TileSamples {
       if (round == next_finish) drop_finished();
     }
   }
-  /// Removes the pixels that have all their samples from the list.
+  /// Removes the pixels that are done from the list.
   TYNDALL_INLINE void drop_finished() {
     int kept = 0;
     next_finish = ~0u;
@@ -142,17 +140,17 @@ TYNDALL_INLINE void list_samples(const SceneView& s, const TileJob& job, TileSam
   list.drop_finished();
 }
 
-/// The next samples of a tile job, one in each lane, and the rays with which they start.
+/// The next samples of a tile job, one in each lane, and the rays that they start with.
 template <class F>
 struct NewSamples {
   Ray<F> ray;
   UintOf<F> low, high;  ///< see Sampler
   AtSubpixelLights<F> subpixel_lights;
   IntOf<F> slot;  ///< see Paths::slot
-  int count;      ///< lanes from this one on have no sample
+  int count;      ///< lanes from this one on are empty
 };
 
-/// Takes the next samples off the list, of which there has to be at least one, and makes their rays.
+/// Takes the next samples off the list, which must not be empty, and makes their rays.
 template <class F>
 [[gnu::noinline]] static NewSamples<F> take_samples(auto& samples, const SceneView& s) {
   constexpr int lanes = lanes_of<F>;

@@ -9,22 +9,22 @@
 /// Flights through media: where along its ray a path scatters before it meets a surface.
 namespace tyndall {
 
-/// Where a path scatters within a medium, if it does. Only lanes in which it happens have the rest set, except for
-/// medium and texture, which are -1 in the others.
+/// Where a path scatters in a medium. The other members are set only in lanes in which `happens`, except for medium and
+/// texture, which are -1 in other lanes.
 template <class F>
 struct MediumEvent {
   MaskOf<F> happens;
   IntOf<F> medium, texture;
   Vec3<F> point;
-  IntOf<F> from;  ///< Ray::from of a start within the medium
+  IntOf<F> from;  ///< Ray::from of rays that start in the medium
   Vec3<F> albedo;
-  F g;        ///< only in scenes with phase functions, else 0
-  F density;  ///< of the medium: its mean number of events per unit length; only in scenes with lights in media
+  F g;        ///< asymmetry of the phase function; 0 in scenes without phase functions
+  F density;  ///< of the medium: events per unit length; only in scenes with lights in media
   F begin,
-      far;  ///< distances between which the ray is within the medium's boundary; only in scenes with lights in media
+      far;  ///< where the ray enters and leaves the medium; only in scenes with lights in media
 };
 
-/// No event in any lane. To clear all of it in every step would take up to an eighth of the time in media.
+/// No event in any lane. Clearing all members in every step would take up to an eighth of the time in media.
 template <class F>
 TYNDALL_INLINE MediumEvent<F> no_event() {
   MediumEvent<F> event;
@@ -51,9 +51,9 @@ TYNDALL_INLINE Interval<F> medium_interval(const MediumColumns& m, Vec3<F> origi
   return any(start.here) ? leave_sphere(line, to_center, direction, from, start) : line;
 }
 
-/// The point at which a ray enters a medium; its origin if it starts inside. After a long way the point is rounded to
-/// the spacing of floats. Where that could be more than a thousandth of a mean free path, the point is computed a
-/// second time from the first result, which is close to it.
+/// The point at which a ray enters a medium; its origin if it starts inside. After a long distance the point is rounded
+/// to the spacing of floats. Where that could exceed a thousandth of a mean free path, the point is computed a second
+/// time, starting from the first result.
 template <class F>
 TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, const Interval<F>& inside,
                                     MaskOf<F> lanes) {
@@ -69,10 +69,10 @@ TYNDALL_INLINE Vec3<F> enter_medium(const MediumColumns& m, const Ray<F>& ray, c
   return point_at(point, select(mask_and(inexact, again.hit), again.near, F(0.0f)), ray.direction);
 }
 
-/// Draws where a path scatters in media before it meets a surface. Each medium has a free flight of its own, and the
-/// shortest counts; this is right where media overlap, too, because their densities add. Media that weigh paths are
-/// left to transmitted_by_absorbers(). nearest: on entry the distance to the surface; shortened to the event where
-/// there is one. event: what no_event() gives, on entry.
+/// Draws where a path scatters in media before it hits a surface. Each medium has a free flight of its own, and the
+/// shortest counts; this is right for overlapping media, too, because their densities add. Media that weigh paths are
+/// left to transmitted_by_absorbers(). nearest: distance to the surface; shortened to the event where there is one.
+/// event: what no_event() returns, on entry.
 template <class F>
 TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Sampler<F>& sampler, MaskOf<F> active,
                                       F& nearest, MediumEvent<F>& event) {
@@ -104,7 +104,7 @@ TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Sa
   }
 }
 
-/// Fraction of the light, in [0, 1], that passes all media on the way to `distance`.
+/// Transmittance, in [0, 1], of all media up to `distance`.
 template <class F>
 TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, MaskOf<F> active) {
   F depth = F(0.0f);
@@ -117,13 +117,13 @@ TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, M
   return any(less(F(0.0f), depth)) ? transmittance(depth) : F(1.0f);
 }
 
-/// Russian roulette puts only paths at risk whose throughput is below this. The time to a given error was found to be
-/// the same for all values from 1/8 to 1/4.
+/// Russian roulette only ends paths whose throughput is below this. All values from 1/8 to 1/4 were measured to take
+/// the same time to a given error.
 inline constexpr float min_carried = 0.125f;
 
-/// By what the throughput of a path is to be multiplied for media that only absorb, on the way to `distance`. If such a
-/// medium ended paths by chance, few would find what is behind it, and each of these would count for much. So a path
-/// carries what passes each medium. Where that is less than `min_carried`, it carries that much or, by chance, nothing.
+/// Factor on a path's throughput for media that only absorb, up to `distance`. If such a medium ended paths at random,
+/// few would reach what is behind it, each with a large weight. So the path is multiplied by each medium's
+/// transmittance. Below `min_carried`, Russian roulette leaves the path that much or nothing.
 template <class F>
 TYNDALL_INLINE F transmitted_by_absorbers(const SceneView& s, const Ray<F>& ray, const Sampler<F>& sampler, F distance,
                                           MaskOf<F> active) {
@@ -143,32 +143,33 @@ TYNDALL_INLINE F transmitted_by_absorbers(const SceneView& s, const Ray<F>& ray,
   return kept;
 }
 
-/// Density per steradian with which a medium scatters from one direction into another.
+/// Pdf, per steradian, of scattering in a medium from direction `before` into `after`. g: asymmetry of the phase
+/// function.
 template <class F>
 TYNDALL_INLINE F phase_pdf(const auto& s, F g, Vec3<F> before, Vec3<F> after) {
-  if (!s.features.phase_functions) return F(static_cast<float>(0.25 / pi));  // what the formula gives for g = 0
+  if (!s.features.phase_functions) return F(static_cast<float>(0.25 / pi));  // the formula for g = 0
   return henyey_greenstein_pdf(g, dot(before, after));
 }
 
-// Flights in media that end close to a light. Free flights, whose lengths follow the medium's density, seldom end
-// there, though a small light's light is strongest there, without bound: it falls with the squared distance. The few
-// that do would be bright dots in the picture. So distances are also sampled evenly in the angle at which a light sees
-// them: C. Kulla, M. Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, EGSR 2012,
-// section 4. This is done only for pairs of a medium and a light in it or near it.
+// Flights in media that end close to a light. Near a small light its radiance grows without bound, with the inverse
+// squared distance, but free flights, whose lengths follow the medium's density, seldom end there. The few that do
+// would be bright dots in the picture. So distances are also sampled uniformly in the angle at which a light sees them:
+// C. Kulla, M. Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, EGSR 2012, section 4.
+// This is done only for pairs of a medium and a light in it or near it.
 
 /// A distribution of distances along a ray, from begin to end: uniform in the angle seen from a light's centre.
 template <class F>
 struct Equiangular {
   F begin, end;
-  F middle;  ///< distance to the place closest to the light's centre; may be outside of [begin, end]
-  /// Distance from that place to the centre, increased by half of the light's reach (root of the sum of the squares),
-  /// because that close to the light its light no longer grows with the inverse squared distance.
+  F middle;  ///< distance to the point closest to the light's centre; may be outside of [begin, end]
+  /// Distance from that point to the centre, increased by half of the light's reach (root of the sum of the squares),
+  /// because this close to the light its radiance no longer grows with the inverse squared distance.
   F across;
-  F angle;  ///< between begin and end, seen from the centre; 0: it is so narrow that distances are drawn uniformly
+  F angle;  ///< between begin and end, seen from the centre; 0: so small that distances are drawn uniformly
 };
 
-/// to_center: from the ray's origin to the light's centre. reach2: squared radius of a sphere around it that holds the
-/// light.
+/// to_center: from the ray's origin to the light's centre. reach2: squared radius of a sphere around the centre that
+/// encloses the light.
 template <class F>
 TYNDALL_INLINE Equiangular<F> equiangular(Vec3<F> to_center, F reach2, Vec3<F> direction, F begin, F end) {
   const F middle = dot(to_center, direction);
@@ -178,7 +179,7 @@ TYNDALL_INLINE Equiangular<F> equiangular(Vec3<F> to_center, F reach2, Vec3<F> d
   return {begin, end, middle, across, select(less(angle, F(2e-3f)), F(0.0f), angle)};
 }
 
-/// Probability density per unit length.
+/// Pdf per unit length.
 template <class F>
 TYNDALL_INLINE F pdf(const Equiangular<F>& e, F distance) {
   const F off = distance - e.middle;
@@ -187,7 +188,7 @@ TYNDALL_INLINE F pdf(const Equiangular<F>& e, F distance) {
          select(uniform, e.end - e.begin, e.angle * mul_add(off, off, e.across * e.across));
 }
 
-/// The distance for a random number u in [0, 1).
+/// Draws the distance from a random number u in [0, 1).
 template <class F>
 TYNDALL_INLINE F sample(const Equiangular<F>& e, F u) {
   const SinCos<F> part = sin_cos_2pi(u * e.angle * F(static_cast<float>(0.5 / pi)));
@@ -198,18 +199,18 @@ TYNDALL_INLINE F sample(const Equiangular<F>& e, F u) {
   return min(max(distance, e.begin), e.end);
 }
 
-/// A flight along a ray that ended in a medium, with all that is needed to tell how likely each way of sampling was to
-/// end it there.
+/// A flight along a ray that ended in a medium, with what is needed to compute the pdf of each sampling strategy for
+/// it.
 template <class F>
 struct MediumFlight {
-  IntOf<F> medium;  ///< -1: the flight did not end in one
+  IntOf<F> medium;  ///< -1: the flight did not end in a medium
   Vec3<F> origin, direction;
-  F begin, end;  ///< distances at which its ray enters the medium, and leaves it or meets a surface
+  F begin, end;  ///< distances at which the ray enters the medium, and leaves it or hits a surface
   F distance;    ///< where it ended
-  F pdf;         ///< probability density, per unit length, with which free flights end there in this medium
+  F pdf;         ///< pdf, per unit length, with which free flights end there in this medium
 };
 
-/// The distribution by which a flight is ended by angle for a light.
+/// The distribution of distances for a flight that is ended by angle for a light.
 template <class F>
 TYNDALL_INLINE Equiangular<F> distances_past(const LightView& l, IntOf<F> light, const MediumFlight<F>& flight) {
   const auto at = [&](const float* column) { return lookup<F>(column, l.count, light); };
@@ -217,9 +218,9 @@ TYNDALL_INLINE Equiangular<F> distances_past(const LightView& l, IntOf<F> light,
   return equiangular(center - flight.origin, at(l.reach2), flight.direction, flight.begin, flight.end);
 }
 
-/// The term q² of the power heuristic in direct_light(). q is the density with which this flight is ended by angle for
-/// `light`, over that with which it ends freely and `light` is then chosen with `probability`. 0 where flights in this
-/// medium are never ended by angle for this light.
+/// The term q² of the power heuristic in direct_light(). q: the pdf with which this flight is ended by angle for
+/// `light`, over the pdf with which it ends freely and `light` is then chosen with `probability`. 0 where flights in
+/// this medium are never ended by angle for this light.
 template <class F>
 TYNDALL_INLINE F by_angle_odds(const SceneView& s, const MediumFlight<F>& flight, IntOf<F> light, F probability) {
   const auto in_medium = less_equal(IntOf<F>(0), flight.medium);

@@ -1,21 +1,20 @@
 #pragma once
 #include "core/trace/single_ray.h"
 
-/// Finds the closest surface along a ray, and whether anything blocks a way. A lane's result depends on its own ray and
-/// the scene alone, never on the rays in other lanes: of two hits at one distance the lower element wins, and a box may
-/// rule out a primitive only if the primitive's hit could not win. Where there is a tree of boxes (core/compile/bvh.h),
-/// all lanes go through it from node to node together, as long as enough of them meet the same boxes; then each goes on
-/// alone (single_ray.h).
+/// Finds the closest surface along a ray, and whether anything blocks a segment. A lane's result depends only on its
+/// own ray and the scene, never on other lanes: of two hits at one distance the lower element wins, and a box may rule
+/// out a primitive only if its hit could not win. Where there is a tree of boxes (core/compile/bvh.h), all lanes
+/// traverse it together, as long as enough of them meet the same boxes; then each goes on alone (single_ray.h).
 namespace tyndall {
 
-/// Nodes that are still to be visited. near: the distance at which each lane enters the node; infinity if it misses it.
+/// Nodes still to be visited. near: distance at which each lane enters the node; infinity if it misses the node.
 template <class F>
 struct Stack {
   F near[bvh_stack];
   std::int32_t node[bvh_stack];
   int size = 0;
 
-  /// Of the nodes from place `bottom` on, moves the one that any lane enters first to the top, to be visited next.
+  /// Moves the node that any lane enters first, among those from index `bottom` on, to the top, to be visited next.
   TYNDALL_INLINE void raise_nearest(int bottom) {
     const int top = size - 1;
     int nearest = top;
@@ -32,14 +31,14 @@ struct Stack {
   }
 };
 
-/// If no more lanes than this have to enter a node, each of them goes on alone (single_ray.h): a test in all lanes
-/// would be wasted on most of them. By measurement 4 of 32 and 2 of 16 lanes are best for the rays of paths, and twice
-/// as many for rays in random order. Lanes always enter a leaf together: there is too little work in it to go alone.
+/// If at most this many lanes have to enter a node, each goes on alone (single_ray.h): a test in all lanes would be
+/// wasted on most of them. By measurement 4 of 32 and 2 of 16 lanes are best for the rays of paths, and twice as many
+/// for rays in random order. Lanes always enter a leaf together: there is too little work in it to go alone.
 template <class F>
 inline constexpr int few_lanes = lanes_of<F> < bvh_width ? 0 : lanes_of<F> / 8;
 
-/// Takes nodes off the stack until there is one in which some lane may find a hit closer than its best, and sets `node`
-/// to it. Returns a bit for each such lane; 0: no node is left.
+/// Pops nodes until one may hold, for some lane, a hit closer than its best, and sets `node` to it. Returns a bit for
+/// each such lane; 0: no node is left.
 template <class F, class Q>
 TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& query, const Hit<F>& best) {
   const F infinity = F(__builtin_inff());
@@ -54,7 +53,7 @@ TYNDALL_INLINE std::uint32_t take_node(Stack<F>& stack, std::int32_t& node, Q& q
   return 0;
 }
 
-/// Puts those children of a node on the stack that some lane meets.
+/// Pushes the children of a node that some lane meets.
 template <class F>
 TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F limit, Stack<F>& stack) {
   const int bottom = stack.size;
@@ -69,8 +68,8 @@ TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F li
   if (stack.size > bottom + 1) stack.raise_nearest(bottom);
 }
 
-/// Replaces `best` in lanes that meet something closer. On entry best.t says how far each lane has to look; negative:
-/// the lane takes no part.
+/// Replaces `best` in lanes that hit something closer. On entry best.t is the distance up to which each lane searches;
+/// negative: the lane is inactive.
 template <class F, class Q>
 TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q query, Hit<F>& best) {
   const Slopes<F> slopes = slopes_of(ray);
@@ -114,8 +113,8 @@ TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> a
   return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
 }
 
-/// Lanes that would meet anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other
-/// faces do block. common_aim: the element that all lanes aim at, or -1 if they may aim at different ones.
+/// Lanes that hit anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other faces do
+/// block. common_aim: the element that all lanes aim at, or -1 if they may aim at different ones.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim,
                                          std::int32_t common_aim, MaskOf<F> active) {
@@ -127,14 +126,14 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, 
   return less_equal(IntOf<F>(0), best.element);
 }
 
-/// The same for ways to lights. aim: the light's element.
+/// blocked_towards() for shadow rays to lights. aim: the light's element.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
 }
 
-// The same as real function calls, for code that seldom runs: each inlined copy takes seconds to compile. They take
-// rays by value, because a reference would force the path loop to keep its rays in memory instead of registers.
+// Non-inlined versions for code that seldom runs: each inlined copy takes seconds to compile. They take rays by value,
+// because a reference would force the path loop to keep its rays in memory instead of registers.
 
 template <class F>
 [[gnu::noinline]] static Hit<F> call_closest(const SceneView& s, Ray<F> ray, MaskOf<F> active) {

@@ -3,16 +3,16 @@
 
 #include <cstdint>
 
-/// Things that wait until there are enough of them to fill all lanes.
+/// Items that wait until there are enough of them to fill all lanes.
 namespace tyndall {
 
-/// Columns of numbers, one row for each part of a thing and one column for each thing that waits. With one lane (float,
-/// double) nothing waits. A pool has to begin as zeros, because lanes without a thing take what stands behind the last
-/// one, and look things up by it.
+/// Columns of numbers: one row for each member of an item, one column for each waiting item. With one lane (float,
+/// double) nothing waits. A pool must start as zeros, because lanes without an item read what stands behind the last
+/// one and use it as an index.
 template <class F, int numbers, int integers>
 struct LanePool {
   static constexpr bool waits = lanes_of<F> > 1;
-  /// Before a step fewer things wait than there are lanes, and it adds at most as many as there are.
+  /// Before a step fewer items wait than there are lanes; the step adds at most one item for each lane.
   static constexpr int room = waits ? 2 * lanes_of<F> : 1;
   alignas(64) float number[numbers][room];
   alignas(64) std::int32_t integer[integers][room];
@@ -22,9 +22,9 @@ struct LanePool {
 /// Bit i is set for each lane i < count. count: at most 32.
 TYNDALL_INLINE std::uint32_t first_lanes(int count) { return count >= 32 ? 0xffffffffu : (1u << count) - 1u; }
 
-// each_part(s, thing, number, integer) calls number(row, x) or integer(row, x) for each part of a thing.
+// each_part(s, thing, number, integer) calls number(row, x) or integer(row, x) for each member of an item.
 
-/// Adds the things in `lanes` to those that wait.
+/// Adds the items in `lanes` to the pool.
 template <class F, int numbers, int integers>
 TYNDALL_INLINE void append_lanes(const auto& s, auto& thing, MaskOf<F> lanes, LanePool<F, numbers, integers>& pool) {
   each_part(
@@ -33,7 +33,7 @@ TYNDALL_INLINE void append_lanes(const auto& s, auto& thing, MaskOf<F> lanes, La
   pool.count += __builtin_popcount(bits(lanes));
 }
 
-/// Fills the lanes with the things from place `first` on.
+/// Fills the lanes with the pool's items from index `first` on.
 template <class F, int numbers, int integers>
 TYNDALL_INLINE void load_lanes(const auto& s, const LanePool<F, numbers, integers>& pool, int first, auto& thing) {
   each_part(

@@ -2,19 +2,19 @@
 #include "core/base/vec.h"
 #include "core/trace/scene_view.h"
 
-/// Which light a path asks for, and with which probability.
+/// Chooses the light that a path samples, and gives the probability of the choice.
 namespace tyndall {
 
-/// How much light k roughly contributes at a point: its power over the squared distance, which counts as no smaller
-/// than the squared radius of the light.
+/// Estimated contribution of light k at a point: its power over the squared distance, where distances below the light's
+/// radius count as the radius.
 template <class F>
 TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
   const Vec3<F> way = splat<F>(Vec3f{l.center[0][k], l.center[1][k], l.center[2][k]}) - point;
   return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
 }
 
-// The next functions choose among lights, or among pairs of a sphere or mirror and a light: among what `view` has.
-// (They are not given closures, which would keep the path in memory.)
+// The functions below choose among lights (LightView) or among pairs of an object and a light (SpecularView). They take
+// views instead of closures, because closures would keep the path in memory.
 TYNDALL_INLINE const LightView& choice_of(const LightView& view) { return view; }
 TYNDALL_INLINE const LightView& choice_of(const SpecularView& view) { return view.choice; }
 
@@ -25,15 +25,15 @@ TYNDALL_INLINE F total_worth(const auto& view, Vec3<F> point) {
   return sum;
 }
 
-/// A light for each lane, and the probability of that choice.
+/// A light for each lane, and the probability with which it was chosen.
 template <class F>
 struct LightChoice {
   IntOf<F> light;
   F probability;
 };
 
-/// The probabilities with which a point takes the two children of a pair of nodes: in proportion to what they roughly
-/// contribute, as light_worth() says of single lights.
+/// The probabilities of choosing each of two sibling nodes at a point: in proportion to their estimated contributions,
+/// as light_worth() estimates those of single lights.
 template <class F>
 TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> first, Vec3<F> point) {
   const auto worth = [&](IntOf<F> node) {
@@ -45,7 +45,7 @@ TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> fi
   return {a / sum, b / sum};
 }
 
-/// Goes down the tree from the root, at each node at random to one of its children.
+/// Descends the tree from the root, choosing one of two children at random at each node.
 template <class F>
 TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> point, F u) {
   using I = IntOf<F>;
@@ -66,7 +66,7 @@ TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> poi
   }
 }
 
-/// Probability with which choose_in_tree() takes `light`: goes up from its leaf.
+/// Probability with which choose_in_tree() takes `light`: the product over its ancestors, from its leaf up.
 template <class F>
 TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntOf<F> light) {
   using I = IntOf<F>;
@@ -82,8 +82,8 @@ TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntO
   }
 }
 
-/// Chooses a light for a point by u in [0, 1): in proportion to light_worth() if there are few lights, by the tree of
-/// lights if there are more than max_lights_by_contribution.
+/// Chooses a light for a point by u in [0, 1): in proportion to light_worth(), or by the tree of lights if there are
+/// more than max_lights_by_contribution.
 template <class F>
 TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u) {
   using I = IntOf<F>;

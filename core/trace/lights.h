@@ -4,13 +4,12 @@
 #include "core/shapes/sphere.h"
 #include "core/trace/light_choice.h"
 
-/// Samples lights as seen from a point: which point of a light, and with which density of the direction, per steradian,
-/// the choice of the light (light_choice.h) included. The density depends on the point and the light alone, so that a
-/// ray which meets a light by BSDF sampling can be weighed against the sample that would have chosen the same
-/// direction.
+/// Samples points of lights as seen from a point, and gives the pdf of the direction, per steradian, times the
+/// probability of choosing the light (light_choice.h). This pdf depends only on the point and the light, so that a ray
+/// that hits a light by BSDF sampling can be weighed against the sample that would have chosen the same direction.
 namespace tyndall {
 
-/// A light's columns for each lane: see Lights. With one light in the scene they are read once for all lanes.
+/// One light per lane, read from the columns of Lights. With one light in the scene they are read once for all lanes.
 template <class F>
 struct LightColumns {
   IntOf<F> kind;
@@ -18,7 +17,7 @@ struct LightColumns {
   F length_u, length_v, area;
 };
 
-/// Values of a column of lights, one for each lane.
+/// Value of a column of lights in each lane.
 template <class F>
 TYNDALL_INLINE F light_value(const LightView& l, const float* column, IntOf<F> k) {
   return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
@@ -41,15 +40,15 @@ TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
           light_value<F>(l, l.area, k)};
 }
 
-/// A rectangle as seen from a point: its edges in a frame along its sides with the point at the origin, and its solid
+/// A rectangle as seen from a point: its sides in a frame along its edges with the point at the origin, and its solid
 /// angle. After C. Ureña, M. Fajardo, A. King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
-/// Each corner (x, y, z) at distance d is written as a complex number, z d + i x y. The angle of their product is the
-/// solid angle (two of the four are conjugated), so that one arc tangent is enough.
+/// Each corner (x, y, z) at distance d is written as a complex number, z d + i x y. The angle of their product (two of
+/// the four conjugated) is the solid angle, so that one arc tangent is enough.
 template <class F>
 struct SphericalRectangle {
   F x0, y0, x1, y1, z;     ///< in units of `scale`; z: distance from the rectangle's plane, >= 0
   F scale;                 ///< the largest of these coordinates, in scene units
-  F solid_angle;           ///< 0: too small, too flat or too wide for these formulas; sample the area instead
+  F solid_angle;           ///< 0: too small, too flat or too wide for these formulas; then the area is sampled
   F angle_cos, angle_sin;  ///< cosine and sine of the angle of conj(c01) c00, the corners (x0, y1) and (x0, y0)
 };
 
@@ -95,7 +94,7 @@ TYNDALL_INLINE SphericalRectangle<F> rectangle_from(const LightColumns<F>& light
   return r;
 }
 
-/// Point of a rectangle that is uniform in solid angle, as (x, y) in the rectangle's frame, in units of its scale.
+/// Point of a rectangle drawn uniformly in solid angle: (x, y) in the rectangle's frame, in units of its scale.
 template <class F>
 TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pair<F> u) {
   const SinCos<F> part = sin_cos_2pi(min(u.x * r.solid_angle * F(static_cast<float>(0.5 / pi)), F(0.9999999f)));
@@ -115,7 +114,7 @@ TYNDALL_INLINE Pair<F> on_spherical_rectangle(const SphericalRectangle<F>& r, Pa
   return {x, min(max(y, r.y0), r.y1)};
 }
 
-/// A sphere as seen from a point: the directions to it fill a cone, in which they are drawn evenly.
+/// A sphere as seen from a point: the directions to it fill a cone, in which they are drawn uniformly.
 /// P. Shirley, C. Wang, K. Zimmerman, Monte Carlo Techniques for Direct Lighting Calculations, ACM TOG 15(1), 1996.
 template <class F>
 struct SphericalCap {
@@ -137,7 +136,7 @@ TYNDALL_INLINE SphericalCap<F> cap_from(Vec3<F> to_center, F radius) {
   return {select(less(F(0.0f), d2), scale * to_center, anywhere), part, F(static_cast<float>(0.5 / pi)) / part};
 }
 
-/// A direction in the cone, by u in [0, 1)².
+/// Draws a direction in the cone by u in [0, 1)².
 template <class F>
 TYNDALL_INLINE Vec3<F> in_cap(const SphericalCap<F>& cap, Pair<F> u) {
   const F x = u.x * cap.one_minus_cos;  // 1 - cos of the angle from the axis
@@ -152,12 +151,12 @@ TYNDALL_INLINE Vec3<F> sphere_light_center(const LightColumns<F>& light, F time)
   return point_at(light.corner, time, light.edge_u);
 }
 
-/// A direction to a light.
+/// A sampled direction to a light.
 template <class F>
 struct LightSample {
   Vec3<F> direction;  ///< unit
   F distance;
-  F pdf;  ///< per steradian, the choice of the light not included; 0: nothing can come from there
+  F pdf;  ///< per steradian, without the probability of choosing the light; 0: no light comes from there
 };
 
 template <class F>
@@ -184,7 +183,7 @@ TYNDALL_INLINE LightSample<F> sample_sphere_light(const LightColumns<F>& light, 
   const Vec3<F> to_center = sphere_light_center(light, time) - point;
   const SphericalCap<F> cap = cap_from(to_center, light.length_u);
   const Vec3<F> direction = in_cap(cap, u);
-  // The direction was drawn within the cone: if it misses the sphere, by rounding, it counts as one that grazes it.
+  // The direction was drawn within the cone. If rounding makes it miss the sphere, it counts as one that grazes it.
   const F middle = dot(to_center, direction);
   const Vec3<F> across = point_at(to_center, -middle, direction);
   const F half = sqrt(max(mul_add(light.length_u, light.length_u, -dot(across, across)), F(0.0f)));
@@ -206,7 +205,7 @@ TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, V
   return sample;
 }
 
-/// Density, per steradian, with which sample_light() gives `direction`, which meets `light` at `distance`, times the
+/// Pdf, per steradian, with which sample_light() gives `direction`, which hits `light` at `distance`, times the
 /// probability with which choose_light() takes this light.
 template <class F>
 TYNDALL_INLINE F light_pdf(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction, F distance) {

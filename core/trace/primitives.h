@@ -5,7 +5,7 @@
 #include "core/shapes/sphere.h"
 #include "core/trace/scene_view.h"
 
-/// Tests rays against primitives and keeps the closest hit. Either the lanes are rays that are tested against the same
+/// Tests rays against primitives and keeps the closest hit. Either each lane holds another ray and all test the same
 /// primitive, or all lanes hold the same ray and each tests another primitive (single_ray.h).
 namespace tyndall {
 
@@ -15,23 +15,22 @@ struct Hit {
   IntOf<F> element;  ///< -1: nothing hit
 };
 
-/// The factor by which boxes are widened, so that rounding cannot hide what is in them. It is far more than rounding
-/// needs, and far less than would cost time.
-/// T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
+/// Factor by which boxes are widened, so that rounding cannot hide what is in them: far more than rounding needs, and
+/// too little to cost time. T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
 inline constexpr float slab_room = 1.0f + 0x1p-17f;
 
-/// What a test against primitives is for. is_shadow: to know whether anything is in the way; the element at which a
-/// lane aims does not count. is_by_tree: the primitives are those of a leaf of the tree, whose box the lane enters at
+/// The purpose of a test against primitives. is_shadow: only whether anything blocks the ray matters; the element at
+/// which a lane aims does not block it. is_by_tree: the primitives are a leaf of the tree, whose box the lane enters at
 /// `near`.
 template <class F, bool is_shadow, bool is_by_tree>
 struct RayQuery {
   static constexpr bool shadow = is_shadow, by_tree = is_by_tree;
   F near;                   ///< distance; infinity: the lane misses the leaf's box
-  IntOf<F> aim;             ///< shadow rays: the element that does not count
-  std::int32_t common_aim;  ///< the one that counts in no lane, or -1
+  IntOf<F> aim;             ///< shadow rays: the element that does not block
+  std::int32_t common_aim;  ///< the element that blocks in no lane, or -1
 };
 
-/// Lanes whose candidate, at distance t, is closer than the best so far. best.t is negative in lanes that take no part.
+/// Lanes whose candidate, at distance t, is closer than their best hit so far. best.t is negative in inactive lanes.
 template <class F, class Q>
 TYNDALL_INLINE MaskOf<F> beats(F t, IntOf<F> element, MaskOf<F> hit, const Hit<F>& best, const Q& query) {
   const auto ahead = mask_and(hit, less(F(0.0f), t));
@@ -91,7 +90,7 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
   }
 }
 
-/// map: as for box_slabs(). element: of the box's first face.
+/// map: as for box_slabs(). element: the box's first face.
 template <class F, class Q>
 TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, const Ray<F>& ray, const Q& query,
                              Hit<F>& best) {
@@ -102,7 +101,7 @@ TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, 
   const auto entering = less(F(0.0f), line.near);
   const F t = select(entering, line.near, line.far);
   if constexpr (Q::shadow) {
-    const IntOf<F> face = query.aim - element;  // one of its own faces?
+    const IntOf<F> face = query.aim - element;  // is it a face of this box?
     const auto aimed = mask_and(less(IntOf<F>(-1), face), less(face, IntOf<F>(6)));
     if (any(aimed)) line.hit = mask_and_not(line.hit, mask_and(aimed, equal(face, box_face(slabs, entering))));
   }

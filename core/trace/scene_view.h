@@ -2,11 +2,11 @@
 #include "core/compile/render_scene.h"
 #include "core/trace/subpixel_lights.h"
 
-/// A RenderScene as plain pointers, which is all that kernels read. They must not call a container's member functions:
-/// the linker keeps one copy of each for all files, and one with wide instructions would crash older CPUs.
+/// A RenderScene as plain pointers: all that kernels read. They must not call a container's member functions: the
+/// linker keeps one copy of each for all files, and a copy with wide instructions would crash older CPUs.
 namespace tyndall {
 
-// Each of these has the columns of a struct in compile/render_scene.h, which says what they mean: SphereView those of
+// Each view holds the columns of the struct in core/compile/render_scene.h that explains them: SphereView those of
 // Spheres, and so on.
 
 struct SphereView {
@@ -16,7 +16,7 @@ struct SphereView {
 };
 struct FlatView {
   int count = 0;
-  int blocking = 0;  ///< so many from the first on can be in the way of shadow rays; the others bound the scene
+  int blocking = 0;  ///< count of flats that can block shadow rays; those behind them enclose the scene and never do
   const Affine* map;
   const std::int32_t* element;
   const float* column[affine_numbers];  ///< boxes only: see Flats
@@ -44,7 +44,7 @@ struct LightView {
 
 struct SpecularView {
   int pairs = 0, spheres = 0, first_mirror = 0, first_slab = 0;
-  bool shells, has_overlaps;  ///< whether some sphere is a shell, or crowded
+  bool shells, has_overlaps;  ///< whether some sphere is a shell; is overlapped
   const float *center[3], *move[3], *radius, *index, *inner_radius, *inner_index;
   const std::int32_t *outer, *inner, *overlapped, *sphere, *light, *pair_of, *sphere_of;
   const float *mirrors, *slabs;
@@ -55,7 +55,7 @@ struct SpecularView {
 };
 
 struct SceneView {
-  /// The materials that kernels know; `kind` holds places in this list.
+  /// The materials that kernels know. `kind` holds indices into this list.
   template <class F>
   using MaterialList = MaterialKinds<F>;
 
@@ -64,7 +64,7 @@ struct SceneView {
   BackgroundColumns background;
   SphereView spheres, moving_spheres;
   FlatView quads, boxes;
-  const BvhNode* nodes;  ///< null: every primitive is tested
+  const BvhNode* nodes;  ///< null: there is no tree, and every primitive is tested
   const BvhLeaf* leaves;
   int element_count, material_count;
   // elements
@@ -79,9 +79,9 @@ struct SceneView {
   const TextureView* textures;
   int medium_count;
   const MediumColumns* media;
-  int near_count;  ///< number of pairs of a medium and a light in it or near it: see NearLights
+  int near_count;  ///< number of pairs of a medium and a light in it or near it, see NearLights
   const std::int32_t *near_medium, *near_light;
-  const float* near_probability;  ///< at medium · number of lights + light
+  const float* near_probability;  ///< of the pair, at index medium · number of lights + light
   SpecularView specular;
   int subpixel_light_count;
   const SubpixelLight* subpixel_lights;
@@ -93,9 +93,9 @@ struct SceneView {
   Integrator integrator;
   SceneFeatures features;
   KernelSet kernel;
-  bool reuses_paths;  ///< second vertices are shared between pixels: see reuse.h
+  bool reuses_paths;  ///< second vertices are reused between pixels, see reuse.h
 
-  // What kernels ask before they run the code of a model.
+  // Kernels test these before they run the code of a model.
   TYNDALL_INLINE bool has_media() const { return features.media; }
   TYNDALL_INLINE bool has_textures() const { return features.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return features.image_textures; }
@@ -105,9 +105,8 @@ struct SceneView {
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
 };
 
-/// The scene as a kernel that leaves models out sees it: for those models has_...() is a constant false, so that the
-/// compiler drops their code.
-/// reuse: whether the kernel shares second vertices between pixels (core/reuse).
+/// The view of a kernel that leaves models out: for those models has_...() is a constant false, so that the compiler
+/// drops their code. reuse: whether the kernel reuses second vertices between pixels (core/reuse).
 template <KernelSet set, bool reuse>
 struct SceneViewFor : SceneView {
   static constexpr bool media_and_textures =
@@ -121,11 +120,11 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
 };
 
-/// The textures of a scene as kernels see them. They point into `scene`.
+/// The textures of a scene as kernels read them. They point into `scene`.
 std::vector<TextureView> texture_views(const RenderScene& scene);
 
-/// A scene as kernels see it, without subpixel lights and without sharing. It points into both arguments, which must
-/// stay as they are while it is used. core/render/prepare.h adds what has to be found out.
+/// A scene as kernels read it, without subpixel lights and without reuse; core/render/prepare.h adds both. It points
+/// into both arguments, which must stay unchanged while it is used.
 SceneView view_of(const RenderScene& scene, const std::vector<TextureView>& textures);
 
 }  // namespace tyndall

@@ -9,10 +9,10 @@
 #include <type_traits>
 #include <utility>
 
-/// What a ray finds where it ends: the background, or a surface with its colour and its material's scattering.
+/// What a ray finds at its end: the background, or a surface with its colour and its material's scattering.
 namespace tyndall {
 
-/// Gradient: Ray Tracing in One Weekend, section 4.2 "Sending Rays Into the Scene".
+/// Radiance of the background. Gradient: Ray Tracing in One Weekend, section 4.2 "Sending Rays Into the Scene".
 template <class F>
 TYNDALL_INLINE Vec3<F> background_radiance(const BackgroundColumns& b, Vec3<F> direction) {
   const Vec3<F> first = splat<F>(b.a);
@@ -21,13 +21,13 @@ TYNDALL_INLINE Vec3<F> background_radiance(const BackgroundColumns& b, Vec3<F> d
   return point_at(first, mul_add(F(0.5f), direction.y, F(0.5f)), splat<F>(b.b) - first);
 }
 
-/// A surface where a ray meets it.
+/// A surface point that a ray hits.
 template <class F>
 struct SurfacePoint {
   Vec3<F> point;
-  Vec3<F> normal;      ///< unit, the surface's own
+  Vec3<F> normal;      ///< unit; the surface's own, not flipped towards the ray
   MaskOf<F> inverted;  ///< the normal points inward, because the sphere's radius is negative
-  IntOf<F> element;    ///< a valid index in all lanes, also in those that met nothing
+  IntOf<F> element;    ///< a valid index in all lanes, also in those without a hit
   IntOf<F> material;
 };
 
@@ -77,18 +77,18 @@ TYNDALL_INLINE TextureUv<F> surface_uv(const SceneView& s, const SurfacePoint<F>
   return {select(round, round_u, u), select(round, round_v, v), round};
 }
 
-/// Gives the uv coordinates of a surface to textures that want them.
+/// Computes the uv coordinates of a surface for textures that need them.
 template <class F>
 struct SurfaceUv {
   const SceneView* scene;
-  const SurfacePoint<F>* surface;  ///< null in a medium, whose textures want none
+  const SurfacePoint<F>* surface;  ///< null in a medium, whose textures need no uv
   TYNDALL_INLINE TextureUv<F> operator()() const { return surface_uv(*scene, *surface); }
 };
 
-// The loops over the kinds of textures and materials below are recursions on purpose. Closures that refer to closures
-// would be simpler to read, but compilers then keep what they refer to, which is all of a path, in memory.
+// The loops over the kinds of textures and materials below are recursions on purpose. Nested closures would be simpler
+// to read, but compilers then keep what they capture, all of a path, in memory.
 
-/// Colour of a texture of kind `first` or a later one at a point.
+/// Colour at a point of a texture of kind `first` or a later kind.
 template <std::size_t first = 0, class F>
 TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F, SurfaceUv<F>>& at) {
   using Kinds = TextureKinds<F>;
@@ -97,8 +97,8 @@ TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F
   return colour_at(static_cast<const std::variant_alternative_t<first, Kinds>*>(nullptr), t, at);
 }
 
-/// Colour of a texture at a point, in the lanes that want it. surface: gives the uv coordinates for image textures;
-/// null in a medium.
+/// Colour of a texture at a point, in the lanes `wanted`. surface: gives the uv coordinates for image textures; null in
+/// a medium.
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
                                       const SurfacePoint<F>* surface) {
@@ -117,8 +117,8 @@ TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, M
   return colour;
 }
 
-/// Where a texture is looked up for a point of a surface: on flats exactly in Elements::plane, so that the rounding of
-/// the point does not decide between the cells of a checker on either side of the flat.
+/// Where a texture is looked up for a surface point: on flats exactly in Elements::plane, so that the rounding of the
+/// point cannot choose between the cells of a checker on either side of the flat.
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_point(const SceneView& s, const SurfacePoint<F>& p) {
   const auto flat = equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f));
@@ -139,7 +139,7 @@ TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, M
   return textured(s, colour, texture, lanes, texture_point<F>(s, p), &p);
 }
 
-/// Radiance that a light sends from a point on it. element: the light's.
+/// Radiance that a light sends from a point on it. element: the light's element.
 template <class F>
 TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
@@ -167,7 +167,7 @@ TYNDALL_INLINE void load_fields(const auto& s, IntOf<F> material, M& m) {
   }
 }
 
-/// A material of kind M with its fields gathered.
+/// A material of kind M with its fields read from the columns.
 template <class M, class F>
 TYNDALL_INLINE M load_material(const auto& s, IntOf<F> material) {
   M m{};
@@ -175,20 +175,20 @@ TYNDALL_INLINE M load_material(const auto& s, IntOf<F> material) {
   return m;
 }
 
-// Kernels know a list of materials by the type of the scene's view: SceneView::MaterialList. A test can give a view of
-// its own with a longer list, and follow its paths by the same loop.
+// Kernels know a list of materials by the type of the scene's view: SceneView::MaterialList. A test can give its own
+// view with a longer list, and use the same path loop.
 
-/// The materials that kernels with this view know, over F.
+/// The materials that kernels with this view know, for lanes of type F.
 template <class View, class F>
 using MaterialsOf = typename std::remove_cvref_t<View>::template MaterialList<F>;
 
-/// has_trait() for the list of a view.
+/// has_trait() for the material list of a view.
 template <bool BsdfTraits::*trait, class View, class I>
 TYNDALL_INLINE auto has_trait(const View&, I kind) {
   return has_trait<trait, MaterialsOf<View, double>>(kind);
 }
 
-/// Whether no material that a view knows changes what a path carries but by its colour.
+/// Whether every material of a view changes a path's throughput by its colour alone.
 template <class View>
 inline constexpr bool has_constant_weights =
     all_have<&BsdfTraits::constant_weight>(static_cast<const MaterialsOf<View, double>*>(nullptr));
@@ -200,7 +200,7 @@ TYNDALL_INLINE bool samples_lights(const auto& s) {
   return rule == LightSampling::always || (rule == LightSampling::weighted && s.integrator == Integrator::mis);
 }
 
-/// Samples the lanes that are at a material of kind `first` or a later one.
+/// Samples the BSDF in lanes whose material is of kind `first` or a later kind.
 template <std::size_t first, class F>
 TYNDALL_INLINE void sample_kinds(const auto& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                                  const Incident<F>& in, BsdfSample<F>& out) {
@@ -221,7 +221,7 @@ TYNDALL_INLINE void sample_kinds(const auto& s, IntOf<F> material, IntOf<F> kind
   }
 }
 
-/// Samples the BSDF of the material that each lane is at. weight: 1 in other lanes.
+/// Samples the BSDF of each lane's material. weight: 1 in other lanes.
 template <class F>
 TYNDALL_INLINE BsdfSample<F> sample_any(const auto& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                                         const Incident<F>& in) {
@@ -237,8 +237,8 @@ struct BsdfValue {
   F value, pdf;
 };
 
-/// eval() and pdf() of the material that each lane is at. 0 for materials for which lights are not sampled, and for
-/// kinds before `first`.
+/// eval() and pdf() of each lane's material. 0 for materials for which lights are not sampled, and for kinds before
+/// `first`.
 template <std::size_t first = 0, class F>
 TYNDALL_INLINE BsdfValue<F> eval_any(const auto& s, IntOf<F> material, IntOf<F> kind, MaskOf<F> lanes,
                                      const Incident<F>& in, Vec3<F> direction) {
@@ -272,13 +272,13 @@ TYNDALL_INLINE double lobe_width_of(const View& s, std::int32_t material) {
     return lobe_width(load_material<std::variant_alternative_t<first, List>, float>(s, material));
 }
 
-/// Whether light that comes from behind a surface may be sampled: some material that samples lights lets it through.
+/// Whether light from behind a surface may be sampled: some material that samples lights also transmits.
 template <class View>
 inline constexpr bool samples_lights_behind = []<class... Kinds>(const std::variant<Kinds...>*) {
   return ((Kinds::traits.transmissive && Kinds::traits.light_sampling != LightSampling::never) || ...);
 }(static_cast<const MaterialsOf<View, double>*>(nullptr));
 
-/// The smooth boundary that each lane is at, in lanes whose material has one.
+/// The smooth boundary that each lane is at; set in lanes whose material has one.
 template <class F>
 TYNDALL_INLINE Boundary<F> boundary_any(const auto& s, IntOf<F> material, const Incident<F>& in) {
   using List = MaterialsOf<decltype(s), F>;
@@ -289,8 +289,8 @@ TYNDALL_INLINE Boundary<F> boundary_any(const auto& s, IntOf<F> material, const 
   return boundary_at(load_material<std::variant_alternative_t<place, List>, F>(s, material), in);
 }
 
-/// Ray::from of rays that go on through the surface that the rays of `from` leave on the side from which they came:
-/// inside for outside.
+/// Ray::from of rays that continue through a surface. from: that of rays that leave the surface on the side from which
+/// they came. Swaps inside and outside.
 template <class F>
 TYNDALL_INLINE IntOf<F> through_surface(IntOf<F> from) {
   const IntOf<F> side = from & IntOf<F>(1);

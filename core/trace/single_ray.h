@@ -1,12 +1,11 @@
 #pragma once
 #include "core/trace/primitives.h"
 
-/// Takes a single ray through a part of the tree that few other lanes enter. All lanes then work for this one ray: each
+/// Traverses a part of the tree that few lanes enter with one ray at a time. All lanes then work for this ray: each
 /// tests another box of a node, or another sphere or box of a leaf. The arithmetic is the same, and so are the hits.
 namespace tyndall {
 
-/// A ray in the form that the slab test needs: it reaches the plane at coordinate e of an axis at the distance
-/// e·slope + start.
+/// A ray in the form of the slab test: it reaches coordinate e of an axis at the distance e·slope + start.
 template <class F>
 struct Slopes {
   Vec3<F> slope, start;
@@ -18,8 +17,8 @@ TYNDALL_INLINE Slopes<F> slopes_of(const Ray<F>& ray) {
   return {slope, -(ray.origin * slope)};
 }
 
-/// Where lanes enter boxes, if they meet them before the distance `limit`. low(axis), high(axis): the box's bounds.
-/// A box within another is never entered before it, whatever the rounding: products, minima and maxima are monotonic.
+/// Where lanes enter boxes, if they do so before the distance `limit`. low(axis), high(axis): bounds of the box. A box
+/// within another is never entered before it, whatever the rounding: products, minima and maxima are monotonic.
 template <class F>
 struct Entry {
   MaskOf<F> meets;
@@ -35,8 +34,8 @@ TYNDALL_INLINE Entry<F> enter_boxes(const auto& low, const auto& high, const Slo
   return {less_equal(near, far * F(slab_room)), near};
 }
 
-/// The narrowest group of lanes that has one for each box of a node. Lanes beyond a node's last box hold numbers that
-/// are not used.
+/// The narrowest group of lanes that has one for each box of a node. Lanes beyond a node's last box hold unused
+/// numbers.
 template <class F>
 struct RowFor {
   using type = F;
@@ -46,24 +45,24 @@ requires(lanes_of<HalfOf<F>> >= bvh_width) struct RowFor<F> {
   using type = HalfOf<F>;
 };
 
-/// Nodes that a lone ray has still to visit, and the distances at which it enters them.
+/// Nodes that a single ray still has to visit, and the distances at which it enters them.
 struct SingleStack {
   int size = 0;
   float near[bvh_stack];
   std::int32_t node[bvh_stack];
 };
 
-/// One ray, the same in every lane of R, and how far it has come.
+/// One ray, the same in every lane of R, and the state of its traversal.
 template <class R, class Q>
 struct SingleRay {
   Ray<R> ray;
   Slopes<R> slopes;
   Q query;
   Hit<R> best;        ///< the same in all lanes
-  std::int32_t node;  ///< the node that it visits; below 0: leaf ~node
-  float near;         ///< the distance at which it enters that node
+  std::int32_t node;  ///< the node being visited; below 0: leaf ~node
+  float near;         ///< distance at which the ray enters that node
 
-  /// Goes on to the nearest child that it meets, and puts the others on the stack. False: it meets none.
+  /// Moves to the nearest child that the ray meets, and pushes the others. Returns false if it meets none.
   TYNDALL_INLINE bool open_node(const BvhNode& n, SingleStack& stack) {
     const Entry<R> entry = enter_boxes(
         [&](int axis) __attribute__((always_inline)) { return load<R>(n.low[axis]); },
@@ -86,7 +85,7 @@ struct SingleRay {
     return true;
   }
 
-  /// Goes on to the next node on the stack that may hold something closer. False: there is none.
+  /// Pops the next node that may hold something closer. Returns false if there is none.
   TYNDALL_INLINE bool take_node(SingleStack& stack) {
     const float limit = min_lane(best.t) * slab_room;
     while (stack.size > 0) {
@@ -97,8 +96,8 @@ struct SingleRay {
     return false;
   }
 
-  /// Each lane has tested another primitive: takes the closest hit of those that beat `best`, of equal ones the one
-  /// with the lower element. valid: bit i is set if lane i held a primitive.
+  /// After each lane has tested another primitive: takes the closest hit of those that beat `best`; of equal ones the
+  /// one with the lower element. valid: bit i is set if lane i held a primitive.
   TYNDALL_INLINE void take_best(const Hit<R>& each, std::uint32_t valid) {
     const std::uint32_t better = valid & ~bits(equal(each.element, best.element));
     if (!better) return;
@@ -173,7 +172,7 @@ struct SingleRay {
   }
 };
 
-/// The rays of a group, stored in memory so that single ones can be taken out.
+/// The rays of a group of lanes, stored in memory so that single ones can be read.
 template <class F>
 struct SingleRays {
   static constexpr int lanes = lanes_of<F>;
@@ -181,7 +180,7 @@ struct SingleRays {
   alignas(64) float origin[3][lanes], direction[3][lanes], slope[3][lanes], start[3][lanes], time[lanes];
   alignas(64) std::int32_t from[lanes], aim[lanes];
   std::int32_t common_aim;
-  // The distances at which they enter a node, and their closest hits so far.
+  // Distances at which the rays enter a node, and their closest hits so far.
   alignas(64) float near[lanes], t[lanes];
   alignas(64) std::int32_t element[lanes];
 
@@ -198,7 +197,7 @@ struct SingleRays {
   }
 };
 
-/// Takes the ray of lane k through everything beneath a node, and stores its closest hit in `rays`.
+/// Traverses everything beneath a node with the ray of lane k, and stores its closest hit in `rays`.
 template <class F, class Q>
 [[gnu::noinline]] static void test_single_ray(const SceneView& s, SingleRays<F>& rays, int k, std::int32_t node) {
   using R = typename RowFor<F>::type;
@@ -217,7 +216,7 @@ template <class F, class Q>
   rays.t[k] = min_lane(single.best.t), rays.element[k] = elements[0];
 }
 
-/// The same for each lane whose bit is set in `live`.
+/// Calls test_single_ray() for each lane whose bit is set in `live`.
 template <class F, class Q>
 TYNDALL_INLINE void test_single_rays(const SceneView& s, SingleRays<F>& rays, std::int32_t node, std::uint32_t live,
                                      Hit<F>& best) {

@@ -1,11 +1,10 @@
 #pragma once
 #include "core/base/random.h"
 
-/// Subpixel lights: what the camera sees of a small light, directly or by one sphere, flat mirror or slab. A subpixel
-/// light may fill so little of its pixel that samples which are spread evenly over the pixel seldom hit it, and each
-/// that does is a bright speck. So half of the samples of such a pixel are drawn within boxes around its subpixel
-/// lights, and all of its samples are weighed by the density of their place. That is exact wherever the boxes lie: they
-/// only have to be there.
+/// Subpixel lights: images of a small light in the camera, seen directly or by one sphere, flat mirror or slab. Such an
+/// image may fill so little of its pixel that samples spread evenly over the pixel seldom hit it, and each hit is a
+/// bright speck. So half of the samples of such a pixel are drawn within boxes around its subpixel lights, and all of
+/// its samples are weighted by the pdf of their place. That is exact wherever the boxes lie.
 namespace tyndall {
 
 /// A box around a subpixel light, or the part of it in one pixel.
@@ -13,12 +12,12 @@ struct SubpixelLight {
   float x, y;                      ///< column and row of the pixel
   float left, top, width, height;  ///< of the box, from the pixel's upper left corner, in pixels
   float begin, end;                ///< random numbers in [begin, end) choose this box
-  float pdf;                       ///< what the box adds to the density of its places: (end - begin) / area
-  std::int32_t route;              ///< see pack_route(); 0: without reflections by glass
+  float pdf;                       ///< the box's part of the pdf of places within it: (end - begin) / area
+  std::int32_t route;              ///< see pack_route(); 0: no reflections by glass
 };
 
-/// What samples in a box still have to meet on their path to its light: `reflections` by glass, and `crossings` of its
-/// surface, each at most 15. Packed into one number, so that it can wait in a lane: 0 stands for no route.
+/// Events that samples in a box still have to meet on the path to the light: `reflections` by glass and `crossings` of
+/// its surface, each at most 15. Packed into one integer, so that it can wait in a lane; 0 stands for no route.
 inline constexpr std::int32_t pack_route(std::int32_t reflections, std::int32_t crossings) {
   return 256 + 16 * reflections + crossings;
 }
@@ -28,7 +27,7 @@ struct GlassRoute {
   TYNDALL_INLINE MaskOf<F> is_set() const { return less(IntOf<F>(0), packed); }
   TYNDALL_INLINE IntOf<F> reflections() const { return as_int(shift_right<4>(as_uint(packed))) & IntOf<F>(15); }
   TYNDALL_INLINE IntOf<F> crossings() const { return packed & IntOf<F>(15); }
-  /// Counts an event in the lanes `here`: a reflection where it reflects, else a crossing.
+  /// Removes an event from the route in the lanes `here`: a reflection in the lanes `reflects`, else a crossing.
   TYNDALL_INLINE void count(MaskOf<F> here, MaskOf<F> reflects) {
     const IntOf<F> none = IntOf<F>(0), one = IntOf<F>(1);
     const IntOf<F> reflected = select(less(none, reflections()), packed - IntOf<F>(16), packed);
@@ -37,35 +36,35 @@ struct GlassRoute {
   }
 };
 
-/// How closely samples in a box keep to that way, weighed by what glass sends there. To a light that is seen by several
-/// inner reflections glass sends few samples, each of which would be a bright speck. The rest keeps to the glass's own
-/// odds, so that light which comes in another way is found, too.
+/// How strongly the events of samples in a box are steered: an event's probability is this fraction of the route's and
+/// the rest of the glass's own, and the sample is weighted accordingly. The glass alone sends few samples along a path
+/// with several inner reflections, each a bright speck. The rest finds light that arrives by other paths.
 inline constexpr float subpixel_light_steering = 0.75f;
 
 /// Fraction of the samples of a pixel with subpixel lights that are drawn within their boxes.
 inline constexpr float subpixel_light_fraction = 0.5f;
 
-/// Subpixel lights one after another in memory.
+/// Subpixel lights that are consecutive in memory.
 struct SubpixelLights {
   const SubpixelLight *first, *last;
 };
 
-/// Of subpixel lights sorted by row, those in the rows [begin, end).
+/// Returns those in the rows [begin, end), from subpixel lights sorted by row.
 TYNDALL_INLINE SubpixelLights subpixel_lights_in_rows(SubpixelLights all, int begin, int end) {
   while (all.first != all.last && all.first->y < static_cast<float>(begin)) ++all.first;
   while (all.first != all.last && (all.last - 1)->y >= static_cast<float>(end)) --all.last;
   return all;
 }
 
-/// Samples in pixels with subpixel lights.
+/// What samples in pixels with subpixel lights carry.
 template <class F>
 struct AtSubpixelLights {
-  F weight;             ///< 1 / density of the sample's place
-  GlassRoute<F> route;  ///< of the box in which it was drawn, or else the one with most reflections there
+  F weight;             ///< 1 / pdf of the sample's place
+  GlassRoute<F> route;  ///< of the box in which the sample was drawn; else the one with most reflections there
 };
 
-/// Moves the places of samples, each in its own pixel (x, y), towards the subpixel lights there. at: points in the unit
-/// square, evenly distributed on entry.
+/// Moves the places of samples, each in its own pixel (x, y), into boxes around the subpixel lights there. at: points
+/// in the unit square, uniform on entry.
 template <class F>
 TYNDALL_INLINE AtSubpixelLights<F> aim_at_subpixel_lights(SubpixelLights subpixel_lights, F x, F y, Pair<F>& at) {
   const Pair<F> even = at;
