@@ -3,21 +3,21 @@
 #include "core/shapes/specular_deflection.h"
 #include "core/trace/scene_view.h"
 
-/// The event sequence of a specular path: which surfaces of a sphere it meets and what happens there. Event sequences
-/// are drawn at random; this file tells how often, and which fraction of the light takes the path that an event
-/// sequence describes. A sphere is a mirror, solid glass, or a shell: two spheres around one centre, with any
-/// refractive index between them and within.
+/// The event sequence of a specular path at a sphere: which of its surfaces the path meets, and whether it is reflected
+/// or refracted there. Event sequences are drawn at random; this file gives the probability of each and the fraction of
+/// the light that follows it. A sphere is a mirror, solid glass, or a shell: two concentric spheres with any refractive
+/// index between them and inside the inner one.
 namespace tyndall {
 
-/// A sphere's columns for each lane: see SpecularPairs.
+/// One sphere per lane, read from the columns of SpecularView.
 template <class F>
 struct SpecularSphere {
   Vec3<F> center;
-  F radius, index;              ///< of the outer sphere, and the refractive index within it
-  F inner_radius, inner_index;  ///< the same of the inner sphere; radius 0: there is none
-  IntOf<F> outer, inner;        ///< elements of the spheres
-  MaskOf<F> mirror, hollow;     ///< metal; a shell
-  MaskOf<F> overlapped;         ///< other things are in it or reach into it
+  F radius, index;              ///< of the outer sphere; index: refractive index directly inside it, 1 for a mirror
+  F inner_radius, inner_index;  ///< the same for the inner sphere; radius 0 where there is none
+  IntOf<F> outer, inner;        ///< indices of the two spheres among the scene's elements
+  MaskOf<F> mirror, hollow;     ///< mirror: made of metal; hollow: a shell
+  MaskOf<F> overlapped;         ///< other objects lie in it or reach into it
 };
 
 template <class F>
@@ -36,24 +36,24 @@ TYNDALL_INLINE SpecularSphere<F> load_sphere(const SpecularView& c, IntOf<F> sph
   return b;
 }
 
-/// The events of a specular path, counted by kind. Their order is left out, because neither the deflection of the way
-/// nor the fraction of light that takes it depends on it.
+/// The events of a specular path, counted by kind. Their order is left out, because the deflection and the throughput
+/// of the path depend on the counts alone.
 template <class F>
 struct EventSequence {
-  F outer;            ///< at the outer sphere
-  F inner;            ///< at the inner sphere
-  F inner_reflected;  ///< of these, reflections
+  F outer;            ///< events at the outer sphere
+  F inner;            ///< events at the inner sphere
+  F inner_reflected;  ///< reflections among the events at the inner sphere
 };
 
-/// Where a specular path's ends are with regard to the sphere. At least one must be outside of it.
+/// Where the two ends of a specular path lie relative to the sphere. At least one end must be outside.
 template <class F>
 struct PathEnds {
   F near, far;              ///< distance of each end from the centre
-  F near_reach, far_reach;  ///< these distances times the refractive index there
+  F near_reach, far_reach;  ///< each distance times the refractive index at that end
   F far_index;              ///< refractive index at the far end
   MaskOf<F> both_out;       ///< both ends are outside of the sphere
   MaskOf<F> deep;           ///< one end is inside the inner sphere
-  MaskOf<F> valid;          ///< one end is outside, the other not on a surface, in metal or in the glass of a shell
+  MaskOf<F> valid;          ///< one end is outside; the other is outside, in solid glass or in a shell's hollow
 };
 
 template <class F>
@@ -75,25 +75,24 @@ TYNDALL_INLINE PathEnds<F> ends_of(const SpecularSphere<F>& b, F near, F far) {
   return e;
 }
 
-/// Signs with which the ends' terms enter the deflection. An end outside of the sphere always has 1. An end within it
-/// has 1 if the way from it to the sphere's surface first comes closer to the centre, and -1 if it leads outward at
-/// once.
+/// Signs of the two ends' terms in the deflection. An end outside of the sphere always has 1. An end inside has 1 if
+/// the path from it to the sphere's surface first approaches the centre, and -1 if the path moves outward at once.
 template <class F>
 struct EndSigns {
   F near, far;
 };
 
-/// The deflection of an event sequence, and whether a way of that event sequence can exist at all.
+/// The deflection of an event sequence, and whether any path with these events can exist.
 template <class F>
 struct SpecularDeflection {
   Deflection<F> deflection;
   MaskOf<F> possible;
 };
 
-/// The deflection of a specular path, as the sum of: acos(p/a) - acos(p/R) for each end outside, at distance a;
-/// acos(p/(nR)) - acos(p/(n Ri)) for each way through the glass of a shell; 2 acos(p/(m Ri)) for each chord within its
-/// inner sphere; 2 acos(p/(nR)) for each chord through solid glass. R, Ri: radii of the spheres; n, m: refractive index
-/// within each.
+/// The deflection of a specular path, in radians, is the sum of acos(p/a) - acos(p/R) for each end outside, at distance
+/// a from the centre; acos(p/(nR)) - acos(p/(n Ri)) for each crossing of a shell's glass; 2 acos(p/(m Ri)) for each
+/// chord of its inner sphere; and 2 acos(p/(nR)) for each chord of solid glass. R, Ri: outer and inner radius; n, m:
+/// index inside each.
 template <class F>
 TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularView& c, const SpecularSphere<F>& b,
                                                    const PathEnds<F>& e, const EventSequence<F>& w,
@@ -120,7 +119,7 @@ TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularView& c, const 
     deflection.times[i] = times[i], deflection.inverse[i] = F(1.0f) / safe;
     deflection.gap[i] = (safe - deflection.maximum) * deflection.inverse[i];
   }
-  // An event sequence that goes through the glass of a shell past its inner sphere: p must stay above n Ri.
+  // Paths that cross the glass of a shell without meeting its inner sphere exist only for p above n Ri.
   const auto misses = mask_and(mask_and(b.hollow, e.both_out), mask_and_not(less(F(1.0f), w.outer), visits));
   const F minimum = select(misses, b.index * b.inner_radius, F(0.0f));
   deflection.last = select(misses, sqrt(max(F(1.0f) - minimum / deflection.maximum, F(0.0f))), F(1.0f));
@@ -128,15 +127,16 @@ TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularView& c, const 
   return out;
 }
 
-/// x to a whole power >= 0, x in [0, 1].
+/// x to the power of a whole number >= 0, for x in [0, 1].
 template <class F>
 TYNDALL_INLINE F whole_power(F x, F exponent) {
   if (!any(less(F(0.5f), exponent))) return F(1.0f);
   return select(less(F(0.5f), exponent), exp(exponent * log(max(x, F(1e-30f)))), F(1.0f));
 }
 
-/// Fraction of the light that takes a specular path: the product of what each surface reflects or lets through. All
-/// events at one sphere have the same angle (Bouguer's formula), so that one share per sphere is enough.
+/// Fraction of the light that follows a specular path, in [0, 1]: the product of reflectance or transmittance over its
+/// events. A mirror counts as 1 (its colour is applied later). All events at one sphere have the same angle of
+/// incidence (Bouguer's formula), so that one Fresnel term per sphere is enough.
 template <class F>
 TYNDALL_INLINE F throughput_of(const SpecularSphere<F>& b, const PathEnds<F>& e, const EventSequence<F>& w, F p) {
   const auto cosine = [&](F reach) {
@@ -156,8 +156,7 @@ TYNDALL_INLINE F throughput_of(const SpecularSphere<F>& b, const PathEnds<F>& e,
   return select(visits, throughput * visit, throughput);
 }
 
-/// The event sequence of the specular path that carries most light: through the sphere by the fewest events, or off a
-/// mirror.
+/// The event sequence of the path that carries most light: through the sphere by the fewest events, or off a mirror.
 template <class F>
 TYNDALL_INLINE EventSequence<F> main_sequence(const SpecularSphere<F>& b, const PathEnds<F>& e) {
   const F one = F(1.0f), two = F(2.0f), none = F(0.0f);
@@ -165,14 +164,14 @@ TYNDALL_INLINE EventSequence<F> main_sequence(const SpecularSphere<F>& b, const 
           select(b.hollow, select(e.both_out, two, select(e.deep, one, none)), none), none};
 }
 
-// Light by a sphere is asked for by the main event sequence, and by another one, which is drawn by decisions. Each of
-// them takes one octal digit of 64 random bits. First: does the light reflect off the outside of the glass? Does it go
-// past the inner sphere of a thick shell? Then, at each event: is it reflected? At the first one in solid glass it
-// always is, because the event sequence would be the main one else.
-inline constexpr int max_decisions = 16;  ///< about events at most; longer event sequences are left to scattering
+// Each query tries the main event sequence and another one, which is drawn by decisions. Each decision takes one octal
+// digit of 64 random bits. The first decisions: is the path reflected off the outside of the glass? Does it bypass the
+// inner sphere of a thick shell? After these, one at each event: is it reflected? At its first event inside solid glass
+// a drawn path is always reflected, because otherwise it would repeat the main event sequence.
+inline constexpr int max_decisions = 16;          ///< longer event sequences are left to BSDF sampling
 inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes"
 
-/// Whether light can pass through a shell's glass without meeting the inner sphere.
+/// Whether a path can cross a shell's glass without meeting the inner sphere.
 template <class F>
 TYNDALL_INLINE MaskOf<F> is_thick(const SpecularSphere<F>& b) {
   return mask_and(b.hollow, less(b.index * b.inner_radius, F(0.999f) * min(b.radius, b.index * b.radius)));
@@ -181,7 +180,7 @@ TYNDALL_INLINE MaskOf<F> is_thick(const SpecularSphere<F>& b) {
 template <class F>
 struct DrawnSequence {
   EventSequence<F> sequence;
-  MaskOf<F> drawn;  ///< false where the event sequence would have more events than there are decisions
+  MaskOf<F> drawn;  ///< false for mirrors, invalid ends, and event sequences of more than max_decisions events
 };
 
 template <class F>
@@ -190,11 +189,11 @@ TYNDALL_INLINE MaskOf<F> same_sequence(const EventSequence<F>& a, const EventSeq
                   equal(a.inner_reflected, b.inner_reflected));
 }
 
-/// The decisions that 64 random bits make, three bits each, from the highest down.
+/// The decisions that 64 random bits make: three bits each, from the highest down.
 template <class F>
 struct Decisions {
   UintOf<F> high, low;
-  /// Whether the next digit, 0 ... 7, is below `limit`. Moves on to the digit after it.
+  /// Returns whether the next octal digit is below `limit` (probability limit / 8), and advances to the digit after it.
   TYNDALL_INLINE MaskOf<F> below(std::int32_t limit) {
     const auto yes = less(as_int(shift_right<29>(high)), IntOf<F>(limit));
     high = shift_left<3>(high) | shift_right<29>(low);
@@ -203,16 +202,16 @@ struct Decisions {
   }
 };
 
-/// The state of an event sequence that is drawn event by event.
+/// The state of an event sequence while it is drawn event by event.
 template <class F>
 struct SequenceWalk {
   Decisions<F> decide;
-  MaskOf<F> layered;  ///< the way meets the inner sphere
-  MaskOf<F> open;     ///< more events follow; not if it only reflects off the outside
-  IntOf<F> next;      ///< next event: 0 at the outer sphere, 1 at the inner one from the glass, 2 there from within
+  MaskOf<F> layered;  ///< the path meets the inner sphere
+  MaskOf<F> open;     ///< more events follow; never for a path that only reflects off the outside or off a mirror
+  IntOf<F> next;      ///< 0: at the outer sphere; 1: at the inner one, from the glass; 2: at the inner one, from inside
 };
 
-/// main: lanes that walk the main event sequence, which takes no decisions.
+/// Starts the walk along an event sequence. main: lanes of the main event sequence, which takes no decisions.
 template <class F>
 TYNDALL_INLINE SequenceWalk<F> start_walk(const SpecularSphere<F>& b, const PathEnds<F>& e,
                                           const Decisions<F>& decisions, MaskOf<F> main) {
@@ -231,13 +230,13 @@ TYNDALL_INLINE SequenceWalk<F> start_walk(const SpecularSphere<F>& b, const Path
   return walk;
 }
 
-/// One event of a walk. Neither at_outer nor at_inner is set in lanes whose walk has ended.
+/// One event of a walk. Lanes whose walk has ended have neither at_outer nor at_inner set.
 template <class F>
 struct SequenceEvent {
   MaskOf<F> at_outer, at_inner, reflects;
 };
 
-/// Draws the walk's next event, and what follows it.
+/// Returns the walk's next event and advances the walk past it.
 template <class F>
 TYNDALL_INLINE SequenceEvent<F> step_walk(SequenceWalk<F>& walk) {
   using I = IntOf<F>;
@@ -250,7 +249,7 @@ TYNDALL_INLINE SequenceEvent<F> step_walk(SequenceWalk<F>& walk) {
   return event;
 }
 
-/// Draws another event sequence than the main one by random decisions. In a shell it may be the main one all the same.
+/// Draws an event sequence other than the main one. In a shell the main one may be drawn all the same.
 template <class F>
 TYNDALL_INLINE DrawnSequence<F> draw_sequence(const SpecularSphere<F>& b, const PathEnds<F>& e,
                                               const Decisions<F>& decisions) {
@@ -267,22 +266,22 @@ TYNDALL_INLINE DrawnSequence<F> draw_sequence(const SpecularSphere<F>& b, const 
   return {w, mask_and_not(mask_and_not(e.valid, b.mirror), walk.open)};
 }
 
-/// How often light is asked for by the main event sequence. Solid glass focuses: a few points of the light may bring
-/// almost all of the light, so that a second one is worth its time.
+/// How many points of the light are tried with the main event sequence: 2 for solid glass, else 1. Solid glass focuses:
+/// a few points of the light may bring almost all of the light, so that a second point is worth its time.
 template <class F>
 TYNDALL_INLINE F main_queries(const SpecularSphere<F>& b) {
   return select(mask_or(b.mirror, b.hollow), F(1.0f), F(2.0f));
 }
 
-/// How often, on average, light is asked for by these events in one given order: if they are the main event sequence as
-/// often as main_queries() says, plus the probability that draw_sequence() draws them.
+/// Expected number of times that a query tries these events in one given order: the probability that draw_sequence()
+/// draws them, plus main_queries() if they are the main event sequence.
 template <class F>
 TYNDALL_INLINE F expected_queries(const SpecularSphere<F>& b, const PathEnds<F>& e, const EventSequence<F>& w) {
   const F yes = F(take_octal), no = F(1.0f) - yes;
   const F outside = select(e.both_out, F(2.0f), F(1.0f));
   const F reflections = (w.outer - outside) + w.inner_reflected, crossings = (w.inner - w.inner_reflected) + F(1.0f);
   const auto short_enough = less(reflections + crossings, F(max_decisions + 0.5f));
-  const F chosen = reflections - select(b.hollow, F(0.0f), F(1.0f));  // the first one in solid glass is not
+  const F chosen = reflections - select(b.hollow, F(0.0f), F(1.0f));  // the first one in solid glass is not drawn
   const F walk = whole_power(yes, max(chosen, F(0.0f))) * whole_power(no, crossings);
   const auto past = mask_and_not(b.hollow, less(F(0.0f), w.inner));
   const F layers = select(is_thick(b), select(past, yes, no), select(past, F(0.0f), F(1.0f)));

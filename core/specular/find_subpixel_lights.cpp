@@ -12,14 +12,14 @@
 namespace tyndall {
 namespace {
 
-constexpr int max_pairs = 32;            // so that an edit stays quick
-constexpr int max_reflections = 4;       // of an event sequence; more carry too little light to be seen
-constexpr int max_roots = 4;             // of an event sequence between two points
-constexpr float min_throughput = 1e-6f;  // of light, below which an event sequence is left out
-constexpr float rare_throughput = 0.1f;  // of light, below which an event sequence's whole image is steered for
+constexpr int max_pairs = 32;            // at most, so that an edit stays quick
+constexpr int max_reflections = 4;       // in an event sequence; more carry too little light to be seen
+constexpr int max_roots = 4;             // paths of one event sequence between two points
+constexpr float min_throughput = 1e-6f;  // event sequences of less are left out
+constexpr float rare_throughput = 0.1f;  // the whole image of an event sequence of less is steered to
 constexpr std::ptrdiff_t max_in_pixel = 16;
-constexpr float largest = 16;         // box, in pixels across
-constexpr float margin = 0.1f;        // of a box, on each side: it is found from a few points of the light only
+constexpr float largest = 16;         // size of a box, in pixels
+constexpr float margin = 0.1f;        // of a box, on each side: the box is found from a few points of the light only
 constexpr float uncertainty = 4e-6f;  // of directions, in radians
 
 /// SubpixelLight::route
@@ -31,7 +31,7 @@ std::int32_t route_by(int reflections, int crossings) {
 struct PictureBox {
   float left = 1e30f, top = 1e30f, right = -1e30f, bottom = -1e30f;
   std::int32_t route = 0;  // see SubpixelLight
-  float throughput = 0;    // of the radiance of the light's middle that the surfaces send this way
+  float throughput = 0;    // fraction of radiance from the light's middle that the surfaces send this way
 
   void include(Pair<float> at) {
     left = std::min(left, at.x), right = std::max(right, at.x);
@@ -40,7 +40,7 @@ struct PictureBox {
   bool empty() const { return right < left; }
 };
 
-/// Where a direction from the camera meets the picture. false: behind the camera.
+/// Where a direction from the camera meets the picture, in pixels. Returns false for a direction behind the camera.
 bool project(const CameraColumns& c, Vec3f direction, Pair<float>& at) {
   const Vec3f normal = cross(c.du, c.dv);
   const float scale = dot(c.corner, normal) / dot(direction, normal);
@@ -74,7 +74,7 @@ std::vector<Vec3f> points_of(const LightColumns<float>& light) {
 /// How the camera sees a point of a light.
 struct SeenPoint {
   Vec3f direction;
-  float throughput = 0;  // of light that the surfaces send this way; 0: not seen
+  float throughput = 0;  // fraction of light that the surfaces send to the camera; 0: not seen
 };
 
 class Finder {
@@ -101,7 +101,7 @@ class Finder {
   std::vector<PictureBox> boxes;
 
  private:
-  /// Adds the boxes of `roots` images. see(point, root): of that point of the light. route: see SubpixelLight.
+  /// Adds the boxes of `roots` images. see(point, root): how image `root` shows a point of the light.
   void add(auto see, int roots, std::int32_t route) {
     for (int root = 0; root < roots; ++root) {
       PictureBox box;
@@ -110,7 +110,7 @@ class Finder {
         Pair<float> at{};
         const SeenPoint seen = see(point, root);
         if (seen.throughput > 0 && project(s_.camera, seen.direction, at)) box.include(at);
-        // Most images are not in the picture: their middle tells.
+        // Most images are not in the picture. The light's middle, which comes first, tells.
         if (&point != points_.data()) continue;
         if (!is_near_picture(box)) break;
         box.throughput = seen.throughput;
@@ -133,7 +133,7 @@ class Finder {
     add(see, 1, 0);
   }
 
-  /// Straight through, reflected at the outside, and reflected within, by the faces at the ends of each edge.
+  /// Straight through, reflected off the outside, and reflected inside, between the faces at the ends of each edge.
   void by_slab(int number) {
     const SpecularSlab<float> slab = load_slab<float>(s_.specular, number);
     for (std::int32_t across = 0; across < 3; ++across)
@@ -164,9 +164,9 @@ class Finder {
     }
   }
 
-  /// Event sequences that meet a shell's inner sphere, with so many reflections at the outer one. On each of its paths
-  /// through the shell, from the outer sphere to the outer sphere, light is reflected at the inner one, or goes through
-  /// it, perhaps reflected within.
+  /// Event sequences that meet a shell's inner sphere, with a given number of reflections at the outer one. On each
+  /// pass through the shell, from the outer sphere to the outer sphere, light is reflected at the inner sphere or goes
+  /// through it, perhaps with reflections inside.
   void by_layers(int reflections) {
     const int passes = reflections + crossings() - 1, halves = 2 - crossings();
     for (int reflected = 0; reflected <= passes; ++reflected) {
@@ -177,7 +177,7 @@ class Finder {
     }
   }
 
-  /// How often light is let in or out at the outer sphere.
+  /// How often light crosses the outer sphere: 2, or 1 with an end inside.
   int crossings() const { return query_.ends.both_out ? 2 : 1; }
 
   EventSequence<float> sequence_of(int outer_reflected, int inner, int inner_reflected) const {
@@ -192,7 +192,7 @@ class Finder {
     return query_.ends.valid && query_.plane.sine > 1e-7f;
   }
 
-  /// An end within the sphere can be left in two ways: see EndSigns.
+  /// Tries both signs of an end inside the sphere: see EndSigns.
   void by_sequence(const EventSequence<float>& sequence) {
     const bool near_in = query_.plane.near < query_.sphere.radius;
     add_sequence(sequence, {1, 1});
@@ -213,7 +213,7 @@ class Finder {
     ask(points_.front());
   }
 
-  /// Samples that start within the glass are not steered.
+  /// SubpixelLight::route of an event sequence. 0 for paths that start inside the glass, which are not steered.
   std::int32_t route_of(const EventSequence<float>& w) const {
     if (query_.sphere.mirror || query_.plane.near < query_.sphere.radius) return 0;
     if (w.outer < static_cast<float>(crossings())) return route_by(1, 0);  // off the outside of the glass
@@ -229,11 +229,11 @@ class Finder {
 
 struct WeighedSubpixelLight {
   SubpixelLight subpixel_light;
-  float weight;  // among those of its pixel
+  float weight;  // relative to the others in its pixel
 };
 
-/// The parts of a box in the pixels of which it fills less than half: samples hit larger parts often enough. All of its
-/// parts where glass sends little light its way: there samples would seldom take it.
+/// Adds the parts of a box that fill less than half of their pixel: samples hit larger parts often enough. Adds all
+/// parts of a box to which glass sends little light, because samples there seldom take that path.
 void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<WeighedSubpixelLight>& subpixel_lights) {
   const float extra = uncertainty / pixel_angle;
   const float wide = margin * (box.right - box.left) + extra, high = margin * (box.bottom - box.top) + extra;
@@ -249,8 +249,8 @@ void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<Weig
     }
 }
 
-/// Gives each subpixel light its part of the samples of its pixel that are drawn within boxes, by weight. Were that the
-/// light which each brings, the darkest would be met by single samples, which then count for much.
+/// Gives each subpixel light a fraction of the samples drawn within boxes of its pixel, by weight: the fourth root of
+/// its throughput. By the throughput itself, the darkest would be met by single samples that count for much.
 std::vector<SubpixelLight> distribute(std::vector<WeighedSubpixelLight> subpixel_lights) {
   const auto before = [](const WeighedSubpixelLight& a, const WeighedSubpixelLight& b) {
     return a.subpixel_light.y != b.subpixel_light.y ? a.subpixel_light.y < b.subpixel_light.y

@@ -6,9 +6,9 @@
 
 namespace tyndall {
 
-/// The subpixel lights of the lights that specular paths look for, as the camera sees them while nothing is in the way;
-/// sorted by row. Only of lights and spheres that rest, for a camera without a lens, and only where one fills less than
-/// half of a pixel or glass sends little light its way.
+/// Returns the subpixel lights of all lights that have specular paths, as the camera sees them if nothing blocks them;
+/// sorted by row. A box is kept only where it fills less than half of a pixel or where glass sends little light along
+/// its path. Empty for a camera with a lens or with motion blur.
 std::vector<SubpixelLight> find_subpixel_lights(const SceneView& scene);
 
 }  // namespace tyndall

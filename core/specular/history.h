@@ -1,16 +1,16 @@
 #pragma once
 #include "core/base/vec.h"
 
-/// What a path has met since it last scattered at a diffuse surface or in a medium, so that a light which it then finds
-/// can be weighed against the specular path that would have found the same light.
+/// Counts what a path has met since it last scattered at a diffuse surface or in a medium, so that a light which it
+/// then hits can be weighed against the specular path that could have found the same light.
 namespace tyndall {
 
-/// Bits [first, first + width) of a number in each lane.
+/// Bits [first, first + width) of an integer in each lane.
 template <int first, int width, class F>
 struct BitField {
-  static constexpr std::int32_t one = 1 << first;               ///< what counts one event
-  static constexpr std::int32_t maximum = (1 << width) - 1;     ///< the largest number that it holds
-  static constexpr std::int32_t mask = maximum * (1 << first);  ///< its bits
+  static constexpr std::int32_t one = 1 << first;               ///< adds one event
+  static constexpr std::int32_t maximum = (1 << width) - 1;     ///< the largest count
+  static constexpr std::int32_t mask = maximum * (1 << first);  ///< the bits of this field
   TYNDALL_INLINE static IntOf<F> of(IntOf<F> packed) {
     if constexpr (first == 0) return packed & IntOf<F>(maximum);
     return as_int(shift_right<first>(as_uint(packed))) & IntOf<F>(maximum);
@@ -18,19 +18,19 @@ struct BitField {
   TYNDALL_INLINE static MaskOf<F> is_full(IntOf<F> packed) { return equal(packed & IntOf<F>(mask), IntOf<F>(mask)); }
 };
 
-/// Counts of the events at one specular object. It is one number, because a path carries it through each step:
+/// Counts of the events at one specular object, packed into one integer, because a path carries it through each step:
 ///
 ///   0                 nothing was met yet
-///   -1                something was met that no specular path meets, or more than can be counted
+///   -1                something was met that no specular path meets, or more events than can be counted
 ///   otherwise         the object's index + 1 in bits 14 and up, and below them
 ///     at a sphere, a shell or a flat mirror (which counts as a sphere: see SpecularPairs)
 ///       bits 0-3      events at the outer sphere
 ///       bits 4-8      events at the inner sphere
-///       bits 9-12     reflections among these
-///       bit 13        the path first went away from the centre
+///       bits 9-12     reflections at the inner sphere
+///       bit 13        the path first moved away from the centre
 ///     at a slab
 ///       bits 0-3, 4-7, 8-11   events at the two faces across its first, second and third edge
-///       bits 12-13            the edge across which it met a face first
+///       bits 12-13            the edge across which the first face was met
 template <class F>
 struct SpecularHistory {
   using I = IntOf<F>;
@@ -49,7 +49,7 @@ struct SpecularHistory {
   TYNDALL_INLINE MaskOf<F> has_object() const { return less(I((1 << name_shift) - 1), packed); }
   /// The object's index where has_object(), else any number.
   TYNDALL_INLINE I object() const { return as_int(shift_right<name_shift>(as_uint(packed))) - I(1); }
-  /// The number in which only an object's name is set.
+  /// The packed integer in which only an object's name, its index + 1, is set.
   TYNDALL_INLINE static I name_of(I object) { return as_int(shift_left<name_shift>(as_uint(object + I(1)))); }
   TYNDALL_INLINE static I name_in(I packed) { return packed & I(~((1 << name_shift) - 1)); }
 
@@ -66,16 +66,15 @@ struct SpecularHistory {
   TYNDALL_INLINE I first_edge() const { return as_int(shift_right<12>(as_uint(packed))) & I(3); }
 };
 
-/// An event at an object: what a history that begins with it starts from, apart from the object's name, what the event
-/// adds to the counts, and where there is no room for another one.
+/// An event at an object. start: what a history begins with at this event, without the object's name. count: what the
+/// event adds to the counts. is_full: lanes without room for another one.
 template <class F>
 struct HistoryEvent {
   IntOf<F> start, count;
   MaskOf<F> is_full;
 };
 
-/// An event at a sphere, shell or mirror. inner: it is at the inner sphere; away: the path first went away from the
-/// centre.
+/// An event at a sphere, shell or mirror. inner: at the inner sphere. away: the path first moved away from the centre.
 template <class F>
 TYNDALL_INLINE HistoryEvent<F> event_at_sphere(IntOf<F> packed, MaskOf<F> inner, MaskOf<F> reflected, MaskOf<F> away) {
   using I = IntOf<F>;
@@ -85,7 +84,7 @@ TYNDALL_INLINE HistoryEvent<F> event_at_sphere(IntOf<F> packed, MaskOf<F> inner,
           mask_or(mask_or(H::Outer::is_full(packed), H::Inner::is_full(packed)), H::InnerReflected::is_full(packed))};
 }
 
-/// An event at a face of a slab. edge: the one across which the face lies, 0, 1 or 2.
+/// An event at a face of a slab. edge: 0, 1 or 2, the edge across which the face lies.
 template <class F>
 TYNDALL_INLINE HistoryEvent<F> event_at_slab(IntOf<F> packed, IntOf<F> edge) {
   using I = IntOf<F>;
@@ -93,7 +92,7 @@ TYNDALL_INLINE HistoryEvent<F> event_at_slab(IntOf<F> packed, IntOf<F> edge) {
   return {as_int(shift_left<12>(as_uint(edge))), one, equal(packed & (one * I(15)), one * I(15))};
 }
 
-/// `before` after another event, at `object`.
+/// `before` after another event, at `object`; -1 if it was at another object or has no room.
 template <class F>
 TYNDALL_INLINE SpecularHistory<F> append_event(SpecularHistory<F> before, IntOf<F> object,
                                                const HistoryEvent<F>& event) {

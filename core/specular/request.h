@@ -5,23 +5,22 @@
 
 namespace tyndall {
 
-/// What an event at a diffuse surface or in media asks for: the light that specular paths bring to it.
+/// What an event at a diffuse surface or in media requests: the light that specular paths bring to it.
 template <class F>
 struct SpecularRequest {
   Vec3<F> point;
-  Vec3<F>
-      facing;  ///< at a surface: its unit normal on the side from which the path came; in media: the path's direction
-  Vec3<F> throughput;  ///< with which light from there enters the sample: the path's own times the albedo
+  Vec3<F> facing;  ///< unit; at a surface its normal on the side of the incoming path, in media the path's direction
+  Vec3<F> throughput;  ///< of light from there into the sample: the path's own times the albedo
   F time;
-  F g;                 ///< of the medium
+  F g;                 ///< asymmetry of the medium's phase function
   IntOf<F> from;       ///< Ray::from of rays that leave the point
   IntOf<F> depth;      ///< scattering events before this one
-  IntOf<F> slot;       ///< names the sample
+  IntOf<F> slot;       ///< identifies the sample
   Sampler<F> sampler;  ///< at this event
   MaskOf<F> in_medium;
 };
 
-/// Calls number(row, x) or integer(row, x) for each part of the requests.
+/// Calls number(row, x) or integer(row, x) for each member of the requests; row: its column in a queue.
 template <class F>
 TYNDALL_INLINE void each_part(const auto&, SpecularRequest<F>& q, const auto& number, const auto& integer) {
   IntOf<F> low = as_int(q.sampler.low), high = as_int(q.sampler.high), event = as_int(q.sampler.event);
@@ -36,7 +35,7 @@ TYNDALL_INLINE void each_part(const auto&, SpecularRequest<F>& q, const auto& nu
   q.in_medium = equal(in_medium, IntOf<F>(1));
 }
 
-/// Density, per steradian, with which light scatters at the requests' points into a direction.
+/// Pdf, per steradian, with which light scatters at the requests' points into `direction`.
 template <class F>
 TYNDALL_INLINE F scattered_pdf(const auto& s, const SpecularRequest<F>& q, Vec3<F> direction) {
   Incident<F> in{};

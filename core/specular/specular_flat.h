@@ -3,23 +3,23 @@
 
 /// Specular paths off flat mirrors and through slabs.
 ///
-/// Mirrors are quads, and faces of boxes, of metal without fuzz. What a mirror shows of a light is the light's image
-/// behind it, so there is one such way between two points on the same side, if it meets the face.
+/// Mirrors are quads, and faces of boxes, of metal without fuzz. A mirror shows a light as an image behind it, so that
+/// there is at most one path between two points on the same side, and only if it meets the face.
 ///
 /// Slabs are boxes of glass. Light that enters a box by one face and then meets a face at right angles to it is totally
-/// reflected there if the index is at least sqrt(2), so it leaves only by the face that it entered by or by the
-/// opposite one. Unfolded at the faces where it is reflected, such a way is that through a slab with parallel sides:
-/// outside it has one slope, by Snell's law. The far end is then an image of itself. So for each number of crossings
-/// and each image there is at most one path between two points.
+/// reflected there if the index is at least sqrt(2), so that it leaves only by the entry face or the opposite one.
+/// Unfolded at the faces that reflect it, the path is one through a slab with parallel sides to an image of the far
+/// end, and has one slope outside by Snell's law. So there is at most one path between two points for each number of
+/// crossings and each image.
 namespace tyndall {
 
 template <class F>
 struct SpecularMirror {
-  Vec3<F> row[2], normal;  ///< row · p + offset runs from -1 to 1 across the face at p
+  Vec3<F> row[2], normal;  ///< row · p + offset runs from -1 to 1 across the face, for a point p
   F offset[2], height;     ///< normal · p + height: distance of p from the mirror's plane, negative behind it
 };
 
-/// mirror: its index among the flat mirrors.
+/// Reads a mirror. mirror: index among the flat mirrors.
 template <class F>
 TYNDALL_INLINE SpecularMirror<F> load_mirror(const SpecularView& c, IntOf<F> mirror) {
   const IntOf<F> at = mirror * IntOf<F>(numbers_of_mirror);
@@ -28,13 +28,13 @@ TYNDALL_INLINE SpecularMirror<F> load_mirror(const SpecularView& c, IntOf<F> mir
   return {{row(0), row(1)}, row(2), {value(mirror_offsets), value(mirror_offsets + 1)}, value(mirror_offsets + 2)};
 }
 
-/// The image of a point.
+/// The mirror image of a point.
 template <class F>
 TYNDALL_INLINE Vec3<F> mirrored(const SpecularMirror<F>& m, Vec3<F> point) {
   return point_at(point, F(-2.0f) * (dot(m.normal, point) + m.height), m.normal);
 }
 
-/// What takes the place of the sphere where points of a light are drawn: those that see the point's image.
+/// A sphere of radius 0 at the mirror image of a point: with it sample_light_point() draws points that face the image.
 template <class F>
 TYNDALL_INLINE SpecularSphere<F> seen_by_mirror(const SpecularMirror<F>& m, Vec3<F> point) {
   SpecularSphere<F> b{};
@@ -42,11 +42,12 @@ TYNDALL_INLINE SpecularSphere<F> seen_by_mirror(const SpecularMirror<F>& m, Vec3
   return b;
 }
 
-/// Of what a light is worth to a point by a mirror, so much is left where the point does not see the middle of the
-/// light in it: it may see other parts.
+/// Factor of mirror_worth() where the point does not see the middle of the light in the mirror. It may still see other
+/// parts.
 inline constexpr float min_mirror_worth = 1e-3f;
 
-/// What pair k of a mirror and a light is worth at a point, > 0. See light_worth(); the light is where its image is.
+/// Estimated contribution, > 0, of pair k of a mirror and a light at a point: light_worth() of the light's mirror
+/// image.
 template <class F>
 TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
   const float* number = c.mirrors + std::ptrdiff_t{numbers_of_mirror} * (c.sphere[k] - c.first_mirror);
@@ -57,7 +58,7 @@ TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
   const Vec3<F> light = splat<F>(Vec3f{c.choice.center[0][k], c.choice.center[1][k], c.choice.center[2][k]});
   const F near = dot(row(2), point) + value(mirror_offsets + 2), far = dot(row(2), light) + value(mirror_offsets + 2);
   const F height = max(abs(near) + abs(far), F(1e-30f)),
-          throughput = abs(near) / height;  // of the way, up to the plane
+          throughput = abs(near) / height;  // fraction of the path up to the plane
   const Vec3<F> to_light = point_at(light, F(-2.0f) * far, row(2)) - point, at = point_at(point, throughput, to_light);
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
   const F blur =
@@ -73,11 +74,11 @@ TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
 /// The path off a mirror between two points.
 template <class F>
 struct MirrorPath {
-  MaskOf<F> found;                ///< it meets the face, and the points are on one side
-  MaskOf<F> behind;               ///< they are behind the mirror
-  Vec3<F> direction, arrive;      ///< unit: in which a path leaves the near end, and in which it arrives at the far one
+  MaskOf<F> found;                ///< the path meets the face, and the points are on one side
+  MaskOf<F> behind;               ///< the points are behind the mirror
+  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the far end
   F near_distance, far_distance;  ///< distances from each end to the mirror
-  F spread;  ///< area across the way at the far end, over the solid angle that it fills at the near one
+  F spread;                       ///< area across the path at the far end over solid angle at the near end
 };
 
 template <class F>
@@ -99,15 +100,15 @@ TYNDALL_INLINE MirrorPath<F> mirror_path(const SpecularMirror<F>& m, Vec3<F> nea
 
 template <class F>
 struct SpecularSlab {
-  Vec3<F> row[3];           ///< unit, along the edges
-  F offset[3];              ///< row · p + offset: place of a point p along this edge, measured from the middle
-  F half[3];                ///< of each edge
-  F index, medium_density;  ///< of refraction; density of media within
-  IntOf<F> closed;   ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
-  IntOf<F> element;  ///< of the first face
+  Vec3<F> row[3];           ///< unit vectors along the edges
+  F offset[3];              ///< row · p + offset: coordinate of a point p along this edge, from the middle
+  F half[3];                ///< half the length of each edge
+  F index, medium_density;  ///< refractive index; density of media inside
+  IntOf<F> closed;          ///< bit 2 · edge + (0: lower face, 1: upper face): another object touches that face
+  IntOf<F> element;         ///< index of the first face among the scene's elements
 };
 
-/// slab: its index among the slabs.
+/// Reads a slab. slab: index among the slabs.
 template <class F>
 TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularView& c, IntOf<F> slab) {
   const IntOf<F> at = slab * IntOf<F>(numbers_of_slab);
@@ -122,16 +123,16 @@ TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularView& c, IntOf<F> slab) {
   return p;
 }
 
-/// What happens to light at a slab.
+/// The event sequence of a path at a slab.
 template <class F>
 struct SlabSequence {
-  IntOf<F> across;  ///< the edge at whose end it enters
-  F crossings;      ///< how often it goes from one of the faces there to the other; 0: it is reflected at the outside
-  F image[2];       ///< number of reflections at the faces along the way, for the two edges that follow `across`;
-                    ///< negative if the lower face comes first
+  IntOf<F> across;  ///< the edge at whose end the path enters
+  F crossings;      ///< crossings from one of the faces there to the other; 0: reflected off the outside
+  F image[2];  ///< reflections at the side faces, for the two edges that follow `across`; negative if the lower face
+               ///< comes first
 };
 
-/// value[edge] of every lane.
+/// value[edge] in every lane.
 template <class F>
 TYNDALL_INLINE F of_edge(const F (&value)[3], IntOf<F> edge) {
   return select(equal(edge, IntOf<F>(0)), value[0], select(equal(edge, IntOf<F>(1)), value[1], value[2]));
@@ -143,7 +144,7 @@ TYNDALL_INLINE IntOf<F> next_edge(IntOf<F> edge) {
   return select(equal(edge, IntOf<F>(2)), IntOf<F>(0), edge + IntOf<F>(1));
 }
 
-/// A place by its components along three edges: the two that follow that of an event sequence, and that one.
+/// A position by its components along the edges: `height` along the edge `across`, `side` along the two that follow it.
 template <class F>
 struct SlabPlace {
   F side[2], height;
@@ -162,13 +163,13 @@ TYNDALL_INLINE SlabPlace<F> framed(const SpecularSlab<F>& slab, Vec3<F> point, I
   return framed<F>(edges, across);
 }
 
-/// A slab and two points in the frame of an event sequence.
+/// A slab and the two ends of a path, in the frame of an event sequence.
 template <class F>
 struct SlabFrame {
   SlabPlace<F> half, near, far;
-  F near_gap, far_gap;  ///< distance from each point to the slab between the two faces; negative: it is in the slab
+  F near_gap, far_gap;  ///< distance of each point from the slab, along `across`; negative: it is in the slab
   F index;
-  MaskOf<F> same;  ///< both points are on one side of the slab
+  MaskOf<F> same;  ///< both points are on the same side of the slab
 };
 
 template <class F>
@@ -182,38 +183,38 @@ TYNDALL_INLINE SlabFrame<F> slab_frame(const SpecularSlab<F>& slab, Vec3<F> near
   return s;
 }
 
-/// -1 where a whole number is odd, 1 where it is even.
+/// 1 where a whole number is even, -1 where it is odd.
 template <class F>
 TYNDALL_INLINE F parity_sign(F whole) {
   return select(equal(floor(F(0.5f) * whole) * F(2.0f), whole), F(1.0f), F(-1.0f));
 }
 
-/// Along one edge: from the near point to the image of the far one.
+/// Distance along one edge from the near point to the image of the far point, signed.
 template <class F>
 TYNDALL_INLINE F to_image(const SlabFrame<F>& s, int edge, F image) {
   return mul_add(F(2.0f) * image, s.half.side[edge], parity_sign(image) * s.far.side[edge]) - s.near.side[edge];
 }
 
-/// The slope of a path outside, its tangent to the normal of the faces, and what it gets along the faces: slope · reach
-/// in all. growth: derivative of that by the slope.
+/// The slope of a path outside: the tangent of its angle to the normal of the faces. Along the faces the path covers
+/// slope · reach; growth is the derivative of that product by the slope.
 template <class F>
 struct SlabSlope {
   F slope, reach, growth;
 };
 
-/// outside, inside: height of the path outside and inside of the glass.
+/// Returns reach and growth for a slope. outside, inside: height that the path covers outside and inside of the glass.
 template <class F>
 TYNDALL_INLINE SlabSlope<F> reach_of(F index, F outside, F inside, F slope) {
   const F n2 = index * index, w2 = mul_add((index - F(1.0f)) * (index + F(1.0f)), slope * slope, n2), w = sqrt(w2);
   return {slope, outside + inside / w, mul_add(inside, n2 / (w2 * w), outside)};
 }
 
-/// The slope of a path that gets as far as `across` along the faces, by Newton's method. What a way gets is a concave
-/// function of the slope, so that each step from below falls short and none goes too far.
+/// The slope of a path that covers the distance `across` along the faces, by Newton's method. The distance is a concave
+/// function of the slope, so that each step from below falls short and none overshoots.
 template <class F>
 TYNDALL_INLINE F find_slope(F index, F outside, F inside, F across, int steps) {
   const F n2 = index * index, more = (index - F(1.0f)) * (index + F(1.0f));
-  const F maximum = inside / sqrt(more);  // that it can get inside
+  const F maximum = inside / sqrt(more);  // largest distance inside
   F slope = max(across / (outside + inside / index), (across - maximum) / outside);
   for (int i = 0; i < steps; ++i) {
     const F w = F(1.0f) / sqrt(mul_add(more, slope * slope, n2)), t = slope * w;
@@ -225,15 +226,15 @@ TYNDALL_INLINE F find_slope(F index, F outside, F inside, F across, int steps) {
 /// A path through a slab.
 template <class F>
 struct SlabPath {
-  MaskOf<F> found;                ///< it meets the faces
-  Vec3<F> direction, arrive;      ///< unit: in which a path leaves the near end, and in which it arrives at the far one
+  MaskOf<F> found;                ///< the path meets the faces
+  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the far end
   F near_distance, far_distance;  ///< distances from each end to the slab
   F within;                       ///< length of the path in the glass
-  F throughput;                   ///< of the light that the faces send this way
-  F spread;  ///< area across the way at the far end, over the solid angle that it fills at the near one
+  F throughput;                   ///< fraction of light that the faces send along this path
+  F spread;                       ///< area across the path at the far end over solid angle at the near end
 };
 
-/// Fraction of the light and the rest that follows from the slope.
+/// Sets the throughput and the spread of a path from its slope.
 template <class F>
 TYNDALL_INLINE void follow_slope(const SlabFrame<F>& s, const SlabSequence<F>& sequence, const SlabSlope<F>& at,
                                  SlabPath<F>& path) {
@@ -244,9 +245,8 @@ TYNDALL_INLINE void follow_slope(const SlabFrame<F>& s, const SlabSequence<F>& s
   path.spread = at.reach * at.growth * stretch2;
 }
 
-/// Whether the path of an event sequence goes from the near point through the face into the box, and out of the face
-/// through which it has to leave. gone: along each edge, from the near end to the image of the far one, over the whole
-/// `reach`.
+/// Whether the path of an event sequence enters through its entry face and leaves through its exit face; both are
+/// widened by `room` on each side. gone: distance that the path covers along each edge per unit of height outside.
 template <class F>
 TYNDALL_INLINE MaskOf<F> meets_faces(const SlabFrame<F>& s, const SlabSequence<F>& sequence, const F (&gone)[2],
                                      F room) {
@@ -260,7 +260,7 @@ TYNDALL_INLINE MaskOf<F> meets_faces(const SlabFrame<F>& s, const SlabSequence<F
   return meets;
 }
 
-/// The path of an event sequence. Both points must be outside of the slab.
+/// Solves for the path of an event sequence. Both points must be outside of the slab.
 template <class F>
 TYNDALL_INLINE SlabPath<F> slab_path(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
                                      const SlabSequence<F>& sequence) {

@@ -3,34 +3,33 @@
 #include "core/specular/request.h"
 #include "core/specular/specular_trail.h"
 
-/// Light that a light sends to a point through or off one sphere, one flat mirror or one slab, such as the bright spot
-/// under a glass sphere: solved for, where scattering would have to find it by chance. First a sphere, mirror or slab
-/// and a light are chosen, then points of the light and for each the surfaces that the light meets, and how (of a slab
-/// before the points). Of all specular paths that do so one, drawn in proportion to what each would bring if nothing
-/// were in its way, is tested for things in its way, and counts for all. As scattering finds the same paths, both are
-/// weighed by the power heuristic.
+/// Light from a small light that reaches a point through or off one sphere, one flat mirror or one slab, such as the
+/// bright spot under a glass sphere. BSDF sampling seldom finds such paths, so they are solved for (manifold next event
+/// estimation): choose a pair of an object and a light; for a slab, draw the event sequence; draw points of the light;
+/// for a sphere, choose event sequences; solve for all paths; keep one, in proportion to its unoccluded contribution,
+/// and test its visibility. BSDF sampling finds the same paths, so both are weighted by the power heuristic.
 namespace tyndall {
 
-/// What each lane asks for: light by one sphere, mirror or slab from one point of one light, and how these lie to each
-/// other.
+/// The query of each lane: a sphere, mirror or slab, a light, a point of that light, and the geometry between them.
 template <class F>
 struct SpecularQuery {
   LightChoice<F> pair;
-  F probability;  ///< that a specular path is asked for, by this pair
+  F probability;  ///< that a specular path is queried, times that of this pair
   SpecularSphere<F> sphere;
   SpecularMirror<F> mirror;
   SpecularSlab<F> slab;
-  DrawnSlabSequence<F> slab_path;  ///< through the slab
+  DrawnSlabSequence<F> slab_path;  ///< event sequence through the slab
   MaskOf<F> by_mirror, by_slab;
   IntOf<F> light;
   LightColumns<F> light_columns;
-  Vec3<F> receiver;  ///< the point that asks for light, as seen from the light
+  Vec3<F> receiver;  ///< the shading point; for slabs the centre of its image, see seen_by_slab()
   LightPoint<F> at;
   PathPlane<F> plane;
   PathEnds<F> ends;
 };
 
-/// Draws a path through a slab, and gives the sphere within which the light sees the asking point over it.
+/// Draws an event sequence through a slab. Returns the sphere in which the light sees the shading point through the
+/// slab.
 template <class F>
 TYNDALL_INLINE SpecularSphere<F> query_slab(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
                                             SpecularQuery<F>& a) {
@@ -73,7 +72,7 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
   return a;
 }
 
-/// Draws the point of the light with which `a` goes on.
+/// Draws a point of the light into `a`, and updates the plane and the ends of the path.
 template <class F>
 TYNDALL_INLINE void aim_at_light(const auto& s, Vec3<F> point, F time, Pair<F> u, SpecularQuery<F>& a) {
   a.at = sample_light_point(a.light_columns, a.sphere, a.receiver, time, u);
@@ -138,8 +137,7 @@ TYNDALL_INLINE SpecularRays<F> rays_through_slab(const SpecularQuery<F>& a, Vec3
   return r;
 }
 
-/// The factor by which the light's radiance counts if nothing is in the way, the weight of the power heuristic
-/// included.
+/// Factor on the light's radiance if nothing blocks the path. It includes the weight of the power heuristic.
 template <class F>
 TYNDALL_INLINE F weight_of(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
                            const SpecularRays<F>& rays) {
@@ -147,24 +145,23 @@ TYNDALL_INLINE F weight_of(const auto& s, const SpecularRequest<F>& q, const Spe
   const F scattered = scattered_pdf(s, q, rays.direction) * rays.throughput;
   const auto useful = mask_and(mask_and(rays.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
   const F ratio = scattered / max(rays.pdf, F(1e-37f));
-  // 0 at a caustic's edge, where the density is 0.
+  // The weight is 0 at a caustic's edge, where the pdf is 0.
   const F weight = rays.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));
   return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
 }
 
-/// The specular path that each lane takes out of those which it finds: at random, in proportion to their weights. (J.
-/// Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, Eurographics Symposium on Rendering
-/// 2005)
+/// One specular path per lane, drawn from all that were found in proportion to their weights. (J. Talbot, D. Cline, P.
+/// Egbert, Importance Resampling for Global Illumination, Eurographics Symposium on Rendering 2005)
 template <class F>
 struct SampledPath {
   Reservoir<F> reservoir;
   SpecularRays<F> rays{};
-  Vec3<F> light_point{};   ///< the point of the light where it starts
-  PathEnds<F> ends{};      ///< with those, and
-  InsidePath<F> inside{};  ///< this way, if its sphere is crowded
+  Vec3<F> light_point{};   ///< where the path starts on the light
+  PathEnds<F> ends{};      ///< set where the sphere is overlapped
+  InsidePath<F> inside{};  ///< likewise
 };
 
-/// Offers what weight_of() tells of these rays. Returns which lanes take them.
+/// Offers the rays with the weight of weight_of(). Returns which lanes take them.
 template <class F>
 TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
                                     const SpecularRays<F>& rays, SampledPath<F>& taken) {
@@ -179,7 +176,7 @@ TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const SpecularRequest<F>& q, 
   return takes;
 }
 
-/// Keeps the path of a specular path within its crowded sphere.
+/// Stores the part inside the sphere of a path that was taken, for overlapped spheres.
 template <class F>
 TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& c, const EventSequence<F>& sequence,
                                 MaskOf<F> lanes, SampledPath<F>& taken) {
@@ -192,7 +189,7 @@ TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& 
   copy(a.ends.both_out, ends.both_out), copy(a.ends.deep, ends.deep), copy(a.ends.valid, ends.valid);
 }
 
-/// Offers all specular paths of an event sequence by a sphere. For an end within the sphere both signs are tried (see
+/// Offers all specular paths of an event sequence at a sphere. Both signs are tried for an end inside it (see
 /// EndSigns).
 template <class F>
 TYNDALL_INLINE void offer_sequence(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
@@ -243,8 +240,7 @@ TYNDALL_INLINE SampledPath<F> sample_specular_path(const auto& s, const Specular
   const auto by_sphere = mask_and_not(mask_and_not(lanes, a.by_mirror), a.by_slab);
   const Pair<F> u = q.sampler.next_2d(dimension::specular_point);
   const auto another = mask_and_not(by_sphere, a.sphere.mirror), twice = mask_and_not(another, a.sphere.hollow);
-  for (int i = 0; i < 3;
-       ++i) {  // the main event sequence, the main event sequence again in solid glass, and another event sequence
+  for (int i = 0; i < 3; ++i) {  // main event sequence, again in solid glass, drawn one
     const auto here = i == 0 ? by_sphere : i == 1 ? twice : another;
     if (i > 0 && !any(here)) continue;
     const F shift = F(i == 0 ? 0.0f : 0.5f), x = u.x + shift, y = u.y + shift;
@@ -260,7 +256,7 @@ TYNDALL_INLINE SampledPath<F> sample_specular_path(const auto& s, const Specular
   return taken;
 }
 
-/// Light that reaches the requests' points by specular paths, times their throughput. Each test for things in the way
+/// Radiance that reaches the requests' points by specular paths, times their throughput. Each visibility test of a lane
 /// adds one to shadow_rays.
 template <class F>
 [[gnu::noinline]] static Vec3<F> specular_light(const SceneView& s, const SpecularRequest<F>& q, MaskOf<F> lanes,

@@ -3,21 +3,21 @@
 #include "core/trace/lights.h"
 #include "core/trace/shade.h"
 
-/// A specular path is a path of light from a point of a light, through or off a sphere, off a flat mirror or through a
-/// slab, to a point where light scatters. Here are the points of lights where specular paths start, and specular paths
-/// by spheres; specular_flat.h and specular_slab.h have the others.
+/// Points of lights where specular paths start, and specular paths at spheres; specular_flat.h and specular_slab.h hold
+/// the other kinds. A specular path leads from a point of a light, through or off one sphere, off one flat mirror or
+/// through one slab, to a point where light scatters.
 namespace tyndall {
 
-/// A point on a light's surface, drawn without regard to what is in between.
+/// A point on a light's surface, drawn without regard to visibility.
 template <class F>
 struct LightPoint {
   Vec3<F> point, normal;
   F pdf;  ///< per unit of area
 };
 
-/// A sphere sees a cap of a sphere light: the points whose normals are close to the axis towards the sphere. This is
-/// the least cosine between normal and axis in the cap; -1, for the whole light, if the sphere holds the light's
-/// centre. distance: between the two centres.
+/// A glass or mirror sphere sees a cap of a sphere light. Returns the least cosine between a normal of that cap and the
+/// axis from the light to the sphere; -1, for the whole light, if the sphere holds the light's centre. distance:
+/// between the two centres.
 template <class F>
 TYNDALL_INLINE F seen_from_sphere(F distance, F light_radius, F sphere_radius) {
   return select(less(sphere_radius, distance), max((light_radius - sphere_radius) / max(distance, F(1e-30f)), F(-1.0f)),
@@ -25,18 +25,17 @@ TYNDALL_INLINE F seen_from_sphere(F distance, F light_radius, F sphere_radius) {
 }
 
 /// How points are drawn on a sphere light: by z, the cosine between a point's normal and `axis`.
-/// If the light is outside of the sphere, the axis leads to the sphere's centre, and the density grows with z from 0 at
-/// the edge of the cap that the sphere sees, because the light that reaches the sphere from there grows likewise. If
-/// the light's centre is in the sphere, most of its light leaves the sphere almost straight. Then the axis leads to the
-/// point that asks for light, and most points are drawn on the half that faces it; the others are for light that the
-/// sphere throws back.
+/// Light outside of the sphere: the axis leads to the sphere's centre. The pdf grows with z from 0 at the edge of the
+/// cap that the sphere sees, because the light that reaches the sphere grows likewise.
+/// Light's centre in the sphere: most of the light leaves the sphere almost straight. The axis leads to the receiver,
+/// and most points are drawn on the half that faces it; the rest serve light that the sphere reflects back.
 template <class F>
 struct LightSide {
   Vec3<F> center, axis;
-  F radius, first;    ///< of the light; least z that the sphere sees
+  F radius, first;    ///< radius of the light; first: least z that the sphere sees
   MaskOf<F> outside;  ///< the light's centre is outside of the sphere
 };
-/// For a light in the sphere: fractions of points on the half that faces the axis, on the other half, and anywhere.
+/// For a light in the sphere: fractions of points on the half that faces the axis, on the other half, and uniform.
 inline constexpr float facing_fraction = 0.75f, averted_fraction = 0.125f, even_fraction = 0.125f;
 
 template <class F>
@@ -50,7 +49,7 @@ TYNDALL_INLINE LightSide<F> light_side(const LightColumns<F>& light, const Specu
   return {center, scale * to_axis_end, light.length_u, seen_from_sphere(distance, light.length_u, b.radius), outside};
 }
 
-/// Density, per unit of area, of the points that draw_on_light_side() gives at the cosine z.
+/// Pdf, per unit of area, of the points that draw_on_light_side() gives at the cosine z.
 template <class F>
 TYNDALL_INLINE F light_side_pdf(const LightSide<F>& side, F z) {
   const F even = F(static_cast<float>(0.25 / pi)) / (side.radius * side.radius), span = F(1.0f) - side.first;
@@ -59,7 +58,7 @@ TYNDALL_INLINE F light_side_pdf(const LightSide<F>& side, F z) {
   return even * select(side.outside, growing, mul_add(throughput, abs(z), F(even_fraction)));
 }
 
-/// The cosine z for a random number u in [0, 1).
+/// Draws the cosine z from a random number u in [0, 1).
 template <class F>
 TYNDALL_INLINE F draw_on_light_side(const LightSide<F>& side, F u) {
   const F growing = mul_add(F(1.0f) - side.first, sqrt(u), side.first);
@@ -71,7 +70,7 @@ TYNDALL_INLINE F draw_on_light_side(const LightSide<F>& side, F u) {
   return select(side.outside, growing, within);
 }
 
-/// Draws a point of a light whose light is to go by sphere `b`. receiver: the point that asks for the specular path.
+/// Draws a point of a light for a specular path at sphere `b`. receiver: the shading point, as seen from the light.
 template <class F>
 TYNDALL_INLINE LightPoint<F> sample_light_point(const LightColumns<F>& light, const SpecularSphere<F>& b,
                                                 Vec3<F> receiver, F time, Pair<F> u) {
@@ -87,7 +86,7 @@ TYNDALL_INLINE LightPoint<F> sample_light_point(const LightColumns<F>& light, co
           select(round, light_side_pdf(side, z), at.pdf)};
 }
 
-/// A given point of the light, with its normal and the density with which sample_light_point() would have drawn it.
+/// Returns a given point of the light, with its normal and the pdf with which sample_light_point() draws it.
 template <class F>
 TYNDALL_INLINE LightPoint<F> light_point_at(const LightColumns<F>& light, const SpecularSphere<F>& b, Vec3<F> receiver,
                                             F time, Vec3<F> point) {
@@ -99,22 +98,23 @@ TYNDALL_INLINE LightPoint<F> light_point_at(const LightColumns<F>& light, const 
   return {point, select(round, normal, at.normal), select(round, light_side_pdf(side, dot(normal, side.axis)), at.pdf)};
 }
 
-/// Cosine between a light's normal and the way back from it, where a ray arrives in `direction`. Flat lights shine to
-/// both sides; spheres shine outward only, so that their cosine is negative for rays that arrive from within.
+/// Cosine between a light's normal and the direction back along a ray that arrives in `direction`. Flat lights emit on
+/// both sides, so that theirs is never negative. Spheres emit outward only: negative for rays that arrive from inside.
 template <class F>
 TYNDALL_INLINE F light_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3<F> direction) {
   const F cosine = -dot(direction, normal);
   return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
 }
 
-/// The plane that holds a specular path: that of its two ends and the sphere's centre. The near end is the point that
-/// asks for light, the far end the light's point.
+/// The plane of a specular path. It holds both ends and the sphere's centre. The near end is the shading point, the far
+/// end the point of the light.
 template <class F>
 struct PathPlane {
-  Vec3<F> near_out, far_out;    ///< unit, from the centre to each end
-  Vec3<F> near_side, far_side;  ///< unit, at right angles to these, turning the short way from the near end to the far
-  F near, far;                  ///< distances of the ends from the centre
-  F angle, sine;                ///< between the ends, seen from the centre, in [0, pi]; and its sine
+  Vec3<F> near_out, far_out;  ///< unit vectors from the centre to each end
+  Vec3<F> near_side,
+      far_side;   ///< near_out, far_out rotated by 90 degrees, in the sense from near to far end
+  F near, far;    ///< distances of the ends from the centre
+  F angle, sine;  ///< angle between the ends, seen from the centre, in [0, pi]; its sine
 };
 
 template <class F>
@@ -131,18 +131,18 @@ TYNDALL_INLINE PathPlane<F> plane_of(const SpecularSphere<F>& b, Vec3<F> near, V
   return plane;
 }
 
-/// sqrt(reach² - p²), from the parameter s of the deflection (p = most (1 - s²)): exact to rounding even where the path
-/// grazes a sphere and the plain difference would cancel.
+/// sqrt(reach² - p²) from the parameter s of the deflection, where p = maximum (1 - s²). Exact to rounding even where
+/// the path grazes a sphere and the plain difference cancels.
 template <class F>
 TYNDALL_INLINE F depth_of(const Deflection<F>& deflection, F reach, F s) {
   const F drop = deflection.maximum * s * s;
   return sqrt(max(((reach - deflection.maximum) + drop) * (reach + (deflection.maximum - drop)), F(0.0f)));
 }
 
-/// dA / dω for the specular path of parameter s: times a density per unit of area of the light, at the far end, this is
-/// the density of the direction at the near end, per steradian. It follows from dω = sin θ dθ dψ with n a sin θ = p at
-/// the near end, and dA · cosine = b sin φ dψ · b cos θ' dφ at the far end, where dφ = turn' dp and `cosine` is that of
-/// the ray at the light. a, b: distances of the ends from the centre. slope: of the deflection, by s.
+/// dA / dω for the specular path of parameter s: this times a pdf per unit of area of the light, at the far end, is the
+/// pdf of the direction at the near end, per steradian. Derivation: dω = sin θ dθ dψ with n a sin θ = p at the near
+/// end, dA · cosine = b sin φ dψ · b cos θ' dφ at the far end, and dφ = deflection'(p) dp. cosine: of the ray at the
+/// light. a, b: distances of the ends from the centre. slope: derivative of the deflection by s.
 template <class F>
 TYNDALL_INLINE F spread_of(const SpecularDeflection<F>& path, const PathEnds<F>& e, F sine, F s, F slope, F cosine) {
   const Deflection<F>& deflection = path.deflection;
@@ -152,8 +152,8 @@ TYNDALL_INLINE F spread_of(const SpecularDeflection<F>& path, const PathEnds<F>&
   return (e.near_reach * e.far_reach * sine) * depths * abs(slope) / (rate * max(cosine, F(1e-30f)));
 }
 
-/// Distance that light goes from an end to the surface of the sphere that it meets first: from outside to the outer
-/// sphere, from within to the wall of the glass or of the hollow in which the end is.
+/// Length of the path from an end to the sphere surface that it meets first: from outside to the outer sphere, from
+/// inside to the wall of the glass or of the hollow in which the end lies.
 template <class F>
 TYNDALL_INLINE F distance_to_sphere(const SpecularSphere<F>& b, const Deflection<F>& deflection, F end, F reach, F sign,
                                     F s) {
@@ -164,7 +164,7 @@ TYNDALL_INLINE F distance_to_sphere(const SpecularSphere<F>& b, const Deflection
   return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
 }
 
-/// One of the specular paths that there are between two points by one event sequence.
+/// One of the specular paths between two points with one event sequence.
 template <class F>
 struct SolvedPath {
   SpecularDeflection<F> path;
@@ -172,34 +172,34 @@ struct SolvedPath {
   DeflectionRoot<F> root;
 };
 
-/// The parts of a specular path between its ends and the sphere or mirror, and what it is worth.
+/// The segments of a specular path between its ends and the object, and what the path contributes.
 template <class F>
 struct SpecularRays {
   MaskOf<F> found;
-  Vec3<F> direction, arrive;      ///< unit: in which a path leaves the near end, and in which it arrives at the light
-  F near_distance, far_distance;  ///< distances from each end to the sphere
-  IntOf<F> wall;                  ///< the element to which the near end's way leads
-  IntOf<F> from;                  ///< Ray::from of the way to the light
-  F throughput;                   ///< of light that the surfaces send this way
-  F pdf;                          ///< of the direction at the near end, per steradian, with which it is asked for
-  F count;                        ///< inverse of the probability to find this one of several with the same density
-  F optical_depth;                ///< within a slab: its density times the length of the way there
+  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the light
+  F near_distance, far_distance;  ///< distances from each end to the object
+  IntOf<F> wall;                  ///< element to which the near segment leads
+  IntOf<F> from;                  ///< Ray::from of the segment that leads to the light
+  F throughput;                   ///< fraction of light that the surfaces send along this path
+  F pdf;                          ///< expected queries of the direction at the near end, per steradian
+  F count;                        ///< for slabs 1 / probability of the event sequence, which pdf leaves out; else 1
+  F optical_depth;                ///< of media in a slab: density times length of the path inside
 };
 
-// The part of a specular path that is within its sphere. It is tested only if the sphere is crowded: if other surfaces,
-// media or a light are in it or reach into it.
+// The part of a specular path inside its sphere is tested for occlusion only if the sphere is overlapped: if other
+// surfaces, media or a light are in it or reach into it.
 
-/// The path of a specular path within its sphere. It lies in a plane through the sphere's centre; its places are told
-/// by their angle about the centre, measured from `out` towards `side`.
+/// The part of a specular path inside its sphere. It lies in a plane through the sphere's centre; a place on it is
+/// given by its angle about the centre, measured from `out` towards `side`.
 template <class F>
 struct InsidePath {
-  Vec3<F> out, side;  ///< unit
+  Vec3<F> out, side;  ///< unit vectors that span the plane
   F p;                ///< Bouguer's invariant
-  F angle;            ///< from `out` to where the sphere is met first
-  MaskOf<F> main;     ///< it is that of the main event sequence
+  F angle;            ///< from `out` to the point where the path first meets the sphere
+  MaskOf<F> main;     ///< the path has the main event sequence
 };
 
-/// Puts the ways of the lanes `here` among the others.
+/// Copies `from` to `to` in the lanes `here`.
 template <class F>
 TYNDALL_INLINE void put(MaskOf<F> here, const InsidePath<F>& from, InsidePath<F>& to) {
   to.out = select(here, from.out, to.out), to.side = select(here, from.side, to.side);
@@ -207,16 +207,16 @@ TYNDALL_INLINE void put(MaskOf<F> here, const InsidePath<F>& from, InsidePath<F>
   to.main = mask_or(mask_and(here, from.main), mask_and_not(to.main, here));
 }
 
-/// The angle about the centre by which light turns between its place next to the centre and the radius reach / n: see
-/// Deflection. 0 where p > reach, as the light stays above that radius.
+/// The angle about the centre that a path covers between its closest point to the centre and the radius reach / n, in
+/// radians: acos(p / reach), see Deflection. 0 where p > reach, because the path stays outside of that radius.
 template <class F>
 TYNDALL_INLINE F deflection_above(F p, F reach) {
   const F sine = min(p / max(reach, F(1e-30f)), F(1.0f));
   return acos(sine);
 }
 
-/// The path through the sphere, seen from the end that is in the sphere; from the near end if none is. near_sign,
-/// far_sign: see EndSigns. sense: see DeflectionRoot.
+/// The path through the sphere, measured from the end inside the sphere, or from the near end if both are outside.
+/// near_sign, far_sign: see EndSigns. sense: see DeflectionRoot.
 template <class F>
 TYNDALL_INLINE InsidePath<F> inside_path(const SpecularSphere<F>& b, const PathPlane<F>& plane, const PathEnds<F>& e,
                                          F near_sign, F far_sign, F sense, F p, const EventSequence<F>& sequence) {
@@ -230,7 +230,7 @@ TYNDALL_INLINE InsidePath<F> inside_path(const SpecularSphere<F>& b, const PathP
           same_sequence(sequence, main_sequence(b, e))};
 }
 
-/// The point at `angle` on the sphere of `radius` about the sphere's centre.
+/// The point of the path at `angle`, at distance `radius` from the sphere's centre.
 template <class F>
 TYNDALL_INLINE Vec3<F> point_inside(const SpecularSphere<F>& b, const InsidePath<F>& path, F angle, F radius) {
   const F revolutions = angle * F(static_cast<float>(0.5 / pi));
@@ -238,8 +238,8 @@ TYNDALL_INLINE Vec3<F> point_inside(const SpecularSphere<F>& b, const InsidePath
   return point_at(point_at(b.center, radius * a.cos, path.out), radius * a.sin, path.side);
 }
 
-/// Fraction of light that passes along the path within the sphere: below 1 in media, 0 where a surface is in the way.
-/// decisions: those by which the event sequence was drawn, so that the same events follow in the same order.
+/// Fraction of light that passes along the path inside the sphere: below 1 in media, 0 where a surface blocks it.
+/// decisions: those that drew the event sequence, so that the same events follow in the same order.
 template <class F>
 TYNDALL_INLINE F pass_inside(const auto& s, const SpecularSphere<F>& b, const PathEnds<F>& e, InsidePath<F> path,
                              const Decisions<F>& decisions, F time, MaskOf<F> lanes, std::uint32_t& shadow_rays) {
@@ -251,8 +251,8 @@ TYNDALL_INLINE F pass_inside(const auto& s, const SpecularSphere<F>& b, const Pa
   const F glass = deflection_above(path.p, b.index * b.radius);
   const F across = glass - deflection_above(path.p, b.index * b.inner_radius);
   const F chord = F(2.0f) * deflection_above(path.p, b.inner_index * b.inner_radius);
-  I at = select(e.deep, I(1), I(0));  // the sphere that the path is at: 1 is the inner one
-  // With an end within the sphere path.angle already is that of the first event: the first round does not move.
+  I at = select(e.deep, I(1), I(0));  // the sphere that the path is at: 0 outer, 1 inner
+  // With an end inside the sphere, path.angle already is the angle of the first event: the first round does not move.
   auto moves = e.both_out;
   for (int i = 0; i < max_decisions && any(walk.open); ++i) {
     const auto to_outer = equal(walk.next, I(0)), from_outer = equal(at, I(0));

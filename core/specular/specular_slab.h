@@ -2,18 +2,18 @@
 #include "core/specular/history.h"
 #include "core/specular/specular_flat.h"
 
-/// Which paths through a slab are looked for, and with which probability each is. That depends on the point that asks
-/// and on the light as a whole, so that the point of the light can be drawn afterwards, on the side that the way meets.
+/// Lists the event sequences tried for a slab (for example: enter, reflect, leave) and the probability of each. Both
+/// depend on the shading point and on the whole light: its point is drawn afterwards, on the side that the path meets.
 namespace tyndall {
 
-inline constexpr int max_images = 2;           ///< that are looked for along each edge, to either side
-inline constexpr float max_crossings = 13.0f;  ///< paths with more are left to scattering
+inline constexpr int max_images = 2;           ///< tried along each edge, to either side
+inline constexpr float max_crossings = 13.0f;  ///< paths with more are left to BSDF sampling
 
-/// A sphere that holds a light at a given time.
+/// A sphere that encloses a light at a given time.
 template <class F>
 struct BoundingSphere {
   Vec3<F> center;
-  F reach;  ///< its radius
+  F reach;  ///< radius
 };
 
 template <class F>
@@ -25,16 +25,16 @@ TYNDALL_INLINE BoundingSphere<F> bounding_sphere(const LightColumns<F>& light, F
           select(round, light.length_u, half_u + half_v)};
 }
 
-/// What is known of ways of so many crossings to any point of a light, before they are solved.
+/// Bounds that hold for all paths with a given number of crossings to any point of a light, before they are solved.
 template <class F>
 struct SlabBounds {
-  MaskOf<F> valid;         ///< the point that asks and all of the light are outside of the slab
-  F entry_min, entry_max;  ///< fraction of a way's reach along the faces up to where it enters
-  F leave_min, leave_max;  ///< the same up to where it leaves
-  F reach;                 ///< of the light
+  MaskOf<F> valid;         ///< the shading point and all of the light are outside of the slab
+  F entry_min, entry_max;  ///< fraction of the path's extent along the faces that lies before its entry
+  F leave_min, leave_max;  ///< the same before its exit
+  F reach;                 ///< radius of the light's bounding sphere
 };
 
-/// light: the far point of the sight is its centre.
+/// s: its far point must be the centre of `light`.
 template <class F>
 TYNDALL_INLINE SlabBounds<F> bounds_of(const SlabFrame<F>& s, F crossings, const BoundingSphere<F>& light) {
   const F near = s.near_gap, close = max(s.far_gap - light.reach, F(0.0f)), wide = s.far_gap + light.reach;
@@ -49,7 +49,7 @@ TYNDALL_INLINE SlabBounds<F> bounds_of(const SlabFrame<F>& s, F crossings, const
   return b;
 }
 
-/// Whether a path with this image of the light along an edge may meet the faces. May be yes too often.
+/// Whether a path to this image of the light along an edge may meet the faces. True for some paths that miss them, too.
 template <class F>
 TYNDALL_INLINE MaskOf<F> may_meet(const SlabFrame<F>& s, const SlabBounds<F>& b, int edge, F image) {
   const F middle = to_image(s, edge, image), low = middle - b.reach, high = middle + b.reach;
@@ -62,7 +62,7 @@ TYNDALL_INLINE MaskOf<F> may_meet(const SlabFrame<F>& s, const SlabBounds<F>& b,
   return mask_and(enters, leaves);
 }
 
-/// Whether a way meets no face that something else touches.
+/// Whether a path meets no face that another object touches.
 template <class F>
 TYNDALL_INLINE MaskOf<F> is_open(const SpecularSlab<F>& slab, const SlabFrame<F>& s, const SlabSequence<F>& sequence) {
   using I = IntOf<F>;
@@ -81,7 +81,7 @@ TYNDALL_INLINE MaskOf<F> is_open(const SpecularSlab<F>& slab, const SlabFrame<F>
   return equal(met & slab.closed, I(0));
 }
 
-/// Whether an event sequence is among those that are drawn.
+/// Whether an event sequence is among those that draw_slab_sequence() may draw.
 template <class F>
 TYNDALL_INLINE MaskOf<F> is_looked_for(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
                                        const BoundingSphere<F>& light, const SlabSequence<F>& sequence) {
@@ -101,7 +101,8 @@ struct SlabCrossings {
   F count, probability;
 };
 
-/// Draws it about as light does that goes straight: each further reflection at the inside is as much rarer.
+/// Draws the number of crossings about as light on the straight path does. R: reflectance there. If the points are on
+/// one side, 0 has probability (1 + R) / 2. Two more crossings are R² times as likely, R² clamped to [0.0625, 0.9].
 template <class F>
 TYNDALL_INLINE SlabCrossings<F> draw_crossings(const SlabFrame<F>& s, F u) {
   const F height = max(s.near_gap + s.far_gap, F(1e-30f)), x = to_image(s, 0, F(0.0f)), y = to_image(s, 1, F(0.0f));
@@ -120,7 +121,7 @@ TYNDALL_INLINE SlabCrossings<F> draw_crossings(const SlabFrame<F>& s, F u) {
   return {select(none, F(0.0f), through), select(none, off, chance)};
 }
 
-/// The event sequences that a point may ask for.
+/// The event sequences that may be drawn for a shading point.
 template <class F>
 struct SlabSequences {
   static constexpr int images = 2 * max_images + 1, room = 3 * images * images;
@@ -130,8 +131,8 @@ struct SlabSequences {
   int count = 0;
 };
 
-/// About what an event sequence brings, over the probability of its crossings. normal: of the surface that asks; 0 in
-/// media.
+/// Estimated contribution of an event sequence, given its crossings. normal: of the surface at the shading point; 0 in
+/// media. blur: tolerance at the edges of the faces, in scene units.
 template <class F>
 TYNDALL_INLINE F slab_weight(const SlabFrame<F>& s, const SlabSequence<F>& sequence, const SlabPlace<F>& normal,
                              F blur) {
@@ -150,7 +151,7 @@ TYNDALL_INLINE F slab_weight(const SlabFrame<F>& s, const SlabSequence<F>& seque
   return meets * path.throughput * select(in_medium, F(1.0f), max(cosine, F(0.02f))) / max(path.spread, F(1e-30f));
 }
 
-/// Lists the event sequences of paths that enter at the ends of one edge.
+/// Lists the event sequences of paths that enter at the ends of the edge `across`.
 template <class F>
 TYNDALL_INLINE void list_sequences(const SpecularSlab<F>& slab, const SlabFrame<F>& s, const BoundingSphere<F>& light,
                                    const SlabPlace<F>& normal, int across, MaskOf<F> lanes,
@@ -181,11 +182,11 @@ TYNDALL_INLINE void list_sequences(const SpecularSlab<F>& slab, const SlabFrame<
   }
 }
 
-/// An event sequence, drawn from all that a point may ask for.
+/// An event sequence, drawn from all that are possible for a shading point.
 template <class F>
 struct DrawnSlabSequence {
   SlabSequence<F> sequence;
-  MaskOf<F> drawn;  ///< false where there is none
+  MaskOf<F> drawn;  ///< false where none is possible
   F probability;
 };
 
@@ -213,7 +214,7 @@ TYNDALL_INLINE DrawnSlabSequence<F> take_sequence(const SlabSequences<F>& sequen
   return out;
 }
 
-/// Draws an event sequence for a point. normal: of the surface there; 0 in media. u: two random numbers.
+/// Draws an event sequence for a shading point. normal: of the surface there; 0 in media. u: two random numbers.
 template <class F>
 TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularSlab<F>& slab, Vec3<F> point, Vec3<F> normal,
                                                        const BoundingSphere<F>& light, Pair<F> u, MaskOf<F> lanes) {
@@ -228,8 +229,8 @@ TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularSlab<F>& sl
   return take_sequence(sequences, u.y);
 }
 
-/// Where a light sees the point that asks, by way of the slab: within this sphere. It takes the place of the sphere
-/// where points of a light are drawn. s: its far point does not matter.
+/// The sphere in which a light sees the shading point through the slab. It takes the place of the glass sphere in
+/// sample_light_point(). s: its far point does not matter.
 template <class F>
 TYNDALL_INLINE SpecularSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
                                               const SlabSequence<F>& sequence) {
@@ -251,7 +252,7 @@ TYNDALL_INLINE SpecularSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const
   return b;
 }
 
-/// The event sequence of a path that met a slab by chance. direction: in which it left the slab.
+/// The event sequence of a path that met a slab by BSDF sampling. direction: in which the path left the slab.
 template <class F>
 TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularSlab<F>& slab, SpecularHistory<F> met,
                                                 Vec3<F> direction) {
@@ -267,8 +268,8 @@ TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularSlab<F>& slab, Spe
   return sequence;
 }
 
-/// What pair k of a slab and a light is worth at a point, > 0: as much as the light itself where the straight way to it
-/// meets the sphere around the slab, less elsewhere, where reflections may still bring light.
+/// Estimated contribution, > 0, of pair k of a slab and a light at a point: that of the light alone if the straight
+/// segment to it meets the sphere around the slab, else 0.15 times as much, because reflections may still bring light.
 template <class F>
 TYNDALL_INLINE F slab_worth(const SpecularView& c, int k, Vec3<F> point) {
   const int sphere = c.sphere[k];
@@ -282,7 +283,8 @@ TYNDALL_INLINE F slab_worth(const SpecularView& c, int k, Vec3<F> point) {
   return part * splat<F>(c.choice.power[k]) / max(distance2, reach2);
 }
 
-/// What pair k of a sphere, mirror or slab and a light is worth at a point, > 0. See light_worth() of lights.
+/// Estimated contribution, > 0, of pair k of a sphere, mirror or slab and a light at a point: see light_worth() of
+/// lights.
 template <class F>
 TYNDALL_INLINE F light_worth(const SpecularView& c, int k, Vec3<F> point) {
   if (c.sphere[k] < c.first_mirror) return light_worth(c.choice, k, point);

@@ -1,27 +1,27 @@
 #pragma once
 #include "core/specular/specular_slab.h"
 
-/// Paths that go the path of a specular path by chance: a path that scatters into a sphere, mirror or slab and then
-/// finds a light is weighed against the specular path that would have found the same light. For that, paths remember
-/// where they scattered last and what they have met since (SpecularTrail).
+/// Weighs lights found by BSDF sampling: a path that scatters into a sphere, mirror or slab and then hits a light
+/// competes with the specular path that could have found the same light. For that, paths remember where they last
+/// scattered and what they have met since (SpecularTrail).
 namespace tyndall {
 
-/// What a path remembers, in scenes with specular paths, so that a light which it finds by BSDF sampling can be weighed
+/// What a path remembers in scenes with specular paths, so that a light which it hits by BSDF sampling can be weighed
 /// against them.
 template <class F>
 struct SpecularTrail {
   Vec3<F> start;  ///< where the path last scattered at a diffuse surface or in media
-  F pdf;  ///< of its direction from there, per steradian, over the probability that it asked for a specular path there
-  SpecularHistory<F> met;  ///< what it has met since then
+  F pdf;  ///< of its direction from there, per steradian, over the probability that it queried a specular path there
+  SpecularHistory<F> met;  ///< events since then
 };
 
-/// The trail's history after the surface of `element`. reflected: lanes that leave it on the side from which they came.
+/// The trail's history after a hit on `element`. reflected: lanes that leave on the side from which they came.
 template <class F>
 TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const SpecularTrail<F>& trail, const Ray<F>& ray,
                                               IntOf<F> element, MaskOf<F> reflected) {
   using I = IntOf<F>;
   const I code =
-      lookup_int<F>(s.specular.sphere_of, s.element_count, element);  // 2 · object + 1 for an inner sphere, or -1
+      lookup_int<F>(s.specular.sphere_of, s.element_count, element);  // 2 · object, + 1 for an inner sphere; or -1
   const auto none = mask_or(less(code, I(0)), less(trail.met.packed, I(0)));
   const I safe = select(none, I(0), code);
   const I object = as_int(shift_right<1>(as_uint(safe)));
@@ -39,9 +39,9 @@ TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const Specular
   return {select(none, I(-1), append_event(before, object, event).packed)};
 }
 
-/// Probability with which an event asks for a specular path: the light that it may get by specular paths over the light
-/// that it may get from lights directly, both roughly estimated, and within [0.03, 1]. So little time is spent where
-/// specular paths bring little. 1 where there are too many lights, or pairs of a sphere and a light, to estimate.
+/// Probability, in [0.03, 1], with which an event queries a specular path: the estimated light by specular paths over
+/// the estimated light from lights directly, so that little time is spent where specular paths bring little. 1 where
+/// there are more lights or pairs than max_lights_by_contribution.
 template <class F>
 [[gnu::noinline]] static F connect_probability(const SceneView& s, Vec3<F> point) {
   const LightView &pairs = s.specular.choice, &lights = s.lights;
@@ -49,8 +49,8 @@ template <class F>
   return min(max(total_worth(s.specular, point) / total_worth(lights, point), F(0.03f)), F(1.0f));
 }
 
-/// Lets the trail grow by the surface of `element`, in the lanes `at_surface`. ray: by which they came there.
-/// reflected: lanes that leave it on the side from which they came.
+/// Extends the trail by the surface of `element`, in the lanes `at_surface`. ray: by which the path came there.
+/// reflected: lanes that leave on the side from which they came.
 template <class F>
 TYNDALL_INLINE void extend_trail(const SceneView& s, SpecularTrail<F>& trail, const Ray<F>& ray, MaskOf<F> at_surface,
                                  IntOf<F> element, MaskOf<F> reflected) {
@@ -59,8 +59,8 @@ TYNDALL_INLINE void extend_trail(const SceneView& s, SpecularTrail<F>& trail, co
   trail.met.packed = select(goes_on, meet_object(s, trail, ray, element, reflected).packed, trail.met.packed);
 }
 
-/// Lets the trail start anew, in lanes that have scattered at `point` at a diffuse surface or in media. pdf: of the
-/// direction in which they go on, per steradian. query: the probability with which they asked for a specular path.
+/// Restarts the trail in lanes that have scattered at `point`, at a diffuse surface or in media. pdf: of their new
+/// direction, per steradian. query: probability with which they queried a specular path.
 template <class F>
 TYNDALL_INLINE void restart_trail(SpecularTrail<F>& trail, MaskOf<F> lanes, Vec3<F> point, F pdf, F query) {
   trail.met.packed = select(lanes, IntOf<F>(0), trail.met.packed);
@@ -68,19 +68,19 @@ TYNDALL_INLINE void restart_trail(SpecularTrail<F>& trail, MaskOf<F> lanes, Vec3
   trail.pdf = select(lanes, pdf / query, trail.pdf);
 }
 
-/// The events at a sphere or mirror, by kind.
+/// The events at a sphere or mirror, counted by kind.
 template <class F>
 TYNDALL_INLINE EventSequence<F> sequence_of(SpecularHistory<F> met) {
   return {from_int<F>(met.outer()), from_int<F>(met.inner()), from_int<F>(met.inner_reflected())};
 }
 
-/// The specular path that would have found what a path found by BSDF sampling.
+/// The specular path that could have found a light which a path found by BSDF sampling.
 template <class F>
 struct BsdfHitPath {
-  MaskOf<F> could;  ///< there is one
-  F pdf;  ///< of its direction where it starts, per steradian, once its pair and its event sequence are chosen
+  MaskOf<F> could;     ///< such a path exists
+  F pdf;               ///< of its direction where it starts, per steradian, given its pair and its event sequence
   F expected_queries;  ///< see expected_queries()
-  F throughput;        ///< of light that the surfaces send this way
+  F throughput;        ///< fraction of light that the surfaces send along it
 };
 
 template <class F>
@@ -141,7 +141,7 @@ TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_slab(const SpecularView& c, const Spec
           path.throughput};
 }
 
-/// Puts what is true of the lanes `here` among the others.
+/// Copies `from` to `to` in the lanes `here`.
 template <class F>
 TYNDALL_INLINE void put(MaskOf<F> here, const BsdfHitPath<F>& from, BsdfHitPath<F>& to) {
   to.could = mask_or(mask_and(here, from.could), mask_and_not(to.could, here));
@@ -150,10 +150,10 @@ TYNDALL_INLINE void put(MaskOf<F> here, const BsdfHitPath<F>& from, BsdfHitPath<
   to.throughput = select(here, from.throughput, to.throughput);
 }
 
-/// Weight of the radiance of a light that the lanes `lit` found by BSDF sampling at `point`, after the events of their
-/// trail; 1 where no specular path could have found it. By the power heuristic it is r² / (1 + r²). r is the density
-/// with which the path scattered into its direction times the probability that the sphere's surfaces sent it this way,
-/// over the density with which a specular path would have been found there.
+/// Weight, by the power heuristic, of the radiance of a light that the lanes `lit` hit by BSDF sampling at `point`,
+/// after the events of their trail: r² / (1 + r²); 1 where no specular path could have found it. r: the pdf of the
+/// path's direction where it last scattered times the probability that the surfaces sent it this way, over the pdf with
+/// which a specular path would have been found.
 template <class F>
 [[gnu::noinline]] static F mis_weight_of_bsdf_hit(const SceneView& s, SpecularTrail<F> trail, Ray<F> ray,
                                                   IntOf<F> light, Vec3<F> point, MaskOf<F> lit) {
