@@ -9,10 +9,10 @@ namespace tyndall {
 namespace {
 
 constexpr int across = 8;               // groups in each direction of the picture
-constexpr double fewest_seconds = 0.2;  // fraction of the paths; with fewer second vertices sharing never pays
-constexpr int deepest = 16;             // events of the probe's paths: enough to tell, and quick in white rooms
+constexpr double fewest_seconds = 0.2;  // fraction of the paths; below it reuse never pays
+constexpr int deepest = 16;             // events of the probe's paths: enough to decide, and quick in white rooms
 
-/// So many samples, one after another, of groups of pixels that are spread evenly over the picture.
+/// Fills in `samples` samples each of groups of pixels that are spread evenly over the picture.
 void spread_groups(const SceneView& s, int samples, ReusedPaths& paths) {
   paths.clear();
   paths.groups = 0;
@@ -32,7 +32,7 @@ void spread_groups(const SceneView& s, int samples, ReusedPaths& paths) {
   }
 }
 
-/// The samples, without what the other paths of their groups give to them.
+/// The samples without what other paths of their groups contribute.
 void add_own_leaving(const ReusedPaths& p, float (&own)[3][ReusedPaths::room]) {
   for (int c = 0; c < 3; ++c)
     for (int slot = 0; slot < ReusedPaths::room; ++slot) {
@@ -57,7 +57,7 @@ double variance(const ReusedPaths& p, const float (&own)[3][ReusedPaths::room]) 
   return sum;
 }
 
-/// Fraction of the paths whose first two vertices scatter evenly.
+/// Fraction of the paths whose first two vertices are diffuse.
 double fraction_of_seconds(SceneView s, ReusedPaths& paths, TraceGroups trace) {
   s.max_depth = std::min(s.max_depth, 1);
   spread_groups(s, 1, paths);

@@ -2,12 +2,12 @@
 #include "core/reuse/reuse.h"
 #include "core/transport/path.h"
 
-/// Renders a tile job with shared second vertices: see reuse.h.
+/// Renders a tile job with reuse of second vertices: see reuse.h.
 namespace tyndall {
 
 TYNDALL_INLINE int block_start(int at, int size) { return at / size * size; }
 
-/// Goes through the groups of which a tile job wants samples, as many at a time as ReusedPaths hold.
+/// Enumerates the groups that hold samples of a tile job, as many at a time as ReusedPaths hold.
 class ReuseGroups {
  public:
   TYNDALL_INLINE ReuseGroups(const SceneView& s, const TileJob& job)
@@ -20,7 +20,7 @@ class ReuseGroups {
     enter_block();
   }
 
-  /// Fills in the next groups. False if there are none left.
+  /// Fills in the next groups. Returns false if there are none left.
   TYNDALL_INLINE bool next(ReusedPaths& paths) {
     paths.clear();
     paths.groups = 0;
@@ -41,7 +41,7 @@ class ReuseGroups {
     enter_block();
   }
 
-  /// Finds out which samples are wanted of any pixel of the block.
+  /// Sets the range of sample indices that any pixel of the block wants.
   TYNDALL_INLINE void enter_block() {
     index_ = job_.first, last_ = job_.last;
     if (!job_.first_of) return;
@@ -71,7 +71,7 @@ class ReuseGroups {
     return index_ >= job_.first_of[i] && index_ < job_.last_of[i];
   }
 
-  /// Adds the group if some of its pixels want this sample.
+  /// Adds the group if some of its pixels want the current sample.
   TYNDALL_INLINE void add_group(ReusedPaths& paths) {
     if (index_ >= last_) return;
     const int left = x_ + group_ % group_spacing, top = y_ + group_ / group_spacing, at = paths.groups;
@@ -93,18 +93,18 @@ class ReuseGroups {
   const TileJob& job_;
   int width_, height_;                  ///< of the picture
   int x_, y_;                           ///< upper left corner of the block
-  int group_ = 0;                       ///< within the block
-  std::uint32_t index_ = 0, last_ = 0;  ///< sample, and the end of those that are wanted in the block
+  int group_ = 0;                       ///< index within the block
+  std::uint32_t index_ = 0, last_ = 0;  ///< current sample; end of the range that the block wants
 };
 
-/// One over the throughput with which a path came to its second vertex.
+/// 1 / throughput (brightest channel) with which a path came to its second vertex.
 TYNDALL_INLINE float over_carried(const ReusedPaths& reused, int slot) {
   const float x = reused.albedo[0][slot], y = reused.albedo[1][slot], z = reused.albedo[2][slot];
   const float maximum = x > y ? x : y;
   return 1 / (maximum > z ? maximum : z);
 }
 
-/// The samples of the groups, in the order in which lanes take them, and what becomes of their paths: see AloneSamples.
+/// The samples of the groups, in the order in which lanes take them, and the end of their paths: see AloneSamples.
 class GroupSamples {
  public:
   TYNDALL_INLINE GroupSamples(ReusedPaths& reused, SubpixelLights in_rows, const TileFilm& film)
@@ -132,7 +132,7 @@ class GroupSamples {
         mask_and(mask_and(met, is_diffuse(s, e)), mask_and(equal(p.depth, IntOf<F>(1)), mask_from_bits<F>(p.first)));
     if (any(second)) note_second(s, p, e, second, shared_), p.second |= bits(second);
   }
-  /// A path never ends by roulette before its second vertex can be shared.
+  /// Exempts paths from roulette at their first vertex, so that their second vertex can be reused.
   template <class F>
   TYNDALL_INLINE MaskOf<F> on_scatter(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> scattering) {
     const auto first = mask_and(mask_and(scattering, is_diffuse(s, e)), equal(p.depth, IntOf<F>(0)));
@@ -144,7 +144,7 @@ class GroupSamples {
     return select(mask_from_bits<F>(p.second), p.slot + IntOf<F>(leaves_second), p.slot);
   }
 
-  /// Keeps what the paths in the lanes `ended` have gathered.
+  /// Stores what the paths in the lanes `ended` have gathered.
   template <class F>
   TYNDALL_INLINE void on_end(const auto& s, const Paths<F>& p, std::uint32_t ended, std::uint32_t cut) {
     if (!ended) return;
@@ -168,7 +168,7 @@ class GroupSamples {
       film_.counts.cut_throughput.add(static_cast<double>(carried[lane]));
     }
   }
-  /// Keeps the light of a specular path from an event of a path that goes on.
+  /// Stores the light of a specular path from an event of a path that may still go on.
   TYNDALL_INLINE void add(std::int32_t at, Vec3f light) {
     const bool left_second = at >= leaves_second;
     const std::int32_t slot = left_second ? at - leaves_second : at, pixel = shared_.pixel[slot];
@@ -183,11 +183,11 @@ class GroupSamples {
   }
 
  private:
-  /// What is added to the slot of a path whose events leave its second vertex.
+  /// Added to the slot of light that a path gathers after its second vertex.
   static constexpr std::int32_t leaves_second = 1 << 30;
 
   TYNDALL_INLINE std::uint32_t half_of(int slot) const { return shared_.index[slot % ReusedPaths::max_groups] & 1u; }
-  /// Goes on to the next pixel that is in the picture.
+  /// Moves to the next pixel that is in the picture.
   TYNDALL_INLINE void skip() {
     for (; member_ < group_size; group_ = 0, ++member_)
       for (; group_ < shared_.groups; ++group_)
@@ -195,7 +195,7 @@ class GroupSamples {
   }
 
   ReusedPaths& shared_;
-  SubpixelLights subpixel_lights_;  ///< those in the rows of the groups
+  SubpixelLights subpixel_lights_;  ///< of the rows of the groups
   const TileFilm& film_;
   int member_ = 0, group_ = 0;
 };
@@ -205,9 +205,9 @@ TYNDALL_INLINE Vec3<F> load_vector(const float (&columns)[3][ReusedPaths::room],
   return {load<F>(columns[0] + slot), load<F>(columns[1] + slot), load<F>(columns[2] + slot)};
 }
 
-/// Density with which a path scatters from the first vertex at slot `from` to the second one at slot `to`: per area, or
-/// per volume in a medium, times a factor that is the same for all first vertices. lanes: the groups that have that
-/// second vertex.
+/// Pdf with which a path scatters from the first vertex at slot `from` to the second one at slot `to`: per area, or per
+/// volume in a medium, times a factor that is the same for all first vertices; 0 where the segment is blocked. lanes:
+/// the groups that have that second vertex.
 template <class F>
 TYNDALL_INLINE F link_pdf(const auto& s, const ReusedPaths& p, int from, int to, MaskOf<F> lanes, TileCounts& counts) {
   const Vec3<F> start = load_vector<F>(p.first.point, from), to_second = load_vector<F>(p.second.point, to) - start;
@@ -216,7 +216,7 @@ TYNDALL_INLINE F link_pdf(const auto& s, const ReusedPaths& p, int from, int to,
   // At each end a cosine on a surface; in a medium 1/4 at the start and 1 at the end.
   F leaves = load<F>(p.first.even + from) + dot(load_vector<F>(p.first.facing, from), ray.direction);
   F arrives = load<F>(p.second.even + to) - dot(load_vector<F>(p.second.facing, to), ray.direction);
-  if (from == to) {  // the path came this way, even if a rounded cosine says otherwise
+  if (from == to) {  // the path did come this way, even if a rounded cosine denies it
     leaves = max(leaves, F(1e-6f)), arrives = max(arrives, F(1e-6f));
   } else {
     lanes = mask_and(lanes, mask_and(less(F(0.0f), leaves), less(F(0.0f), arrives)));
@@ -230,7 +230,7 @@ TYNDALL_INLINE F link_pdf(const auto& s, const ReusedPaths& p, int from, int to,
   return select(lanes, pdf, F(0.0f));
 }
 
-/// Lets what leaves the second vertices reach all first vertices of their groups: adds it to what the paths gathered.
+/// Adds the light that leaves each second vertex to the samples of all first vertices of its group that it reaches.
 template <class F>
 TYNDALL_INLINE void reuse_second_vertices(const auto& s, ReusedPaths& p, TileCounts& counts) {
   constexpr int row = ReusedPaths::max_groups;
@@ -257,8 +257,8 @@ TYNDALL_INLINE void reuse_second_vertices(const auto& s, ReusedPaths& p, TileCou
     }
 }
 
-/// To be called when the paths of the groups have been followed: adds what specular paths have brought to what leaves
-/// the second vertices.
+/// Adds the light of specular paths to what leaves the second vertices. To be called once all paths of the groups have
+/// ended.
 TYNDALL_INLINE void add_specular_paths_to_leaving(const auto& s, ReusedPaths& reused) {
   if (!s.has_specular_paths()) return;
   for (int slot = 0; slot < ReusedPaths::room; ++slot)
@@ -277,7 +277,7 @@ TYNDALL_INLINE void add_groups(const ReusedPaths& reused, const TileFilm& film) 
   }
 }
 
-/// Renders a tile job whose paths share second vertices. follow(samples): takes all samples of a GroupSamples.
+/// Renders a tile job whose paths reuse second vertices. follow(samples): takes all samples of a GroupSamples.
 template <class F>
 TYNDALL_INLINE void render_tile_reusing(const auto& s, const TileJob& job, const TileFilm& film, const auto& follow) {
   ReusedPaths reused;

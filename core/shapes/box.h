@@ -4,7 +4,7 @@
 /// Boxes: what users set, and where rays enter and leave one.
 namespace tyndall {
 
-/// A solid block between two corners; a transform may turn it.
+/// A solid block between two corners; a transform may rotate it.
 template <class F = double>
 struct Box {
   static constexpr const char* type = "box";
@@ -19,20 +19,20 @@ constexpr auto fields(const Box<F>*) {
                     Field{"max", &Box<F>::max, any_number(), no_slider(), "", "upper corner, scene units", true}};
 }
 
-/// 1 / d, with a component that is nearly 0 taken as 1e-20 of its sign: a line parallel to a slab then is either
-/// inside or outside of it, and nothing becomes 0·∞.
+/// 1 / d, where |d| < 1e-20 counts as 1e-20 with d's sign: then a line parallel to a slab is either inside or outside
+/// of the slab, and 0·∞ cannot occur.
 template <class F>
 TYNDALL_INLINE F safe_reciprocal(F d) {
   const F minimum = F(1e-20f);
   return F(1.0f) / select(less(abs(d), minimum), copy_sign(minimum, d), d);
 }
 
-/// Where a line is inside a box, and which faces it crosses.
+/// Where a line is inside a box, and the distances at which it crosses the faces.
 template <class F>
 struct BoxSlabs {
   Interval<F> inside;
   Vec3<F> near, far;  ///< for each axis the distances at which the line enters and leaves the slab
-  Vec3<F> slope;      ///< 1 / (the box's own direction)
+  Vec3<F> slope;      ///< 1 / direction in the box's own frame
 };
 
 /// The intersection of three slabs. T. Kay, J. Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986.
@@ -52,17 +52,17 @@ TYNDALL_INLINE BoxSlabs<F> box_slabs(const auto& box, Vec3<F> origin, Vec3<F> di
   return {{t0, t1, less_equal(t0, t1)}, near, far, slope};
 }
 
-/// Corrects the interval of a line for rays that start on or in the box: they are inside from their start on, or never
-/// meet the box again.
+/// Corrects the interval of a line for rays that start on or in the box. Rays that go outward never hit the box again;
+/// all others are inside it from their start on.
 template <class F>
 TYNDALL_INLINE Interval<F> leave_box(Interval<F> line, Start<F> start) {
   return {select(start.here, F(-1.0f), line.near), select(start.here, max(line.far, F(1e-37f)), line.far),
           mask_and_not(mask_or(line.hit, start.here), start.out)};
 }
 
-/// Where a ray leaves the box that it starts in. A start that lies on a face was put there by rounding: it was inside
-/// by up to half of the spacing of floats, by a quarter on average (2^-26 of half an edge if the box is around the
-/// origin). That matters in media whose mean free path is only a few dozen such spacings.
+/// Where a ray leaves the box that it starts in. Rounding may put a start inside onto a face: it was inside by up to
+/// half of the spacing of floats, on average a quarter (2^-26 of half an edge if the box is around the origin). This
+/// matters in media whose mean free path is only a few dozen such spacings.
 template <class F>
 TYNDALL_INLINE F leave_from_within(const BoxSlabs<F>& s) {
   const F quarter = F(0x1p-26f);

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-/// Parallelograms: what users set, and where rays meet one.
+/// Parallelograms: what users set, and where rays hit one.
 namespace tyndall {
 
 /// A parallelogram: corner + a u + b v, a and b in [0, 1]. The normal is along u × v.
@@ -65,8 +65,9 @@ struct QuadHit {
   MaskOf<F> hit;
 };
 
-/// Distance along the ray to the quad. A ray in its plane misses (its distance is infinite or not a number); edges
-/// belong to the quad. The Next Week, section 6 "Quadrilaterals", with the plane and both edges as affine functions.
+/// Distance along the ray to the quad; no hit beyond `limit`. A ray in the quad's plane misses (its distance is
+/// infinite or not a number); edges belong to the quad. The Next Week, section 6 "Quadrilaterals", with the plane and
+/// both edges as affine functions.
 template <class F>
 TYNDALL_INLINE QuadHit<F> hit_quad(const Affine& quad, Vec3<F> origin, Vec3<F> direction, F limit) {
   const F t = -affine_point(quad, 2, origin) / affine_direction(quad, 2, direction);

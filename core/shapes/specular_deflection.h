@@ -1,11 +1,11 @@
 #pragma once
 #include "core/base/math.h"
 
-/// Finds the ways of light between two points, through or off spheres around one centre. By Bouguer's formula (Born &
-/// Wolf, Principles of Optics, section 3.2.1) p = n r sin(angle to the radius) is the same all along such a way, in
-/// every layer. So all ways between two points by the same surfaces lie in one plane and have one unknown, p. What must
-/// come out right is the deflection: the angle about the centre from one point to the other. From radius r to its place
-/// closest to the centre a way turns by acos(p / (n r)), so that the whole deflection is a sum of such terms.
+/// Solves for paths of light between two points, through or off concentric spheres. By Bouguer's formula (Born & Wolf,
+/// Principles of Optics, section 3.2.1) p = n r sin(angle to the radius) is constant along such a path, in every layer.
+/// So a path between two points by given surfaces lies in one plane and has one unknown, p. The condition on p is the
+/// deflection: the angle about the centre from one point to the other. From radius r to its closest point to the centre
+/// a path covers the angle acos(p / (n r)), so that the whole deflection is a sum of such terms.
 namespace tyndall {
 
 /// acos(1 - h) divided by its sine, sqrt(h (2 - h)), for h in [0, 1]. Minimax polynomial by Remez' algorithm; relative
@@ -26,26 +26,26 @@ TYNDALL_INLINE double angle_over_sine(double h) {
   return std::atan2(std::sqrt(h * (2 - h)), 1 - h) / std::sqrt(h * (2 - h));
 }
 
-/// The deflection of ways through given surfaces, as a function of s, where p = most (1 - s²). At s = 0 the way grazes
-/// the surface that limits p; at s = 1 it goes through the centre. All terms are smooth functions of s; of p they are
-/// not, because acos has an infinite slope where the way grazes.
+/// The deflection of paths through given surfaces, in radians, as a function of s, where p = maximum (1 - s²). At s = 0
+/// the path grazes the surface that limits p; at s = 1 it goes through the centre. All terms are smooth functions of s;
+/// of p they are not, because acos has an infinite slope where the path grazes.
 template <class F>
 struct Deflection {
   static constexpr int max_terms = 6;
-  F gap[max_terms];      ///< 1 - most / (n r) of each term, at least 0
+  F gap[max_terms];      ///< 1 - maximum / (n r) of each term, at least 0
   F inverse[max_terms];  ///< 1 / (n r)
-  F times[max_terms];    ///< how often the term counts; negative: it is subtracted
-  F maximum;             ///< largest p that is possible
-  F last;                ///< s of the smallest p that is possible
+  F times[max_terms];    ///< factor of each term; negative: it is subtracted
+  F maximum;             ///< largest possible p
+  F last;                ///< s of the smallest possible p
   int terms;
 };
 
-/// Ways with a smaller s are left out: they graze, with p within a hundred-millionth of its largest value.
+/// Paths with a smaller s are left out: they graze, with p within a hundred-millionth of its largest value.
 inline constexpr float min_parameter = 1e-4f;
 
 template <class F>
 struct DeflectionAt {
-  F angle, slope;  ///< slope: the derivative by s
+  F angle, slope;  ///< in radians; slope: derivative by s
 };
 
 template <class F>
@@ -62,22 +62,21 @@ TYNDALL_INLINE DeflectionAt<F> deflection_at(const Deflection<F>& deflection, F 
   return {angle, F(2.0f) * deflection.maximum * s * above / below};
 }
 
-/// A stretch of s on which the deflection only grows or only falls.
+/// An interval of s on which the deflection is monotonic.
 template <class F>
 struct Piece {
-  F low, high, at_low, at_high;  ///< s, and the deflection there
+  F low, high, at_low, at_high;  ///< ends of s, and the deflection there
 };
 
-/// The s of a way that turns as far as is wanted, and the deflection's slope there.
+/// The s of a path with the wanted deflection, and the deflection's slope there.
 template <class F>
 struct DeflectionPlace {
   F s, slope;
 };
 
-/// Finds the s of a piece at which the deflection is `target`, which lies between the turns at the piece's ends. By
-/// Newton's method, and by halving where a step of it would leave the piece. folded: the deflection is least or
-/// greatest at the low end (1), at the high end (-1) or at neither (0). The slope that is returned is that before the
-/// last step.
+/// Finds the s of a piece at which the deflection is `target`, a value between those at the piece's ends: by Newton's
+/// method, and by halving where Newton's step would leave the piece. folded: the deflection has its extremum at the low
+/// end (1), at the high end (-1) or at neither (0). The returned slope is that before the last step.
 template <class F>
 TYNDALL_INLINE DeflectionPlace<F> find_root(const Deflection<F>& deflection, const Piece<F>& piece, F target,
                                             F folded) {
@@ -85,7 +84,7 @@ TYNDALL_INLINE DeflectionPlace<F> find_root(const Deflection<F>& deflection, con
   const auto rises = less(piece.at_low, piece.at_high);
   const F span = select(equal(piece.at_low, piece.at_high), F(1.0f), piece.at_high - piece.at_low);
   const F fraction = min(max((target - piece.at_low) / span, F(0.0f)), F(1.0f));
-  const F from_fold = sqrt(select(less(folded, F(0.0f)), F(1.0f) - fraction, fraction));  // a parabola next to the fold
+  const F from_fold = sqrt(select(less(folded, F(0.0f)), F(1.0f) - fraction, fraction));  // a parabola at the extremum
   const F part =
       select(equal(folded, F(0.0f)), fraction, select(less(folded, F(0.0f)), F(1.0f) - from_fold, from_fold));
   F low = piece.low, high = piece.high;
@@ -103,18 +102,18 @@ TYNDALL_INLINE DeflectionPlace<F> find_root(const Deflection<F>& deflection, con
   return {s, slope};
 }
 
-/// The deflection over all s, cut into pieces on which it only grows or only falls. It is taken to have at most one
-/// least or greatest value, and none where the slopes at both ends have the same sign. (It had two in one of a thousand
-/// tested geometries of a shell that is not filled with air.)
+/// The deflection over all s, cut into monotonic pieces. It is assumed to have at most one extremum, and none where the
+/// slopes at both ends have the same sign. (It had two in one of a thousand tested geometries of a shell that is not
+/// filled with air.)
 template <class F>
 struct Pieces {
-  Piece<F> outer, inner;  ///< outer begins with grazing ways; inner is empty (low == high) where nothing was cut
-  MaskOf<F> folded;       ///< it was cut
+  Piece<F> outer, inner;  ///< outer starts with grazing paths; inner is empty (low == high) where nothing was cut
+  MaskOf<F> folded;       ///< the deflection was cut at an extremum
 };
 
-/// The deflection at the largest s. That way goes through the centre, where every term is a right angle, except in
+/// The deflection at the largest s. There the path goes through the centre, and every term is a right angle, except in
 /// lanes whose largest s is below 1. Each lane chooses its formula by its own numbers: the two differ in their last
-/// bits, and what a lane gets must not depend on the lanes beside it.
+/// bits, and the result of a lane must not depend on the lanes beside it.
 template <class F>
 TYNDALL_INLINE DeflectionAt<F> last_deflection(const Deflection<F>& deflection) {
   F times = F(0.0f), slope = F(0.0f);
@@ -129,14 +128,14 @@ TYNDALL_INLINE DeflectionAt<F> last_deflection(const Deflection<F>& deflection) 
   return {select(beside, at.angle, center.angle), select(beside, at.slope, center.slope)};
 }
 
-/// Two places of s between which the slope of a deflection changes its sign, and the slopes there.
+/// Two values of s between which the slope of a deflection changes its sign, and the slopes there.
 template <class F>
 struct SlopeBracket {
   F low, high, at_low, at_high;
 };
 
-/// Brings the two places closer together, by one round of the method of C. Ridders, A New Algorithm for Computing a
-/// Single Root of a Real Continuous Function, IEEE Transactions on Circuits and Systems 26(11), 1979.
+/// Narrows the bracket by one round of the method of C. Ridders, A New Algorithm for Computing a Single Root of a Real
+/// Continuous Function, IEEE Transactions on Circuits and Systems 26(11), 1979.
 template <class F>
 TYNDALL_INLINE void narrow(const Deflection<F>& deflection, SlopeBracket<F>& b) {
   const F middle = F(0.5f) * (b.low + b.high), at_middle = deflection_at(deflection, middle).slope;
@@ -155,7 +154,7 @@ TYNDALL_INLINE void narrow(const Deflection<F>& deflection, SlopeBracket<F>& b) 
 
 template <class F>
 TYNDALL_INLINE Pieces<F> split_deflection(const Deflection<F>& deflection) {
-  // Two rounds and the secant below mostly give the deflection there to 1e-6, which is the rounding of float.
+  // Two rounds and the secant below mostly give the deflection there to 1e-6, the rounding error of float.
   constexpr int rounds = std::is_same_v<F, double> ? 8 : 2;
   const F first = F(min_parameter);
   const DeflectionAt<F> start = deflection_at(deflection, first), end = last_deflection(deflection);
@@ -173,13 +172,13 @@ TYNDALL_INLINE Pieces<F> split_deflection(const Deflection<F>& deflection) {
   return {{first, middle, start.angle, at_middle}, {middle, deflection.last, at_middle, end.angle}, bends};
 }
 
-/// The ways in a piece that lead from one point to the other. They turn by the angle between the points one way round
-/// (forth) or by its negative (back), plus any number of whole revolutions.
+/// The paths in a piece that lead from one point to the other. Their deflection is the angle between the points (forth)
+/// or its negative (back), plus any number of whole revolutions.
 template <class F>
 struct RevolutionCounts {
   F forth_first,
-      forth;  ///< whole revolutions of the first way forth, and how many ways there are, each a deflection longer
-  F back_first, back;  ///< the same for ways back
+      forth;           ///< revolutions of the first path forth; number of paths, each one revolution more
+  F back_first, back;  ///< the same for paths back
 };
 
 /// angle: between the two points, seen from the centre, in [0, pi].
@@ -193,15 +192,15 @@ TYNDALL_INLINE RevolutionCounts<F> count_revolutions(const Piece<F>& piece, F an
           floor((greatest + angle) * whole) + F(1.0f) - back_first};
 }
 
-/// One of the ways between the two points.
+/// One of the paths between the two points.
 template <class F>
 struct DeflectionRoot {
   MaskOf<F> found;
   F s, slope;
-  F sense;  ///< 1: it turns by the angle between the points; -1: the other way round
+  F sense;  ///< 1: the path covers the angle between the points; -1: the other way round
 };
 
-/// All ways between the two points.
+/// All paths between the two points.
 template <class F>
 struct DeflectionRoots {
   Pieces<F> pieces;
@@ -220,7 +219,7 @@ TYNDALL_INLINE DeflectionRoots<F> list_roots(const Deflection<F>& deflection, F 
   return roots;
 }
 
-/// Computes way number `index` of the list, counted from 0.
+/// Solves for path number `index` of the list, counted from 0.
 template <class F>
 TYNDALL_INLINE DeflectionRoot<F> take_root(const Deflection<F>& deflection, const DeflectionRoots<F>& roots, F angle,
                                            F index) {

@@ -9,8 +9,8 @@
 /// Spheres: what users set, and where rays enter and leave one.
 namespace tyndall {
 
-/// A sphere; with center_end it moves: its centre is center + t (center_end - center) at time t.
-/// A negative radius turns the normal inward: with glass, a bubble.
+/// A sphere. With center_end it moves: its centre is center + t (center_end - center) at time t. A negative radius
+/// makes the normal point inward: with glass, a bubble.
 template <class F = double>
 struct Sphere {
   static constexpr const char* type = "sphere";
@@ -30,10 +30,9 @@ constexpr auto fields(const Sphere<F>*) {
             "scene units; negative: the normal points inward (hollow glass)", true}};
 }
 
-/// Where a line crosses a sphere. to_center: centre - origin; direction: unit; radius > 0.
-/// The discriminant is taken from the part of to_center across the ray, which keeps its digits when the sphere is far
-/// away or small. Haines, Günther, Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems
-/// (2019), chapter 7.
+/// Where a line crosses a sphere. to_center: centre - origin; direction: unit; radius > 0. The discriminant is computed
+/// from the part of to_center across the ray, which keeps its digits if the sphere is far away or small. Haines,
+/// Günther, Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems (2019), chapter 7.
 template <class F>
 TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> direction) {
   const F middle = dot(to_center, direction);
@@ -45,8 +44,8 @@ TYNDALL_INLINE Interval<F> sphere_interval(Vec3<F> to_center, F radius, Vec3<F> 
   return {middle - half, middle + half, less(F(0.0f), discriminant)};
 }
 
-/// Corrects the interval of a line for rays that start on or in the sphere. For a start on it the roots are taken as 0
-/// and 2 d·(c - o) exactly, so that no rounding of the origin lets the ray meet its own start or miss the far side.
+/// Corrects the interval of a line for rays that start on or in the sphere. For a start on it the roots are exactly 0
+/// and 2 d·(c - o), so that rounding of the origin cannot make the ray hit its own start or miss the far side.
 template <class F>
 TYNDALL_INLINE Interval<F> leave_sphere(Interval<F> line, Vec3<F> to_center, Vec3<F> direction, IntOf<F> from,
                                         Start<F> start) {

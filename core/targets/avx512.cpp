@@ -1,5 +1,5 @@
-// The kernels for AVX-512: two groups of 16 lanes. This file is compiled with flags that older CPUs cannot run, so
-// nothing but the kernels may be in it.
+// The kernels for AVX-512: two groups of 16 lanes. This file is compiled with flags that older CPUs cannot run, so it
+// must contain nothing but the kernels.
 #include "core/base/lanes_twice.h"
 #include "core/targets/entry.h"
 

@@ -1,4 +1,4 @@
-// One path at a time over double, to show how much rounding changes in the others.
+// One path at a time over double: shows how much the rounding of floats changes in the other kernels.
 #include "core/targets/entry.h"
 
 namespace tyndall {

@@ -2,8 +2,8 @@
 #include "core/reuse/reuse_tile.h"
 #include "core/targets/kernels.h"
 
-/// The kernels' entry points as templates over the number type F. Each instruction set has a small .cpp file, which
-/// chooses F and makes a table of them.
+/// The kernels' entry points as templates over the number type F. A small .cpp file for each instruction set chooses F
+/// and fills a table of Kernels with them.
 namespace tyndall {
 
 /// See TraceRays.
@@ -70,7 +70,7 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
-/// Samples of either kind, for kernels that serve scenes with and without shared vertices by one path loop.
+/// Samples of either kind, for kernels that render scenes with and without reuse by one path loop.
 class EitherSamples {
  public:
   TYNDALL_INLINE explicit EitherSamples(AloneSamples& alone) : alone_(&alone) {}
@@ -105,11 +105,11 @@ class EitherSamples {
 
  private:
   AloneSamples* alone_ = nullptr;
-  GroupSamples* groups_ = nullptr;  ///< null: alone_ counts
+  GroupSamples* groups_ = nullptr;  ///< null: alone_ is used
 };
 
-// The functions below are static, so that each file has its own: of an ordinary template the linker keeps one copy for
-// all files, and one with wide instructions would crash older CPUs.
+// The functions below are static, so that each file has its own copies: of an ordinary template the linker keeps one
+// copy for all files, and a copy with wide instructions would crash older CPUs.
 
 template <class F>
 [[gnu::noinline]] static void follow_either(const SceneView& s, EitherSamples samples, TileCounts& counts,
@@ -117,7 +117,7 @@ template <class F>
   follow_paths<F>(s, samples, counts, recorder);
 }
 
-/// Renders a unit by the kernel with every model. s: says whether second vertices are shared.
+/// Renders a tile job by the kernel with every model. s.reuses_paths: whether second vertices are reused.
 template <class F>
 static void render_any_unit(const SceneView& s, const TileJob& job, const TileFilm& film, auto& recorder) {
   if (!s.reuses_paths) {
@@ -128,7 +128,7 @@ static void render_any_unit(const SceneView& s, const TileJob& job, const TileFi
       s, job, film, [&](GroupSamples& samples) { follow_either<F>(s, EitherSamples(samples), film.counts, recorder); });
 }
 
-// The functions that stand in the table of an instruction set.
+// The functions in the table of an instruction set.
 template <class F, KernelSet set, bool reuse>
 static void render_tile_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                               EmissionSums* emission, TileCounts& counts) {
@@ -160,8 +160,8 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// A table with kernels of their own for the KernelSets, for the instruction sets that most processors have. Scenes
-/// with specular paths that share all have one kernel, with media and textures or without: another would make the build
+/// A table with a separate kernel for each KernelSet, for the instruction sets that most processors have. With reuse,
+/// all scenes with specular paths have one kernel, with or without media and textures: another one would make the build
 /// longer.
 template <class F>
 static Kernels kernels_of(const char* isa) {
@@ -177,8 +177,8 @@ static Kernels kernels_of(const char* isa) {
       trace_entry<F>,
       first_hits_entry<F>};
 }
-/// A table in which one kernel with every model stands for each KernelSet, with and without shared vertices. It gives
-/// the same pictures, a little slower, and compiles much sooner: for references and for old processors.
+/// A table in which one kernel with every model serves all KernelSets, with and without reuse. It gives the same
+/// pictures, a little slower, and compiles much sooner: for references and for old processors.
 template <class F, class Recorder = NoRecorder>
 static Kernels full_kernel_of(const char* isa) {
   const RenderTile render = render_any_entry<F, Recorder, false>, fraction = render_any_entry<F, Recorder, true>;

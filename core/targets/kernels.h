@@ -17,41 +17,41 @@ using RenderTile = void (*)(const SceneView& scene, const TileJob& job, double f
 /// every primitive, without the tree.
 using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHit* hits, int count, bool brute_force);
 
-/// hits: one for each pixel of the region, row by row.
+/// Finds what is seen first through the centre of each pixel. hits: one for each pixel of the region, row by row.
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
   const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
-  int lanes;        ///< how many paths run together
-  /// By KernelSet, for scenes that do not share second vertices, and for those that do (reuse.h). For a set that was
-  /// not compiled the full kernel stands.
+  int lanes;        ///< number of paths that run together
+  /// By KernelSet: for scenes without, and with, reuse of second vertices (reuse.h). A set that was not compiled has
+  /// the full kernel.
   RenderTile render_alone[kernel_sets], render_reusing[kernel_sets];
   TraceRays trace;
   FirstHits first_hits;
 
-  /// Renders a tile job with the kernel that the scene names (SceneView::kernel). Adds its samples to `pixels` (the
-  /// tile, row by row, empty on entry) and to `counts`. emission: the same for EmissionSums; null: not recorded.
+  /// Renders a tile job with the kernel that SceneView::kernel names. Adds its samples to `pixels` (the tile, row by
+  /// row, empty on entry) and to `counts`. emission: the same for EmissionSums; null: not recorded.
   void render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                    TileCounts& counts, EmissionSums* emission = nullptr) const;
 
-  /// The set whose kernel really runs for a scene that needs `minimum`: `minimum` itself, or `everything` for
-  /// instruction sets that have the full kernel alone.
+  /// The set whose kernel runs for a scene that needs `minimum`: `minimum` itself, or `everything` for instruction sets
+  /// that have the full kernel only.
   KernelSet set_for(KernelSet minimum) const;
 };
 
-// Each is in a file of its own, which is compiled with that instruction set's flags. Call only what this CPU can run.
+// Each is in its own file, which is compiled with the flags of that instruction set. Call only what this CPU can run.
 Kernels scalar_kernels();
 Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
 Kernels neon_kernels();
-/// The same source over double, to see what rounding costs the others. It reads the same columns of floats and draws
-/// the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
+/// The same source over double, to see what rounding costs the other kernels. It reads the same columns of floats and
+/// draws the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
 Kernels double_kernels();
 
 /// All kernels that this build has and this CPU can run, the narrowest ("scalar", which is always there) first.
 std::vector<Kernels> available_kernels();
-/// The kernels of that name, also "double"; for "" the widest available ones; nothing if there are none.
+/// The kernels of that name, "double" included; for "" the widest available ones; nothing for an unknown name.
 std::optional<Kernels> choose_kernels(std::string_view isa);
 
 }  // namespace tyndall

@@ -8,8 +8,8 @@ bool finite(Vec3f v) {
   return sum == 0.0f;
 }
 
-/// From its second vertex on a path that is shared is a path of its own, which came there with a grey throughput. This
-/// is what it has gathered before, and the colour of what it carries as a path of its own pixel.
+/// From its second vertex on, a path that is reused is a path of its own, which starts there with a grey throughput.
+/// This holds what the path gathered before, and the tint of what it carries as a path of its own pixel.
 struct OwnColours {
   Vec3f gathered{}, tint{1, 1, 1};
 

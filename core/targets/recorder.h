@@ -3,13 +3,13 @@
 #include "core/targets/replay.h"
 #include "core/transport/path.h"
 
-/// Lets the scalar kernel tell how a sample comes about.
+/// Lets the scalar kernel record how a sample comes about.
 namespace tyndall {
 
-/// Records the path of the one sample that a unit wants, event by event. See NoRecorder.
+/// Records, event by event, the path of the one sample that a tile job wants. See NoRecorder.
 class PathRecorder {
  public:
-  /// The path belongs to one of these, if its scene shares second vertices. Null: it goes alone.
+  /// The group to which the path belongs if the scene reuses second vertices; else null.
   const ReusedPaths* reused = nullptr;
 
   void on_weight_against_specular_paths(float weight) { weight_ = weight; }
@@ -23,12 +23,12 @@ class PathRecorder {
   bool is_wanted(const Paths<float>& p) const { return !reused || reused->pixel[p.slot] >= 0; }
 
   PathReplay path_;
-  float weight_ = 1;  ///< of the radiance of the light that this step has hit
+  float weight_ = 1;  ///< against specular paths, of the light that this step has hit
   bool wanted_ = false, at_light_ = false;
 };
 
-/// The recorder of the scalar kernel, which most of the time records nothing. What it hands on are copies: a kernel
-/// keeps what is pointed to in memory.
+/// The recorder of the scalar kernel, which mostly records nothing. It passes copies: a kernel keeps in memory what is
+/// pointed to.
 struct MaybeRecorder {
   PathRecorder* to = nullptr;
 

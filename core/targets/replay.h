@@ -4,39 +4,38 @@
 #include <cstdint>
 #include <vector>
 
-/// Follows one path of the scalar kernel event by event, to show how a sample came about.
+/// Follows one path of the scalar kernel event by event, to show how a sample comes about.
 namespace tyndall {
 
 enum class Met { nothing, surface, medium };
 enum class Fate { goes_on, ends_at_light, escapes, absorbed, roulette, cut, lost };  ///< lost: a value is not finite
 
-/// One place that a path came to, and what it had gathered when it left it.
+/// One point that a path reached, and what the path had gathered when it left.
 struct PathVertex {
   Met met = Met::nothing;
   Fate fate = Fate::goes_on;
-  std::int32_t element = -1;  ///< that of the surface, or the first one of the medium's boundary
+  std::int32_t element = -1;  ///< of the surface, or the first one of the medium's boundary
   std::int32_t medium = -1;   ///< index into RenderScene::media
   bool inside = false;        ///< whether the path goes on inside the shape; for a quad, on the side against its normal
-  float distance = 0;         ///< from the vertex before
-  Vec3f direction;            ///< in which it came, unit
+  float distance = 0;         ///< from the previous vertex
+  Vec3f direction;            ///< unit; in which the path arrived
   Vec3f point;                ///< in RenderScene coordinates
-  Vec3f throughput;           ///< with which it came; 1 at the camera
-  float kept = 1;             ///< by what media that only absorb changed it since the vertex before: flight.h
+  Vec3f throughput;           ///< on arrival; 1 at the camera
+  float kept = 1;             ///< transmittance, since the previous vertex, of media that only absorb: flight.h
   Vec3f radiance;             ///< gathered so far, this vertex included
-  Vec3f by_specular_paths;    ///< the part of it that exact specular paths from here have added
-  float chance =
-      1;  ///< weight of a light's power that was found here; specular paths, which find it too, count for the rest
-  std::uint32_t first_dimension;  ///< number of the first random dimension of the event
+  Vec3f by_specular_paths;    ///< part of the radiance that specular paths from here have added
+  float chance = 1;  ///< weight of a light hit here, in [0, 1]; specular paths, which find it too, have the rest
+  std::uint32_t first_dimension;  ///< first random dimension of the event
 };
 
 struct PathReplay {
   Vec3f origin;  ///< where the camera ray starts
   float time = 0;
   std::vector<PathVertex> vertices;
-  Vec3f radiance;    ///< the sample, bit for bit what the scalar kernel gives to the film
+  Vec3f radiance;    ///< the sample, bit for bit what the scalar kernel adds to the film
   float weight = 1;  ///< of the sample, see subpixel_lights.h; the radiances of all vertices include it
-  /// Its first vertex shares second vertices with seven other pixels (reuse.h): instead of what the path has gathered
-  /// from its own one, the sample holds a weighted mean of what leaves all eight.
+  /// The first vertex shares second vertices with seven other pixels (reuse.h): instead of the radiance that leaves its
+  /// own second vertex, the sample holds a weighted mean over all eight.
   bool reused = false;
 };
 

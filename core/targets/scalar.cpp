@@ -6,14 +6,14 @@
 namespace tyndall {
 namespace {
 
-/// The sample that a pixel without others holds, in the half that has it.
+/// The one sample of a pixel, which is in the given half.
 Vec3f sample_of(const FilmPixel& pixel, std::uint32_t half) {
   const float lost = pixel.rejected[half] ? __builtin_nanf("") : 0.0f;
   const auto value = [&](int c) { return lost + static_cast<float>(pixel.sum[half][c].value()); };
   return {value(0), value(1), value(2)};
 }
 
-/// Renders a unit of one sample of one pixel, and records the sample's path.
+/// Renders a tile job of one sample of one pixel, and records the sample's path.
 void record_unit(const SceneView& s, const TileJob& job, const TileFilm& film, PathRecorder& recorder) {
   MaybeRecorder maybe{&recorder};
   if (!s.reuses_paths) return render_any_unit<float>(s, job, film, maybe);

@@ -5,7 +5,7 @@ namespace tyndall {
 
 struct ReusedPaths;
 
-/// Follows the paths of groups by the scalar kernel, for probe_reuse(). scene: one that shares.
+/// Follows the paths of groups with the scalar kernel, for probe_reuse(). scene: one with reuses_paths set.
 void trace_groups(const SceneView& scene, ReusedPaths& paths, TileCounts& counts);
 
 }  // namespace tyndall

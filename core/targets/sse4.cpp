@@ -1,5 +1,5 @@
-// The kernels for SSE4: 4 lanes. This file is compiled with flags that older CPUs cannot run, so nothing but the
-// kernels may be in it.
+// The kernels for SSE4: 4 lanes. This file is compiled with flags that older CPUs cannot run, so it must contain
+// nothing but the kernels.
 #include "core/base/lanes_simd.h"
 #include "core/targets/entry.h"
 
