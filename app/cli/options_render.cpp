@@ -161,7 +161,10 @@ void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
   const auto take = [&app, &scene](const std::vector<std::string>& arguments) {
     scene.what = arguments[0];
     scene.program.allowed = true;
-    for (std::size_t k = 1; k < arguments.size(); ++k) {
+    // Behind an unknown option stands its value, which is no argument: parse() tells of the option.
+    const auto unknown = app.remaining();
+    const bool complete = unknown.empty() || unknown[0] == "--";
+    for (std::size_t k = 1; complete && k < arguments.size(); ++k) {
       if (!is_program(arguments[0]) || !is_program(arguments[k]))
         throw UsageError("unexpected argument " + in_quotes(arguments[k]) + " (see " + app.get_name() + " --help)");
       scene.program.more_files.emplace_back(arguments[k]);
