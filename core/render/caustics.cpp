@@ -28,7 +28,8 @@ BoundingSphere bounding_sphere(const Extent& extent) {
   return sphere;
 }
 
-/// Fraction of all directions from a point that a sphere at a distance fills; 1 within it.
+/// Fraction of all directions that a sphere fills, seen from a point at `distance` from its centre; 1 inside the
+/// sphere.
 double fraction_of_directions(double radius, double distance) {
   if (radius >= distance) return 1;
   const double sine2 = (radius / distance) * (radius / distance);
@@ -41,10 +42,10 @@ const Material& material_of(const Scene& scene, const PlacedShape& shape) {
 
 bool is_light(const Material& material) { return traits_of(material.kind).emits; }
 
-/// Whether it throws light elsewhere, rather than spread it.
+/// Whether a material reflects or refracts light in a narrow lobe.
 bool is_smooth(const Material& material) { return lobe_width(material.kind) < max_fuzz; }
 
-/// A light, or a smooth shape that throws a light's power elsewhere.
+/// A light, or a smooth shape that throws light on other surfaces.
 struct Thing {
   std::size_t shape;  // index into Flattened::shapes
   BoundingSphere sphere;
@@ -69,7 +70,7 @@ Things list_things(const Scene& scene, const Flattened& flat) {
   return things;
 }
 
-/// The box around a matt surface or a medium. Light from any direction shows there.
+/// The bounding box of a matt surface or a medium, on which light from any direction shows.
 struct Receiver {
   Vec3d low, high;
 };
@@ -100,7 +101,7 @@ double distance_to_nearest(const std::vector<Receiver>& receivers, Vec3d point) 
   return minimum;
 }
 
-/// Whether a light is within a sphere of glass and shines out of it. If the camera is in the sphere, too, this is a
+/// Whether a light is inside a glass sphere and shines out of it. If the camera is in the sphere, too, the sphere is a
 /// room and not a bulb.
 bool is_bulb(const Thing& light, const Thing& thing, Vec3d camera) {
   const BoundingSphere& sphere = thing.sphere;
@@ -117,8 +118,8 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   const std::vector<Receiver> receivers = list_receivers(scene, flat);
   if (receivers.empty()) return 1;
   const Things things = list_things(scene, flat);
-  const std::size_t step = 1 + things.lights.size() * things.smooth.size() /
-                                   max_pairs;  // of very many pairs only every step-th is looked at
+  const std::size_t step =
+      1 + things.lights.size() * things.smooth.size() / max_pairs;  // for very many pairs only every step-th
   double minimum = 1;
   for (const Thing& light : things.lights)
     for (std::size_t i = 0; i < things.smooth.size(); i += step) {

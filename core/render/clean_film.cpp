@@ -27,7 +27,7 @@ bool FilmCleaner::run(const Film& film, const RenderEngine& engine, PixelLevels*
 
 namespace {
 
-/// The same view with a pixel for every step x step pixels, around the middle of the first of them.
+/// The same view with one pixel for each step x step pixels, centred on the middle of the first of them.
 SceneView with_larger_pixels(SceneView scene, int step) {
   CameraColumns& camera = scene.camera;
   const auto size = static_cast<float>(step);

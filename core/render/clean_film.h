@@ -15,37 +15,37 @@ namespace tyndall {
 inline constexpr std::uint32_t min_clean_spp = 2;
 /// With fewer samples a pixel than this, the filtered picture's error is known only roughly.
 inline constexpr std::uint32_t rough_clean_spp = 16;
-/// Whether its error is known only roughly although it has so many samples.
+/// Whether the filtered picture's error is known only roughly although it has so many samples.
 inline bool is_doubtful(const CleanPicture& picture, std::uint32_t spp) {
   return spp >= rough_clean_spp && picture.rests_on_few_pixels;
 }
 
-/// How finely a picture's first-seen planes were made.
+/// How finely a picture's first-seen planes were sampled.
 struct FirstSeenParts {
   Region region;
   std::int64_t unlike = 0;  ///< pixels that see something else than their neighbours, as at edges and in textures
-  int parts = 0;            ///< these are the mean over parts x parts rays; the others show what their centre sees
+  int parts = 0;  ///< unlike pixels hold the mean over parts x parts rays, other pixels what their centre sees
 };
 
-/// Into how many parts unlike pixels are divided in each direction: at most 8, and so few that what is seen first takes
+/// Number of parts into which unlike pixels are divided in each direction: at most 8, and so few that the planes take
 /// at most as many rays as the samples of the picture.
 int parts_of_pixels(const FirstSeenParts& made, double spp);
 
-/// Fills input.seen for the pixels of a region, of a picture of input.spp samples a pixel, and tells in `made` how.
-/// Returns false if `give_up` was set before the end; `input.seen` and `made` are then of no use.
+/// Fills input.seen for the pixels of a region of a picture of input.spp samples a pixel, and sets `made`. Returns
+/// false if `give_up` was set before the end; `input.seen` and `made` are then not usable.
 bool find_first_seen(const Region& region, const RenderEngine& engine, const std::atomic<bool>& give_up,
                      CleanInput& input, FirstSeenParts& made);
 
-/// Filters films, and keeps what is first seen until the scene changes.
+/// Filters films, and keeps the first-seen planes until the scene changes.
 class FilmCleaner {
  public:
   /// Filters with the instruction set of these kernels.
   explicit FilmCleaner(const Kernels& kernels);
 
-  /// The scene has changed: what is first seen has to be found anew.
+  /// The scene has changed: the first-seen planes have to be computed anew.
   void change_scene() { seen_ = {}; }
-  /// See Cleaner::run. Every pixel of the film must have min_clean_spp samples or more. levels: of its pixels; null:
-  /// the picture's error is of no interest.
+  /// See Cleaner::run. Every pixel of the film must have at least min_clean_spp samples. levels: of its pixels; null:
+  /// the error of the picture is not needed.
   bool run(const Film& film, const RenderEngine& engine, PixelLevels* levels, const std::atomic<bool>& give_up,
            CleanPicture& out);
 
@@ -55,15 +55,15 @@ class FilmCleaner {
   FirstSeenParts seen_;  ///< how input_.seen was made; no parts: not yet
 };
 
-/// The first clean view after an edit: a picture with fewer pixels, which is there long before every pixel of the whole
-/// picture has the two samples that the filter needs. Keeps its memory from one to the next.
+/// The first clean view after an edit: a picture with fewer pixels, ready long before every pixel of the whole picture
+/// has the two samples that the filter needs. Keeps its memory for the next one.
 class CoarseCleaner {
  public:
   explicit CoarseCleaner(const Kernels& kernels) : cleaner_(kernels) {}
 
-  /// Fills `out` with the clean view of a picture of the scene of which each pixel covers step x step pixels and has
-  /// two samples of its own, which are in no film. quantum: see Film. Returns false if `give_up` was set before the
-  /// end.
+  /// Fills `out` with the clean view of a picture in which each pixel covers step x step pixels of the scene's picture
+  /// and has two samples of its own, which go into no film. quantum: see Film. Returns false if `give_up` was set
+  /// before the end.
   bool run(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up, CleanPicture& out);
 
  private:
@@ -74,28 +74,28 @@ class CoarseCleaner {
 /// The clean view of a finished film of the scene. threads: 0: see thread_count(); isa: "": the best.
 CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa);
 
-/// The clean view of a picture that is being rendered: when it is made, and the newest one.
+/// The clean view of a picture in the making: decides when to make it, and holds the newest one.
 class LiveClean {
  public:
   explicit LiveClean(const Kernels& kernels) : cleaner_(kernels), coarse_(kernels) {}
 
   void set_wanted(bool wanted);
-  /// The scene has changed: what is first seen has to be found anew.
+  /// The scene has changed: the first-seen planes have to be computed anew.
   void change_scene() { cleaner_.change_scene(); }
-  /// The picture begins anew.
+  /// The picture starts anew.
   void start_over();
 
-  /// Whether it is time to make one: when the picture has two samples a pixel, then whenever the samples have doubled,
-  /// as long as filtering takes at most a quarter of the time since the start, and once more at the end. at_rest: no
-  /// more samples are to be taken.
+  /// Whether it is time to make a clean view: when the picture has two samples a pixel, then whenever the samples have
+  /// doubled, as long as filtering takes at most a quarter of the time since the start, and once more at the end.
+  /// at_rest: no more samples will be taken.
   bool is_due(const Progression& picture, bool at_rest) const;
-  /// Makes one. False if `give_up` was set before the end: then it stays due.
+  /// Makes a clean view. Returns false if `give_up` was set before the end: then it stays due.
   bool make(Progression& picture, const RenderEngine& engine, const std::atomic<bool>& give_up);
-  /// Makes a coarse one, if a whole one would take long: see coarse_clean_step. paths_per_second: <= 0: unknown. False
-  /// if none is wanted or needed, or if `give_up` was set before the end.
+  /// Makes a coarse one, if a whole one would take long: see coarse_clean_step. paths_per_second: <= 0: unknown.
+  /// Returns false if none is wanted or needed, or if `give_up` was set before the end.
   bool make_coarse(const Film& film, double paths_per_second, const RenderEngine& engine,
                    const std::atomic<bool>& give_up);
-  /// The newest one of this picture; null: there is none, or none is wanted.
+  /// The newest clean view of this picture; null: there is none, or none is wanted.
   const std::shared_ptr<const CleanFrame>& latest() const { return latest_; }
 
  private:

@@ -9,7 +9,8 @@
 namespace tyndall {
 namespace {
 
-/// Whether a ray that meets the surface goes on, if at all, as one that a mirror reflects.
+/// Whether rays that hit a surface end there (matt surfaces, lights) or continue as off a mirror. False for glass and
+/// wide lobes.
 bool is_sharp(const SceneView& scene, std::int32_t element) {
   const std::int32_t material = scene.material[element], kind = scene.kind[material];
   if (has_trait<&BsdfTraits::transmissive>(kind)) return false;
@@ -19,18 +20,18 @@ bool is_sharp(const SceneView& scene, std::int32_t element) {
 constexpr int planes = 8;  // of input.seen: albedo, normal, nearness, sharpness
 constexpr int depth_plane = 6, sharp_plane = 7;
 constexpr int max_parts = 8;
-/// Pixels of a row that are divided together or not at all.
+/// Number of adjacent pixels of a row that are divided together or not at all.
 constexpr int group = 4;
-/// Parts beside each other that are looked at together, which fills the lanes.
+/// Adjacent parts that are traced together, so that they fill the lanes.
 constexpr int together = group * max_parts;
 
-/// Of a row's pixels where anything is seen: how many there are, and the sum of 1 / depth. And its unlike pixels.
+/// Counts of a row: pixels that see a surface, their sum of 1 / depth, and unlike pixels.
 struct RowCount {
   double seen = 0, per_depth = 0;
   std::int64_t unlike = 0;
 };
 
-/// is_sharp of the elements that rays meet; most meet the same one as the ray before.
+/// is_sharp() of the elements that rays hit; it remembers the last element, because most rays hit the same one.
 class Sharpness {
  public:
   explicit Sharpness(const SceneView& scene) : scene_(scene) {}
@@ -45,10 +46,10 @@ class Sharpness {
   bool sharp_ = true;
 };
 
-/// Which of its neighbours a pixel differs from.
+/// Bits for the neighbours that a pixel differs from.
 constexpr std::uint8_t differs_from_right = 1, differs_from_below = 2;
 
-/// Adds `mark` to marks[i] where two rows of pixels see different things at i; `a` and `b` are their places in the
+/// Adds `mark` to marks[i] where two rows of pixels see different things at i. a, b: positions of the rows in the
 /// planes.
 void mark_differences(const CleanInput& input, std::ptrdiff_t a, std::ptrdiff_t b, int count, std::uint8_t mark,
                       std::uint8_t* marks) {
@@ -69,13 +70,13 @@ struct FirstSeenFinder {
   std::vector<RowCount> rows;
   std::vector<std::uint8_t> marks;   ///< of each pixel: differs_from_right, differs_from_below
   std::vector<std::uint8_t> unlike;  ///< of each group, row by row
-  float per_depth = 0;               ///< over the mean depth
+  float per_depth = 0;               ///< 1 / mean depth
 
   int width() const { return region.width(); }
   std::size_t groups() const { return static_cast<std::size_t>((width() + group - 1) / group); }
   float* row(int plane, int y) const { return input.seen.plane(plane) + y * input.seen.stride(); }
 
-  /// What the pixels' centres see; the depth itself in place of the nearness.
+  /// Fills a row with what the pixels' centres see; stores depth instead of nearness.
   void look_at_centres(int y) {
     std::vector<FirstHit> hits(static_cast<std::size_t>(width()));
     engine.kernels.first_hits(engine.scene, {region.x0, region.y0 + y, region.x1, region.y0 + y + 1}, hits.data());
@@ -92,7 +93,7 @@ struct FirstSeenFinder {
       if (depth > 0) count.per_depth += 1 / static_cast<double>(depth), ++count.seen;
     }
   }
-  /// One over the harmonic mean of the depths at which anything is seen; 1 where nothing is.
+  /// 1 / harmonic mean of the depths of all pixels that see a surface; 1 if none does.
   float per_mean_depth() const {
     RowCount all;
     for (const RowCount& row : rows) all.seen += row.seen, all.per_depth += row.per_depth;
@@ -110,7 +111,7 @@ struct FirstSeenFinder {
     mark_differences(input, at, at + 1, width() - 1, differs_from_right, marks_of(y));
     if (y + 1 < region.height()) mark_differences(input, at, at + stride, width(), differs_from_below, marks_of(y));
   }
-  /// Finds the groups in which a pixel sees something else than one of the four beside it.
+  /// Marks the groups in which a pixel sees something else than one of its four neighbours.
   void find_unlike(int y) {
     const std::uint8_t *own = marks_of(y), *above = marks_of(std::max(y - 1, 0));
     std::uint8_t* found = unlike.data() + static_cast<std::size_t>(y) * groups();
@@ -121,7 +122,7 @@ struct FirstSeenFinder {
     rows[static_cast<std::size_t>(y)].unlike =
         group * std::count(found, found + static_cast<std::ptrdiff_t>(groups()), std::uint8_t{1});
   }
-  /// Sets `count` pixels from x0 on to the means over their parts. scene: with parts for pixels.
+  /// Sets `count` pixels from x0 on to the means over their parts. scene: a view whose pixels are the parts.
   void divide(const SceneView& scene, int parts, int x0, int y, int count) const {
     FirstHit hits[together];
     float sum[together][planes] = {};  // of each pixel
@@ -149,7 +150,7 @@ struct FirstSeenFinder {
       for (int i = 0; i < count; ++i) row(k, y)[x0 + i] = fraction * sum[i][k];
     for (int i = 0; i < count; ++i) row(sharp_plane, y)[x0 + i] = fraction * sum[i][sharp_plane] < 1 ? 0.0f : 1.0f;
   }
-  /// Divides the unlike pixels of a row, as many together as fill the lanes.
+  /// Divides the unlike pixels of a row, as many at a time as fill the lanes.
   void divide_row(const SceneView& scene, int parts, int y, const std::atomic<bool>& give_up) const {
     const std::uint8_t* chosen = unlike.data() + static_cast<std::size_t>(y) * groups();
     for (int x = 0; x < width() && !give_up.load(std::memory_order_relaxed);) {
@@ -161,7 +162,7 @@ struct FirstSeenFinder {
   }
 };
 
-/// The same view in a picture that has the parts of pixels for pixels.
+/// The same view in a picture whose pixels are the parts of pixels.
 SceneView divided(SceneView scene, int parts) {
   const float part = 1.0f / static_cast<float>(parts);
   scene.width *= parts, scene.height *= parts;

@@ -36,57 +36,57 @@ constexpr Label label(View view) {
   return {};
 }
 
-/// Where the pixels of a picture are that has fewer than its film: its pixel (x, y) is what is seen in the middle of
-/// the film's pixel (spacing x, spacing y).
+/// Positions of the pixels of a picture that has fewer pixels than its film: its pixel (x, y) shows the middle of the
+/// film's pixel (spacing x, spacing y).
 struct PictureGrid {
   int columns = 0, rows = 0;
   float spacing = 1;
 };
 
-/// The clean view of a picture: filtered, and so labelled wherever it is shown. Never changes after it was published.
+/// The clean view of a picture: filtered, and labelled so wherever it is shown. Never changes after it was published.
 struct CleanFrame {
-  PictureGrid grid;                ///< of all that is kept for each pixel
+  PictureGrid grid;                ///< of all members with a value for each pixel
   std::vector<float> rgba;         ///< like Frame's
-  std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from those around it
+  std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from its neighbourhood
   double relative_error = 0;       ///< estimated; infinite for a coarse one
   std::uint32_t spp = 0;           ///< samples a pixel that it was made from; 0: it is coarse, see CoarseCleaner
   bool doubtful = false;           ///< see is_doubtful
   double seconds = 0;              ///< rendering and filtering since the edit
 };
 
-/// What is known of one pixel of the picture itself, whatever the view.
+/// What is known about one pixel of the beauty image, whatever view is shown.
 struct PixelReport {
   int x = 0, y = 0;
   std::uint64_t edit = 0;      ///< of the picture
   std::uint32_t samples = 0;   ///< of this pixel; 0: nothing is known yet
-  std::uint32_t rejected = 0;  ///< of these
+  std::uint32_t rejected = 0;  ///< of these samples
   Vec3f mean{};                ///< linear radiance
-  /// Standard error of the mean of each channel: from the differences of the two halves of the 7 x 7 pixels around, as
-  /// one pixel's own difference says little. Infinite before two samples.
+  /// Standard error of the mean of each channel, from the differences of the two halves over the 7 x 7 pixels around:
+  /// the difference of one pixel alone is too noisy. Infinite before two samples.
   Vec3f standard_error{};
 };
 
 /// One finished pass, ready to be shown. Never changes after it was published.
 struct Frame {
-  std::uint64_t edit = 0;  ///< number of the edit (Renderer::request) that it shows
+  std::uint64_t edit = 0;  ///< number of the edit (Renderer::request) that the frame shows
   std::uint64_t pass = 0;  ///< counts up with every frame
   int width = 0, height = 0;
-  /// 4 floats a pixel, linear, top row first: of every pixel or, of a coarse pass, of fewer.
+  /// 4 floats a pixel, linear, top row first: for every pixel, or for fewer after a coarse pass.
   std::vector<float> rgba;
   PictureGrid grid;  ///< of the pixels of `rgba`
-  /// The picture itself, in the same form, while `view` is another one. Empty while `view` is beauty or only a coarse
-  /// pass is there.
+  /// The beauty image in the same form while `view` is another one. Empty while `view` is beauty or only a coarse pass
+  /// exists.
   std::vector<float> beauty;
-  /// The newest clean view of the same picture, perhaps of fewer samples; null: none yet, or none is wanted. To be
-  /// shown in place of `rgba` while `view` is beauty; the noise view is then of it.
+  /// The newest clean view of the same picture, perhaps of fewer samples; null: none yet, or none is wanted. Shown
+  /// instead of `rgba` while `view` is beauty; the noise view then shows its errors.
   std::shared_ptr<const CleanFrame> clean;
   bool awaits_clean = false;  ///< a newer clean view will come, even if no more samples are taken
   View view = View::beauty;
-  int step = 1;               ///< every step-th pixel was rendered (8, 4, 2), 1: all
-  std::uint32_t spp = 0;      ///< samples that every pixel has, with adaptive sampling their mean. The film is the one
-                              ///< that render() makes for that number. 0 while only a coarse pass is there
-  bool finished = false;      ///< the limit is reached, and the clean view (if wanted) is made from all samples
-  double relative_error = 0;  ///< estimated; infinite before two samples
+  int step = 1;           ///< every step-th pixel was rendered (8, 4, 2), 1: all
+  std::uint32_t spp = 0;  ///< samples that every pixel has, with adaptive sampling their mean. The film is the one that
+                          ///< render() makes for that number. 0 while only a coarse pass exists
+  bool finished = false;  ///< the limit is reached, and the clean view (if wanted) is made from all samples
+  double relative_error = 0;       ///< estimated; infinite before two samples
   bool rare_bright_paths = false;  ///< an estimate cannot be trusted: see has_rare_bright_paths, is_doubtful
   double seconds = 0;              ///< rendering time since the edit, pauses left out
   double mrays_per_s = 0;          ///< of the last pass
@@ -94,9 +94,9 @@ struct Frame {
   std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< see PassTally
   double cut_throughput = 0;                               ///< see FilmTotals
   std::uint32_t max_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
-  double white = 1;  ///< what white stands for: a relative error in the view of noise, samples in that of samples,
-                     ///< scene units in that of depth, rays a path in that of cost
-  bool reuses_paths = false;  ///< groups of pixels share second vertices: see SceneView
+  double white = 1;  ///< the value shown as white: relative error in the noise view, samples in that of samples, scene
+                     ///< units in depth, rays a path in cost
+  bool reuses_paths = false;  ///< groups of pixels reuse second vertices: see SceneView
   std::size_t film_bytes = 0;
   std::string isa;
   int lanes = 1, threads = 1;
@@ -108,12 +108,11 @@ struct RenderProblem {
   std::string what;
 };
 
-/// All that a renderer has to tell.
+/// All that a renderer reports.
 struct RenderReply {
   std::shared_ptr<const Frame> frame;            ///< the newest one; null before the first
   std::shared_ptr<const RenderProblem> problem;  ///< of the newest edit if its scene cannot be compiled; else null
-  std::shared_ptr<const PixelReport>
-      pixel;  ///< the newest one, perhaps on the pixel that was watched before; null: none
+  std::shared_ptr<const PixelReport> pixel;      ///< the newest one, perhaps of the pixel watched before; null: none
 };
 
 }  // namespace tyndall

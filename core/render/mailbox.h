@@ -11,16 +11,16 @@
 #include <mutex>
 #include <vector>
 
-/// Where the threads that use a Renderer and the renderer's own thread meet.
+/// Passes messages between the threads that use a Renderer and the renderer's own thread.
 namespace tyndall {
 
 using Clock = std::chrono::steady_clock;
 
-/// A request as the render loop gets it.
+/// A request as the render loop receives it.
 struct ReceivedRequest {
   RenderRequest wanted;
   std::uint64_t edit = 0;   ///< number of its scene; 0: it has none
-  Clock::time_point since;  ///< when its scene, or its newest restart, was asked for
+  Clock::time_point since;  ///< when its scene, or its newest restart, was requested
 
   /// Samples a pixel at which the picture is finished; 0: there is no scene.
   std::uint32_t full_spp() const;
@@ -28,13 +28,13 @@ struct ReceivedRequest {
   std::uint32_t limit() const { return wanted.paused ? std::min(full_spp(), 1u) : full_spp(); }
 };
 
-/// What a request wants that the one before it did not.
+/// The differences between a request and the one before it.
 struct RequestChange {
   bool scene = false, restart = false, threads = false, pixel = false;
   bool drawing = false;  ///< the present samples have to be shown in another way
-  bool limit = false;    ///< frames tell whether they are finished
+  bool limit = false;    ///< the limit, on which Frame::finished depends
   bool any() const { return scene || restart || threads || pixel || drawing || limit; }
-  /// It cannot wait for the end of the pass that is under way.
+  /// Whether the change cannot wait for the end of the current pass.
   bool is_urgent() const { return scene || restart || threads || drawing; }
 };
 RequestChange change_between(const ReceivedRequest& before, const ReceivedRequest& after);
@@ -54,28 +54,28 @@ class Mailbox {
 
   // For the thread that renders.
 
-  /// Sleeps until the request has changed, a film was asked for or `unfinished`, called with the limit in samples a
-  /// pixel, is true. False: the thread is to stop.
+  /// Sleeps until the request has changed, a film was requested, or `unfinished`, called with the limit in samples a
+  /// pixel, returns true. Returns false if the thread is to stop.
   bool wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished);
-  /// Takes the newest request, and lowers the flag to give up.
+  /// Returns the newest request, and clears give_up().
   ReceivedRequest take();
   std::vector<std::promise<Film>> take_film_requests();
-  /// Waits until the frame of that pass is on the screen, until something urgent is asked for, or 50 ms. Returns the
-  /// seconds that it took from the frame's posting to the screen, if it is there. Does not wait if no caller has ever
-  /// told of a frame on the screen.
+  /// Waits until the frame of that pass is on the screen, an urgent request comes, or 50 ms have passed. Returns the
+  /// seconds from the frame's posting to the screen, if it is there. Does not wait if no caller has ever reported a
+  /// shown frame.
   std::optional<double> wait_until_shown(std::uint64_t pass);
-  /// True as soon as a caller wants something that cannot wait for the end of the pass that is under way.
+  /// True as soon as a caller wants something that cannot wait for the end of the current pass.
   const std::atomic<bool>& give_up() const { return give_up_; }
-  /// Makes the thread that renders leave its pass and look at its stop token.
+  /// Makes the thread that renders leave its pass and check its stop token.
   void interrupt() {
     give_up_ = true;
     news_.notify_one();
   }
-  /// Hands a frame out. Sets whether it is finished, as the limit may have changed since the frame was begun.
+  /// Publishes a frame. Sets Frame::finished, as the limit may have changed since the frame was begun.
   void post(std::shared_ptr<Frame> frame);
   void post(RenderProblem problem);
   void post(PixelReport report);
-  /// Hands out the scene that is rendered from now on, and withdraws the problem of an earlier one.
+  /// Publishes the scene that is rendered from now on, and withdraws the problem of an earlier one.
   void post(std::shared_ptr<const PreparedScene> scene);
 
  private:
@@ -86,7 +86,7 @@ class Mailbox {
   ReceivedRequest newest_, taken_;
   std::vector<std::promise<Film>> films_;
 
-  std::uint64_t shown_pass_ = 0;  ///< Frame::pass of the newest frame on the screen; 0: nobody tells
+  std::uint64_t shown_pass_ = 0;  ///< Frame::pass of the newest frame on the screen; 0: none was reported
   Clock::time_point shown_at_, posted_at_;
 
   RenderReply reply_;

@@ -14,7 +14,7 @@ namespace {
 constexpr double paths_per_tile = 2048;
 constexpr int max_tile = 64;  // kernels take at most max_tile² pixels (max_tile_pixels)
 
-/// Edge of tiles whose units have about paths_per_tile paths: a multiple of `minimum`.
+/// Edge of tiles whose tile jobs have about paths_per_tile paths: a multiple of `minimum`.
 int chosen_tile(std::uint32_t samples, int step, int minimum) {
   const double pixels = paths_per_tile * step * step / std::max(1u, samples);
   return std::clamp(static_cast<int>(std::sqrt(pixels)) / minimum * minimum, minimum, max_tile);
@@ -23,7 +23,7 @@ int chosen_tile(std::uint32_t samples, int step, int minimum) {
 int rounded_down(int at, int step) { return at / step * step; }
 int divided_up(int quantity, int step) { return (quantity + step - 1) / step; }
 
-/// Calls visit(x, y, i) for the pixels of a tile whose x and y are multiples of step; i: place within the tile.
+/// Calls visit(x, y, i) for the pixels of a tile whose x and y are multiples of step; i: index within the tile.
 template <class Visit>
 void for_each_pixel(const Region& tile, int step, const Visit& visit) {
   for (int y = divided_up(tile.y0, step) * step; y < tile.y1; y += step)
@@ -31,8 +31,8 @@ void for_each_pixel(const Region& tile, int step, const Visit& visit) {
       visit(x, y, static_cast<std::size_t>((y - tile.y0) * tile.width() + x - tile.x0));
 }
 
-/// The memory in which a tile job gathers its samples. Of a tile job that leaves pixels out, only those that it samples
-/// hold what is true: where every 8th of them is sampled, clearing all would take far longer than to sample.
+/// The memory in which a tile job gathers its samples. Pixels that the job does not sample hold leftovers: where only
+/// every 8th pixel is sampled, clearing all of them would take far longer than sampling.
 struct TileBuffer {
   std::vector<FilmPixel> pixels;
   std::vector<EmissionSums> emission;
@@ -50,14 +50,14 @@ struct TileBuffer {
   EmissionSums* emission_or_null() { return emission.empty() ? nullptr : emission.data(); }
 };
 
-/// The buffer of a thread, kept from unit to unit: after its first unit a thread allocates nothing.
+/// The buffer of a thread, kept from job to job: after its first job a thread allocates nothing.
 TileBuffer& buffer() {
   std::shared_ptr<void>& memory = thread_pool_memory();
   if (!memory) memory = std::make_shared<TileBuffer>();
   return *static_cast<TileBuffer*>(memory.get());
 }
 
-/// How many samples the pixels of a part lack on average of those that are wanted.
+/// Number of wanted samples that the pixels of a part lack, on average.
 std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& part) {
   std::uint64_t sum = 0;
   for (int y = part.y0; y < part.y1; ++y)
@@ -68,8 +68,8 @@ std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& want
   return static_cast<std::uint32_t>(sum / static_cast<std::uint64_t>(std::int64_t{part.width()} * part.height()));
 }
 
-/// Fills in the first and last sample of the next unit of a tile, for each of its pixels. Pixels that lack samples get
-/// so many that the tile job has about paths_per_tile. False if no pixel lacks any.
+/// Fills in the first and last sample of the next tile job, for each pixel of a tile. Pixels that lack samples get so
+/// many that the job has about paths_per_tile. Returns false if no pixel lacks any.
 bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile,
                   std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) {
   first.clear(), last.clear();
@@ -84,8 +84,7 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
     }
   if (lacking == 0) return false;
   const std::uint32_t maximum = std::max(static_cast<std::uint32_t>(paths_per_tile) / lacking, 1u);
-  if (deepest >
-      maximum + maximum / 2)  // otherwise this tile job takes all that is lacking, so that no small rest is left over
+  if (deepest > maximum + maximum / 2)  // else this job takes all, so that no small rest is left over
     for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + maximum);
   return true;
 }
@@ -106,7 +105,7 @@ Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& pa
 }
 
 void Pass::cut(Tiling tiling, std::uint32_t samples) {
-  // Coarse passes sample every 8th pixel. A tile job that cuts a shared block in two traces all of it twice.
+  // Coarse passes sample every 8th pixel. A tile job that cuts a block of groups in two traces all of it twice.
   const int minimum = tiling.reuses_paths ? std::max(block_width, block_height) : 8;
   tile_ = tiling.edge > 0 ? std::min(tiling.edge, max_tile) : chosen_tile(samples, step_, minimum);
   left_ = rounded_down(region_.x0, tiling.reuses_paths ? block_width : 1);
@@ -166,7 +165,7 @@ bool Pass::fill_tile(int index, const RenderEngine& engine, Film& film, const st
   }
 }
 
-/// Adds the samples of the thread's unit to the film, or lets them replace what its pixels held.
+/// Adds the samples of the thread's tile job to the film, or replaces what its pixels held by them.
 void Pass::add_tile(const Region& where, int step, bool replace, Film& film) {
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
   const TileBuffer& tile = buffer();

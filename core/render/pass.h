@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-/// Takes samples with all threads, so that it can be interrupted within 2 ms without losing what was computed.
+/// Takes samples with all threads; an interrupt takes effect within 2 ms and loses no samples.
 namespace tyndall {
 
 /// What a pass needs to run: threads, and kernels with the scene that these read, or another source of samples.
@@ -31,13 +31,13 @@ struct RenderEngine {
 
 /// How a pass is cut into tile jobs.
 struct Tiling {
-  int edge = 0;               ///< of tiles, in pixels; 0: chosen
-  bool reuses_paths = false;  ///< the scene shares second vertices: tiles that are chosen hold whole blocks of pixels
+  int edge = 0;               ///< of tiles, in pixels; 0: chosen by the pass
+  bool reuses_paths = false;  ///< the scene reuses second vertices: chosen tiles hold whole blocks of pixels
 };
 
-/// One sweep over an image. It takes the same range of sample indices for every pixel, or brings each pixel up to a
-/// count of its own. The work is cut into units of about 2,000 paths. A tile job is added to the film whole or not at
-/// all, so each pixel always has the first n of its samples, without gaps. A pass that was interrupted can go on later.
+/// One sweep over an image. It takes the same range of sample indices for every pixel, or brings each pixel up to its
+/// own count. The work is cut into tile jobs of about 2,000 paths. A tile job is added to the film whole or not at all,
+/// so that each pixel always has the first n of its samples, without gaps. An interrupted pass can be continued.
 class Pass {
  public:
   /// Samples first … last - 1 of the region's pixels. step, skip_step: see TileJob.
@@ -56,7 +56,7 @@ class Pass {
 
   std::uint64_t rays() const { return rays_; }
   std::uint64_t shadow_rays() const { return shadow_rays_; }
-  /// Paths that the units done so far have followed.
+  /// Paths of the tile jobs done so far.
   std::uint64_t paths() const { return paths_; }
   std::uint64_t rejected() const { return rejected_; }
   std::uint64_t truncated() const { return truncated_; }
@@ -76,9 +76,9 @@ class Pass {
   int step_ = 1, skip_step_ = 0, tile_;
   int left_, top_;  ///< of the first tile: at most those of the region
   int columns_, rows_;
-  std::vector<std::uint8_t> done_;  ///< for each unit; written only by the thread that runs it
+  std::vector<std::uint8_t> done_;  ///< for each tile; written only by the thread that runs it
   std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
-  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< what is still to be added to film.cut_throughput
+  std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< not yet added to film.cut_throughput
 };
 
 }  // namespace tyndall

@@ -23,13 +23,13 @@ Vec3f get(const std::vector<float>& rgba, std::size_t pixel) {
   return {from[0], from[1], from[2]};
 }
 
-/// How bright a colour looks, in [0, 1): differences of it tell edges in light and in shadow.
+/// Perceived brightness of a colour, in [0, 1): its differences show edges in light and in shadow alike.
 float look_of(Vec3f colour) {
   const float light = std::max(0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z, 0.0f);
   return std::isfinite(light) ? light / (1 + light) : 1.0f;
 }
 
-/// The colour in the middle of four: the mean of the opposite pair that is clearly more alike, else of all four.
+/// The colour between four pixels: the mean of the opposite pair that is clearly more alike, else of all four.
 Vec3f between(Vec3f a, Vec3f opposite_a, Vec3f b, Vec3f opposite_b) {
   const float across_a = std::abs(look_of(a) - look_of(opposite_a)),
               across_b = std::abs(look_of(b) - look_of(opposite_b));
@@ -38,7 +38,7 @@ Vec3f between(Vec3f a, Vec3f opposite_a, Vec3f b, Vec3f opposite_b) {
   return 0.25f * (a + opposite_a + b + opposite_b);
 }
 
-/// A picture of twice as many columns and rows, whose new pixels go on along edges.
+/// A picture of twice as many columns and rows, whose new pixels are interpolated along edges.
 std::vector<float> doubled(const std::vector<float>& from, int columns, int rows, ThreadPool& thread_pool) {
   std::vector<float> to(4 * from.size());
   const auto old = [&](int x, int y) {
@@ -125,7 +125,7 @@ std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Th
                               const std::atomic<bool>& give_up) {
   constexpr int edge = 4, samples = 4;
   SceneView alone = scene;
-  alone.reuses_paths = false;  // what a pixel's own paths cost, not those of its groups
+  alone.reuses_paths = false;  // count a pixel's own paths, not those of its groups
   std::vector<float> costs(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
   const auto find = [&](const Region& cell) {
     FilmPixel pixels[edge * edge] = {};
@@ -166,7 +166,7 @@ void look_at_pixel(const Film& film, PixelReport& report) {
   report.samples = pixel.taken;
   report.rejected = pixel.rejected[0] + pixel.rejected[1];
   report.mean = mean(film, pixel);
-  Vec3f variance{};  // of one sample, as sums over the pixels around, each weighed by what its difference tells
+  Vec3f variance{};  // of one sample; sums over the pixels around, each weighted by what its difference tells
   float pixels = 0;
   constexpr int reach = 3;
   for (int y = std::max(report.y - reach, all.y0); y < std::min(report.y + reach + 1, all.y1); ++y)

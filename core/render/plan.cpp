@@ -42,14 +42,14 @@ struct Cells {
   }
 };
 
-constexpr double max_taken = 1 << 24;  // more samples do not fit into a film's sums
+constexpr double max_taken = 1 << 24;  // more samples would overflow a film's sums
 
 void for_rows(ThreadPool* thread_pool, int rows, const std::function<void(int)>& job) {
   if (thread_pool) return thread_pool->for_each(rows, job);
   for (int row = 0; row < rows; ++row) job(row);
 }
 
-/// The noise of a group of pixels, as sums over those that have samples in both halves.
+/// The noise of some pixels, as sums over those with samples in both halves.
 struct Variance {
   double sum = 0;  ///< sum of squared relative error times count²
   int pixels = 0;
@@ -69,7 +69,7 @@ Variance variance_in(const Film& film, const std::vector<double>& errors, const 
 }
 
 /// Cube root of the mean over the window around a cell, without the cell itself. If squared error falls with the square
-/// of the count, counts in proportion to this number make the sum of squared errors smallest.
+/// of the count, counts in proportion to this number minimise the sum of squared errors.
 double demand_of(const std::vector<Variance>& variances, const Cells& cells, int column, int row) {
   Variance around;
   for (int v = std::max(row - window_reach, 0); v <= std::min(row + window_reach, cells.rows - 1); ++v)
@@ -82,7 +82,7 @@ double demand_of(const std::vector<Variance>& variances, const Cells& cells, int
   return around.pixels > 0 ? std::cbrt(around.sum / around.pixels) : 0;
 }
 
-/// What each cell needs, relative to the mean over all cells; at least a little, so that a round can reach its mean.
+/// The demand of each cell, relative to the mean over all cells; above 0, so that a round can reach its mean.
 std::vector<double> demands_of(const Film& film, const Cells& cells, ThreadPool* thread_pool) {
   const std::vector<double> errors = squared_relative_errors(film, thread_pool);
   std::vector<Variance> variances(cells.count());
@@ -101,15 +101,16 @@ std::vector<double> demands_of(const Film& film, const Cells& cells, ThreadPool*
 }
 
 /// A number in [0, 2^16) for each cell, by multiples of the golden ratio, which spreads the numbers of neighbours in
-/// the list evenly. By it, cells with equal counts get their next samples one after the other in the course of a round.
+/// the list evenly. It orders cells with equal counts: they get their next samples one after the other during the
+/// round.
 std::uint64_t dither(std::size_t cell) { return (cell * 40503) & 0xffff; }
 
-/// The nearest power of two, because the points of a Sobol' sequence are spread most evenly then. With counts in
-/// between the error would be up to a third higher in smooth parts of a picture.
+/// The nearest power of two, because Sobol' points are spread most evenly then. Counts in between would raise the error
+/// by up to a third in smooth parts of a picture.
 std::uint32_t rounded(double count) { return std::bit_floor(static_cast<std::uint32_t>(std::numbers::sqrt2 * count)); }
 
-/// Gives each cell a count in proportion to its need: a need of 1 gets `scale` samples. Also sums the counts over all
-/// pixels.
+/// Gives each cell a count in proportion to its demand: a demand of 1 gets `scale` samples. Also sums the counts over
+/// all pixels.
 struct SampleAllocation {
   std::vector<std::uint64_t> areas;
   const std::vector<double>& demands;
@@ -140,7 +141,7 @@ double find_scale(const SampleAllocation& allocation, double budget) {
   return low;
 }
 
-/// Rounding leaves a part of the budget. Spends it on cells that were rounded down, so that the mean of the counts
+/// Rounding leaves a part of the budget. This spends it on cells that were rounded down, so that the mean of the counts
 /// becomes the number of samples that the picture is labelled with.
 void spend(double left, const SampleAllocation& allocation, double scale, std::vector<PlannedSamples>& planned) {
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -152,7 +153,7 @@ void spend(double left, const SampleAllocation& allocation, double scale, std::v
   }
 }
 
-/// The factor by which the best counts would lower the squared error below that of even counts, if it falls as 1/count.
+/// Factor by which the best counts would lower the squared error, compared with even counts, if it falls as 1/count.
 /// The best counts are in proportion to the root of the variance.
 double best_gain(const std::vector<double>& demands) {
   double variances = 0, roots = 0;
@@ -160,7 +161,7 @@ double best_gain(const std::vector<double>& demands) {
   return variances * static_cast<double>(demands.size()) / (roots * roots);
 }
 
-/// The same factor for a plan.
+/// The same factor for the counts of a plan.
 double expected_gain(const std::vector<double>& demands, const std::vector<PlannedSamples>& planned, double mean) {
   double even = 0, as_planned = 0;
   for (std::size_t i = 0; i < demands.size(); ++i) {
@@ -230,7 +231,7 @@ std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp) {
     for (std::size_t i = 0; i < film.planned.size(); ++i) sum += count(i, part) * areas[i];
     return sum <= spp * film.pixels.size();
   };
-  std::uint64_t part = 0;  // how far the round has come, in 65536ths
+  std::uint64_t part = 0;  // progress of the round, in 65536ths
   for (std::uint64_t step = 0x10000; step > 0; step /= 2)
     if (part + step <= 0x10000 && fits(part + step)) part += step;
   std::vector<std::uint32_t> counts(film.pixels.size());

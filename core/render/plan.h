@@ -30,32 +30,31 @@ namespace tyndall {
 inline constexpr int cell_edge = planned_cell_edge;
 inline constexpr std::uint32_t warm_up = 16;  ///< samples that every pixel gets before the first round
 inline constexpr int window_reach = 2;        ///< cells to each side whose errors decide on a cell
-inline constexpr double min_of_mean = 0.25;   ///< a cell gets at least this fraction of the mean count
-inline constexpr double max_of_mean = 16;     ///< and at most so many times the mean
-inline constexpr double min_gain = 1.1;       ///< how many times less relMSE uneven counts must promise to be used
+inline constexpr double min_of_mean = 0.25;   ///< least fraction of the mean count that a cell gets
+inline constexpr double max_of_mean = 16;     ///< greatest multiple of the mean count that a cell gets
+inline constexpr double min_gain = 1.1;       ///< factor by which uneven counts must promise to lower relMSE to be used
 
-/// Begins a round: sets film.planned, for a mean of twice the samples that the film has, made a power of two. All
-/// pixels of a cell must have the same count. thread_pool: shares the work; null: the caller's thread does it, with the
-/// same result.
+/// Starts a round: sets film.planned for a mean of twice the film's samples, made a power of two. All pixels of a cell
+/// must have the same count. thread_pool: does the work; null: the caller's thread does, with the same result.
 void plan_round(Film& film, ThreadPool* thread_pool = nullptr);
 
 /// The mean number of samples at the end of the planned round; 0 if no round is planned.
 std::uint32_t planned_mean(const Film& film);
 
-/// The mean number of samples at which a pass that starts at a mean of `taken` has to end at the latest: warm_up, later
+/// The mean number of samples at which a pass that starts at a mean of `taken` must end at the latest: warm_up, later
 /// the end of the round. Plans the next round if the last one is over.
 std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool* thread_pool = nullptr);
 
-/// Whether a round is planned that does not give all cells the same counts.
+/// Whether a round is planned in which cells get different counts.
 bool planned_unevenly(const Film& film);
 
-/// How many samples each pixel is to have, part of the way through the planned round, when the mean has become `spp`.
-/// Their sum is at most spp times the number of pixels. No pixel has fewer for a higher spp.
+/// Number of samples that each pixel should have during the planned round, when the mean has become `spp`. Their sum is
+/// at most spp times the number of pixels. A higher spp never lowers the count of a pixel.
 std::vector<std::uint32_t> counts_at(const Film& film, std::uint32_t spp);
 
-/// The number of samples that a picture is labelled with: what every pixel has; after adaptive rounds the rounded mean.
+/// The number of samples to label a picture with: that of every pixel; after adaptive rounds the rounded mean.
 std::uint32_t labelled_spp(const Film& film);
-/// The same where the film's totals are known already.
+/// The same for totals that are known already.
 std::uint32_t labelled_spp(const Film& film, const FilmTotals& totals);
 
 }  // namespace tyndall

@@ -11,12 +11,12 @@
 /// The stage between compiling a scene and rendering it.
 namespace tyndall {
 
-/// Everything that is found out about a scene before its first sample: its compiled columns, the subpixel lights that
-/// the camera sees, whether second vertices are shared between pixels, and how likely paths are to meet caustics. It is
-/// found once, never changes, and can be used by any number of threads at once.
+/// All that is known about a scene before its first sample: its compiled columns, the subpixel lights that the camera
+/// sees, whether second vertices are reused between pixels, and how likely paths are to meet caustics. It never
+/// changes, and any number of threads can use it at once.
 class PreparedScene {
  public:
-  /// columns: compiled from `scene`. For other uses than measuring changed columns, call prepare().
+  /// columns: compiled from `scene`. Except to measure changed columns, call prepare() instead.
   PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns);
   PreparedScene(const PreparedScene&) = delete;
   PreparedScene& operator=(const PreparedScene&) = delete;
@@ -25,11 +25,11 @@ class PreparedScene {
   const RenderScene& columns() const { return columns_; }
   /// What kernels read; valid as long as this object.
   const SceneView& view() const { return view_; }
-  /// Whether second vertices are shared between pixels, because that is allowed, possible and pays.
+  /// Whether second vertices are reused between pixels: it is allowed, possible, and pays.
   bool reuses_paths() const { return view_.reuses_paths; }
-  /// What sharing would gain; not probed where it is not allowed or not possible.
+  /// What reuse would gain; not probed where it is not allowed or not possible.
   const ReuseGain& reuse_gain() const { return reuse_gain_; }
-  /// See chance_of_caustics(). Found when it is first asked for, as only pictures of many samples need it.
+  /// See chance_of_caustics(). Computed at the first call, as only pictures of many samples need it.
   double caustic_chance() const;
 
  private:
@@ -43,8 +43,8 @@ class PreparedScene {
   mutable double caustic_chance_ = 1;
 };
 
-/// Compiles a scene and finds out all that is needed to render it: a pure function of the scene. before: another scene
-/// that was prepared; parts that both have in common, such as the tree, are kept. Null: none.
+/// Compiles a scene and computes all that is needed to render it: a pure function of the scene. before: a prepared
+/// scene from which common parts, such as the tree, are taken over; null: none.
 std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before = nullptr);
 /// The same for a scene that is copied.
 std::shared_ptr<const PreparedScene> prepare(const Scene& scene);

@@ -32,7 +32,7 @@ int coarse_clean_step(std::int64_t pixels, double paths_per_second, double filte
 }
 
 int FirstPictures::step_for(std::int64_t pixels, double budget, std::int64_t shown) {
-  // Drawing and showing count, but never take more than three quarters of the time from the samples.
+  // Drawing and showing count, but are allowed at most three quarters of the time for samples.
   const double left = std::min(budget, 1.6 * budget - showing_seconds_) - drawing_seconds_;
   step_ = preview_step(pixels, paths_per_second_, std::max(left, budget / 4), step_);
   return std::max(step_, step_of_shown(pixels, shown));
@@ -43,7 +43,7 @@ void FirstPictures::note_showing(double seconds) {
 }
 
 void FirstPictures::note_pass(double paths_per_second) {
-  // The geometric mean with what was known evens out single slow passes.
+  // The geometric mean with the earlier value evens out single slow passes.
   paths_per_second_ = paths_per_second_ > 0 ? std::sqrt(paths_per_second_ * paths_per_second) : paths_per_second;
 }
 

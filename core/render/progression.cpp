@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-/// A part of a film's region, made larger so that it cuts no block of pixels that share; empty where they do not meet.
+/// A part of a film's region, widened so that it cuts no block of groups; empty where the two do not overlap.
 Region part_of(const Film& film, const Region& part, bool reuses_paths) {
   const int across = reuses_paths ? block_width : 1, down = reuses_paths ? block_height : 1;
   const auto up = [](int at, int step) { return (at + step - 1) / step * step; };
@@ -44,7 +44,7 @@ PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) 
     return;
   }
   taken_ = sum.min_taken;
-  // No pass does more than double the samples, apart from those that refine a part first.
+  // No pass more than doubles the samples, except those that refine a part first.
   if (sum.max_taken > 4 * std::max(sum.min_taken, options.length.maximum))
     max_ = sum.max_taken;
   else if (sum.max_taken > sum.min_taken)
@@ -80,7 +80,7 @@ std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uin
   if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.thread_pool));
   if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
   if (max_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
-  // The pixels of a coarse pass have their first sample, unless that was one without its group.
+  // The pixels of a coarse pass keep their first sample, unless it was taken without its group.
   const bool after_coarse = taken_ == 0 && coarse_done_;
   replaces_ = after_coarse && tiling.reuses_paths;
   if (replaces_) film.cut_throughput = {};
@@ -122,7 +122,7 @@ void Progression::start(const RenderScene& scene, const Region& region, std::uin
   const bool emission = needs_trait<&BsdfTraits::emits>(scene.features);
   if (film_.pixels.size() != pixels) {
     film_ = make_film(scene.width, scene.height, region, first_sample, scene.film_quantum, emission);
-  } else {  // the first pass replaces what the pixels hold
+  } else {  // the first pass replaces the pixels' contents
     film_.emission.resize(emission ? pixels : 0);
     film_.width = scene.width, film_.height = scene.height;
     film_.region = region;

@@ -11,70 +11,68 @@
 #include <memory>
 #include <optional>
 
-/// A picture in the making. Blocking and interactive renders are both loops around Progression::run_pass(). Here alone
-/// it is decided which samples come next and when the picture is finished, and measured how long it took and how far
-/// the picture is from the truth. No decision changes a sample, so pictures do not depend on speed or on interruptions.
+/// A picture in the making. Blocking and interactive renders are both loops around Progression::run_pass(). This is the
+/// only place that decides which samples come next and when the picture is finished, and measures the time and the
+/// error. No decision changes a sample, so that pictures do not depend on speed or interruptions.
 namespace tyndall {
 
-/// Where a picture is finished: at the first of these.
+/// Limits of a picture: it is finished at the first one that it reaches.
 struct Limits {
   std::optional<std::uint32_t> spp;  ///< samples a pixel, with adaptive sampling their mean; absent: no limit
-  double seconds =
-      std::numeric_limits<double>::infinity();  ///< of rendering; looked at between passes, after the first
-  double error = 0;                             ///< estimated relative error; looked at likewise; 0: no limit
+  double seconds = std::numeric_limits<double>::infinity();  ///< of rendering; checked between passes, after the first
+  double error = 0;  ///< estimated relative error; checked likewise; 0: no limit
 };
 
-/// How many samples a pixel each pass takes. The first pass takes one.
+/// Number of samples a pixel that each pass takes. The first pass takes one.
 struct PassLength {
-  double growth = 1;           ///< samples of a pass over those that are there: 1 doubles them, 0.25 adds a quarter
+  double growth = 1;           ///< samples of a pass over those taken before: 1 doubles them, 0.25 adds a quarter
   std::uint32_t maximum = 32;  ///< samples of the longest pass
   double seconds =
-      std::numeric_limits<double>::infinity();  ///< about how long a pass may take, by the last one's speed
-  /// A pass takes as many samples as fit into this time, if these are more than `growth` says: each pass goes through
-  /// the whole film once, which costs as much as half a sample of a simple scene.
+      std::numeric_limits<double>::infinity();  ///< about the longest duration of a pass, by the last one's speed
+  /// A pass takes at least as many samples as fit into this time: each pass reads and writes the whole film once, which
+  /// costs as much as half a sample of a simple scene.
   double min_seconds = 0;
 };
 
 /// Samples of the next pass, at least 1. taken: samples a pixel so far; paths_per_second: <= 0 if unknown.
 std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::size_t pixels, double paths_per_second);
 
-/// When the error of a film is estimated, which takes about as long as drawing the picture. It always is when the
-/// wanted number of samples is reached; these members say how often before.
+/// When to estimate the error of a film, which takes about as long as drawing the picture. It is always done when the
+/// wanted number of samples is reached; these members add earlier estimates.
 struct EstimateTimes {
   /// The first estimate is due after this time of rendering. After one at t seconds, the next is due at
   /// t + seconds + growth · t.
   double seconds = std::numeric_limits<double>::infinity();
   double growth = 0;
-  std::uint32_t each_below = 0;  ///< with fewer samples a pixel than this, an estimate follows every pass
+  std::uint32_t each_below = 0;  ///< below this number of samples a pixel, every pass is followed by an estimate
 };
 
-/// How a picture is made.
+/// How to make a picture.
 struct ProgressionOptions {
   bool adaptive = false;  ///< see plan.h
   int tile = 0;           ///< see Tiling
   int coarse_step = 1;    ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
-  /// The part of the picture that gets all further samples as soon as each pixel has one, until it has as many as are
-  /// wanted; then the rest follows. Empty: none. Of no effect with `adaptive`, which says by itself where samples go.
+  /// The part of the picture that gets all further samples once each pixel has one, until it has the wanted number;
+  /// then the rest follows. Empty: none. No effect with `adaptive`, which distributes the samples itself.
   Region first;
   bool count_breaks = false;  ///< the time between passes counts as rendering time, as in blocking renders
   PassLength length;
   EstimateTimes estimates;
 };
 
-/// Decides which samples of a film come next. In this order: what an interrupted pass has left; a coarse pass; the
-/// pixels that it left out; the part that is refined first; then passes that grow, but never beyond the end of a round
-/// of adaptive sampling.
+/// Decides which samples of a film come next, in this order: the rest of an interrupted pass; a coarse pass; the pixels
+/// that it left out; the part to refine first; then passes that grow, but never beyond the end of a round of adaptive
+/// sampling.
 class PassSchedule {
  public:
   /// For a film that has no samples, or whose samples are replaced by the first pass.
   explicit PassSchedule(const ProgressionOptions& options = {}) : options_(options) {}
-  /// Goes on with a film's samples. Those that an interrupted pass left uneven are made even first.
+  /// Continues a film. Pixels that an interrupted pass left uneven are made even first.
   PassSchedule(const ProgressionOptions& options, const Film& film);
 
-  /// Returns the pass that was interrupted, or else begins a new one. limit: see Limits::spp; paths_per_second: see
-  /// pass_samples().
+  /// Returns the interrupted pass, or starts a new one. limit: see Limits::spp; paths_per_second: see pass_samples().
   Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, const RenderEngine& engine);
-  /// To be called when all units of the pass are done.
+  /// To be called when all tile jobs of the pass are done.
   void finish();
   /// See ProgressionOptions; from the next pass on.
   void set_first(const Region& first) { options_.first = first; }
@@ -82,7 +80,7 @@ class PassSchedule {
   const Pass* pass() const { return pass_.get(); }  ///< null between passes
   bool replaces() const { return replaces_; }       ///< whether the pass replaces the samples of the coarse one
   std::uint32_t taken() const { return taken_; }    ///< samples of every pixel; after adaptive rounds their mean
-  std::uint32_t maximum() const { return std::max(taken_, max_); }  ///< samples of those that were refined first
+  std::uint32_t maximum() const { return std::max(taken_, max_); }  ///< samples of the part refined first
   bool coarse_done() const { return coarse_done_; }
   int coarse_step() const { return options_.coarse_step; }
 
@@ -96,14 +94,14 @@ class PassSchedule {
   std::unique_ptr<Pass> pass_;
   bool coarse_ = false, coarse_done_ = false, refining_ = false, replaces_ = false;
   std::uint32_t taken_ = 0, end_ = 0;
-  std::uint32_t max_ = 0;       ///< above taken_: so many samples have pixels that were refined first
-  std::uint32_t level_to_ = 0;  ///< an interrupted pass left some pixels with so many: all get these first; 0: none did
+  std::uint32_t max_ = 0;       ///< if above taken_: samples of the pixels that were refined first
+  std::uint32_t level_to_ = 0;  ///< samples that an interrupted pass gave to some pixels: all get these first; 0: none
 };
 
-/// What was counted since the start, and how long it took.
+/// Counts and times since the start.
 struct PassTally {
   std::uint64_t rays = 0, shadow_rays = 0;                 ///< up to now
-  std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< of whole passes, and of the film that was continued
+  std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< of whole passes, and of the continued film
   double seconds = 0;  ///< up to the last film write, or up to now while a pass runs
   double last_mrays_per_s = 0, last_paths_per_second = 0;  ///< of the last whole pass; 0: there was none
 };
@@ -111,38 +109,38 @@ struct PassTally {
 /// A film and the passes that fill it.
 class Progression {
  public:
-  /// Begins a picture of the scene, without samples. Uses the film's memory again if the size is the same. If it throws
-  /// std::bad_alloc, nothing has changed.
+  /// Starts a picture of the scene, without samples. Reuses the film's memory if the size is the same. Changes nothing
+  /// if it throws std::bad_alloc.
   void start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
              const ProgressionOptions& options);
-  /// Goes on with a film that was rendered from the same scene with the same `adaptive`.
+  /// Continues a film that was rendered from the same scene with the same `adaptive`.
   void go_on(Film film, const ProgressionOptions& options);
 
-  /// Estimates the error of the film as it is, if it has two samples a pixel. If `give_up` is set meanwhile, it is
-  /// found from the film alone (see ask_levels()).
+  /// Estimates the error of the present film, if it has two samples a pixel. If `give_up` is set meanwhile, the
+  /// estimate uses the film alone (see ask_levels()).
   void estimate_now(const RenderEngine& engine, const std::atomic<bool>& give_up);
 
   /// Whether the picture is finished.
   bool reached(const Limits& limits) const;
-  /// Takes samples until the next pass is complete, and returns true. If `give_up` is set meanwhile it returns false
-  /// within one tile job, about 2 ms; the next call then goes on with that pass. Estimates the error if that is due.
-  /// poll: see ThreadPool::for_each.
+  /// Takes samples until the next pass is complete, and returns true. If `give_up` is set meanwhile, it returns false
+  /// within one tile job, about 2 ms; the next call then continues that pass. Estimates the error if that is due. poll:
+  /// see ThreadPool::for_each.
   bool run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
                 const std::function<void()>& poll = {});
 
   const Film& film() const { return film_; }
-  /// What is known of its pixels' levels.
+  /// Known levels of the film's pixels.
   PixelLevels& levels() { return levels_; }
   Film take_film() { return std::move(film_); }
   /// Gives back the film that take_film() returned, unchanged.
   void put_back(Film film) { film_ = std::move(film); }
-  /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass is there.
+  /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass exists.
   std::uint32_t taken() const { return schedule_.taken(); }
   /// Samples of the pixels that were refined first; taken() where there are none.
   std::uint32_t max_taken() const { return schedule_.maximum(); }
   /// See ProgressionOptions; from the next pass on.
   void set_first(const Region& first);
-  /// Whether there is something to show.
+  /// Whether there is a picture to show.
   bool has_picture() const { return taken() > 0 || schedule_.coarse_done(); }
   /// 1, or larger after a coarse pass: then only every step-th pixel in x and y has samples.
   int step() const { return taken() == 0 ? schedule_.coarse_step() : 1; }
@@ -150,13 +148,13 @@ class Progression {
   bool within_pass() const { return schedule_.pass() != nullptr; }
   /// May be called from run_pass()'s poll.
   PassTally tally() const;
-  /// What was lost by cutting paths at the largest depth: see FilmTotals::cut_throughput.
+  /// Light lost by ending paths at max_depth: see FilmTotals::cut_throughput.
   double cut_throughput() const;
   /// Estimated relative error; infinite before two samples.
   double error() const { return estimate_.relative_error; }
-  /// The estimate that error() is taken from.
+  /// The estimate that holds error().
   const ErrorEstimate& estimate() const { return estimate_; }
-  /// Whether estimate() is of the film as it is now.
+  /// Whether estimate() is that of the present film.
   bool estimate_is_new() const { return estimate_of_ == taken() && taken() >= 2 && !within_pass(); }
 
  private:
@@ -170,12 +168,12 @@ class Progression {
   PassSchedule schedule_;
   PassTally tally_;
   Clock::time_point last_write_;
-  std::optional<Clock::time_point> running_from_;  ///< set while run_pass() runs: its time counts from then on
-  double pass_seconds_ = 0;                        ///< seconds spent on the pass that is under way
+  std::optional<Clock::time_point> running_from_;  ///< set while run_pass() runs: start of the time to add
+  double pass_seconds_ = 0;                        ///< spent on the current pass
   PixelLevels levels_;
   ErrorEstimate estimate_;
-  std::uint32_t estimate_of_ = 0;  ///< samples a pixel that the estimate was made from
-  double next_estimate_ = 0;       ///< when the next one is due, in seconds of rendering
+  std::uint32_t estimate_of_ = 0;  ///< samples a pixel of the estimated film
+  double next_estimate_ = 0;       ///< time of the next one, in seconds of rendering
 };
 
 }  // namespace tyndall

@@ -19,9 +19,8 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   made.adaptive = options.adaptive;
   made.tile = options.tile;
   made.count_breaks = true;
-  // If time or error decide when to stop, passes are short, because both are looked at between passes only. Otherwise
-  // there are few passes: each doubles the samples, or takes a tenth of a second, until it is as long as
-  // PassLength::maximum allows.
+  // If time or error decide when to stop, passes are short, because both are checked between passes only. Otherwise
+  // there are few passes: each doubles the samples, or takes a tenth of a second, up to PassLength::maximum.
   const bool looks = options.target_error > 0 || options.time_limit < std::numeric_limits<double>::infinity();
   made.length.growth = looks ? 0.25 : 1;
   made.length.min_seconds = looks ? 0 : 0.1;
@@ -45,13 +44,13 @@ class CleanView {
         levels_(levels),
         cleaner_(engine.kernels) {}
 
-  /// Whether its error is small enough to stop. Filters only so often that this takes at most a quarter of the time.
+  /// Whether its error is small enough to stop. Filters so seldom that this takes at most a quarter of the time.
   bool is_good(const Progression& picture) {
     if (!wanted_ || target_ <= 0 || picture.taken() < min_clean_spp) return false;
     if (cleaned_ != picture.taken() && seconds_ <= picture.tally().seconds / 4) make(picture.film(), picture.taken());
     return cleaned_ == picture.taken() && clean_.relative_error <= target_;
   }
-  /// Gives the clean view of the film to the result.
+  /// Moves the clean view of the film into the result.
   void finish(const Film& film, std::uint32_t taken, bool whole, RenderResult& result) {
     if (!wanted_ || totals(film).min_taken < min_clean_spp) return;
     if (!whole || cleaned_ != taken) make(film, taken);
@@ -77,11 +76,11 @@ class CleanView {
   PixelLevels& levels_;
   FilmCleaner cleaner_;
   CleanPicture clean_;
-  std::uint32_t cleaned_ = 0;  ///< samples a pixel that the newest clean view was made from
+  std::uint32_t cleaned_ = 0;  ///< samples a pixel of the newest clean view
   double seconds_ = 0;
 };
 
-/// A render from its first pass to its result.
+/// A render, from its first pass to its result.
 class Rendering {
  public:
   Rendering(const PreparedScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film)
@@ -113,12 +112,12 @@ class Rendering {
   }
 
  private:
-  /// Limits are looked at between passes only, also where a pass is interrupted for a break.
+  /// Limits are checked between passes only, also where a pass is interrupted for a break.
   bool finished() {
     return stopped_ || (!picture_.within_pass() && (picture_.reached(limits_) || clean_->is_good(picture_)));
   }
 
-  /// Tells how far the picture is, and finds out what is to be done. Called while a pass runs, and after each.
+  /// Reports progress and finds out what is due. Called while a pass runs, and after each pass.
   void look() {
     const RenderBreaks& breaks = options_.breaks;
     film_due_ = film_due_ || (breaks.film_due && breaks.film_due());
@@ -141,7 +140,7 @@ class Rendering {
     picture_.put_back(std::move(so_far.film));
   }
 
-  /// Takes the film away from the picture.
+  /// Moves the film out of the picture into a result.
   RenderResult result() {
     RenderResult result;
     const PassTally tally = picture_.tally();

@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-constexpr double pass_budget = 0.15;  // seconds from one picture to the next while the picture sharpens
+constexpr double pass_budget = 0.15;  // from one picture to the next while a picture converges
 
 ProgressionOptions progression_options(const Scene& scene, int coarse_step, const Region& first) {
   ProgressionOptions options;
@@ -41,7 +41,7 @@ void RenderLoop::run(const StopToken& stop) {
       tell_if_it_fails(next.edit, [&] { follow(next); });
       if (stop.stop_requested()) return;
       tell_if_it_fails(shown_.edit, [this] { go_on(); });
-    } catch (...) {  // not even the message fits into memory: what is asked for next is tried again
+    } catch (...) {  // not even the message fits into memory: the next request is a new attempt
       stalled_ = true;
     }
   }
@@ -54,8 +54,8 @@ void RenderLoop::go_on() {
   if (clean_is_due() && !mail_.give_up()) make_clean();
 }
 
-/// Memory can run out at any step. Then the callers are told, the pictures so far stay, and nothing is tried again
-/// until something is asked for.
+/// Memory can run out at any step. Then the callers get a RenderProblem, the pictures so far stay, and nothing is tried
+/// again until the next request.
 void RenderLoop::tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step) {
   try {
     step();
@@ -72,7 +72,7 @@ void RenderLoop::tell(std::uint64_t edit, const std::exception& error) {
   if (on_frame_) on_frame_();
 }
 
-/// The one place where what is wanted now is compared with what was wanted before.
+/// The only place that compares the new request with the one before.
 void RenderLoop::follow(const ReceivedRequest& next) {
   const RequestChange change = change_between(request_, next);
   request_ = next;
@@ -94,8 +94,8 @@ void RenderLoop::follow(const ReceivedRequest& next) {
   if (change.pixel) report_pixel();
 }
 
-/// Makes the scene that is wanted the one that is rendered. If it cannot be compiled, everything stays as it was, and
-/// the mailbox gets a RenderProblem. Returns whether the picture goes on from a film.
+/// Makes the requested scene the one that is rendered. If it cannot be compiled, everything stays as it was, and the
+/// mailbox gets a RenderProblem. Returns whether the picture continues a film.
 bool RenderLoop::take_scene() {
   bool goes_on = false;
   try {
@@ -123,7 +123,7 @@ bool RenderLoop::take_scene() {
   return goes_on;
 }
 
-/// Takes over the samples of a film of the scene. False if there are none, or they are of another size.
+/// Takes over the samples of a film of the scene. Returns false if there are none, or if the film is of another size.
 bool RenderLoop::go_on_from(Film* film) {
   const RenderScene& scene = shown_.prepared->columns();
   const Region whole{0, 0, scene.width, scene.height};
@@ -144,7 +144,7 @@ void RenderLoop::start_over(double budget) {
   begin_picture();
 }
 
-/// Forgets what was found out of the picture before.
+/// Forgets what was known of the previous picture.
 void RenderLoop::begin_picture() {
   rare_paths_ = false;
   clean_.start_over();
@@ -163,7 +163,7 @@ void RenderLoop::finish_pass() {
   make_coarse_clean();
 }
 
-/// Tells what is known of the pixel that is watched.
+/// Reports what is known of the watched pixel.
 void RenderLoop::report_pixel() {
   const auto& pixel = request_.wanted.watched_pixel;
   if (!pixel || !shown_.prepared) return;
@@ -173,7 +173,7 @@ void RenderLoop::report_pixel() {
   if (on_frame_) on_frame_();
 }
 
-/// The first picture of an edit is on its way to the screen: until it is there, the processors are for that.
+/// Waits for the first picture of an edit to reach the screen: until then the processors are left to it.
 void RenderLoop::yield() {
   if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
 }
@@ -187,7 +187,7 @@ void RenderLoop::make_coarse_clean() {
   mail_.wait_until_shown(frames_);
 }
 
-/// Filters the picture as it is now. An urgent request interrupts this; then it is tried again later.
+/// Filters the present picture. An urgent request interrupts this; it is tried again later.
 void RenderLoop::make_clean() {
   if (clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
@@ -228,9 +228,9 @@ void RenderLoop::publish() {
   if (on_frame_) on_frame_();
 }
 
-/// Gives a copy of the film to callers who wait for one. Within a pass some pixels lack samples that others have, so a
-/// pass that was interrupted is finished first. If the renderer is paused, has reached its limit or has failed,
-/// nothing would finish the pass: then the film is given as it is.
+/// Gives a copy of the film to callers who wait for one. Within a pass some pixels lack samples that others have, so an
+/// interrupted pass is finished first. If the renderer is paused, has reached its limit or has failed, nothing would
+/// finish the pass: then the film is given as it is.
 void RenderLoop::answer_films() {
   if (picture_.within_pass() && unfinished(request_.limit()) && !stalled_) return;
   for (auto& request : mail_.take_film_requests()) {

@@ -9,15 +9,15 @@
 #include <memory>
 #include <optional>
 
-/// The inside of Renderer: the thread that takes requests from the mailbox, renders pass by pass and hands out frames.
+/// The inside of Renderer: the thread that takes requests from the mailbox, renders pass by pass, and publishes frames.
 namespace tyndall {
 
-/// The scene that is rendered.
+/// The scene being rendered.
 struct ShownScene {
   std::shared_ptr<const PreparedScene> prepared;  ///< null: none came yet
   std::shared_ptr<const SampleSource> samples;    ///< see RenderRequest
   std::uint64_t edit = 0;
-  Clock::time_point submitted;  ///< when the edit or its newest restart was asked for
+  Clock::time_point submitted;  ///< when the edit or its newest restart was requested
 };
 
 class RenderLoop {
@@ -60,9 +60,9 @@ class RenderLoop {
   LiveClean clean_;
   FrameMemory frame_memory_;
 
-  ReceivedRequest request_;  ///< that is followed
-  bool rare_paths_ = false;  ///< the estimated error is too small, because of light that only rare paths carry
-  bool stalled_ = false;     ///< a step failed; nothing is done until something is asked for
+  ReceivedRequest request_;  ///< the request being followed
+  bool rare_paths_ = false;  ///< the estimated error is too small, because only rare paths carry some of the light
+  bool stalled_ = false;     ///< a step failed; nothing is done until the next request
   double budget_ = 0;        ///< seconds for the first picture of the newest edit
   std::uint64_t frames_ = 0;
   std::optional<double> first_picture_ms_;  ///< absent until the newest edit or restart has its first picture

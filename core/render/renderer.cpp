@@ -19,7 +19,7 @@ Kernels kernels_or_throw(const std::string& isa) {
 struct Renderer::State {
   Mailbox mail;
   RenderLoop loop;
-  StoppableThread thread;  // declared last, so that it has ended before what it uses goes
+  StoppableThread thread;  // declared last, so that it ends before the members that it uses
 
   State(const Options& options, std::function<void()> on_frame)
       : loop(mail, kernels_or_throw(options.isa), options.threads, std::move(on_frame)),
@@ -33,7 +33,7 @@ Renderer::~Renderer() {
   state_->thread.request_stop();
   state_->mail.interrupt();
   state_->thread.join();
-  for (auto& request : state_->mail.take_film_requests()) request.set_value({});  // nobody may wait forever
+  for (auto& request : state_->mail.take_film_requests()) request.set_value({});  // so that no caller waits forever
 }
 
 std::uint64_t Renderer::request(RenderRequest request) { return state_->mail.request(std::move(request)); }

@@ -26,8 +26,8 @@ std::vector<Vec3f> PixelLevels::of(const std::vector<std::size_t>& pixels, const
 bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
                        const std::atomic<bool>& give_up) {
   SceneView scene = engine.scene;
-  scene.seed = ~scene.seed;    // samples that have nothing to do with the film's
-  scene.reuses_paths = false;  // a pixel's samples without those of its group
+  scene.seed = ~scene.seed;    // samples independent of the film's
+  scene.reuses_paths = false;  // a pixel's samples without its group
   const auto width = static_cast<std::size_t>(film.region.width());
   std::vector<FilmPixel> parts(pixels.size() * jobs);
   engine.thread_pool.for_each(static_cast<int>(parts.size()), [&](int i) {

@@ -18,10 +18,10 @@ void Views::find_due_costs(const RenderEngine& engine, const std::atomic<bool>& 
   costs_due_ = false;
 }
 
-/// The view of noise or of samples. While there is nothing to tell yet, the old one stays.
+/// Draws the view of noise or of samples. Until the new picture has enough samples, the old drawing stays.
 void Views::draw_counts(View view, const Progression& picture, std::vector<float>& rgba) {
   const Film& film = picture.film();
-  const std::uint32_t minimum = view == View::noise ? 2 : 1;  // samples that tell something
+  const std::uint32_t minimum = view == View::noise ? 2 : 1;  // fewer samples show nothing
   if (picture.taken() >= minimum) {
     counts_ = view == View::noise ? noise_rgba(film) : samples_rgba(film);
     counts_of_ = view;
