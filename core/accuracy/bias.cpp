@@ -46,7 +46,7 @@ BlockScores block_scores(const Film& a, const Film& b, int edge) {
     }
   if (scores.blocks == 0) return scores;
   scores.mean_square = squares / scores.blocks;
-  // The standard errors are themselves estimated, from one number for each group of both films: z follows Student's t
+  // The standard errors are estimated, too, from one number for each group of both films: z follows Student's t
   // distribution, whose variance is freedom / (freedom - 2).
   const double freedom = 2.0 * edge * edge / group_size;
   scores.maximum = freedom / (freedom - 2) + 4 * std::sqrt(2.0 / scores.blocks);

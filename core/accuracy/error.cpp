@@ -42,7 +42,7 @@ double squared_error(float image, float reference) {
   return square(x - ref) / (square(ref) + floor_of_square);
 }
 
-/// sRGB of a value clipped to [0, 1]; what is not a number stays so.
+/// sRGB of a value clipped to [0, 1]; not a number stays not a number.
 double displayed(float linear) {
   if (linear < 0) return 0;
   return static_cast<double>(srgb_encode(linear > 1 ? 1.0f : linear));

@@ -12,16 +12,16 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float tiny = std::numeric_limits<float>::min();
-constexpr int reach = 2;               // how many pixels to each side tell about a pixel's level
+constexpr int reach = 2;               // pixels to each side that are used for a pixel's level
 constexpr int window = 2 * reach + 1;  // edge of the square of these pixels
-constexpr int band_rows = 32;          // rows that a thread does at a time
+constexpr int band_rows = 32;          // rows that a thread processes at a time
 
 constexpr float largest = 1e30f;  // squared errors are cut at this, because an infinite one means an empty half
 
-/// Planes of numbers for the pixels of a row, in units of the film, with `reach` zeros on both sides. For each channel:
-/// its mean m, its squared error n, the product of its halves, and the lesser half; and one plane that counts the
-/// pixel. All are 0 where a half is empty. All but the lesser halves are summed over windows. Single precision is
-/// enough: what it loses of s is small against mu², and then g hardly depends on s.
+/// Planes of numbers for the pixels of a row, in quanta of the film, with `reach` zeros on both sides. For each
+/// channel: its mean m, its squared error n, the product of its halves, and the lesser half; and one plane that counts
+/// the pixel. All are 0 where a half is empty. All but the lesser halves are summed over windows. Single precision is
+/// enough: its error in s is small against mu², so that g hardly changes.
 struct Row {
   static constexpr std::size_t means = 0, noises = 3, products = 6, counts = 9, summed = 10, minimum = 10, planes = 13;
   std::array<std::vector<float>, planes> of;
@@ -52,9 +52,9 @@ void read_row(const Film& film, int row, Row& to) {
   }
 }
 
-/// Sums over the window around each pixel of the middle row, without the pixel itself. It is left out from the start
-/// and not subtracted at the end, because a bright pixel would leave its rounding behind. columns: memory for the sums
-/// of columns without the middle.
+/// Sums over the window around each pixel of the middle row, without the pixel itself. The pixel is left out from the
+/// start and not subtracted at the end, because the rounding error of a bright pixel would remain. columns: memory for
+/// the sums of columns without the middle.
 void sum_around(const std::array<const Row*, window>& rows, Row& columns, Row& sums) {
   static_assert(reach == 2);
   for (std::size_t plane = 0; plane < Row::summed; ++plane) {
@@ -78,8 +78,8 @@ struct RowErrors {
   std::vector<float> own;    ///< n / (m² + 0.01), with the pixel's own mean
 };
 
-/// Adds those of a channel. sums: over the pixels around each pixel. floor: 0.01 in squared units of the film. This and
-/// the next function are two because compilers do not vectorise both in one loop.
+/// Adds the errors of a channel. sums: over the pixels around each pixel. floor: 0.01 in squared quanta of the film.
+/// This and the next function are separate because compilers do not vectorise both in one loop.
 void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, float floor, RowErrors& errors) {
   const float *own_m = row.of[Row::means + channel].data() + reach,
               *own_n = row.of[Row::noises + channel].data() + reach,
@@ -107,7 +107,7 @@ void add_own_errors(const Row& row, std::size_t channel, float floor, RowErrors&
   for (std::size_t x = 0; x < width; ++x) own[x] += std::min(n[x] / (m[x] * m[x] + floor), largest);
 }
 
-/// The squared relative errors of the middle row.
+/// Computes the squared relative errors of the middle row.
 void find_errors(const std::array<const Row*, window>& rows, float floor, Row& columns, Row& sums, RowErrors& errors) {
   sum_around(rows, columns, sums);
   std::fill(errors.freed.begin(), errors.freed.end(), 0.0f);
@@ -158,13 +158,13 @@ void for_bands(const Film& film, ThreadPool* thread_pool, const std::function<vo
   for (int band = 0; band < bands_of(film); ++band) job(band);
 }
 
-/// The squared relative errors of pixels, and the sum of those with the pixels' own means.
+/// The squared relative errors of pixels, and their sum if levels are the pixels' own means.
 struct Spread {
   ErrorSum freed;
   double own = 0;
 };
 
-/// left_out: places of pixels, in ascending order.
+/// left_out: indices of pixels, in ascending order.
 Spread spread_of(const Film& film, ThreadPool* thread_pool, const std::vector<std::size_t>& left_out) {
   std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
   const auto width = static_cast<std::size_t>(film.region.width());
@@ -196,7 +196,7 @@ double relative_square(Vec3f d, Vec3f level) {
   return (of_channel(d.x, level.x) + of_channel(d.y, level.y) + of_channel(d.z, level.z)) / 3;
 }
 
-/// The squared relative error of a pixel whose level is known: as its two halves tell, and as it is.
+/// The squared relative error of a pixel of known level: estimated from the two halves, and the true one.
 double noise_at_level(const Film& film, std::size_t pixel, Vec3f level) {
   const FilmPixel& of = film.pixels[pixel];
   return relative_square(0.5f * (half_mean(film, of, 0) - half_mean(film, of, 1)), level);
@@ -208,12 +208,12 @@ double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
 /// See ErrorEstimate.
 bool few_matter(const Spread& all, double pixels) {
   constexpr double few = 0.35, fewer = 0.22, hidden = 0.36;
-  // Small pictures show some spread by chance alone: the second term takes off as much.
+  // Small pictures show some spread by chance alone; the second term subtracts that much.
   const double sum = all.freed.sum(), spread = std::sqrt(all.freed.squares()) - 3 / std::sqrt(pixels) * sum;
   return spread > few * sum || (spread > fewer * sum && all.own < hidden * sum);
 }
 
-/// Whether no light was found yet although the scene has lights. Films record emission only if it has.
+/// Whether no light was found yet although the scene has lights. Films record emission only if there are lights.
 bool awaits_light(const Film& film) {
   const auto is_black = [](const FilmPixel& pixel) {
     return std::all_of(std::begin(pixel.sum), std::end(pixel.sum), [](const auto& half) {

@@ -6,13 +6,13 @@
 #include <limits>
 #include <vector>
 
-/// How far a film is likely to be from the truth, told from its two halves A and B alone.
+/// The likely error of a film against the truth, estimated from its two halves A and B alone.
 ///
 /// The squared relative error of a pixel's channel is n / (g² + 0.01), where n = ((A-B)/2)² estimates the variance of
 /// the mean m = (A+B)/2 without bias, and g stands for the true level. It must not be m itself: a pixel that a rare
 /// bright path has met has a large m and a large n, so that n / m² is at most 1 and hides how wrong the pixel is.
-/// g is the pixel's level freed of its own noise: drawn to the mean of the pixels around it as far as what differs
-/// between them is noise.
+/// g is the pixel's level freed of its own noise: it is drawn towards the mean of the pixels around it, the more, the
+/// more of the differences between them is noise.
 ///
 ///     g = max(mu + w (m - mu), min(A, B)),  w = max(s / (s + max(n, nu)), clip(1 - 4 n / m², 0, 1))
 ///
@@ -22,8 +22,8 @@
 /// (or nu, if that is more: n itself comes from two numbers). The second, and min(A, B), keep a pixel that both halves
 /// show to differ from those around it, such as a small light. Without any pixel around, g = m.
 ///
-/// What is left: a light smaller than a pixel, met by one half only, looks like a rare path; and a rare path beside a
-/// light looks like that light. Where the scene is at hand, samples of their own can tell the levels of the few pixels
+/// Two cases remain: a light smaller than a pixel that only one half has met looks like a rare path, and a rare path
+/// beside a light looks like that light. If the scene is at hand, extra samples can give the levels of the few pixels
 /// that decide the estimate: see ask_levels().
 namespace tyndall {
 
@@ -31,21 +31,21 @@ struct ErrorEstimate {
   /// sqrt(mean over pixels and channels of n / (g² + 0.01)). Its square estimates relMSE. Infinite while a half of any
   /// pixel is empty.
   double relative_error = std::numeric_limits<double>::infinity();
-  /// Whether a few pixels make up so much of the error that it means little: rare bright paths have been met in these,
-  /// and not yet in others; or lights smaller than a pixel. True where the standard deviation of the mean of the
+  /// Whether a few pixels make up so much of the error that it means little: these have met rare bright paths, and
+  /// others not yet; or they hold lights smaller than a pixel. True where the standard deviation of the mean of the
   /// pixels' squared errors is more than 0.35 of it, which in large pictures means that it rests on about 8 pixels.
-  /// Already above 0.22 (about 20 pixels) if the error also depends much on how levels are found: if its square would
-  /// be below 0.36 of what it is with the pixels' own means for g. True as well for a black film of a scene with
-  /// lights: no light was found yet. False while a half of any pixel is empty.
+  /// Already above 0.22 (about 20 pixels) if the error also depends much on the levels: if its square would be below
+  /// 0.36 of its value with the pixels' own means for g. Also true for a black film of a scene with lights: no light
+  /// was found yet. False while a half of any pixel is empty.
   bool rests_on_few_pixels = false;
 };
 
-/// thread_pool: shares the work, null: the caller's thread does it; the answer is the same, for any number of threads.
-/// levels_of: see ask_levels(); called on the calling thread; empty: g is found from the film alone.
-/// rare: places of pixels that are known, without looking at the film, to hold light which few of their samples meet,
-/// in ascending order. Their halves often agree by chance, so their levels are asked for as well, and (m - level)²
-/// stands for n in relative_error; whether a few pixels matter is judged with both. Pixels must not be chosen by what
-/// the film holds: those with a large error would be chosen more often.
+/// thread_pool: does the work; null: the caller's thread does. The result is the same for any number of threads.
+/// levels_of: see ask_levels(); called on the calling thread; empty: g is computed from the film alone. rare: ascending
+/// indices of pixels that are known, without looking at the film, to hold light which few of their samples meet. Their
+/// halves often agree by chance, so their levels are looked up as well, and (m - level)² stands for n in
+/// relative_error; whether a few pixels matter is judged with both. These pixels must not be chosen by the film's
+/// content: pixels with a large error would be chosen more often.
 ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool = nullptr, const LevelsOf& levels_of = {},
                              const std::vector<std::size_t>& rare = {});
 

@@ -8,7 +8,7 @@
 namespace tyndall {
 namespace {
 
-/// The place as "X,Y", and its first value that is not finite.
+/// The pixel's position as "X,Y", and its first value that is not finite.
 std::string place_text(const LinearImage& image, std::size_t pixel) {
   constexpr const char* channels[] = {"red", "green", "blue"};
   const float* rgb = image.rgb.data() + 3 * pixel;

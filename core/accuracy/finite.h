@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-/// Values of pictures that are not finite, NaN and infinities. They are equal to nothing, not even to each other.
+/// Finds values of pictures that are not finite: NaN and infinities. NaN equals nothing, not even itself.
 namespace tyndall {
 
 /// Whether the pixel of that index, top row first, is finite in all channels.

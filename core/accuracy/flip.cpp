@@ -22,7 +22,7 @@ struct Plane {
 };
 using Planes = std::array<Plane, 3>;
 
-/// Weights of a line of pixels, -radius … radius.
+/// Weights of a row of pixels, from -radius to radius.
 using Line = std::vector<double>;
 
 /// weight(x) for whole x in -radius … radius.
@@ -32,7 +32,7 @@ Line line_of(int radius, const std::function<double(double)>& weight) {
   return line;
 }
 
-/// Scaled so that the positive weights add up to 1, and the negative ones, if any, to -1.
+/// Scales a row so that the positive weights add up to 1, and the negative ones, if any, to -1.
 Line normalized(Line line) {
   double positive = 0, negative = 0;
   for (const double w : line) (w > 0 ? positive : negative) += w;
@@ -148,7 +148,7 @@ Plane filter_contrast(const Plane& in, const std::vector<Bell>& bells) {
   return sum;
 }
 
-/// What an eye sees of a picture at 67 pixels a degree: filtered by contrast sensitivity, in Hunt-adjusted L*a*b*.
+/// The picture as an eye perceives it at 67 pixels a degree: filtered by contrast sensitivity, in Hunt-adjusted L*a*b*.
 std::vector<Vec3d> seen_colours(const Planes& planes) {
   const Plane light = filter_contrast(planes[0], {{1, 0.0047}});
   const Plane red_green = filter_contrast(planes[1], {{1, 0.0053}});
@@ -161,7 +161,7 @@ std::vector<Vec3d> seen_colours(const Planes& planes) {
   return colours;
 }
 
-/// For each pixel, how strong an edge and how strong a point is there; 0 where lightness is even (section 4.2).
+/// Strength of an edge and of a point at each pixel; 0 where lightness is uniform (section 4.2).
 struct Features {
   std::vector<double> edges, points;
 };
@@ -183,8 +183,8 @@ Features find_features(Plane light) {
   return {length(edge), length(point)};
 }
 
-/// A colour distance as an error in [0, 1]: distances up to 0.4 of the largest one fill [0, 0.95], the others the rest
-/// (section 4.1.4).
+/// Maps a colour distance to an error in [0, 1]: distances up to 0.4 of the largest one to [0, 0.95], larger ones to
+/// the rest (section 4.1.4).
 double colour_error(double distance) {
   const double largest = colour_distance(to_hunt_lab({0, 1, 0}), to_hunt_lab({0, 0, 1}));
   const double knee = 0.4 * largest;

@@ -4,8 +4,8 @@ namespace tyndall {
 
 bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance) {
   if (spp < min_rare_spp) return false;
-  // chance · spp: how many paths a pixel have met such light, on average. Measured: once it is half a path, the
-  // estimate is within a fifth of the true error.
+  // chance · spp: mean number of paths a pixel that have met such light. Measured: from half a path on, the estimate is
+  // within a fifth of the true error.
   return chance * spp < 0.5 || estimate.rests_on_few_pixels;
 }
 

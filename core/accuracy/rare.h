@@ -8,12 +8,12 @@ namespace tyndall {
 
 inline constexpr std::uint32_t min_rare_spp = 2;
 
-/// Whether a picture is not converged, whatever its estimated error says: light that only rare paths carry has been met
-/// by few pixels, or by none yet. estimate: of the film; spp: samples that every pixel has; chance: see
-/// chance_of_caustics. False before min_rare_spp, when there is no estimate.
+/// Whether a picture is not converged, whatever its estimated error: few pixels, or none yet, have met light that only
+/// rare paths carry. estimate: of the film; spp: samples that every pixel has; chance: see chance_of_caustics. False
+/// below min_rare_spp, when there is no estimate.
 bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance);
 
-/// The warning that users then get.
+/// The warning for users in that case.
 inline constexpr const char* rare_bright_paths = "not converged: rare bright paths";
 
 }  // namespace tyndall

@@ -6,8 +6,8 @@
 namespace tyndall {
 namespace {
 
-/// Takes 8 bytes at a time. Each step can be undone, so that what differs in one word stays different. Four sums in
-/// turn, as the processor can multiply the next before the last is done.
+/// Mixes in 8 bytes at a time. Each step is invertible, so that films that differ in one word always get different
+/// sums. Four sums in turn, so that the processor can start the next multiplication before the last one is done.
 class Checksum {
  public:
   void add(const void* data, std::size_t size) {
@@ -31,7 +31,7 @@ class Checksum {
 
  private:
   static void mix(std::uint64_t& sum, std::uint64_t word) {
-    sum = (sum ^ word) * 0x9e3779b97f4a7c15u;  // odd: can be undone
+    sum = (sum ^ word) * 0x9e3779b97f4a7c15u;  // odd, so that the step is invertible
     sum ^= sum >> 29;
   }
 

@@ -3,12 +3,12 @@
 
 #include <string_view>
 
-/// Tells whether a film that was stored came back as it was.
+/// Detects whether a stored film was read back unchanged.
 namespace tyndall {
 
-/// A number that another film or text hardly shares, and none that differs in one bit alone: of size, region, first
-/// sample, unit, sums, counts and planned rounds, and of the text that goes with them. Not for films that an adversary
-/// made.
+/// A checksum of size, region, first sample, quantum, sums, counts and planned rounds, and of the text that goes with
+/// them. Films or texts that differ in a single bit always get different ones, others almost always. Not safe against
+/// films made by an adversary.
 std::uint64_t film_checksum(const Film& film, std::string_view text);
 
 }  // namespace tyndall

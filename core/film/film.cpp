@@ -34,7 +34,7 @@ double film_quantum(double brightest) {
   int exponent = 0;
   const double fraction = std::frexp(brightest, &exponent);  // in [1/2, 1)
   if (fraction == 0.5) --exponent;
-  return std::ldexp(1.0, std::max(exponent, -126));  // 1 / unit stays a number
+  return std::ldexp(1.0, std::max(exponent, -126));  // 1 / quantum stays finite
 }
 
 namespace {
@@ -43,7 +43,7 @@ float mean_of(const ExactSum& sum, double quantum, std::uint64_t count) {
   return static_cast<float>(sum.value() * quantum / static_cast<double>(count));
 }
 
-/// Of 4 bytes, lowest first.
+/// Hashes 4 bytes, lowest first.
 std::uint64_t hash_of(std::uint32_t word, std::uint64_t before) {
   char bytes[4];
   for (int k = 0; k < 4; ++k) bytes[k] = static_cast<char>(word >> 8 * k & 0xffu);

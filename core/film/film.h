@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What a render gathers: for each pixel exact sums of its samples, and how many they are.
+/// What a render gathers: exact sums of each pixel's samples, and their counts.
 namespace tyndall {
 
 /// Pixels x0 <= x < x1, y0 <= y < y1 of the full image, y down.
@@ -17,41 +17,41 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-/// What a pixel has gathered: the exact sum of each channel, for even and odd sample indices apart. These two halves
-/// are independently random, so their difference tells the error. 112 bytes.
+/// The sums of a pixel: the exact sum of each channel, separately for even and odd sample indices. These two halves are
+/// independently random, so that their difference shows the error. 112 bytes.
 struct FilmPixel {
   ExactSum sum[2][3];
-  std::uint32_t taken = 0;  ///< samples taken, both halves, rejected ones included: indices first … first + taken - 1
+  std::uint32_t taken = 0;             ///< both halves, rejected samples included: indices first … first + taken - 1
   std::uint32_t rejected[2] = {0, 0};  ///< samples that were not finite or out of range: in neither sum nor count
   std::uint32_t truncated = 0;         ///< paths cut off at max_depth
   bool operator==(const FilmPixel&) const = default;
 };
 static_assert(sizeof(FilmPixel) == 112);
 
-/// The part of a pixel's sums that came straight from lights and sky, by paths that met nothing before but smooth glass
-/// and mirrors. It tells filters where lights are seen. The sums count 2^-29 of the film's unit, and smaller bits of
-/// each sample are cut off, like the high part of an ExactSum: so the same numbers of samples fit.
+/// The part of a pixel's sums that came straight from lights and sky, by paths that met only smooth glass and mirrors
+/// before. It shows filters where lights are seen. The sums count 2^-29 of the film's quantum; smaller bits of each
+/// sample are cut off, as in the high part of an ExactSum, so that as many samples fit.
 struct EmissionSums {
   std::int64_t sum[2][3] = {};
   bool operator==(const EmissionSums&) const = default;
 };
 
-/// What a round of adaptive sampling does to a pixel.
+/// The plan of a round of adaptive sampling for a cell of pixels.
 struct PlannedSamples {
-  std::uint32_t from = 0;  ///< samples taken when it begins
-  std::uint32_t to = 0;    ///< and when it ends
+  std::uint32_t from = 0;  ///< samples taken at its start
+  std::uint32_t to = 0;    ///< samples taken at its end
   bool operator==(const PlannedSamples&) const = default;
 };
 
 /// Samples gathered for the pixels of a region. Adding films of disjoint sample ranges gives, bit for bit, the film of
-/// all of them.
+/// all these samples.
 struct Film {
   int width = 0, height = 0;           ///< of the full image
-  Region region;                       ///< the part that is held
+  Region region;                       ///< the part of the image that the film holds
   std::uint32_t first_sample = 0;      ///< index of every pixel's first sample
-  double quantum = 1;                  ///< a power of two not below the brightest emitter: what sums are divided by
+  double quantum = 1;                  ///< sums are divided by it: a power of two not below the brightest emitter
   ExactSum cut_throughput;             ///< sum over paths that max_depth cut off: their throughput's brightest channel
-  std::vector<FilmPixel> pixels;       ///< region, row by row
+  std::vector<FilmPixel> pixels;       ///< of the region, row by row
   std::vector<EmissionSums> emission;  ///< likewise; empty: not recorded (no lights, or a film of an older version)
   /// For each cell of 4 x 4 pixels the current or last round of adaptive sampling (see plan.h); empty: none yet.
   std::vector<PlannedSamples> planned;
@@ -65,16 +65,16 @@ struct Film {
   bool operator==(const Film&) const = default;
 };
 
-/// An empty film. quantum: see Film; emission: whether it is recorded.
+/// An empty film. quantum: see Film; emission: whether to record it.
 Film make_film(int width, int height, Region region, std::uint32_t first_sample, double quantum, bool emission = false);
 
-/// Memory that a film takes for each pixel.
+/// Bytes of memory that a film takes for each pixel.
 inline std::size_t bytes_per_pixel(bool emission) { return sizeof(FilmPixel) + (emission ? sizeof(EmissionSums) : 0); }
 
 /// A power of two not below `brightest` (>= 0); 1 for a scene without light.
 double film_quantum(double brightest);
 
-/// Samples that count in one half (0 or 1) of a pixel.
+/// Number of samples that count in one half (0 or 1) of a pixel.
 inline std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half) {
   const bool first_is_odd = film.first_sample % 2 != 0;
   const bool starts_here = first_is_odd == (half == 1);
@@ -82,17 +82,17 @@ inline std::uint32_t counted(const Film& film, const FilmPixel& pixel, int half)
   return taken - pixel.rejected[half];
 }
 
-/// Mean radiance of a pixel, and of one of its halves; black before the first sample.
+/// Mean radiance of a pixel or of one of its halves; black before the first sample.
 Vec3f mean(const Film& film, const FilmPixel& pixel);
 Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half);
-/// Mean emission of a half of the pixel of that index; black where it is not recorded.
+/// Mean emission of a half of the pixel with that index; black if emission is not recorded.
 Vec3f half_emission(const Film& film, std::size_t pixel, int half);
 
-/// A sample has to be below this many units of its film to be added: see ExactSum. Only integrator nee comes near it,
-/// in media with g above 0.9998, whose phase functions have a high peak.
+/// A sample must be below this many quanta of its film to be added: see ExactSum. Only integrator nee comes near the
+/// limit, in media with g above 0.9998, whose phase functions have a high peak.
 inline constexpr double sample_limit = 0x1p30;
 
-/// A sample in units of its film, and whether a film takes it.
+/// A sample in quanta of its film, and whether a film accepts it.
 struct ScaledSample {
   double x, y, z;
   TYNDALL_INLINE bool fits() const {
@@ -106,7 +106,7 @@ TYNDALL_INLINE ScaledSample scaled(Vec3f radiance, double per_quantum) {
 }
 
 /// Adds one sample of a pixel. half: the sample's index & 1. A sample that is not finite, or not below sample_limit
-/// units, is counted as rejected instead. Does not change `taken`.
+/// quanta, is counted as rejected instead. Does not change `taken`.
 TYNDALL_INLINE void add_sample(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_quantum) {
   const ScaledSample sample = scaled(radiance, per_quantum);
   if (!sample.fits()) {
@@ -124,7 +124,7 @@ TYNDALL_INLINE void add_emission(EmissionSums& to, std::uint32_t half, Vec3f rad
   to.sum[half][2] += static_cast<std::int64_t>(sample.z * 0x1p29);
 }
 
-/// Adds what another buffer has gathered for the same pixel.
+/// Adds the sums and counts that another buffer holds for the same pixel.
 void add_pixel(FilmPixel& to, const FilmPixel& from);
 void add_emission(EmissionSums& to, const EmissionSums& from);
 

@@ -4,18 +4,18 @@
 #include <cstddef>
 #include <vector>
 
-/// Groups of pixels whose samples are computed together in scenes that share second vertices (reuse/reuse.h). Their
-/// noise is not independent, so standard errors of means over pixels are found from the sums over groups.
+/// Groups of pixels whose samples are computed together in scenes that reuse second vertices (reuse/reuse.h). Their
+/// noise is correlated, so standard errors of means over pixels are computed from the sums over groups.
 namespace tyndall {
 
-/// The pixels of a group lie group_spacing apart, so that neighbours do not share their noise, which would look like
-/// splotches. The groups of a block are one inside the other and fill it. Blocks start at the picture's upper left
+/// The pixels of a group lie group_spacing apart, because correlated noise of adjacent pixels would look like
+/// splotches. The groups of a block are interleaved and fill the block. Blocks start at the picture's upper left
 /// corner.
 inline constexpr int group_columns = 4, group_rows = 2, group_size = group_columns * group_rows, group_spacing = 4;
 inline constexpr int block_width = group_columns * group_spacing, block_height = group_rows * group_spacing;
 
-/// For each group that has pixels in the region, and perhaps for a few that have none, the sum of value(pixel) over the
-/// pixels of the region that belong to it. region: within that of the film.
+/// For each group that has pixels in the region, the sum of value(pixel) over these pixels; perhaps also zeros for a
+/// few groups that have none. region: within that of the film.
 std::vector<double> group_sums(const Film& film, const Region& region, auto value) {
   const int first_column = region.x0 / block_width, first_row = region.y0 / block_height;
   const int columns = (region.x1 - 1) / block_width - first_column + 1;

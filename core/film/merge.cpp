@@ -31,7 +31,7 @@ void check_same_picture(const FilmPart& first, const FilmPart& part) {
 
 std::string range_text(std::uint64_t from, std::uint64_t to) { return std::to_string(from) + ":" + std::to_string(to); }
 
-/// Says that samples of a part that are to follow those of the part called `before`, which end at `end`, do not.
+/// Refuses a part whose samples should follow those of the part called `before`, which end at `end`, but do not.
 [[noreturn]] void refuse_range(const FilmPart& part, std::uint32_t taken, const std::string& before,
                                std::uint64_t end) {
   const std::uint64_t from = part.film.first_sample, to = from + taken;
@@ -41,8 +41,8 @@ std::string range_text(std::uint64_t from, std::uint64_t to) { return std::to_st
          "them to begin at " + std::to_string(end) + ", where those of " + before + " end" + why);
 }
 
-/// Adds a part whose samples follow those of the film. Compared pixel by pixel, because the samples of an interrupted
-/// run end at different indices in different pixels. before: the part that was added last.
+/// Adds a part whose samples follow those of the film. Pixels are compared one by one, because the samples of an
+/// interrupted run end at different indices in different pixels. before: name of the part that was added last.
 void append(Film& film, const FilmPart& part, const std::string& before) {
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const std::uint64_t end = std::uint64_t{film.first_sample} + film.pixels[i].taken;
@@ -55,7 +55,7 @@ void append(Film& film, const FilmPart& part, const std::string& before) {
   film.cut_throughput.add(part.film.cut_throughput);
 }
 
-/// Reads the film that belongs to a frame, which may have been replaced since the frame was read.
+/// Reads the whole film of a frame, and checks that it was not replaced since the frame was read.
 FilmPart read_part(const FilmPart& frame, Film film) {
   const Film& before = frame.film;
   if (film.first_sample != before.first_sample) refuse(frame, "other samples than a moment ago", "a file that stays");

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-/// Puts together what several machines or runs have rendered of one picture.
+/// Merges the films of several machines or runs into one picture.
 namespace tyndall {
 
-/// A film and the name that messages call it by (its file).
+/// A film and its name in messages (its file).
 struct FilmPart {
   std::string name;
   Film film;
@@ -21,11 +21,11 @@ struct MergeError : std::runtime_error {
 };
 
 /// The film of all samples of all parts, which may come in any order: bit for bit the film that one run would have
-/// gathered. They must have the same image, region and unit, and the sample ranges must follow each other without
-/// overlap or hole; an empty part (no samples) adds nothing. Emission is kept if all parts but empty ones have it.
-/// frames: at least one part; of each film all but pixels and emission. read: gives the whole film of the part with
-/// that index in `frames`; it is called once for each, in the order of their samples, and no more than two of these
-/// films are in memory at a time. Throws MergeError.
+/// gathered. The parts must have the same image, region and quantum, and their sample ranges must follow each other
+/// without overlap or gap; an empty part (no samples) adds nothing. Emission is kept if all parts that are not empty
+/// have it. frames: at least one part; each film without its pixels and emission. read(index): returns the whole film
+/// of that part; called once for each, in the order of their samples, with at most two of these films in memory at a
+/// time. Throws MergeError.
 Film merge(const std::vector<FilmPart>& frames, const std::function<Film(std::size_t index)>& read);
 
 }  // namespace tyndall
