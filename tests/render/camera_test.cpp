@@ -148,7 +148,7 @@ TEST_CASE("lens: rays start evenly on a disc and meet in the plane of focus") {
   }
 }
 
-TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right size") {
+TEST_CASE("lens: a small light out of focus blurs into an even disc of the right size") {
   struct Case {
     double focus, angle, depth, rms;  ///< rms: radius of the blur in the plane of focus
   };
@@ -174,7 +174,7 @@ TEST_CASE("lens: a small lamp out of focus blurs into an even disc of the right 
   }
 }
 
-TEST_CASE("lens: a lamp in focus is as sharp as without a lens") {
+TEST_CASE("lens: a light in focus is as sharp as without a lens") {
   const Spot spot = spot_of(film_of(light_before_lens(10, 5, 10, 0.01, 1), 64));
   CHECK(spot.light > 0);
   CHECK(spot.square == doctest::Approx(0.5));  // all its light is in the four pixels in the middle

@@ -26,13 +26,13 @@ Scene sphere_under_light(double radius, double distance) {
 
 }  // namespace
 
-TEST_CASE("caustics: the chance is the lamp's share of all directions, seen from the glass") {
+TEST_CASE("caustics: the chance is the light's fraction of all directions, seen from the glass") {
   CHECK(chance_of_caustics(sphere_under_light(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
   CHECK(chance_of_caustics(sphere_under_light(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
   CHECK(chance_of_caustics(sphere_under_light(4, 3)) == 1);  // the light is around the sphere and fills all directions
 }
 
-TEST_CASE("caustics: a lamp within glass is seen from the floor below, or from the glass if that is farther") {
+TEST_CASE("caustics: a light within glass is seen from the floor below, or from the glass if that is farther") {
   // The light hangs 0.3 above the middle of the sphere, the floor 1 below it.
   CHECK(chance_of_caustics(sphere_under_light(0.05, 0.3)) ==
         doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 1.3, 2)))));
@@ -47,7 +47,7 @@ TEST_CASE("caustics: a lamp within glass is seen from the floor below, or from t
   CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 4, 2)))));
 }
 
-TEST_CASE("caustics: the lobe of metal with a little fuzz makes the lamp larger") {
+TEST_CASE("caustics: the lobe of metal with a little fuzz makes the light larger") {
   Scene scene = sphere_under_light(0.03, 3);
   scene.materials[1].kind = Metal<>{0.01};
   CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.02 * 0.02))));
@@ -79,7 +79,7 @@ TEST_CASE("caustics: none without something smooth that catches light, or someth
   CHECK(chance_of_caustics(load_scene("cornell-box").scene) == 1);
 }
 
-TEST_CASE("caustics: pairs that chains find are left out, unless chains are switched off") {
+TEST_CASE("caustics: pairs with specular paths are left out, unless these are switched off") {
   Scene scene = sphere_under_light(0.03, 3);
   CHECK(chance_of_caustics(scene, compile(scene)) == 1);
   scene.render.caustics = Caustics::scatter;
@@ -89,7 +89,7 @@ TEST_CASE("caustics: pairs that chains find are left out, unless chains are swit
   CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
 }
 
-TEST_CASE("caustics: chains find light off flat mirrors and through boxes of glass, and none through quads of glass") {
+TEST_CASE("caustics: specular paths find light off flat mirrors and through boxes, not quads, of glass") {
   const Material mirror{"", Vec3d{1, 1, 1}, Metal<>{0}}, clear{"", Vec3d{1, 1, 1}, Dielectric<>{1.5}};
   const auto chance_with = [](auto shape, const Material& material) {
     Scene scene = sphere_under_light(0.03, 3);

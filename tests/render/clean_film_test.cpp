@@ -40,7 +40,7 @@ Vec3f emission(const Film& film, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("emission: is all that is seen of a lamp, also in a mirror, and nothing of what it shines on") {
+TEST_CASE("emission: is all that is seen of a light, also in a mirror, and nothing of what it shines on") {
   Scene scene = small("cornell-box", 96, 96);
   const Film box = rendered(scene, 8).film;
   CHECK(emission(box, 48, 14).x > 20);  // the light, in both halves
@@ -58,7 +58,7 @@ TEST_CASE("emission: is all that is seen of a lamp, also in a mirror, and nothin
       REQUIRE(std::abs(half_emission(mirrors, i, half).y - half_mean(mirrors, mirrors.pixels[i], half).y) < 1e-5f);
 }
 
-TEST_CASE("emission: costs no memory where there is no lamp") {
+TEST_CASE("emission: costs no memory where there is no light") {
   CHECK(rendered(small("metal-spheres", 16, 9), 2).film.emission.empty());
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("clean view: nearer to the truth than the picture, with an error that 
   }
 }
 
-TEST_CASE("clean view: lamps smaller than a pixel do not make it worse than raw, whatever samples meet them") {
+TEST_CASE("clean view: lights smaller than a pixel do not make it worse than raw, whatever samples meet them") {
   for (const auto& [name, scene] : scenes_hard_for_filters()) {
     if (name != "lamps of one pixel") continue;
     Scene other = scene;

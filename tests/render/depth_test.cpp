@@ -105,7 +105,7 @@ TEST_CASE("depth and roulette: the same in every integrator, with every sampler"
         }
 }
 
-TEST_CASE("depth 0: lamps and background alone") {
+TEST_CASE("depth 0: lights and background alone") {
   Scene scene = white_room();
   scene.background = Vec3d{0.25, 0.5, 1};
   scene.camera.look_from = {0, 0, 5};
@@ -148,7 +148,7 @@ TEST_CASE("depth 1: a matt plane shows the sky, and paths that would go on are c
   CHECK(totals(film).truncated == 0);
 }
 
-TEST_CASE("depth: glass, fog and metal are events; a medium's boundary is none") {
+TEST_CASE("depth: glass, media and metal are events; a medium's boundary is none") {
   Scene scene = white_room();
   aim(scene, {0, 0, 5}, {0, 0, 0});
   const auto seen_with = [&](int depth) {

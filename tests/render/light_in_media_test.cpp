@@ -63,7 +63,7 @@ double relative_square(Vec3f difference, Vec3f reference) {
 
 }  // namespace
 
-TEST_CASE("light in fog: light scattered once, next to a lamp of radius 0.01 and far from it, is all there") {
+TEST_CASE("light in media: light scattered once, next to a light of radius 0.01 and far from it, is all there") {
   ZScores scores;
   std::uint32_t seed = 0;
   for (const double impact : {0.012, 0.05, 0.4, 1.5})
@@ -88,7 +88,7 @@ TEST_CASE("light in fog: light scattered once, next to a lamp of radius 0.01 and
     }
 }
 
-TEST_CASE("light in fog: the estimated error, from the two halves, is close to the true one") {
+TEST_CASE("light in media: the estimated error, from the two halves, is close to the true one") {
   Scene scene = small_scene("stress-light-in-fog", 64, 48, 4096);
   const auto render_with = [&](std::uint32_t seed, int spp) {
     scene.render.seed = seed;

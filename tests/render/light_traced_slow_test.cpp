@@ -10,7 +10,7 @@
 using namespace tyndall;
 using namespace tyndall::test;
 
-TEST_CASE("chains: each kind gives what light tracing gives, in the mean and block by block") {
+TEST_CASE("specular paths: each kind gives what light tracing gives, in the mean and block by block") {
   constexpr int seeds = 8;
   double squares = 0;
   int count = 0;

@@ -67,7 +67,7 @@ TEST_CASE("light tracer: what paths from the camera find, off fuzzy metal, throu
   check_agreement(scene, 1024, 4e6, 0.004);
 }
 
-TEST_CASE("chains: the mean of what light tracing finds") {
+TEST_CASE("specular paths: the mean of what light tracing finds") {
   for (const SpecularRoom& room : specular_rooms()) {
     const bool quick = room.name == "mirror" || room.name == "shell" || room.name == "bulb" ||
                        room.name == "mirror in fog" || room.name == "flat mirror";

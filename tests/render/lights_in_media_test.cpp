@@ -32,7 +32,7 @@ Estimate measure(Scene scene, Integrator integrator, int spp) {
 
 }  // namespace
 
-TEST_CASE("lamps in fog: distances by angle have the density they claim") {
+TEST_CASE("lights in media: distances by angle have the stated pdf") {
   const Vec3f across{0, 0.3f, 0}, direction{1, 0, 0};
   for (const float reach : {0.0f, 0.01f, 1.0f})
     for (const float end : {-0.5f, 0.001f, 40.0f}) {
@@ -47,7 +47,7 @@ TEST_CASE("lamps in fog: distances by angle have the density they claim") {
     }
 }
 
-TEST_CASE("lamps in fog: what light sampling alone finds, with far less noise") {
+TEST_CASE("lights in media: what light sampling alone finds, with far less noise") {
   Scene scene = light_in_medium({0.4, 0.5});
   scene.render.max_depth = 4;
   add(scene, Quad<>{{-3, -1, -3}, {6, 0, 0}, {0, 0, 6}}, lambertian(0.5));
@@ -79,7 +79,7 @@ TEST_CASE("lamps in fog: what light sampling alone finds, with far less noise") 
   CHECK(mis.error < 2 * nee.error);  // with equal numbers of samples
 }
 
-TEST_CASE("lamps in fog: sought only where it pays") {
+TEST_CASE("lights in media: sampled by angle only where it pays") {
   CHECK(compile(load_scene("stress-light-in-fog").scene).near.light.size() == 1);
   for (const char* name : {"cornell-smoke", "next-week", "showroom", "stress-dense-fog"})
     CHECK(compile(load_scene(name).scene).near.light.size() == 0);

@@ -34,7 +34,7 @@ class Irradiances {
 
 }  // namespace
 
-TEST_CASE("light: square lamps above a floor, in the middle and at a corner") {
+TEST_CASE("light: square lights above a floor, in the middle and at a corner") {
   struct Case {
     double height, centred, corner;
   };
@@ -55,7 +55,7 @@ TEST_CASE("light: square lamps above a floor, in the middle and at a corner") {
     }
 }
 
-TEST_CASE("light: a luminous wall, and the lamp of the Cornell box") {
+TEST_CASE("light: a luminous wall, and the light of the Cornell box") {
   Irradiances lamps;
   Scene wall = floor_seen_from({-0.01, 0.02, 0.005});
   add(wall, Quad<>{{1, 0, -0.5}, {0, 1, 0}, {0, 0, 1}}, lamp(1));
@@ -70,7 +70,7 @@ TEST_CASE("light: a luminous wall, and the lamp of the Cornell box") {
   }
 }
 
-TEST_CASE("light: luminous balls, close, slanted and far") {
+TEST_CASE("light: luminous spheres, close, slanted and far") {
   struct Case {
     double distance, degrees, irradiance;
   };

@@ -41,7 +41,7 @@ Scene caustic(double radius) {
 
 }  // namespace
 
-TEST_CASE("rare bright paths: a small lamp through glass is told, before and after the first path has met it") {
+TEST_CASE("rare bright paths: a small light through glass is told, before and after the first path has met it") {
   for (const std::uint32_t spp : {16u, 64u, 512u}) CHECK(is_rare(caustic(0.03), spp));
   CHECK(is_rare(caustic(0.3), 16));
   CHECK_FALSE(is_rare(caustic(1.5), 64));
@@ -64,7 +64,7 @@ TEST_CASE("rare bright paths: told from the second sample on, when there is an e
   for (const std::uint32_t spp : {2u, 4u, 7u}) CHECK(is_rare(caustic(0.03), spp));
 }
 
-TEST_CASE("rare bright paths: a lamp within glass is told, hollow or solid, in the middle or beside it") {
+TEST_CASE("rare bright paths: a light within glass is told, hollow or solid, in the middle or beside it") {
   for (const bool hollow : {false, true})
     for (const double beside : {0.0, 0.2}) {
       CAPTURE(hollow);

@@ -134,7 +134,7 @@ TEST_CASE("sharing: rooms have far less noise") {
   }
 }
 
-TEST_CASE("sharing: a scene shares where a probe says that it pays, whatever its seed") {
+TEST_CASE("sharing: a scene reuses paths where a probe says that it pays, whatever its seed") {
   const auto reuses_paths = [](const char* name, auto change) {
     Scene scene = load_scene(name).scene;
     change(scene);

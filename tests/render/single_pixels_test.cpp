@@ -90,7 +90,7 @@ TEST_CASE("levels: none when it is given up, and they are found when asked again
   CHECK(levels.of({6, 5}, film, ready.engine, true).size() == 2);  // they are known
 }
 
-TEST_CASE("levels: those of pixels with glints are known, where they are few") {
+TEST_CASE("levels: those of pixels with subpixel lights are known, where these pixels are few") {
   Scene scene = small("stress-bulb");
   scene.width = 111, scene.height = 83;
   Ready ready(scene, 2);
@@ -112,7 +112,7 @@ TEST_CASE("levels: those of pixels with glints are known, where they are few") {
   CHECK(pixels_with_subpixel_lights(plain.view.view(), film).empty());
 }
 
-TEST_CASE("levels: the error of a picture with a lamp that is smaller than a pixel") {
+TEST_CASE("levels: the error of a picture with a light that is smaller than a pixel") {
   // Single samples meet the light by chance: from the film alone it looks like a rare path.
   Scene scene = small("stress-light-and-fuzz");
   scene.width = 111, scene.height = 83;

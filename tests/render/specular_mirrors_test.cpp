@@ -24,7 +24,7 @@ void check_floor(const std::string& name, Vec3d point, auto change, double less_
 
 }  // namespace
 
-TEST_CASE("chains: the light of a lamp's image in a flat mirror") {
+TEST_CASE("specular paths: the image of a light in a flat mirror") {
   const Vec3d image{1.5, 3, -6}, point{0.5, 0, 1};
   const double radius = 0.01, strength = 1e5;
   Scene scene = lit_floor(radius, hanging, strength);
@@ -39,7 +39,7 @@ TEST_CASE("chains: the light of a lamp's image in a flat mirror") {
   CHECK(radiance_of(film_of(scene, 64)).mean == doctest::Approx(expected).epsilon(0.002).scale(0));
 }
 
-TEST_CASE("chains: what scattering finds, with less noise: off quads and boxes of metal, from both sides") {
+TEST_CASE("specular paths: what BSDF sampling finds, with less noise: off quads and boxes of metal, from both sides") {
   check_floor(
       "parallelogram", {0.5, 0, 1},
       [](Scene& s) {
@@ -67,7 +67,7 @@ TEST_CASE("chains: what scattering finds, with less noise: off quads and boxes o
       1);
 }
 
-TEST_CASE("chains: what scattering finds off flat mirrors, with less noise: textures, lamps of all kinds, fog") {
+TEST_CASE("specular paths: what BSDF sampling finds off flat mirrors, with less noise: textures, all lights, media") {
   check_floor(
       "tiles", {0.5, 0, 1},
       [](Scene& s) {
@@ -101,7 +101,7 @@ TEST_CASE("chains: what scattering finds off flat mirrors, with less noise: text
       1);
 }
 
-TEST_CASE("chains: in a white furnace flat mirrors are invisible") {
+TEST_CASE("specular paths: in a white furnace flat mirrors are invisible") {
   Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, metal(1, 0), {RotateY{20}});
   add(scene, Quad<>{{-1, 0, 1}, {2.5, 0, 0}, {0, 2, 0.2}}, metal(1, 0));
@@ -109,7 +109,7 @@ TEST_CASE("chains: in a white furnace flat mirrors are invisible") {
   check_invisible(scene);
 }
 
-TEST_CASE("chains: flat mirrors pay for lamps that are small as seen from them, and where their light is seen") {
+TEST_CASE("specular paths: flat mirrors pay for lights that are small as seen from them, where their light is seen") {
   const auto pairs = [](double light_radius, auto change) {
     Scene scene = lit_floor(light_radius, {0, 4, 0}, 1);
     change(scene);
@@ -131,7 +131,7 @@ TEST_CASE("chains: flat mirrors pay for lamps that are small as seen from them, 
   CHECK(pairs(0.1, [](Scene& s) { add(s, Box<>{{-7, -1, -7}, {7, 9, 7}}, metal(0.8, 0)); }) == 6);  // around it
 }
 
-TEST_CASE("chains: flat mirrors that another surface covers, even in part, are left to chance") {
+TEST_CASE("specular paths: flat mirrors that another surface covers, even in part, are left to BSDF sampling") {
   const auto mirrors = [](auto change) {
     Scene scene = lit_floor(0.1, {0, 4, 0}, 1);
     add(scene, Quad<>{{-3, 0, -4}, {6, 0, 0}, {0, 4, 0}}, metal(0.8, 0));  // it stands on the floor
@@ -150,7 +150,7 @@ TEST_CASE("chains: flat mirrors that another surface covers, even in part, are l
   CHECK(mirrors([](Scene& s) { add(s, Box<>{{-9, -1, -4}, {9, 9, 9}}, lambertian(0.5)); }) == 0);
 }
 
-TEST_CASE("chains: no sample of a scene with flat mirrors is rejected, and tiles do not matter") {
+TEST_CASE("specular paths: no sample of a scene with flat mirrors is rejected, and tiles do not matter") {
   const Scene scene = small_scene("stress-mirror-wall", 48, 36, 16);
   const RenderScene compiled = compile(scene);
   CHECK(compiled.specular.mirrors.size() > 0);

@@ -49,7 +49,7 @@ double mirror_spread(Vec3d point, Vec3d center, Vec3d lamp, Vec3d& direction) {
 
 }  // namespace
 
-TEST_CASE("chains: the light of a small lamp's image in a mirror ball") {
+TEST_CASE("specular paths: the image of a small light in a mirror sphere") {
   const Vec3d light_center{2.5, 3, 0.5}, center{0, 1.2, 0}, point{2, 0, 0.4};
   const double radius = 0.01, strength = 1e5;
   Scene scene = lit_floor(radius, light_center, strength);
@@ -65,7 +65,8 @@ TEST_CASE("chains: the light of a small lamp's image in a mirror ball") {
   CHECK(radiance_of(film_of(scene, 64)).mean == doctest::Approx(0.73 / pi * irradiance).epsilon(0.002).scale(0));
 }
 
-TEST_CASE("chains: what scattering finds, with less noise: off a mirror, through glass, shells and out of bulbs") {
+TEST_CASE(
+    "specular paths: what BSDF sampling finds, with less noise: off a mirror, through glass, shells and out of bulbs") {
   const auto with = [](const char* name, double light_radius, Vec3d light_center, Vec3d point, auto add_spheres,
                        double less_noise) {
     Scene scene = lit_floor(light_radius, light_center, 20);
@@ -103,7 +104,7 @@ TEST_CASE("chains: what scattering finds, with less noise: off a mirror, through
       1);
 }
 
-TEST_CASE("chains: in a white furnace a mirror, a shell and a bulb are invisible") {
+TEST_CASE("specular paths: in a white furnace a mirror, a shell and a bulb are invisible") {
   Scene scene = furnace_with_floor();
   add(scene, sphere({-1.2, 1.2, 0}, 1), metal(1, 0));
   add(scene, sphere({1.2, 1.2, 0}, 1), glass(1.5));
@@ -113,7 +114,7 @@ TEST_CASE("chains: in a white furnace a mirror, a shell and a bulb are invisible
   check_invisible(scene);
 }
 
-TEST_CASE("chains: they pay for lamps that are small as seen from the ball, and only then") {
+TEST_CASE("specular paths: they pay for lights that are small as seen from the sphere, and only then") {
   const auto pairs = [](double light_radius, auto change) {
     Scene scene = lit_floor(light_radius, {0, 5.2, 0}, 1);
     add(scene, sphere({0, 1.2, 0}, 1), glass(1.5));
@@ -136,7 +137,7 @@ TEST_CASE("chains: they pay for lamps that are small as seen from the ball, and 
   CHECK(pairs(0.1, [](Scene& s) { add(s, sphere({0, 1.2, 0}, -1), glass(1.2)); }) == 0);  // two in one place
 }
 
-TEST_CASE("chains: no sample of the scenes that need them is rejected, and tiles do not matter") {
+TEST_CASE("specular paths: no sample of the scenes that need them is rejected, and tiles do not matter") {
   for (const char* name : {"stress-caustic-mirror", "stress-caustic-glass", "stress-caustic-shell", "stress-bulb"}) {
     CAPTURE(name);
     const Scene scene = small_scene(name, 48, 36, 16);

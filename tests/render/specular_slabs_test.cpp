@@ -29,7 +29,7 @@ void check_floor(const std::string& name, Vec3d point, auto change, double less_
 
 }  // namespace
 
-TEST_CASE("chains: the light of a lamp that is seen straight through a pane") {
+TEST_CASE("specular paths: a light seen straight through a slab") {
   const double radius = 0.01, strength = 1e5, thick = 0.5, index = 1.5;
   Scene scene = dark_room();
   scene.render.integrator = Integrator::mis;
@@ -43,7 +43,7 @@ TEST_CASE("chains: the light of a lamp that is seen straight through a pane") {
   CHECK(radiance_of(film_of(scene, 64)).mean == doctest::Approx(expected).epsilon(0.002).scale(0));
 }
 
-TEST_CASE("chains: what scattering finds, with less noise: through panes and cubes, and reflected in them") {
+TEST_CASE("specular paths: what BSDF sampling finds, with less noise: through slabs and cubes, and reflected in them") {
   const auto slab = [](Scene& s) { add(s, upright, glass(1.5)); };
   check_floor("pane", {0.5, 0, 1}, slab, 0.25);
   check_floor("pane, on the lamp's side", {0.5, 0, -2}, slab, 1);
@@ -62,7 +62,8 @@ TEST_CASE("chains: what scattering finds, with less noise: through panes and cub
       0.5);
 }
 
-TEST_CASE("chains: what scattering finds through panes, with less noise: lamps of all kinds, two panes, fog") {
+TEST_CASE(
+    "specular paths: what BSDF sampling finds through slabs, with less noise: all kinds of lights, two slabs, media") {
   check_floor(
       "three lamps, a mirror, two panes", {0.5, 0, 1},
       [](Scene& s) {
@@ -90,7 +91,7 @@ TEST_CASE("chains: what scattering finds through panes, with less noise: lamps o
       1);
 }
 
-TEST_CASE("chains: in a white furnace panes are invisible") {
+TEST_CASE("specular paths: in a white furnace slabs are invisible") {
   Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, glass(1.5), {RotateY{20}});
   add(scene, Box<>{{-1, 0, 1}, {1.5, 2, 1.2}}, glass(1.7));
@@ -101,7 +102,7 @@ TEST_CASE("chains: in a white furnace panes are invisible") {
   check_invisible(scene);
 }
 
-TEST_CASE("chains: which panes take part") {
+TEST_CASE("specular paths: which slabs take part") {
   const auto slabs = [](double light_radius, auto change) {
     return compile(floor_with(light_radius, change)).specular.slabs.size() / numbers_of_slab;
   };
@@ -128,7 +129,7 @@ TEST_CASE("chains: which panes take part") {
   CHECK(with([](Scene& s) { add_medium(s, sphere({0, 1, 4}, 3), {0.1, 0}, 1); }) == 1);
 }
 
-TEST_CASE("chains: faces of a pane that something touches are closed, and no others") {
+TEST_CASE("specular paths: faces of a slab that something touches are closed, and no others") {
   const auto closed = [](auto change) {
     const RenderScene compiled = compile(floor_with(0.1, change));
     REQUIRE(compiled.specular.slabs.size() == numbers_of_slab);
@@ -146,7 +147,7 @@ TEST_CASE("chains: faces of a pane that something touches are closed, and no oth
         }) == 1 << 0);
 }
 
-TEST_CASE("chains: no sample of a scene with a pane is rejected, and tiles do not matter") {
+TEST_CASE("specular paths: no sample of a scene with a slab is rejected, and tiles do not matter") {
   const Scene scene = small_scene("stress-pane", 48, 36, 16);
   const RenderScene compiled = compile(scene);
   CHECK(compiled.specular.slabs.size() == numbers_of_slab);

@@ -34,7 +34,7 @@ int faces_met(bool above, int across, double crossings, double first, double sec
 
 }  // namespace
 
-TEST_CASE("chains: a way off the outside of a pane meets the face on the point's side alone") {
+TEST_CASE("specular paths: one off the outside of a slab meets the face on the point's side alone") {
   for (int edge = 0; edge < 3; ++edge) {
     CAPTURE(edge);
     CHECK(faces_met(true, edge, 0, 0, 0) == upper(edge));
@@ -43,8 +43,7 @@ TEST_CASE("chains: a way off the outside of a pane meets the face on the point's
 }
 
 TEST_CASE(
-    "chains: a way through a pane meets both faces that it goes through, and those at its sides that it is reflected "
-    "at") {
+    "specular paths: one through a slab meets the two faces that it crosses, and the side faces that reflect it") {
   for (const bool above : {true, false})
     for (int edge = 0; edge < 3; ++edge) {
       CAPTURE(above);

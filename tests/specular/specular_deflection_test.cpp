@@ -68,7 +68,7 @@ const Arguments all_words[] = {{1.5, 0, {1, 0, 0}},    {1.5, 0, {2, 0, 0}},   {1
 
 }  // namespace
 
-TEST_CASE("chains: as many ways are found as a search finds, and each turns as wanted") {
+TEST_CASE("specular paths: as many are found as a search finds, and each has the wanted deflection") {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> u(0, 1);
   int differ = 0, count = 0;
@@ -97,7 +97,7 @@ TEST_CASE("chains: as many ways are found as a search finds, and each turns as w
   CHECK(count > 150);
 }
 
-TEST_CASE("chains: the solid angle that a lamp fills off a mirror ball is what rays find") {
+TEST_CASE("specular paths: the solid angle that a light fills off a mirror sphere is what rays find") {
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> u(0, 1);
   const Vec3<double> point{0.4, -1.3, 0.2}, lamp{2.5, 1.0, 0.5};
@@ -136,7 +136,7 @@ TEST_CASE("chains: the solid angle that a lamp fills off a mirror ball is what r
   CHECK(sum / points == doctest::Approx(traced).epsilon(0.02).scale(0));
 }
 
-TEST_CASE("chains: light is asked for by each word as often as is said") {
+TEST_CASE("specular paths: each event sequence is tried as often as expected_queries() says") {
   std::mt19937_64 engine(11);
   for (const double inner_radius : {0.0, 0.85, 0.4}) {
     CAPTURE(inner_radius);

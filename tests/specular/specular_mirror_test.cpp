@@ -45,7 +45,8 @@ Vec3d random_point(std::mt19937_64& engine, double size) {
 
 }  // namespace
 
-TEST_CASE("chains: the way off a flat mirror obeys the law of reflection, and is found where it meets the face") {
+TEST_CASE(
+    "specular paths: the one off a flat mirror obeys the law of reflection, and is found where it meets the face") {
   const MirrorScene scene;
   const SpecularView& specular = scene.view.view().specular;
   REQUIRE(specular.spheres == 1);
@@ -82,7 +83,7 @@ TEST_CASE("chains: the way off a flat mirror obeys the law of reflection, and is
   CHECK(apart > 1000);
 }
 
-TEST_CASE("chains: the area that a small solid angle off a flat mirror fills") {
+TEST_CASE("specular paths: the area that a small solid angle off a flat mirror fills") {
   const MirrorScene scene;
   const SpecularMirror<double> m = load_mirror<double>(scene.view.view().specular, 0);
   const Vec3d normal = normalize(cross(scene.u, scene.v)), near = scene.middle() + Vec3d{0.4, 0.2, 2};
@@ -103,7 +104,8 @@ TEST_CASE("chains: the area that a small solid angle off a flat mirror fills") {
   CHECK(path.spread == doctest::Approx(length(cross(s, t))).epsilon(1e-5).scale(0));
 }
 
-TEST_CASE("chains: a mirror is worth what its image of the lamp is, where that is seen, and little elsewhere") {
+TEST_CASE(
+    "specular paths: a mirror counts as much as its image of the light where that is seen, and little elsewhere") {
   const MirrorScene scene;
   const SpecularView& specular = scene.view.view().specular;
   const SpecularMirror<double> m = load_mirror<double>(specular, 0);

@@ -112,7 +112,7 @@ SlabSequence<double> random_sequence(std::mt19937_64& engine, int across, bool s
 
 }  // namespace
 
-TEST_CASE("chains: a ray that starts along the way through a pane comes to its far end") {
+TEST_CASE("specular paths: a ray that starts along the one through a slab arrives at its far end") {
   std::mt19937_64 engine(5);
   int found = 0, reflected = 0;
   for (const Vec3d half : {Vec3d{2, 1.5, 0.1}, Vec3d{0.8, 0.8, 0.8}}) {
@@ -154,7 +154,7 @@ TEST_CASE("chains: a ray that starts along the way through a pane comes to its f
   CHECK(reflected > 200);
 }
 
-TEST_CASE("chains: floats find the same ways through panes as doubles, at grazing angles, too") {
+TEST_CASE("specular paths: floats find the same ones through slabs as doubles, at grazing angles, too") {
   const SlabScene scene({2, 1.5, 0.1});
   const SpecularSlab<float> rounded = load_slab<float>(scene.view.view().specular, 0);
   std::mt19937_64 engine(6);
@@ -179,7 +179,7 @@ TEST_CASE("chains: floats find the same ways through panes as doubles, at grazin
   CHECK(found > 300);
 }
 
-TEST_CASE("chains: the area that a small solid angle fills through a pane") {
+TEST_CASE("specular paths: the area that a small solid angle fills through a slab") {
   const SlabScene scene({0.8, 0.8, 0.8});
   std::mt19937_64 engine(7);
   int found = 0;
@@ -209,7 +209,8 @@ TEST_CASE("chains: the area that a small solid angle fills through a pane") {
   }
 }
 
-TEST_CASE("chains: words of panes are drawn as often as is said, and those that paths may meet are among them") {
+TEST_CASE(
+    "specular paths: a slab's event sequences have the stated probabilities, and all that paths may meet are drawn") {
   using Name = std::tuple<int, int, int, int>;
   const Vec3d light_at{1, 2.5, 2};
   const SlabScene scene({0.8, 0.8, 0.8}, light_at, 0.1);
@@ -244,7 +245,7 @@ TEST_CASE("chains: words of panes are drawn as often as is said, and those that 
   CHECK(sequences > 12);
 }
 
-TEST_CASE("chains: a lamp sees the asking point over a pane within the ball that is said") {
+TEST_CASE("specular paths: through a slab a light sees the shading point within the sphere of seen_by_slab()") {
   const SlabScene scene({1.2, 1, 0.3});
   std::mt19937_64 engine(9);
   int found = 0;

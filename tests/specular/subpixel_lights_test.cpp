@@ -59,7 +59,7 @@ Spread spread_of_seeds(Scene scene, std::uint32_t spp) {
 
 }  // namespace
 
-TEST_CASE("glints: weighed samples keep the mean of every part of a pixel, where boxes overlap as well") {
+TEST_CASE("subpixel lights: weighted samples keep the mean of every part of a pixel, where boxes overlap as well") {
   const float throughput = subpixel_light_fraction / 3;
   const auto box = [&](float left, float top, float width, float height, int place) {
     const float begin = throughput * static_cast<float>(place);
@@ -100,7 +100,7 @@ TEST_CASE("glints: weighed samples keep the mean of every part of a pixel, where
   CHECK(aim_at_subpixel_lights(subpixel_lights, 7.0f, 5.0f, at).route.packed == 1);
 }
 
-TEST_CASE("glints: a lamp seen by reflections within glass is met by many samples, not by a few bright ones") {
+TEST_CASE("subpixel lights: many samples, not a few bright ones, meet a light seen by reflections inside glass") {
   struct Case {
     bool hollow;
     double light_radius, maximum;
@@ -136,7 +136,7 @@ TEST_CASE("glints: a lamp seen by reflections within glass is met by many sample
   }
 }
 
-TEST_CASE("glints: a lamp's image in a mirror ball, in glass and beside it is found, unless the camera has a lens") {
+TEST_CASE("subpixel lights: found in a mirror sphere, in glass and beside it, unless the camera has a lens") {
   for (const Material& kind : {metal(0.9, 0), glass(1.5)}) {
     Scene scene = light_and_sphere(kind, 0.01);
     const RenderScene compiled = compile(scene);
@@ -152,7 +152,7 @@ TEST_CASE("glints: a lamp's image in a mirror ball, in glass and beside it is fo
   }
 }
 
-TEST_CASE("glints: a small lamp's images cost no light and little noise") {
+TEST_CASE("subpixel lights: they lose no light and add little noise") {
   for (const Material& kind : {metal(0.9, 0), glass(1.5)}) {
     Scene dark = light_and_sphere(kind, 0.05);
     // No surface scatters light evenly but one that carries none, so that all light is what the camera sees of the

@@ -90,7 +90,7 @@ TEST_CASE("light densities: parallelograms") {
   check({light_object(slanted)}, {0.3, 0.1, 2}, {0.3, 0.1, 0.15}, cap_width(1.1, 1.85));
 }
 
-TEST_CASE("light densities: balls, from inside and from just outside to far away") {
+TEST_CASE("light densities: spheres, from inside and from just outside to far away") {
   for (const double distance : {0.5, 1.001, 1.2, 3.0, 1000.0})
     check({light_object(sphere({0, 0, 0}, 1))}, {0, distance * 0.6, distance * 0.8}, {0, 0, 0}, cap_width(1, distance));
 }
