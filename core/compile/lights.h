@@ -16,7 +16,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
 void build_light_tree(Lights& lights);
 
 /// Returns the pairs of a medium and a light for which distances along a ray are sampled by the angle under which the
-/// light sees them (equiangular sampling, see core/kernel/flight.h), because the glow around the light is so bright.
+/// light sees them (equiangular sampling, see core/trace/flight.h), because the glow around the light is so bright.
 ///
 /// The conditions were found by measuring: where they hold, the same error takes 1.5 to 16 times less time; where they
 /// do not, it could take twice as long. The medium scatters, and its half width is at most 4 mean free paths; the

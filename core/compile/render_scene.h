@@ -166,7 +166,7 @@ struct Lights {
 inline constexpr int max_lights_by_contribution = 16;
 
 /// Pairs of a medium and a small light in or near it. The light scattered next to such a light has no upper bound
-/// (inverse square law), so integrator mis samples distances by equiangular sampling (core/kernel/flight.h).
+/// (inverse square law), so integrator mis samples distances by equiangular sampling (core/trace/flight.h).
 struct NearLights {
   std::vector<std::int32_t> medium, light;
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light

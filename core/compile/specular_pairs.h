@@ -3,7 +3,7 @@
 #include "core/compile/render_scene.h"
 
 /// Chooses the caustics that are solved for exactly (specular paths by manifold next event estimation, see
-/// core/kernel/specular_light.h). All other caustics are left to BSDF sampling.
+/// core/specular/specular_light.h). All other caustics are left to BSDF sampling.
 namespace tyndall {
 
 /// Returns the pairs of a specular object (sphere, flat mirror or slab) and a light whose specular paths are solved
