@@ -119,7 +119,7 @@ template <class F>
 
 /// Renders a tile job by the kernel with every model. s.reuses_paths: whether second vertices are reused.
 template <class F>
-static void render_any_unit(const SceneView& s, const TileJob& job, const TileFilm& film, auto& recorder) {
+static void render_any_tile(const SceneView& s, const TileJob& job, const TileFilm& film, auto& recorder) {
   if (!s.reuses_paths) {
     AloneSamples samples(s, job, film);
     return follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
@@ -150,7 +150,7 @@ static void render_any_entry(const SceneView& scene, const TileJob& job, double 
   SceneView s = scene;
   s.reuses_paths = reuse;
   Recorder recorder{};
-  render_any_unit<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder);
+  render_any_tile<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder);
 }
 template <class F>
 static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {

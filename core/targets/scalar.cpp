@@ -14,9 +14,9 @@ Vec3f sample_of(const FilmPixel& pixel, std::uint32_t half) {
 }
 
 /// Renders a tile job of one sample of one pixel, and records the sample's path.
-void record_unit(const SceneView& s, const TileJob& job, const TileFilm& film, PathRecorder& recorder) {
+void record_tile(const SceneView& s, const TileJob& job, const TileFilm& film, PathRecorder& recorder) {
   MaybeRecorder maybe{&recorder};
-  if (!s.reuses_paths) return render_any_unit<float>(s, job, film, maybe);
+  if (!s.reuses_paths) return render_any_tile<float>(s, job, film, maybe);
   render_tile_reusing<float>(s, job, film, [&](GroupSamples& samples) {
     recorder.reused = &samples.reused();
     follow_either<float>(s, EitherSamples(samples), film.counts, maybe);
@@ -31,7 +31,7 @@ PathReplay replay(const SceneView& scene, int x, int y, std::uint32_t sample) {
   FilmPixel pixel{};
   TileCounts counts;
   PathRecorder recorder;
-  record_unit(scene, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, {1, &pixel, nullptr, counts}, recorder);
+  record_tile(scene, {{x, y, x + 1, y + 1}, 1, 0, sample, sample + 1}, {1, &pixel, nullptr, counts}, recorder);
   PathReplay path = recorder.path();
   if (scene.reuses_paths) path.radiance = sample_of(pixel, sample & 1u);
   return path;

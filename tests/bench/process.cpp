@@ -20,15 +20,15 @@ fs::path find_tyndall() {
 }
 
 bool run_process(std::vector<std::string> arguments) {
-  std::vector<char*> arguments;
-  arguments.reserve(arguments.size() + 1);
-  for (std::string& word : arguments) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {1, 2}) posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
   pid_t process = 0;
-  const int failed = posix_spawn(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int failed = posix_spawn(&process, pointers[0], &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   return failed == 0 && waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
