@@ -11,12 +11,12 @@ namespace {
 
 constexpr int default_spp = 4096;  // samples a pixel, where the scene names none
 
-/// Whether the second request is for another picture than the first.
+/// Whether the second request is for another picture than the first. Without a scene it is for none.
 bool is_edit(const RenderRequest& before, const RenderRequest& after) {
+  if (!after.scene) return false;
+  if (!before.scene || after.samples != before.samples) return true;
   if (after.film && after.film != before.film) return true;
-  if (after.samples != before.samples) return true;
-  if (after.scene == before.scene) return false;
-  return !before.scene || !after.scene || !change_between(*before.scene, *after.scene).none();
+  return after.scene != before.scene && !change_between(*before.scene, *after.scene).none();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace tyndall {
 
 /// All that a caller wants of a Renderer, as one value: a newer request replaces it whole.
 struct RenderRequest {
-  std::shared_ptr<const Scene> scene{};  ///< null: none yet
+  std::shared_ptr<const Scene> scene{};  ///< null: no more is rendered; what was, stays
   /// Earlier samples of this scene, by the same version and instruction set: the picture continues them, and the film
   /// is moved from. Null: none; a film that is not of the scene's size counts as none.
   std::shared_ptr<Film> film{};

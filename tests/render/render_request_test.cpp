@@ -1,6 +1,7 @@
 #include "core/compile/compile.h"
 #include "core/render/mailbox.h"
 #include "core/render/render.h"
+#include "core/render/sample_source.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -51,6 +52,23 @@ TEST_CASE("requests: the limit is the scene's, one sample while it is paused, no
   request.wanted.paused = true;
   CHECK(request.limit() == 1);
   CHECK(request.full_spp() == 7);
+}
+
+TEST_CASE("requests: without a scene there is nothing to render, whatever else is asked for") {
+  WatchedRenderer renderer;
+  const Scene scene = small_scene("cornell-box", 24, 18, 2);
+  const auto source = std::make_shared<const SampleSource>(SampleSource{[](double, double, std::uint64_t) {
+    return Vec3f{1, 1, 1};
+  }});
+  CHECK(renderer.set(&RenderRequest::samples, source) == 0);
+  CHECK(renderer.set(&RenderRequest::film, std::make_shared<Film>()) == 0);
+  renderer.catch_up();
+  renderer.set(&RenderRequest::samples, nullptr);
+  const std::uint64_t edit = renderer.submit(scene);
+  CHECK(rgb_of(*renderer.wait_finished(edit)) == reference_picture(scene));
+  CHECK(renderer.submit(nullptr) == edit);  // what was rendered stays
+  renderer.catch_up();
+  CHECK(rgb_of(*renderer->reply().frame) == reference_picture(scene));
 }
 
 TEST_CASE("requests: the same one again gives no other frame") {
