@@ -2,7 +2,6 @@
 #include "app/cli/commands.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
-#include "core/base/limits.h"
 #include "core/film/merge.h"
 #include "core/image/image.h"
 

@@ -5,8 +5,8 @@ Usage: check_commands.py TYNDALL SCRATCH ROOT   TYNDALL: the program; SCRATCH: a
 
 Commands are the lines of blocks that are fenced as "sh", the pieces of code in the text that begin with "tyndall" or
 "./run", and the examples of "tyndall COMMAND --help". They run in the order in which a page shows them, in a folder of the
-page, made small by SMALL; PLACEHOLDERS says what words in capitals stand for. Commands that open the window run without a
-display, and must say so. Commands that take minutes whatever their size (is_long) and those with "..." or "…" do not run:
+page, made small by SMALL; PLACEHOLDERS says what words in capitals stand for, and which smaller thing stands for a large one.
+Commands that open the window run without a display, and must say so. What only reads runs once for the same files. Commands that take minutes whatever their size (is_long) and those with "..." or "…" do not run:
 their options are looked up in the texts of --help, as are all other options that a page names.
 """
 import json
@@ -32,6 +32,7 @@ PLACEHOLDERS = {
     "FILM.exr": "fog.exr", "DIR": "kept",
     "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
     "MAIN.cc": "main.cc", "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
+    "fog-ball/": "fog-ball/depth1-albedo0.5-b0",
 }
 OTHER_OPTIONS = {"--all", "--nightly", "--preset", "--build", "--target"}  # of ./test and CMake
 
@@ -73,6 +74,7 @@ class Commands:
         names = re.findall(r"^  ([a-z]+) ", self.overview.split("Commands:")[1].split("Options:")[0], re.MULTILINE)
         self.help = {name: self.output([name, "--help"]) for name in names}
         self.with_exr = True
+        self.read = set()
         self.make_fixtures(scratch)
 
     def output(self, words):
@@ -148,6 +150,12 @@ class Commands:
             small = small + ["--spp", "1"]
         checks = name == "verify" or any(word.startswith("--max-") for word in words)
         opens_window = not through_run and (not words or name == "view" or (not name and words[0] != "help" and words[0][0] != "-"))
+        if opens_window or name == "inspect":
+            files = (self.folder / word for word in words)
+            reads = (*words, *(file.read_bytes() for file in files if file.is_file()))
+            if reads in self.read:
+                return
+            self.read.add(reads)
         yield from self.run([*program, *words, *small], {3} if opens_window else {0, 1} if checks else {0})
 
     def run(self, command, expected):

@@ -110,12 +110,12 @@ compile() {
   fi
   log=$folder/build.log
   cmake --build "$folder" --parallel "$(nproc)" "$@" >"$log" 2>&1 &
-  local builder=$! seconds=0
+  local builder=$! tenths=0
   while kill -0 "$builder" 2>/dev/null; do
-    sleep 1
-    seconds=$((seconds + 1))
-    [ $((seconds % ${TYNDALL_TELL_SECONDS:-30})) -ne 0 ] || printf 'building: %s files after %d s\n' \
-      "$(grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -1 | tr -d '[]' | sed 's,/, of ,')" "$seconds" >&2
+    sleep 0.1
+    tenths=$((tenths + 1))
+    [ $((tenths % (10 * ${TYNDALL_TELL_SECONDS:-30}))) -ne 0 ] || printf 'building: %s files after %d s\n' \
+      "$(grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -1 | tr -d '[]' | sed 's,/, of ,')" "$((tenths / 10))" >&2
   done
   wait "$builder" || status=$?
   [ "$status" -eq 0 ] || cat "$log" >&2

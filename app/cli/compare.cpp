@@ -2,7 +2,7 @@
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/standard_streams.h"
-#include "core/accuracy/bias.h"
+#include "core/accuracy/error.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>

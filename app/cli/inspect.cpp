@@ -3,7 +3,7 @@
 #include "app/files/open_scene.h"
 #include "app/report/contents.h"
 #include "app/report/gain.h"
-#include "app/report/names.h"
+#include "app/report/replay.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
@@ -62,12 +62,9 @@ std::string json_text(const Report& report) {
   json["height"] = scene.height;
   json["spp"] = scene.render.spp ? nlohmann::ordered_json(*scene.render.spp) : nlohmann::ordered_json();
   json["max_depth"] = scene.render.max_depth;
-  json["shapes"] = nlohmann::ordered_json::object();
-  for (const auto& [type, count] : c.shapes) json["shapes"][type] = count;
-  json["materials"] = nlohmann::ordered_json::object();
-  for (const auto& [type, count] : c.materials) json["materials"][type] = count;
-  json["textures"] = nlohmann::ordered_json::object();
-  for (const auto& [type, count] : c.textures) json["textures"][type] = count;
+  json["shapes"] = c.shapes;
+  json["materials"] = c.materials;
+  json["textures"] = c.textures;
   json["media"] = c.media;
   json["phase_functions"] = c.phase_functions;
   json["lights"] = c.lights;
@@ -107,9 +104,8 @@ std::string listed(const std::map<std::string, int>& counts, bool nouns) {
 std::string named(const Report& report, const std::vector<std::int32_t>& elements) {
   constexpr std::size_t maximum = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(elements.size(), maximum); ++i) {
+  for (std::size_t i = 0; i < std::min(elements.size(), maximum); ++i)
     text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.prepared->columns().object_of(elements[i]));
-  }
   return text + (elements.size() > maximum ? ", ..." : "");
 }
 

@@ -5,7 +5,7 @@
 #include "app/files/outputs.h"
 #include "app/files/stats.h"
 #include "app/text/standard_streams.h"
-#include "core/accuracy/rare.h"
+#include "core/accuracy/estimate.h"
 #include "core/render/clean_film.h"
 
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include "app/comparison/baseline.h"
+#include "app/files/open_scene.h"
 #include "app/files/outputs.h"
-#include "app/files/scene_request.h"
 #include "app/manual/page.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"

@@ -1,4 +1,7 @@
+#include "app/book/book_folder.h"
 #include "app/cli/commands.h"
+#include "app/files/open_scene.h"
+#include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -29,6 +32,31 @@ int run(const ScenesCommand&) {
   for (const BuiltIn& scene : scenes)
     text += scene.name + std::string(width + 2 - scene.name.size(), ' ') + about(scene) + "\n";
   write_standard_output(text);
+  return 0;
+}
+
+int run(const ConvertCommand& command) {
+  const LoadedScene loaded = open_scene(command.scene);
+  const bool to_standard_output = command.output == "-";
+  const std::filesystem::path folder = to_standard_output ? "" : command.output.parent_path();
+  const std::string text = write_scene(move_textures(loaded.scene, loaded.folder, folder));
+  if (to_standard_output) {
+    write_standard_output(text);
+  } else {
+    check_outputs({{"--output", command.output}}, loaded.files);
+    check_can_write(command.output);
+    write_text_or_rescue(command.output, text);
+  }
+  return 0;
+}
+
+int run(const PrintCommand& command) {
+  write_standard_output(command.text);
+  return 0;
+}
+
+int run(const BookCommand&) {
+  write_standard_output(book_folder().string() + "\n");
   return 0;
 }
 

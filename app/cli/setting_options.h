@@ -1,6 +1,6 @@
 #pragma once
 #include "app/cli/parse.h"
-#include "app/files/scene_request.h"
+#include "app/files/open_scene.h"
 #include "core/base/text.h"
 #include "core/scene/place.h"
 

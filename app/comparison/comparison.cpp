@@ -2,7 +2,6 @@
 
 #include "app/comparison/pair.h"
 #include "app/text/values.h"
-#include "core/accuracy/finite.h"
 #include "core/accuracy/flip.h"
 #include "core/base/text.h"
 

@@ -1,5 +1,4 @@
 #pragma once
-#include "core/accuracy/bias.h"
 #include "core/accuracy/error.h"
 #include "core/image/image.h"
 

@@ -1,11 +1,14 @@
 #include "app/curves/chart.h"
 
 #include "app/files/outputs.h"
+#include "app/text/markup.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
 namespace tyndall {
@@ -17,6 +20,144 @@ std::string csv_field(const std::string& name) {
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';
+}
+
+constexpr double width = 960, height = 600, left = 78, right = 230, top = 64, bottom = 62;
+constexpr std::size_t colours = 8;
+
+constexpr const char* style =
+    "<style>"
+    "text{font-family:system-ui,sans-serif;font-size:13px;fill:#3a4150}"
+    ".title{font-size:18px;font-weight:600;fill:#1c222d}.dim{fill:#727a88;font-size:12px}"
+    ".paper{fill:#ffffff}.grid{stroke:#dfe3e8;stroke-width:1}.minor{stroke:#eef0f3;stroke-width:1}"
+    ".guide{stroke:#727a88;stroke-dasharray:2 5;fill:none}.mark{stroke:#727a88;stroke-width:1}"
+    ".curve{fill:none;stroke-width:2.2;stroke-linejoin:round}.lead{stroke-width:1;opacity:.55;fill:none}"
+    ".again{stroke-dasharray:9 4}.bias{stroke-width:1.4;stroke-dasharray:6 4;fill:none}"
+    ".s0{stroke:#3a4150}.s1{stroke:#e69f00}.s2{stroke:#56b4e9}.s3{stroke:#009e73}.s4{stroke:#cc79a7}"
+    ".s5{stroke:#0072b2}.s6{stroke:#d55e00}.s7{stroke:#8a6d3b}"
+    ".f0{fill:#3a4150}.f1{fill:#b97f00}.f2{fill:#2f8fc7}.f3{fill:#008060}.f4{fill:#b0568a}"
+    ".f5{fill:#0072b2}.f6{fill:#d55e00}.f7{fill:#8a6d3b}"
+    "@media(prefers-color-scheme:dark){"
+    "text{fill:#c3cad6}.title{fill:#eef1f6}.dim{fill:#8b94a3}.paper{fill:#12161d}.grid{stroke:#2a313c}"
+    ".minor{stroke:#1c222b}.guide,.mark{stroke:#8b94a3}"
+    ".s0{stroke:#d5dae3}.s3{stroke:#1fc79a}.s4{stroke:#e39ac5}.s5{stroke:#4aa3e0}.s6{stroke:#ff8a4c}.s7{stroke:#c9a566}"
+    ".f0{fill:#d5dae3}.f1{fill:#e69f00}.f2{fill:#7cc5ef}.f3{fill:#1fc79a}.f4{fill:#e39ac5}"
+    ".f5{fill:#4aa3e0}.f6{fill:#ff8a4c}.f7{fill:#c9a566}}"
+    "</style>";
+
+std::string text_at(double x, double y, const std::string& attributes, const std::string& words) {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" ", x, y) + attributes + ">" + in_xml(words) + "</text>\n";
+}
+std::string line(double x0, double y0, double x1, double y1, const std::string& kind) {
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x0, y0, x1, y1,
+                     kind.c_str());
+}
+
+/// The range of the axes, in whole decades that hold all points, and where times and errors are on the page.
+struct Plot {
+  Decades seconds{0, 1}, errors{-3, 0};
+
+  explicit Plot(const std::vector<ErrorCurve>& curves) {
+    double first = 1e300, last = 0, minimum = 1e-2, maximum = 1e-1;
+    for (const ErrorCurve& curve : curves)
+      for (const ErrorPoint& p : curve.points) {
+        first = std::min(first, p.seconds), last = std::max(last, p.seconds);
+        if (p.rel_mse > 0) minimum = std::min(minimum, p.rel_mse), maximum = std::max(maximum, p.rel_mse);
+      }
+    if (last <= 0) return;
+    seconds = decades_around(first, last, 1);
+    errors = decades_around(minimum, maximum, 1);
+  }
+  double x(double time) const { return left + seconds.part_of(time) * (width - left - right); }
+  double y(double error) const { return height - bottom - errors.part_of(error) * (height - top - bottom); }
+};
+
+std::string seconds_text(int exponent) {
+  return exponent < 0 ? fmt::format("{:g} ms", std::pow(10.0, exponent + 3))
+                      : fmt::format("{:g} s", std::pow(10.0, exponent));
+}
+
+std::string grid(const Plot& plot) {
+  std::string out;
+  for (int e = plot.seconds.first; e <= plot.seconds.last; ++e) {
+    for (int m = 2; m < 10 && e < plot.seconds.last; ++m)
+      out += line(plot.x(m * std::pow(10.0, e)), top, plot.x(m * std::pow(10.0, e)), height - bottom, "minor");
+    const double x = plot.x(std::pow(10.0, e));
+    out += line(x, top, x, height - bottom, "grid");
+    out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"", seconds_text(e));
+  }
+  for (int e = plot.errors.first; e <= plot.errors.last; ++e) {
+    const double y = plot.y(std::pow(10.0, e));
+    out += line(left, y, width - right, y, "grid");
+    out += text_at(left - 8, y + 4, "text-anchor=\"end\"", fmt::format("{:g}", std::pow(10.0, e)));
+  }
+  out +=
+      text_at((left + width - right) / 2, height - 16, "text-anchor=\"middle\" class=\"dim\"", "seconds of rendering");
+  return out + fmt::format(
+                   "<text transform=\"translate(20 {:.1f}) rotate(-90)\" text-anchor=\"middle\" "
+                   "class=\"dim\">relMSE</text>\n",
+                   (top + height - bottom) / 2);
+}
+
+/// A line of slope -1: along it the error halves when the time doubles, which is what more samples alone give.
+std::string slope_guide(const Plot& plot, const std::vector<ErrorCurve>& curves) {
+  double best = 1e300;
+  for (const ErrorCurve& curve : curves)
+    for (const ErrorPoint& p : curve.points)
+      if (p.rel_mse > 0) best = std::min(best, p.rel_mse * p.seconds);
+  if (best > 1e299) return "";
+  best *= 0.6;
+  const double from = std::max(best / plot.errors.maximum(), plot.seconds.minimum()),
+               to = std::min(best / plot.errors.minimum(), plot.seconds.maximum());
+  if (from >= to) return "";
+  const double x = plot.x(from), y = plot.y(best / from);
+  return line(x, y, plot.x(to), plot.y(best / to), "guide") + text_at(x + 6, y + 14, "class=\"dim\"", "slope -1");
+}
+
+std::string curve_lines(const Plot& plot, const ErrorCurve& curve, const std::optional<double>& bias, std::size_t i) {
+  std::string points, dots;
+  for (const ErrorPoint& p : curve.points) {
+    if (!(p.rel_mse > 0)) continue;
+    points += fmt::format("{:.1f},{:.1f} ", plot.x(p.seconds), plot.y(p.rel_mse));
+    dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" class=\"f{}\"/>\n", plot.x(p.seconds),
+                        plot.y(p.rel_mse), i % colours);
+  }
+  std::string out = fmt::format("<polyline class=\"curve s{}{}\" points=\"", i % colours, i < colours ? "" : " again") +
+                    points + "\"/>\n" + dots;
+  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), fmt::format("bias s{}", i % colours));
+  return out;
+}
+
+/// The curves' names in the right margin, each as near to the height of its curve's end as the others leave room.
+std::string names(const Plot& plot, const Chart& chart) {
+  constexpr double apart = 17;
+  std::vector<std::size_t> order;
+  std::vector<double> at(chart.curves.size());
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const auto& points = chart.curves[i].points;
+    if (points.empty() || !(points.back().rel_mse > 0)) continue;
+    at[i] = plot.y(points.back().rel_mse);
+    order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
+  const double room = static_cast<double>(order.size()) * apart;
+  double next = top + 4;
+  std::string out;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t i = order[k];
+    const double latest = height - bottom - (static_cast<double>(order.size() - k) - 1) * apart;
+    const double y = std::min(std::max(at[i], next), std::max(latest, height - bottom - room));
+    next = y + apart;
+    const ErrorCurve& curve = chart.curves[i];
+    const ErrorPoint& end = curve.points.back();
+    const std::size_t colour = i % colours;
+    out += fmt::format("<polyline class=\"lead s{}\" points=\"{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}\"/>\n", colour,
+                       plot.x(end.seconds) + 5, plot.y(end.rel_mse), width - right + 4, y, width - right + 12, y);
+    const auto bias = bias_of(curve, chart.reference_noise);
+    out += text_at(width - right + 16, y + 4, fmt::format("class=\"f{}\"", colour),
+                   curve.method + (bias ? fmt::format(" ({} {:.2g})", floor_name(chart), *bias) : ""));
+  }
+  return out;
 }
 
 }  // namespace
@@ -67,6 +208,21 @@ void write_chart(const Chart& chart, const std::filesystem::path& svg) {
   write(csv_beside(svg), chart_csv(chart));
   write(svg, chart_svg(chart));
   if (!problem.empty()) throw ImageFileError(problem);
+}
+
+std::string chart_svg(const Chart& chart) {
+  const Plot plot(chart.curves);
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" width=\"{:g}\" height=\"{:g}\" "
+      "role=\"img\">\n",
+      width, height, width, height);
+  out += std::string("<title>") + in_xml(chart.title) + "</title>\n" + style + "\n";
+  out += fmt::format("<rect class=\"paper\" width=\"{:g}\" height=\"{:g}\"/>\n", width, height);
+  out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
+  out += grid(plot) + slope_guide(plot, chart.curves);
+  for (std::size_t i = 0; i < chart.curves.size(); ++i)
+    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference_noise), i);
+  return out + names(plot, chart) + "</svg>\n";
 }
 
 }  // namespace tyndall

@@ -1,4 +1,8 @@
 #pragma once
+#include "core/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -48,5 +52,68 @@ double min_measurable(double reference_noise);
 /// The error that stays although the samples double: what noise does not explain in the last points. Nothing where it
 /// cannot be told from noise, the picture's or the reference's.
 std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise);
+
+/// An axis from 10^first to 10^last.
+struct Decades {
+  int first = 0, last = 1;
+
+  /// Where a value > 0 is on the axis: 0 at its beginning, 1 at its end.
+  double part_of(double value) const { return (std::log10(value) - first) / (last - first); }
+  /// The value at that part of the axis.
+  double value_at(double part) const { return std::pow(10.0, first + part * (last - first)); }
+  double minimum() const { return std::pow(10.0, first); }
+  double maximum() const { return std::pow(10.0, last); }
+};
+
+/// The whole decades that hold all values from `minimum` > 0 to `maximum`, and at least `count` >= 1 of them.
+inline Decades decades_around(double minimum, double maximum, int count) {
+  const int first = static_cast<int>(std::floor(std::log10(minimum)));
+  return {first, std::max(static_cast<int>(std::ceil(std::log10(maximum))), first + count)};
+}
+
+/// "mis · sobol", with "· schlick" where that approximation is on.
+std::string method_of(const RenderSettings& settings);
+/// The same, with depth and seed where they are not those of the file.
+std::string method_of(const RenderSettings& settings, const RenderSettings& file);
+
+/// The curve of the newest edit while it grows, and those of earlier edits that are worth a comparison.
+class Convergence {
+ public:
+  /// Adds a point to the current curve. A new edit, or a time before the last point's, begins a new curve; the old one
+  /// is kept if it is long enough to tell something. A point less than 4 % later than the last but one replaces the
+  /// last one. Points are left out if their error is not finite and positive, or equal to that of the last
+  /// one, because then it was not estimated anew.
+  void add(std::uint64_t edit, const std::string& method, ErrorPoint point);
+  /// Forgets all curves: another scene was opened.
+  void clear();
+
+  const ErrorCurve& current() const { return current_; }
+  /// Of each method only the newest, in the place of the one before it, so that a method keeps its colour in the chart.
+  const std::vector<ErrorCurve>& earlier() const { return earlier_; }
+
+  static constexpr std::size_t max_earlier = 4;
+  static constexpr double min_seconds = 0.5;  ///< curves over less time, as during a drag, are not kept
+
+ private:
+  void keep_current();
+
+  ErrorCurve current_;
+  std::vector<ErrorCurve> earlier_;
+};
+
+/// A curve and what it is called in the chart and in files.
+struct NamedCurve {
+  enum class Role { earlier, kept, clean, current } role = Role::earlier;
+  const ErrorCurve* curve = nullptr;
+  std::string name;
+};
+
+/// All curves, the current one last. kept: of the other half of a split view; clean: of the clean view of the current
+/// picture; null: there is none.
+std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept,
+                                     const Convergence* clean = nullptr);
+
+/// Copies under the names that the chart shows, for its files. Curves without points are left out.
+std::vector<ErrorCurve> copies_of(const std::vector<NamedCurve>& named);
 
 }  // namespace tyndall

@@ -35,8 +35,6 @@ class Checkpoints {
   Checkpoints(std::filesystem::path file, std::optional<double> interval,
               std::function<Embedded(const Film&)> embedded);
   ~Checkpoints();  ///< waits for the one that is being written
-  Checkpoints(const Checkpoints&) = delete;
-  Checkpoints& operator=(const Checkpoints&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
   /// Whether one is to be begun now, so that it is written when the interval is over. False while one is written.

@@ -3,7 +3,7 @@
 #include "app/text/values.h"
 #include "core/film/film.h"
 #include "core/image/image_io_file.h"
-#include "core/system/cgroup.h"
+#include "core/system/mounts.h"
 
 #include <sys/resource.h>
 

@@ -6,7 +6,6 @@
 #include "core/scene/check.h"
 
 #include <system_error>
-#include <utility>
 
 namespace tyndall {
 namespace {

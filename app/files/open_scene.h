@@ -1,9 +1,63 @@
 #pragma once
-#include "app/files/scene_request.h"
+#include "app/text/values.h"
 #include "core/scene/load.h"
+#include "core/scene/place.h"
+#include "core/scene/scene.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 /// This room reads and writes files: scenes as the user asks for them, pictures, films and figures.
 namespace tyndall {
+
+/// Settings that options change: their values, and which of them were given. The others stay as the scene has them.
+template <class Settings>
+struct Changes {
+  Settings values;
+  std::set<std::string_view> given;  ///< names of fields
+};
+
+/// Gives one setting, as an option does.
+template <class Settings, class T>
+void set(Changes<Settings>& changes, T Settings::*member, std::type_identity_t<T> value) {
+  changes.values.*member = std::move(value);
+  for_each_field(fields_of<Settings>(), [&]<class U>(const Field<Settings, U>& field) {
+    if constexpr (std::is_same_v<T, U>)
+      if (field.value == member) changes.given.insert(field.name);
+  });
+}
+
+template <class Settings>
+void apply(const Changes<Settings>& changes, Settings& settings) {
+  for_each_field(fields_of<Settings>(), [&](const auto& field) {
+    if (changes.given.contains(field.name)) settings.*field.value = changes.values.*field.value;
+  });
+}
+
+/// What belongs to a program whose scene is wanted, see app/book.
+struct ProgramParts {
+  std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
+  /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
+  bool allowed = false;
+  std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
+};
+
+/// A scene, and what options change in it.
+struct SceneRequest {
+  std::string what = "showroom";  ///< file, built-in name, image, C++ source file, or "-": standard input
+  ProgramParts program;
+  std::vector<Override> overrides;
+  std::optional<Size> size;
+  Changes<RenderSettings> render;
+  Changes<Display> display;
+};
 
 /// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
 /// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError.

@@ -1,27 +1,30 @@
 #include "app/files/outputs.h"
 
+#include "app/text/standard_streams.h"
 #include "app/text/values.h"
-#include "core/base/limits.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/whole_file.h"
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <span>
 
 namespace tyndall {
+namespace fs = std::filesystem;
 namespace {
 
-std::string ending(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
+std::string ending(const fs::path& file) { return lower_case(file.extension().string()); }
 
 /// The file's name, or for standard output one that ends in its format.
-std::filesystem::path name_with_ending(const std::filesystem::path& file, const ImageForm& form) {
-  return file == "-" ? std::filesystem::path("standard-output." + form.format) : file;
+fs::path name_with_ending(const fs::path& file, const ImageForm& form) {
+  return file == "-" ? fs::path("standard-output." + form.format) : file;
 }
 
-void check_standard_output(const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                           const std::filesystem::path& stats) {
+void check_standard_output(const std::vector<fs::path>& files, const ImageForm& form, const fs::path& stats) {
   const auto streams = std::count(files.begin(), files.end(), "-");
   if (streams > 0 && form.format.empty())
     throw UsageError("--output: found -, standard output, expected --format as well, which says what goes there");
@@ -35,12 +38,10 @@ void check_standard_output(const std::vector<std::filesystem::path>& files, cons
 }
 
 /// Whether both names mean one file, which need not exist yet.
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
-  if (std::filesystem::equivalent(a, b, error)) return true;
-  const auto full = [&error](const std::filesystem::path& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
-  };
+  if (fs::equivalent(a, b, error)) return true;
+  const auto full = [&error](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file, error), error); };
   return full(a) == full(b);
 }
 
@@ -59,7 +60,7 @@ std::vector<Layer> all_layers(const Picture& picture) {
   return layers;
 }
 
-Embedded embedded_in_exr(const Picture& picture, const std::filesystem::path& file) {
+Embedded embedded_in_exr(const Picture& picture, const fs::path& file) {
   Embedded embedded = picture.embedded(file);
   embedded.film = picture.form.exr_film;
   return embedded;
@@ -71,7 +72,7 @@ LinearImage shown(const Picture& picture) {
   return {picture.clean->width, picture.clean->height, picture.clean->rgb};
 }
 
-void write_image(const Picture& picture, const std::string& kind, const std::filesystem::path& file) {
+void write_image(const Picture& picture, const std::string& kind, const fs::path& file) {
   const Display& display = picture.display;
   const Region& region = picture.film.region;
   const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
@@ -87,32 +88,55 @@ void write_image(const Picture& picture, const std::string& kind, const std::fil
     write_hdr(file, shown(picture));
 }
 
+/// A name beside the file that nothing has; empty: there is none.
+fs::path free_name(const fs::path& file) {
+  std::error_code error;
+  for (int number = 1; number < 1000; ++number) {
+    fs::path name = beside(file, number == 1 ? "new" : "new-" + std::to_string(number));
+    if (fs::symlink_status(name, error).type() == fs::file_type::not_found) return name;
+  }
+  return {};
+}
+
+/// The file's name in a new folder among the temporary files; empty: none can be made.
+fs::path temporary_name(const fs::path& file) {
+  std::error_code error;
+  std::string folder = (fs::temp_directory_path(error) / "tyndall-XXXXXX").string();
+  return error || !mkdtemp(folder.data()) ? fs::path() : folder / file.filename();
+}
+
+bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
+  if (file.empty()) return false;
+  try {
+    write(file);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
-bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
+bool is_exr(const fs::path& file) { return ending(file) == ".exr"; }
 
-std::filesystem::path kept_film(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
+fs::path kept_film(const std::vector<fs::path>& outputs, const ImageForm& form) {
   if (!form.exr_film) return {};
-  const auto keeps = [](const std::filesystem::path& file) {
+  const auto keeps = [](const fs::path& file) {
     std::error_code error;
-    const auto type = std::filesystem::status(file, error).type();
-    return is_exr(file) && !is_stream(file) &&
-           (type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular);
+    const auto type = fs::status(file, error).type();
+    return is_exr(file) && !is_stream(file) && (type == fs::file_type::not_found || type == fs::file_type::regular);
   };
   const auto file = std::find_if(outputs.begin(), outputs.end(), keeps);
-  return file == outputs.end() ? std::filesystem::path() : *file;
+  return file == outputs.end() ? fs::path() : *file;
 }
 
-std::string image_ending(const std::filesystem::path& file, const ImageForm& form) {
-  return ending(name_with_ending(file, form));
-}
+std::string image_ending(const fs::path& file, const ImageForm& form) { return ending(name_with_ending(file, form)); }
 
-void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                       const std::filesystem::path& stats) {
+void check_image_names(const std::vector<fs::path>& files, const ImageForm& form, const fs::path& stats) {
   check_standard_output(files, form, stats);
-  for (const std::filesystem::path& file : files) {
+  for (const fs::path& file : files) {
     const std::string name = "--output: found " + in_quotes(file.string());
-    const std::filesystem::path full = name_with_ending(file, form);
+    const fs::path full = name_with_ending(file, form);
     if (!is_image_output(full))
       throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm, .hdr or .ppm");
     if (is_exr(full) && !has_openexr())
@@ -124,15 +148,15 @@ void check_image_names(const std::vector<std::filesystem::path>& files, const Im
   check_outputs(outputs_of("--output", files), {});
 }
 
-std::vector<Output> outputs_of(const std::string& option, const std::vector<std::filesystem::path>& files) {
+std::vector<Output> outputs_of(const std::string& option, const std::vector<fs::path>& files) {
   std::vector<Output> outputs;
-  for (const std::filesystem::path& file : files) outputs.push_back({option, file});
+  for (const fs::path& file : files) outputs.push_back({option, file});
   return outputs;
 }
 
-void check_outputs(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs) {
+void check_outputs(const std::vector<Output>& outputs, const std::vector<fs::path>& inputs) {
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    const auto is_output = [&](const std::filesystem::path& file) { return is_same_file(file, output->file); };
+    const auto is_output = [&](const fs::path& file) { return is_same_file(file, output->file); };
     if (output->file.empty() || output->file == "-") continue;
     const std::string found = output->option + ": found " + in_quotes(output->file.string());
     const auto input = std::find_if(inputs.begin(), inputs.end(), is_output);
@@ -143,10 +167,10 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<std::fi
   }
 }
 
-FilePlace check_can_write(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+FilePlace check_can_write(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;
-  if (!std::filesystem::is_directory(folder, error))
+  if (!fs::is_directory(folder, error))
     throw IoError(file.string() + ": cannot write: there is no folder " + folder.string());
   return WholeFile(file).place();  // removed again, as it is not committed
 }
@@ -156,7 +180,7 @@ void check_can_write(const std::vector<Output>& outputs) {
     if (!output.file.empty() && output.file != "-") check_can_write(output.file);
 }
 
-FilmPlace film_place(const std::vector<std::filesystem::path>& outputs, const ImageForm& form) {
+FilmPlace film_place(const std::vector<fs::path>& outputs, const ImageForm& form) {
   FilmPlace film;
   film.output = kept_film(outputs, form);
   if (film.output.empty()) return film;
@@ -174,12 +198,12 @@ FilmPlace film_place(const std::vector<std::filesystem::path>& outputs, const Im
   return film;
 }
 
-std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files) {
+std::vector<std::string> write_images(const Picture& picture, const std::vector<fs::path>& files) {
   std::vector<std::string> problems;
-  for (const std::filesystem::path& file : files) {
+  for (const fs::path& file : files) {
     try {
       const std::string kind = image_ending(file, picture.form);
-      write_or_rescue(file, [&](const std::filesystem::path& to) { write_image(picture, kind, to); });
+      write_or_rescue(file, [&](const fs::path& to) { write_image(picture, kind, to); });
     } catch (const std::bad_alloc&) {
       problems.push_back(file.string() + ": cannot write: not enough memory" + memory_limit_text());
     } catch (const std::exception& error) {
@@ -189,9 +213,60 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   return problems;
 }
 
-void write_text_file(const std::filesystem::path& file, const std::string& text) {
+void write_text_file(const fs::path& file, const std::string& text) {
   WholeFile out(file);
   out.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  out.commit();
+}
+
+void write_or_rescue(const fs::path& file, const std::function<void(const fs::path& file)>& write) {
+  const auto at = [](const std::string& problem, const fs::path& place) {
+    return ImageFileError(problem + "; it is in " + place.string() + " instead");
+  };
+  try {
+    return write(file);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    if (is_stream(file)) throw;
+    const std::string problem = error.what();
+    const fs::path near = free_name(file);
+    if (succeeds(write, near)) throw at(problem, near);
+    const fs::path far = temporary_name(file);
+    if (succeeds(write, far)) throw at(problem, far);
+    std::error_code ignored;
+    if (!far.empty()) fs::remove(far.parent_path(), ignored);
+    throw;
+  }
+}
+
+void write_text_or_rescue(const fs::path& file, const std::string& text) {
+  write_or_rescue(file, [&text](const fs::path& to) { write_text_file(to, text); });
+}
+
+bool written_or_told(const std::function<void()>& write) {
+  try {
+    write();
+    return true;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    complain(printable(error.what(), 2000));
+    return false;
+  }
+}
+
+void write_copy(const fs::path& from, const fs::path& to) {
+  std::ifstream in(from, std::ios::binary);
+  if (!in) throw IoError(from.string() + ": cannot read");
+  WholeFile out(to);
+  std::vector<char> bytes(std::size_t{1} << 16);
+  while (in) {
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    const auto got = static_cast<std::size_t>(in.gcount());
+    out.write(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), got));
+  }
+  if (!in.eof()) throw IoError(from.string() + ": cannot read");
   out.commit();
 }
 

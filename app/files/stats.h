@@ -1,7 +1,11 @@
 #pragma once
+#include "core/image/image_io.h"
+#include "core/render/prepare.h"
 #include "core/render/render.h"
+#include "core/targets/kernels.h"
 
 #include <string>
+#include <vector>
 
 /// The figures of a run, for --stats and for the files that a render writes.
 namespace tyndall {
@@ -29,5 +33,10 @@ std::string clean_stats_text(const Film& film, const CleanPicture& clean, double
 
 /// Most memory that this process has held at a time, bytes.
 std::size_t peak_memory();
+
+/// The layers that an EXR gets beside a picture. Of what is seen first through the middle of each pixel: albedo, normal
+/// (towards the outside of the shape), and depth along the camera's axis; 0, 0 and infinity where nothing is seen. From
+/// the film's halves: the variance of each pixel's mean, by channel; infinite if a half has no sample.
+std::vector<Layer> layers_of(const PreparedScene& scene, const Film& film, const Kernels& kernels);
 
 }  // namespace tyndall

@@ -18,8 +18,6 @@ class FileWatch {
   /// problem()) is not told of.
   FileWatch(const std::vector<std::filesystem::path>& files, std::function<void()> on_change);
   ~FileWatch();
-  FileWatch(const FileWatch&) = delete;
-  FileWatch& operator=(const FileWatch&) = delete;
 
   /// Why the file cannot be watched; "": it is.
   const std::string& problem() const { return problem_; }

@@ -16,16 +16,10 @@ static_assert(gap + bar + mark + 5 * dot + 1 == heat_scale_rows);
 
 /// The few signs that the scale needs, each as 3 x 5 dots, row by row.
 std::array<std::string_view, 5> dots_of(char sign) {
-  switch (sign) {
-    case '0':
-      return {"###", "# #", "# #", "# #", "###"};
-    case '1':
-      return {" # ", "## ", " # ", " # ", "###"};
-    case '5':
-      return {"###", "#  ", "###", "  #", "###"};
-    default:
-      return {"   ", "   ", "   ", "   ", " # "};
-  }
+  if (sign == '0') return {"###", "# #", "# #", "# #", "###"};
+  if (sign == '1') return {" # ", "## ", " # ", " # ", "###"};
+  if (sign == '5') return {"###", "#  ", "###", "  #", "###"};
+  return {"   ", "   ", "   ", "   ", " # "};
 }
 
 class Canvas {

@@ -1,12 +1,31 @@
 #include "app/report/replay.h"
 
-#include "app/report/names.h"
 #include "core/base/random.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tyndall {
 namespace {
+
+/// The innermost object on a path of indices, and its place in the file.
+struct Named {
+  const Object* object;
+  std::string pointer;
+};
+Named object_at(const Scene& scene, const std::vector<int>& path) {
+  const std::vector<Object>* list = &scene.objects;
+  Named named{nullptr, ""};
+  for (const int index : path) {
+    named.object = &(*list)[static_cast<std::size_t>(index)];
+    named.pointer += "/objects/" + std::to_string(index);
+    if (const auto* group = std::get_if<Group>(&named.object->kind)) list = &group->objects;
+  }
+  return named;
+}
 
 Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
@@ -62,12 +81,27 @@ std::string heading(const Scene& scene, const RenderScene& compiled, const PathV
                      fate, side);
 }
 
-}  // namespace
+double luminance(Vec3f light) {
+  const double sum = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
+                     0.0722 * static_cast<double>(light.z);
+  return std::isfinite(sum) ? sum : 0;
+}
 
+/// What a path met at one place and what became of it there, in a few words: "ball (gold), goes on".
 std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
   std::string fate = fate_text(vertex.fate);
   if (vertex.met == Met::nothing) return fate;
   return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
+}
+
+}  // namespace
+
+std::string object_text(const Scene& scene, const std::vector<int>& path) {
+  const Named named = object_at(scene, path);
+  const std::string name = named.object->name.empty() ? named.pointer : in_quotes(named.object->name);
+  const auto* solid = std::get_if<Solid3d>(&named.object->kind);
+  if (!solid) return printable(name);
+  return printable(name + " (" + scene.materials[static_cast<std::size_t>(solid->material)].name + ")");
 }
 
 std::string replay_text(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
@@ -96,6 +130,48 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
         "shared: instead of what comes by way of its own second vertex, the sample takes a part of what leaves "
         "those of eight pixels\n";
   return text + "sample " + text_of(exact(path.radiance)) + "\n";
+}
+
+NoisyPath find_noisy_path(const SceneView& scene, int x, int y, std::uint32_t samples,
+                          const std::function<bool()>& stop) {
+  NoisyPath found{.x = x, .y = y};
+  double sum = 0, maximum = -1;
+  while (found.samples < std::max(samples, 1u) && (found.samples == 0 || !stop())) {
+    PathReplay path = replay(scene, x, y, found.samples);
+    const double light = luminance(path.radiance);
+    sum += light;
+    if (light > maximum) maximum = light, found.sample = found.samples, found.path = std::move(path);
+    ++found.samples;
+  }
+  found.fraction = sum > 0 ? maximum / sum : 0;
+  found.times_mean = found.fraction * found.samples;
+  return found;
+}
+
+std::vector<PathStop> stops_of(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
+  std::vector<PathStop> stops;
+  Vec3f before{};
+  for (const PathVertex& v : path.vertices) {
+    PathStop stop;
+    stop.away = v.met == Met::nothing;
+    const Vec3f at = stop.away ? v.direction : v.point;
+    stop.point = Vec3d{at.x, at.y, at.z} + (stop.away ? Vec3d{} : compiled.origin);
+    const Vec3f gained = v.radiance - before;
+    before = v.radiance;
+    stop.light = luminance(gained) > 0;
+    stop.text = vertex_text(scene, compiled, v);
+    if (stop.light)
+      stop.text += fmt::format(", light {:.3g} {:.3g} {:.3g}", static_cast<double>(gained.x),
+                               static_cast<double>(gained.y), static_cast<double>(gained.z));
+    stops.push_back(std::move(stop));
+  }
+  return stops;
+}
+
+std::string sentence_of(const NoisyPath& found) {
+  if (found.fraction <= 0) return fmt::format("all of {} samples are black", found.samples);
+  return fmt::format("the brightest of {} samples: {:.2g} % of their light, {:.2g} times the mean", found.samples,
+                     100 * found.fraction, found.times_mean);
 }
 
 }  // namespace tyndall

@@ -22,15 +22,12 @@ bool read_all(std::string_view text, T& value) {
 
 bool read_all(std::string_view text, double& value) { return number_from_text(text, value); }
 
-/// The parts of text between separators.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t at = 0;;) {
-    const std::size_t end = text.find(separator, at);
-    parts.push_back(text.substr(at, end - at));
-    if (end == std::string_view::npos) return parts;
-    at = end + 1;
-  }
+/// Reads as many numbers as are wanted, with the separator between them.
+bool read_numbers(std::string_view text, char, auto& last) { return read_all(text, last); }
+bool read_numbers(std::string_view text, char separator, auto& first, auto&... rest) {
+  const std::size_t end = text.find(separator);
+  return end != text.npos && read_all(text.substr(0, end), first) &&
+         read_numbers(text.substr(end + 1), separator, rest...);
 }
 
 }  // namespace
@@ -53,38 +50,30 @@ double read_number(const std::string& text, Valid valid, const std::string& expe
 }
 
 Size read_size(const std::string& text) {
-  const auto parts = split(text, 'x');
   Size size;
-  if (parts.size() != 2 || !read_all(parts[0], size.width) || !read_all(parts[1], size.height) || size.width < 1 ||
-      size.height < 1)
+  if (!read_numbers(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1)
     refuse(text, "WIDTHxHEIGHT in pixels, such as 800x450");
   return size;
 }
 
 SampleRange read_samples(const std::string& text) {
-  const auto parts = split(text, ':');
   SampleRange range;
-  if (parts.size() != 2 || !read_all(parts[0], range.first) || !read_all(parts[1], range.last) ||
-      range.first >= range.last)
+  if (!read_numbers(text, ':', range.first, range.last) || range.first >= range.last)
     refuse(text, "A:B with whole numbers 0 <= A < B, such as 0:64");
   if (range.last - range.first > max_samples) refuse(text, "at most " + std::to_string(max_samples) + " samples");
   return range;
 }
 
 Region read_region(const std::string& text) {
-  const auto parts = split(text, ',');
   Region r;
-  if (parts.size() != 4 || !read_all(parts[0], r.x0) || !read_all(parts[1], r.y0) || !read_all(parts[2], r.x1) ||
-      !read_all(parts[3], r.y1) || r.x0 < 0 || r.y0 < 0 || r.x0 >= r.x1 || r.y0 >= r.y1)
+  if (!read_numbers(text, ',', r.x0, r.y0, r.x1, r.y1) || r.x0 < 0 || r.y0 < 0 || r.x0 >= r.x1 || r.y0 >= r.y1)
     refuse(text, "X0,Y0,X1,Y1 in pixels with 0 <= X0 < X1 and 0 <= Y0 < Y1");
   return r;
 }
 
 SampleKey read_sample_key(const std::string& text) {
-  const auto parts = split(text, ',');
   SampleKey key;
-  if (parts.size() != 3 || !read_all(parts[0], key.x) || !read_all(parts[1], key.y) ||
-      !read_all(parts[2], key.sample) || key.x < 0 || key.y < 0)
+  if (!read_numbers(text, ',', key.x, key.y, key.sample) || key.x < 0 || key.y < 0)
     refuse(text, "X,Y,SAMPLE with whole numbers >= 0, such as 12,40,7");
   return key;
 }

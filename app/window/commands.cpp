@@ -3,12 +3,17 @@
 #include "app/window/accuracy/views.h"
 #include "app/window/document/open_document.h"
 #include "app/window/palette_list.h"
-#include "app/window/requires_scene.h"
 #include "app/window/tools/camera_control.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tyndall {
+namespace {
+
+Theme other_theme(Theme theme) { return theme == Theme::dark ? Theme::light : Theme::dark; }
+
+}  // namespace
 
 void Commands::take(const InputEvents& events) {
   for (const KeyPress& press : events.keys) {
@@ -42,135 +47,79 @@ void Commands::act(const Request& request) {
   act_on_document(request);
 }
 
+/// Carries out the request by the handler of its action. Returns whether there is one.
+bool Commands::act_by(std::span<const Handler> handlers, const Request& request) {
+  const auto found = std::ranges::find(handlers, request.action, &Handler::action);
+  if (found != handlers.end()) found->act(*this, request);
+  return found != handlers.end();
+}
+
 void Commands::act_on_window(const Request& request) {
-  Preferences& look = panels_.look;
-  switch (request.action) {
-    case Action::help:
-      shows_help_ = !shows_help_;
-      return;
-    case Action::deselect:
-      return escape();
-    case Action::panels:
-      shows_panels_ = !shows_panels_;
-      return;
-    case Action::full_screen:
-      return platform_.toggle_full_screen();
-    case Action::section:
-      panels_.tabs.jump = request.number;
-      shows_panels_ = true;
-      return;
-    case Action::row:
-      return go_to_row(row_entries()[static_cast<std::size_t>(request.number)]);
-    case Action::palette:
-      return open_palette();
-    case Action::quit:
-      return ask_to_close();
-    case Action::larger_text:
-      look.text_size = stepped_text_size(look.text_size, 1);
-      return;
-    case Action::smaller_text:
-      look.text_size = stepped_text_size(look.text_size, -1);
-      return;
-    case Action::usual_text:
-      look.text_size = 1;
-      return;
-    case Action::other_theme:
-      look.theme = look.theme == Theme::dark ? Theme::light : Theme::dark;
-      return;
-    default:
-      return;
-  }
+  static constexpr Handler handlers[] = {
+      {Action::help, [](Commands& c, auto&) { c.shows_help_ = !c.shows_help_; }},
+      {Action::deselect, [](Commands& c, auto&) { c.escape(); }},
+      {Action::panels, [](Commands& c, auto&) { c.shows_panels_ = !c.shows_panels_; }},
+      {Action::full_screen, [](Commands& c, auto&) { c.platform_.toggle_full_screen(); }},
+      {Action::section, [](Commands& c, auto& r) { c.panels_.tabs.jump = r.number, c.shows_panels_ = true; }},
+      {Action::row, [](Commands& c, auto& r) { c.go_to_row(row_entries()[static_cast<std::size_t>(r.number)]); }},
+      {Action::palette, [](Commands& c, auto&) { c.open_palette(); }},
+      {Action::quit, [](Commands& c, auto&) { c.ask_to_close(); }},
+      {Action::larger_text,
+       [](Commands& c, auto&) { c.panels_.look.text_size = stepped_text_size(c.panels_.look.text_size, 1); }},
+      {Action::smaller_text,
+       [](Commands& c, auto&) { c.panels_.look.text_size = stepped_text_size(c.panels_.look.text_size, -1); }},
+      {Action::usual_text, [](Commands& c, auto&) { c.panels_.look.text_size = 1; }},
+      {Action::other_theme, [](Commands& c, auto&) { c.panels_.look.theme = other_theme(c.panels_.look.theme); }}};
+  act_by(handlers, request);
 }
 
 void Commands::act_on_rendering(const Request& request) {
-  RenderRequest& wanted = session_.wanted();
-  switch (request.action) {
-    case Action::pause:
-      wanted.paused = !wanted.paused;
-      return;
-    case Action::threads:
-      wanted.threads = request.number;
-      return;
-    case Action::reference:
-      dialog_ = reference_dialog(session_.accuracy().reference() != nullptr);
-      return;
-    case Action::open_reference:
-      return session_.references().open(request.text);
-    case Action::render_reference:
-      return session_.render_reference();
-    case Action::drop_reference:
-      return session_.references().drop();
-    case Action::export_chart:
-      return session_.export_chart();
-    case Action::snapshot:
-      return session_.snapshot();
-    case Action::restart:
-      ++wanted.restarts;
-      break;
-    case Action::view:
-      select_view(request.number);
-      break;
-    case Action::clean:
-      session_.set_clean(!session_.clean());
-      break;
-    case Action::clean_beside_raw:
-      session_.set_clean_beside_raw(!session_.clean_beside_raw());
-      break;
-    case Action::clean_as:
-      session_.set_clean(request.number > 0);
-      session_.set_clean_beside_raw(request.number > 1);
-      break;
-    case Action::render_at:
-      panels_.model.at_window = request.number == 1;
-      break;
-    case Action::split:
-      session_.split() ? end_split() : session_.set_split(true);
-      break;
-    case Action::keep_half:
-      session_.keep_half(request.number == 0 ? Half::kept : Half::current);
-      break;
-    default:
-      return;
-  }
-  pacing_.on_new_start(clock_seconds());
+  static constexpr Handler handlers[] = {
+      {Action::pause, [](Commands& c, auto&) { c.session_.wanted().paused = !c.session_.wanted().paused; }},
+      {Action::threads, [](Commands& c, auto& r) { c.session_.wanted().threads = r.number; }},
+      {Action::reference,
+       [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy().reference() != nullptr); }},
+      {Action::open_reference, [](Commands& c, auto& r) { c.session_.references().open(r.text); }},
+      {Action::render_reference, [](Commands& c, auto&) { c.session_.render_reference(); }},
+      {Action::drop_reference, [](Commands& c, auto&) { c.session_.references().drop(); }},
+      {Action::export_chart, [](Commands& c, auto&) { c.session_.export_chart(); }},
+      {Action::snapshot, [](Commands& c, auto&) { c.session_.snapshot(); }}};
+  // After these a new picture is to be seen at once.
+  static constexpr Handler new_starts[] = {
+      {Action::restart, [](Commands& c, auto&) { ++c.session_.wanted().restarts; }},
+      {Action::view, [](Commands& c, auto& r) { c.select_view(r.number); }},
+      {Action::clean, [](Commands& c, auto&) { c.session_.set_clean(!c.session_.clean()); }},
+      {Action::clean_beside_raw,
+       [](Commands& c, auto&) { c.session_.set_clean_beside_raw(!c.session_.clean_beside_raw()); }},
+      {Action::clean_as,
+       [](Commands& c, auto& r) { c.session_.set_clean(r.number > 0), c.session_.set_clean_beside_raw(r.number > 1); }},
+      {Action::render_at, [](Commands& c, auto& r) { c.panels_.model.at_window = r.number == 1; }},
+      {Action::split, [](Commands& c, auto&) { c.session_.split() ? c.end_split() : c.session_.set_split(true); }},
+      {Action::keep_half,
+       [](Commands& c, auto& r) { c.session_.keep_half(r.number == 0 ? Half::kept : Half::current); }}};
+  act_by(handlers, request);
+  if (act_by(new_starts, request)) pacing_.on_new_start(clock_seconds());
 }
 
 void Commands::act_on_document(const Request& request) {
-  switch (request.action) {
-    case Action::frame:
-      return frame_selection();
-    case Action::reset_camera:
-      return reset_camera();
-    case Action::undo:
-      return session_.editor().undo();
-    case Action::redo:
-      return session_.editor().redo();
-    case Action::open:
-      dialog_ = open_dialog();
-      return;
-    case Action::open_file:
-      return session_.references().open_dropped(std::filesystem::absolute(request.text));
-    case Action::scene:
-      return session_.editor().open(request.text);
-    case Action::save:
-      return save();
-    case Action::save_as:
-      return save_as();
-    case Action::take_file:
-      return session_.editor().answer_about_file(request.number == 1);
-    case Action::save_to:
-      return save_to(request.text);
-    case Action::save_named:
-      return save_named(request.text);
-    case Action::save_unsaved:
-      closing_.save();
-      session_.editor().go_to_unsaved();
-      return save();
-    case Action::discard_unsaved:
-      return closing_.discard();
-    default:
-      return;
-  }
+  static constexpr Handler handlers[] = {
+      {Action::frame, [](Commands& c, auto&) { c.frame_selection(); }},
+      {Action::reset_camera, [](Commands& c, auto&) { c.reset_camera(); }},
+      {Action::undo, [](Commands& c, auto&) { c.session_.editor().undo(); }},
+      {Action::redo, [](Commands& c, auto&) { c.session_.editor().redo(); }},
+      {Action::open, [](Commands& c, auto&) { c.dialog_ = open_dialog(); }},
+      {Action::open_file,
+       [](Commands& c, auto& r) { c.session_.references().open_dropped(std::filesystem::absolute(r.text)); }},
+      {Action::scene, [](Commands& c, auto& r) { c.session_.editor().open(r.text); }},
+      {Action::save, [](Commands& c, auto&) { c.save(); }},
+      {Action::save_as, [](Commands& c, auto&) { c.save_as(); }},
+      {Action::take_file, [](Commands& c, auto& r) { c.session_.editor().answer_about_file(r.number == 1); }},
+      {Action::save_to, [](Commands& c, auto& r) { c.save_to(r.text); }},
+      {Action::save_named, [](Commands& c, auto& r) { c.save_named(r.text); }},
+      {Action::save_unsaved,
+       [](Commands& c, auto&) { c.closing_.save(), c.session_.editor().go_to_unsaved(), c.save(); }},
+      {Action::discard_unsaved, [](Commands& c, auto&) { c.closing_.discard(); }}};
+  act_by(handlers, request);
 }
 
 void Commands::open_palette() {

@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/actions/actions.h"
-#include "app/window/closing.h"
-#include "app/window/menus/palette.h"
+#include "app/window/dialog.h"
+#include "app/window/menus/menu.h"
 #include "app/window/menus/row_list.h"
 #include "app/window/object_tools.h"
 #include "app/window/overlays.h"
@@ -10,8 +10,9 @@
 #include "app/window/session.h"
 #include "app/window/system/pacing.h"
 #include "app/window/system/platform.h"
-#include "app/window/tools/gestures.h"
+#include "app/window/tools/pointer.h"
 
+#include <span>
 #include <vector>
 
 /// What happens when the user presses a key, drops a file or answers a question.
@@ -56,6 +57,11 @@ class Commands {
   bool shows_panels() const { return shows_panels_; }
 
  private:
+  struct Handler {
+    Action action;
+    void (*act)(Commands& commands, const Request& request);
+  };
+  bool act_by(std::span<const Handler> handlers, const Request& request);
   void act_on_window(const Request& request);
   void act_on_rendering(const Request& request);
   void act_on_document(const Request& request);

@@ -1,9 +1,14 @@
 #include "app/window/dialog.h"
 
 #include "app/window/system/imgui_compat.h"
+#include "app/window/system/pacing.h"
 
+#include <fmt/core.h>
+
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -57,6 +62,12 @@ int draw_answers(Ui& ui, Dialog& dialog) {
   return pressed;
 }
 
+/// A box with round corners in the middle of the area.
+void begin_dialog(Ui& ui, const Rect& area) {
+  begin_box(ui, "##dialog", {(area.x0 + area.x1) / 2, (area.y0 + area.y1) / 2}, {0.5f, 0.5f}, 0);
+  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+}
+
 }  // namespace
 
 void begin_box(Ui& ui, const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more) {
@@ -73,13 +84,6 @@ void end_box() {
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);
 }
-
-void begin_dialog(Ui& ui, const Rect& area) {
-  begin_box(ui, "##dialog", {(area.x0 + area.x1) / 2, (area.y0 + area.y1) / 2}, {0.5f, 0.5f}, 0);
-  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
-}
-
-void end_dialog() { end_box(); }
 
 Dialog open_dialog() {
   return {Dialog::Kind::other,
@@ -169,12 +173,78 @@ std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
   const bool types = dialog.hint != nullptr, enter = types && draw_name_field(ui, dialog);
   const int pressed = draw_answers(ui, dialog), answer = enter ? 0 : pressed;
   dialog.fresh = false;
-  end_dialog();
+  end_box();
   if (answer < 0 || (answer == 0 && types && dialog.name[0] == '\0')) return {};
   std::optional<Request> request = dialog.answers[static_cast<std::size_t>(answer)].request;
   if (request && types && answer == 0) request->text = typed_file(dialog.name).string();
   dialog.kind = Dialog::Kind::none;
   return request;
+}
+
+void Closing::begin(Dialog& dialog) {
+  if (step_ == Step::writes || step_ == Step::done) return;
+  discards_ = false;
+  const Document* unsaved = session_.unsaved();
+  if (!unsaved) return finish();
+  step_ = Step::asking;
+  dialog = close_dialog(*unsaved->origin);
+}
+
+void Closing::draw(Ui& ui, const Rect& area, const Dialog& dialog) {
+  if (step_ == Step::asking && dialog.kind != Dialog::Kind::close) step_ = Step::none;
+  if (step_ == Step::saves && dialog.kind == Dialog::Kind::none) {
+    step_ = Step::none;  // what was cancelled or failed leaves the window open
+    if (!session_.unsaved()) finish();
+  }
+  if (step_ == Step::writes) draw_progress(ui, area);
+}
+
+void Closing::discard() {
+  discards_ = true;
+  finish();
+}
+
+/// Nothing is left but to write files; rendering would take the processors from that.
+void Closing::finish() {
+  step_ = session_.writes_files() ? Step::writes : Step::done;
+  since_ = clock_seconds();
+  errors_before_ = session_.messages().errors();
+  paused_before_ = std::exchange(session_.wanted().paused, true);
+  if (step_ == Step::done) leave();
+}
+
+void Closing::leave() {
+  step_ = Step::done;
+  if (discards_) session_.discard_edits();
+}
+
+void Closing::draw_progress(Ui& ui, const Rect& area) {
+  const bool failed = session_.messages().errors() > errors_before_;
+  if (!session_.writes_files() && failed) return static_cast<void>(cancel());  // the message says what is missing
+  if (!session_.writes_files()) return leave();
+  const double seconds = clock_seconds() - since_;
+  begin_dialog(ui, area);
+  ImGui::TextUnformatted("Writing files; the window closes when they are there.");
+  note(ui, fmt::format("{} to go, {:.0f} s; rendering is stopped", session_.jobs_of_writing(), std::floor(seconds)),
+       false);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = 360 * ui.scale, height = 4 * ui.scale, part = 0.3f * width;
+  const float left = (width - part) * static_cast<float>(0.5 - 0.5 * std::cos(2 * seconds));
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, shade(palette::field), height / 2);
+  draw->AddRectFilled({at.x + left, at.y}, {at.x + left + part, at.y + height}, shade(palette::blue), height / 2);
+  ImGui::Dummy({width, height + 8 * ui.scale});
+  if (small_button(ui, "dialog.stay", "Stay open")) cancel();
+  end_box();
+  if (ui.log) ui.log->changed("closing", "writes");
+  ui.wake_in = std::min(ui.wake_in, 0.1);
+}
+
+bool Closing::cancel() {
+  if (step_ != Step::writes) return false;
+  step_ = Step::none;
+  session_.wanted().paused = paused_before_;
+  return true;
 }
 
 }  // namespace tyndall

@@ -1,7 +1,6 @@
 #include "app/window/main_window.h"
 
 #include "app/window/accuracy/views.h"
-#include "app/window/tools/camera_control.h"
 
 #include <algorithm>
 #include <cassert>

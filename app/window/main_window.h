@@ -4,7 +4,7 @@
 #include "app/window/edit/linked_objects.h"
 #include "app/window/rendering/picture_view.h"
 #include "app/window/system/end_signals.h"
-#include "app/window/tools/flight.h"
+#include "app/window/tools/camera_control.h"
 #include "app/window/tools/pointer.h"
 
 #include <atomic>

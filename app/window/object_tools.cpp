@@ -2,7 +2,7 @@
 
 #include "app/window/edit/arrange.h"
 #include "app/window/edit/material_edits.h"
-#include "app/window/handles/draw_handles.h"
+#include "app/window/handles/handles.h"
 #include "app/window/overlays.h"
 #include "app/window/tools/camera_control.h"
 
@@ -19,24 +19,12 @@ constexpr Action object_actions[] = {Action::grab,       Action::duplicate,     
                                      Action::add_sphere, Action::add_hollow_sphere, Action::add_box,
                                      Action::add_quad,   Action::add_light,         Action::add_medium};
 
-std::string log_name(const char* name) {
-  std::string word = name;
-  std::replace(word.begin(), word.end(), ' ', '_');
-  return word;
-}
-
 }  // namespace
 
 void ObjectTools::select_all(const ObjectPaths& paths) {
   session_.editor().select(paths);
   set_selected(panels_, paths);
   pacing_.on_event();
-}
-
-bool ObjectTools::requires_selection() {
-  if (!selected().empty()) return false;
-  session_.messages().say("select an object first: click on it");
-  return true;
 }
 
 /// The pixel is one of the picture that is rendered, which may have another size than the scene's file asks for.
@@ -79,29 +67,21 @@ bool ObjectTools::act(Action action) {
     add(static_cast<Addition>(static_cast<int>(action) - static_cast<int>(Action::add_sphere)));
     return true;
   }
-  switch (action) {
-    case Action::add:
-      look_under(mouse_.x, mouse_.y);
-      open_menu("Add here", add_actions);
-      return true;
-    case Action::grab:
-      if (!requires_selection()) handles_.grab(mouse_, selected(), session_.editor().scene());
-      return true;
-    case Action::duplicate:
-      if (!requires_selection()) duplicate();
-      return true;
-    case Action::remove:
-      if (!requires_selection()) remove();
-      return true;
-    case Action::rename:
-      if (!requires_selection()) panels_.rename = true;
-      return true;
-    case Action::own_material:
-      if (!requires_selection()) own_material();
-      return true;
-    default:
-      return false;
+  if (action == Action::add) {
+    look_under(mouse_.x, mouse_.y);
+    open_menu("Add here", add_actions);
+    return true;
   }
+  constexpr Action of_selection[] = {Action::grab, Action::duplicate, Action::remove, Action::rename,
+                                     Action::own_material};
+  if (std::ranges::find(of_selection, action) == std::end(of_selection)) return false;
+  if (selected().empty()) return session_.messages().say("select an object first: click on it"), true;
+  if (action == Action::grab) handles_.grab(mouse_, selected(), session_.editor().scene());
+  if (action == Action::duplicate) duplicate();
+  if (action == Action::remove) remove();
+  if (action == Action::rename) panels_.rename = true;
+  if (action == Action::own_material) own_material();
+  return true;
 }
 
 bool ObjectTools::take_press(const KeyPress& press) {

@@ -1,13 +1,12 @@
 #pragma once
 #include "app/window/actions/actions.h"
-#include "app/window/edit/add_object.h"
 #include "app/window/edit/linked_objects.h"
+#include "app/window/edit/object_list.h"
 #include "app/window/handles/handle_tool.h"
 #include "app/window/menus/menu.h"
 #include "app/window/panels/panels.h"
 #include "app/window/session.h"
 #include "app/window/system/pacing.h"
-#include "app/window/tools/gestures.h"
 #include "app/window/tools/pointer.h"
 
 /// What the user does to objects: selecting, moving, adding, duplicating, deleting, and the menus for it.
@@ -54,7 +53,6 @@ class ObjectTools {
   void duplicate();
   void remove();
   void own_material();
-  bool requires_selection();
   ObjectPaths selected() const { return all_selected(panels_); }
 
   Session& session_;

@@ -1,12 +1,147 @@
 #include "app/window/overlays.h"
 
+#include "app/report/contents.h"
+#include "app/text/progress.h"
 #include "app/window/actions/actions.h"
 #include "app/window/dialog.h"
 #include "app/window/system/imgui_compat.h"
+#include "core/render/clean_film.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tyndall {
+namespace {
+
+constexpr double notable_cut = 1e-3;  // fraction of the throughput above which the status line tells of cut paths
+
+std::string percent(double fraction) {
+  if (!std::isfinite(fraction)) return "?";
+  return fraction < 0.0995 ? fmt::format("{:.2g} %", 100 * fraction) : fmt::format("{:.0f} %", 100 * fraction);
+}
+
+std::string state_of(const Frame* frame, bool paused) {
+  if (paused) return "paused";
+  if (!frame) return "starting";
+  return frame->finished ? "finished" : "rendering";
+}
+
+std::string time_left(const Frame& frame, const ErrorCurve& run) {
+  if (run.edit != frame.edit || run.points.empty()) return "?";
+  const double seconds = seconds_left(0.01, run.points.back(), frame.seconds);
+  return seconds > 0 ? duration(seconds) : "reached";
+}
+
+/// The true error that was measured last of an edit's picture, as it is or clean; "?" where it was not.
+std::string measured(const ErrorCurve* run, std::uint64_t edit) {
+  const bool known = run && run->edit == edit && !run->points.empty();
+  return known ? percent(std::sqrt(std::max(run->points.back().rel_mse, 0.0))) : "?";
+}
+
+/// What a scene lacks to be seen; "": nothing. Without light every error is 0 %, which says nothing.
+std::string missing_in(const Scene& scene) {
+  const Contents contents = contents_of(scene);
+  if (contents.lights > 0 || contents.background != "none") return "";
+  return scene.objects.empty() ? "empty scene: add an object and a lamp" : "no light in this scene: add a lamp";
+}
+
+/// What is said of the errors: of the clean view first, as that is shown.
+void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& state, std::vector<StatusCell>& cells) {
+  if (frame.clean) {
+    cells.push_back({state.is_true ? "true clean" : "clean",
+                     state.is_true ? measured(state.clean_run, frame.edit) : percent(frame.clean->relative_error), 1});
+    if (frame.clean->spp == 0)
+      cells.push_back({"", "coarse at first", 2, true});
+    else if (frame.clean->spp < rough_clean_spp)
+      cells.push_back({"", fmt::format("rough below {} spp", rough_clean_spp), 2, true});
+  }
+  const char* raw = frame.clean ? "raw" : "error";
+  if (state.is_true) cells.push_back({frame.clean ? "true raw" : "true error", measured(&run, frame.edit), 1});
+  cells.push_back({state.is_true ? "estimated" : raw, percent(frame.relative_error), state.is_true ? 3 : 1});
+}
+
+/// Of a picture that another program writes: nothing is rendered, but it may be compared.
+std::vector<StatusCell> cells_of_picture(const Frame* frame, const ErrorCurve& run, const Document& document,
+                                         const StatusState& state) {
+  std::vector<StatusCell> cells{{"", state.arrived, 0}};
+  if (frame) cells.push_back({"", fmt::format("{} x {} pixels", frame->width, frame->height), 3});
+  if (frame && state.is_true) cells.push_back({"true error", measured(&run, frame->edit), 1});
+  cells.push_back({document.origin->title, "", 2});
+  return cells;
+}
+
+}  // namespace
+
+std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
+                                     StatusState state) {
+  if (!state.arrived.empty()) return cells_of_picture(frame, run, document, state);
+  std::vector<StatusCell> cells{{state.split ? "B" : "", state_of(frame, state.paused), 0}};
+  if (frame) {
+    const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
+    cells.push_back({"spp", spp, 1});
+    const std::string missing = missing_in(document.scene);
+    if (missing.empty()) {
+      add_errors(*frame, run, state, cells);
+      cells.push_back({"to 1 %", time_left(*frame, run), 2});
+    } else {
+      cells.push_back({"", missing, 1, true});
+    }
+    cells.push_back({"", fmt::format("{:.{}f} Mrays/s", frame->mrays_per_s, frame->mrays_per_s < 10 ? 1 : 0), 3});
+    cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),
+                     std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});
+    cells.push_back({"film", fmt::format("{:.0f} MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
+    cells.push_back({"rejected", format_count(frame->rejected), frame->rejected > 0 ? 1 : 5, frame->rejected > 0});
+    if (frame->rare_bright_paths) cells.push_back({"not converged", "rare bright paths", 1, true});
+    if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});
+  }
+  cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});
+  cells.push_back({document.origin->title, state.edited ? "edited" : "", 2});
+  return cells;
+}
+
+std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,
+                                       float room) {
+  std::vector<std::size_t> shown(cells.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = i;
+  const auto total = [&] {
+    float sum = 0;
+    for (const std::size_t i : shown) sum += widths[i];
+    return sum;
+  };
+  while (shown.size() > 1 && total() > room)
+    shown.erase(std::max_element(shown.begin(), shown.end(),
+                                 [&](std::size_t a, std::size_t b) { return cells[a].rank < cells[b].rank; }));
+  return shown;
+}
+
+void draw_status(Ui& ui, const Rect& rect, const std::vector<StatusCell>& cells) {
+  if (rect.height() <= 0) return;
+  const float s = ui.scale, gap = 20 * s, inner = 6 * s;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled({rect.x0, rect.y0}, {rect.x1, rect.y1}, shade(palette::ink));
+  compat::push_font(ui.fonts.mono);
+  std::vector<float> widths;
+  const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  for (const StatusCell& cell : cells)
+    widths.push_back(width(cell.key) + width(cell.value) + (!cell.key.empty() && !cell.value.empty() ? inner : 0.0f) +
+                     gap);
+  float x = rect.x0 + 14 * s;
+  const float y = rect.y0 + (rect.height() - ImGui::GetTextLineHeight()) / 2;
+  std::string line;
+  for (const std::size_t i : fitting_cells(cells, widths, rect.width() - 28 * s + gap)) {
+    const StatusCell& cell = cells[i];
+    draw->AddText({x, y}, shade(palette::dim), cell.key.c_str());
+    const float value_at = x + width(cell.key) + (cell.key.empty() ? 0.0f : inner);
+    const Tone colour = cell.warning ? palette::amber : i == 0 ? palette::blue : palette::text;
+    draw->AddText({value_at, y}, shade(colour), cell.value.c_str());
+    x += widths[i];
+    line += (line.empty() ? "" : " | ") + cell.key + (cell.key.empty() ? "" : " ") + cell.value;
+  }
+  ImGui::PopFont();
+  if (ui.log) ui.log->changed("state", cells.front().value);
+}
 
 void draw_message(Ui& ui, const Rect& area, const Message& message) {
   if (message.text.empty() || area.width() <= 0) return;

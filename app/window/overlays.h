@@ -3,7 +3,7 @@
 #include "app/window/document/document.h"
 #include "app/window/document/message.h"
 #include "app/window/panels/widgets.h"
-#include "app/window/tools/outline.h"
+#include "app/window/tools/projection.h"
 #include "core/render/frame.h"
 
 #include <string>

@@ -4,7 +4,9 @@
 #include "app/window/menus/row_list.h"
 #include "app/window/panels/panels.h"
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <utility>
 
 namespace tyndall {
@@ -73,6 +75,23 @@ std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& sel
     lines.push_back({std::string("go to: ") + tab.name, "", words_for(tab.name), {Action::section, k++}});
   for (const std::string& what : scenes) lines.push_back({"open: " + what, "", "scene", {Action::scene, 0, what}});
   return lines;
+}
+
+bool requires_scene(const Request& request) {
+  constexpr Action of_scenes[] = {
+      Action::frame,        Action::reset_camera, Action::pause,        Action::restart,
+      Action::save,         Action::save_as,      Action::clean,        Action::clean_beside_raw,
+      Action::split,        Action::grab,         Action::add,          Action::duplicate,
+      Action::remove,       Action::rename,       Action::own_material, Action::replay,
+      Action::refine_first, Action::store_camera, Action::next_camera,  Action::render_reference};
+  if (request.action == Action::view) return view_entry(request.number).view != View::beauty;
+  if (request.action == Action::section)
+    return is_part_of_scene(column_tabs()[static_cast<std::size_t>(request.number)].name);
+  if (request.action == Action::row) {
+    const RowEntry& row = row_entries()[static_cast<std::size_t>(request.number)];
+    return is_part_of_scene(row.part) || row.label == "Clean";
+  }
+  return is_addition(request.action) || std::ranges::find(of_scenes, request.action) != std::end(of_scenes);
 }
 
 }  // namespace tyndall

@@ -1,12 +1,12 @@
 #pragma once
 #include "app/window/actions/actions.h"
-#include "app/window/document/object_path.h"
-#include "app/window/menus/palette.h"
+#include "app/window/document/document.h"
+#include "app/window/menus/menu.h"
 
 #include <string>
 #include <vector>
 
-/// All that the palette offers.
+/// All that the palette offers, and which requests are about a scene.
 namespace tyndall {
 
 /// Actions, rows of the column, views, parts of the column and scenes. Rows that the column does not show while this
@@ -14,5 +14,8 @@ namespace tyndall {
 /// can be opened, for load_scene.
 std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& selected,
                                        const std::vector<std::string>& scenes);
+
+/// Whether a request is about a scene, or about rendering it: a picture without one has nothing to answer.
+bool requires_scene(const Request& request);
 
 }  // namespace tyndall

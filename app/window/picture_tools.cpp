@@ -1,7 +1,7 @@
 #include "app/window/picture_tools.h"
 
 #include "app/window/accuracy/views.h"
-#include "app/window/inspector/legend.h"
+#include "app/window/inspector/drawings.h"
 #include "app/window/system/imgui_compat.h"
 
 #include <fmt/core.h>
@@ -11,30 +11,21 @@
 namespace tyndall {
 
 bool PictureTools::act(Action action) {
-  switch (action) {
-    case Action::actual_size:
-      zoom_.toggle(mouse_.x, mouse_.y);
-      break;
-    case Action::inspect:
-      inspector_.set_on(!inspector_.on());
-      break;
-    case Action::replay:
-      inspector_.set_on(true);
-      inspector_.find_path(session_.renderers(), session_.wanted().scene);
-      break;
-    case Action::refine_first:
-      refine();
-      break;
-    case Action::store_camera:
-      store_camera(panels_.cameras[panels_.model.title], session_.editor().scene().camera, panels_.model.frame.get(),
-                   session_.editor().scene().display);
-      break;
-    case Action::next_camera:
-      look_through_next();
-      break;
-    default:
-      return false;
-  }
+  const Scene& scene = session_.editor().scene();
+  if (action == Action::actual_size)
+    zoom_.toggle(mouse_.x, mouse_.y);
+  else if (action == Action::inspect)
+    inspector_.set_on(!inspector_.on());
+  else if (action == Action::replay)
+    inspector_.set_on(true), inspector_.find_path(session_.renderers(), session_.wanted().scene);
+  else if (action == Action::refine_first)
+    refine();
+  else if (action == Action::store_camera)
+    store_camera(panels_.cameras[panels_.model.title], scene.camera, panels_.model.frame.get(), scene.display);
+  else if (action == Action::next_camera)
+    look_through_next();
+  else
+    return false;
   return true;
 }
 

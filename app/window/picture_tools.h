@@ -3,10 +3,10 @@
 #include "app/window/inspector/inspector.h"
 #include "app/window/inspector/rectangle_tool.h"
 #include "app/window/panels/panels.h"
-#include "app/window/picture/zoom.h"
+#include "app/window/picture/display.h"
 #include "app/window/session.h"
 #include "app/window/system/pacing.h"
-#include "app/window/tools/gestures.h"
+#include "app/window/tools/pointer.h"
 
 #include <functional>
 

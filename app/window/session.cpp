@@ -2,9 +2,8 @@
 
 #include "app/curves/chart.h"
 #include "app/window/document/open_document.h"
-#include "app/window/document/snapshot.h"
 #include "core/base/error.h"
-#include "core/scene/change.h"
+#include "core/scene/scene.h"
 #include "core/system/processors.h"
 
 #include <algorithm>

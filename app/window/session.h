@@ -2,8 +2,8 @@
 #include "app/window/accuracy/references.h"
 #include "app/window/document/autosave.h"
 #include "app/window/document/numbered_files.h"
-#include "app/window/document/send_timer.h"
 #include "app/window/rendering/renderer_pair.h"
+#include "app/window/system/pacing.h"
 #include "app/window/system/preferences.h"
 #include "app/window/window.h"
 
@@ -32,8 +32,6 @@ class Session {
   Session(const WindowOptions& options, const std::function<void()>& wake, std::function<void()> on_frame, UiLog* log);
   /// Finishes what is being saved.
   ~Session();
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
 
   Editor& editor() { return editor_; }
   const Editor& editor() const { return editor_; }

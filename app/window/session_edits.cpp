@@ -1,8 +1,11 @@
 #include "app/window/session.h"
 
+#include <fmt/core.h>
+
 #include <utility>
 
-/// Edits that are in no file yet: what a session does so that they are not lost, and what it says of them.
+/// What a session does so that edits that are in no file yet are not lost, and what it says of them; and what it does
+/// as the rows of a picture come that another program writes, in place of a scene.
 namespace tyndall {
 
 /// Goes on with edits that a window before this one did not save: with those of the scene that is opened, or of any.
@@ -65,6 +68,22 @@ const Document* Session::unsaved() const {
 void Session::discard_edits() {
   discarded_ = true;
   kept_.keep(nullptr, nullptr);
+}
+
+/// Takes what has come since the last time. Whether anything has.
+bool Session::collect_rows() {
+  if (!picture_) return false;
+  const Arrival before = std::exchange(arrival_, picture_->arrival());
+  if (arrival_ == before) return false;
+  if (shows_picture()) ++wanted_.restarts;
+  if (arrival_.said != before.said) messages_.say(arrival_.said, true);
+  return true;
+}
+
+std::string Session::arrived() const {
+  if (!shows_picture()) return "";
+  if (arrival_.rows == picture_->height()) return fmt::format("all {} rows", arrival_.rows);
+  return fmt::format("{} {} of {}", arrival_.ended ? "ended at row" : "row", arrival_.rows, picture_->height());
 }
 
 }  // namespace tyndall

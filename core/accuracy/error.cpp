@@ -1,6 +1,6 @@
 #include "core/accuracy/error.h"
 
-#include "core/accuracy/relative.h"
+#include "core/base/text.h"
 #include "core/film/groups.h"
 #include "core/image/tonemap.h"
 
@@ -48,16 +48,45 @@ double displayed(float linear) {
   return static_cast<double>(srgb_encode(linear > 1 ? 1.0f : linear));
 }
 
+/// The pixel's position as "X,Y", and its first value that is not finite.
+std::string place_text(const LinearImage& image, std::size_t pixel) {
+  constexpr const char* channels[] = {"red", "green", "blue"};
+  const float* rgb = image.rgb.data() + 3 * pixel;
+  const float* wrong = std::find_if_not(rgb, rgb + 3, [](float v) { return std::isfinite(v); });
+  const int width = image.width, x = static_cast<int>(pixel % static_cast<std::size_t>(width)),
+            y = static_cast<int>(pixel / static_cast<std::size_t>(width));
+  const Region at = image.frame ? image.frame->data : Region{};
+  return std::to_string(at.x0 + x) + "," + std::to_string(at.y0 + y) + " (" + channels[wrong - rgb] + " is " +
+         number_text(static_cast<double>(*wrong)) + ")";
+}
+
+double grey(Vec3f v) { return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3; }
+
+double deviation_of_half(const Film& film, const FilmPixel& pixel) {
+  return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
+}
+
+struct RegionSum {
+  double value = 0, variance = 0;
+  bool whole = true;  ///< both halves of every pixel have samples
+
+  RegionSum(const Film& film, const Region& region) {
+    const auto deviation = [&](const FilmPixel& pixel) {
+      whole = whole && counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
+      value += grey(mean(film, pixel));
+      return deviation_of_half(film, pixel);
+    };
+    for (const double group : group_sums(film, region, deviation)) variance += square(group);
+  }
+};
+
 }  // namespace
 
 FilmMean film_mean(const Film& film) {
-  const auto grey = [](Vec3f v) {
-    return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3;
-  };
   double sum = 0, variance = 0;
   const auto deviation = [&](const FilmPixel& pixel) {
     if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
-    return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
+    return deviation_of_half(film, pixel);
   };
   for (const FilmPixel& pixel : film.pixels) sum += grey(mean(film, pixel));
   for (const double group : group_sums(film, film.region, deviation)) variance += square(group);
@@ -75,9 +104,8 @@ std::vector<float> root_window_means(const std::vector<double>& squares, int wid
   for (int x = 0; x < width; ++x) sum_window(&sums[static_cast<std::size_t>(x)], height, stride, reach, row);
   std::vector<float> errors;
   errors.reserve(sums.size());
-  for (const Sum& sum : sums) {
+  for (const Sum& sum : sums)
     errors.push_back(static_cast<float>(sum.count == 0 ? infinity : std::sqrt(sum.value / sum.count)));
-  }
   return errors;
 }
 
@@ -140,6 +168,47 @@ ImageError image_error(const std::vector<float>& image, const std::vector<float>
   error.mean_image = mean_of(sum_image);
   error.mean_reference = mean_of(sum_reference);
   return error;
+}
+
+bool is_finite(const LinearImage& image, std::size_t pixel) {
+  const float* rgb = image.rgb.data() + 3 * pixel;
+  return std::isfinite(rgb[0]) && std::isfinite(rgb[1]) && std::isfinite(rgb[2]);
+}
+
+std::string not_finite_text(const LinearImage& image) {
+  const std::size_t pixels = image.rgb.size() / 3;
+  std::size_t wrong = 0, first = 0;
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (!is_finite(image, i) && wrong++ == 0) first = i;
+  if (wrong == 0) return "";
+  return std::to_string(wrong) + " of " + std::to_string(pixels) + " pixels " + (wrong == 1 ? "is" : "are") +
+         " not finite, the first at " + place_text(image, first);
+}
+
+BlockScores block_scores(const Film& a, const Film& b, int edge) {
+  BlockScores scores;
+  if (!(a.region == b.region)) return scores;
+  const Region& r = a.region;
+  double squares = 0;
+  for (int y0 = r.y0; y0 < r.y1; y0 += edge)
+    for (int x0 = r.x0; x0 < r.x1; x0 += edge) {
+      const Region block{x0, y0, std::min(x0 + edge, r.x1), std::min(y0 + edge, r.y1)};
+      const RegionSum of_a(a, block), of_b(b, block);
+      if (!of_a.whole || !of_b.whole) return {};
+      const double difference = of_a.value - of_b.value, variance = of_a.variance + of_b.variance;
+      if (variance == 0 && difference == 0) continue;
+      const double z2 = variance > 0 ? difference * difference / variance : infinity;
+      scores.worst = std::max(scores.worst, std::sqrt(z2));
+      squares += z2;
+      ++scores.blocks;
+    }
+  if (scores.blocks == 0) return scores;
+  scores.mean_square = squares / scores.blocks;
+  // The standard errors are estimated, too, from one number for each group of both films: z follows Student's t
+  // distribution, whose variance is freedom / (freedom - 2).
+  const double freedom = 2.0 * edge * edge / group_size;
+  scores.maximum = freedom / (freedom - 2) + 4 * std::sqrt(2.0 / scores.blocks);
+  return scores;
 }
 
 }  // namespace tyndall

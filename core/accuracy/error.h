@@ -1,10 +1,20 @@
 #pragma once
 #include "core/film/film.h"
+#include "core/image/image.h"
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
-/// The error of a picture against another one. For the likely error against the truth see estimate.h.
+/// The error of a picture against another one, and its values that are not finite: NaN, which equals nothing, not even
+/// itself, and infinities. For the likely error against the truth see estimate.h.
 namespace tyndall {
+
+inline constexpr double floor_of_square = 0.01;  ///< added to squared levels: keeps black pixels from dominating
+
+/// For each pixel the root of the mean of these squares over the 7 x 7 pixels around it. Infinite squares are left out;
+/// the result is infinite where all are infinite.
+std::vector<float> root_window_means(const std::vector<double>& squares, int width, int height);
 
 /// The true relative error of each pixel of an image, from the 7 x 7 pixels around it, by the formula of relMSE. Both
 /// images: 3 floats a pixel, linear.
@@ -39,5 +49,26 @@ struct OutsideError {
 };
 /// Values that are not finite are left out.
 OutsideError outside_error(const std::vector<float>& image, const std::vector<float>& reference);
+
+/// Whether the pixel of that index, top row first, is finite in all channels.
+bool is_finite(const LinearImage& image, std::size_t pixel);
+
+/// "3 of 256 pixels are not finite, the first at 5,0 (red is nan)"; empty if all values are finite.
+std::string not_finite_text(const LinearImage& image);
+
+/// Whether two pictures differ by more than their noise. They are compared block by block, because a bias too small to
+/// be seen in one pixel shows in the mean of many. z of a block: the difference between the mean grey values, divided
+/// by its standard error, which follows from the halves of both films.
+struct BlockScores {
+  int blocks = 0;          ///< number of compared blocks; blocks that are equal and without noise are left out
+  double mean_square = 0;  ///< of z; about 1 if the pictures differ by noise alone
+  double maximum = 0;      ///< largest mean_square that noise explains: 4 standard deviations above its expected value
+  double worst = 0;        ///< largest |z|; infinite if a block without noise differs
+  bool noise() const { return mean_square <= maximum && worst < 1e300; }
+};
+
+/// Both films must have the same region, and samples in both halves of every pixel; otherwise there are no blocks.
+/// edge: of a block, in pixels; a multiple of 16 keeps groups whole (film/groups.h).
+BlockScores block_scores(const Film& a, const Film& b, int edge = 16);
 
 }  // namespace tyndall

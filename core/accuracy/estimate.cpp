@@ -1,6 +1,6 @@
 #include "core/accuracy/estimate.h"
 
-#include "core/accuracy/relative.h"
+#include "core/accuracy/error.h"
 
 #include <algorithm>
 #include <array>
@@ -273,6 +273,13 @@ std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread
 
 std::vector<float> pixel_relative_error(const Film& film, ThreadPool* thread_pool) {
   return root_window_means(squared_relative_errors(film, thread_pool), film.region.width(), film.region.height());
+}
+
+bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance) {
+  if (spp < min_rare_spp) return false;
+  // chance · spp: mean number of paths a pixel that have met such light. Measured: from half a path on, the estimate is
+  // within a fifth of the true error.
+  return chance * spp < 0.5 || estimate.rests_on_few_pixels;
 }
 
 }  // namespace tyndall

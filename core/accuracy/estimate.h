@@ -3,6 +3,7 @@
 #include "core/base/thread_pool.h"
 #include "core/film/film.h"
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -59,5 +60,15 @@ std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread
 /// The estimated relative error of each pixel of the region, from the 7 x 7 pixels around it. Pixels with an empty half
 /// are left out; the result is infinite where all have one.
 std::vector<float> pixel_relative_error(const Film& film, ThreadPool* thread_pool = nullptr);
+
+inline constexpr std::uint32_t min_rare_spp = 2;
+
+/// Whether a picture is not converged, whatever its estimated error: few pixels, or none yet, have met light that only
+/// rare paths carry. estimate: of the film; spp: samples that every pixel has; chance: see chance_of_caustics. False
+/// below min_rare_spp, when there is no estimate.
+bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance);
+
+/// The warning for users in that case.
+inline constexpr const char* rare_bright_paths = "not converged: rare bright paths";
 
 }  // namespace tyndall

@@ -2,7 +2,29 @@
 
 #include "core/base/text.h"
 
+#include <sys/resource.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+
 namespace tyndall {
+namespace {
+
+/// The soft limit of a resource; 0: none.
+std::uint64_t limit_of(decltype(RLIMIT_AS) resource) {
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return 0;
+  return limit.rlim_cur;
+}
+
+std::string gigabytes(std::uint64_t bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g GB", 1e-9 * static_cast<double>(bytes));
+  return text.data();
+}
+
+}  // namespace
 
 SceneError::SceneError(const std::string& file, const std::string& where, const std::string& found,
                        const std::string& expected)
@@ -11,5 +33,20 @@ SceneError::SceneError(const std::string& file, const std::string& where, const 
 
 SceneError::SceneError(const std::string& file, const std::string& found, const std::string& expected)
     : runtime_error(printable(file) + ": found " + printable(found) + ", expected " + printable(expected, 600)) {}
+
+std::string memory_limit_text() {
+  const std::uint64_t space = limit_of(RLIMIT_AS), data = limit_of(RLIMIT_DATA);
+  std::string text;
+  if (space > 0) text += " (the address space is limited to " + gigabytes(space) + ": ulimit -v)";
+  if (data > 0) text += " (data are limited to " + gigabytes(data) + ": ulimit -d)";
+  return text;
+}
+
+std::string thread_limit_text() {
+  const std::uint64_t threads = limit_of(RLIMIT_NPROC);
+  const std::string memory = memory_limit_text();
+  return (threads > 0 ? "; this user may have " + std::to_string(threads) + " threads and processes: ulimit -u" : "") +
+         (memory.empty() ? "" : ";" + memory);
+}
 
 }  // namespace tyndall

@@ -2,7 +2,8 @@
 #include <stdexcept>
 #include <string>
 
-/// Errors that are told to the user in one line. main() turns each kind into its exit code.
+/// Errors that are told to the user in one line, and the limits of the system that they name. main() turns each kind of
+/// error into its exit code.
 namespace tyndall {
 
 /// A scene that cannot be rendered: the user has to change it. what() is one line without control characters; long
@@ -18,5 +19,11 @@ struct SceneError : std::runtime_error {
 struct IoError : std::runtime_error {
   using runtime_error::runtime_error;
 };
+
+/// The limits of memory that are set for this process, as messages add them: " (the address space is limited to 0.3 GB:
+/// ulimit -v)"; "" if there are none.
+std::string memory_limit_text();
+/// Those that can keep a thread from starting: "; this user may have 64 threads and processes: ulimit -u".
+std::string thread_limit_text();
 
 }  // namespace tyndall

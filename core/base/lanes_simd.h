@@ -51,6 +51,12 @@ TYNDALL_INLINE int append(std::int32_t* to, Ints a, Mask lanes) {
   return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
 }
 
+/// The sums of lanes 0 and 1, 2 and 3, … of `a`, then those of `b`. (core/clean/cells.h has it for plain numbers.)
+TYNDALL_INLINE Floats pair_sums(Floats a, Floats b) {
+  const TagF tag;
+  return hn::Add(hn::ConcatEven(tag, b.v, a.v), hn::ConcatOdd(tag, b.v, a.v));
+}
+
 }  // namespace HWY_NAMESPACE
 
 template <>
@@ -68,15 +74,11 @@ TYNDALL_INLINE F from_int(IntOf<F> v) {
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
-  F r;
-  r.v = HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagF(), table, index.v);
-  return r;
+  return HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagF(), table, index.v);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
-  IntOf<F> r;
-  r.v = HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagI(), table, index.v);
-  return r;
+  return HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagI(), table, index.v);
 }
 #if HWY_TARGET == HWY_AVX3
 namespace HWY_NAMESPACE {
@@ -102,68 +104,51 @@ TYNDALL_INLINE __m512i lookup_in_vectors(const void* entries, int count, __m512i
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= HWY_NAMESPACE::max_in_vectors) {
-    F r;
-    r.v.raw = _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw));
-    return r;
-  }
+  if (count <= HWY_NAMESPACE::max_in_vectors)
+    return HWY_NAMESPACE::hn::Vec<HWY_NAMESPACE::TagF>{
+        _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw))};
 #endif
   return gather<F>(table, index);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= HWY_NAMESPACE::max_in_vectors) {
-    IntOf<F> r;
-    r.v.raw = HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw);
-    return r;
-  }
+  if (count <= HWY_NAMESPACE::max_in_vectors)
+    return HWY_NAMESPACE::hn::Vec<HWY_NAMESPACE::TagI>{HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw)};
 #endif
   return gather_int<F>(table, index);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F load(const float* from) {
-  F r;
-  r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagF(), from);
-  return r;
+  return HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagF(), from);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
-  IntOf<F> r;
-  r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagI(), from);
-  return r;
+  return HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagI(), from);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
-  UintOf<F> r;
-  r.v = HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from);
-  return r;
+  return HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from);
 }
 // From AVX2 on: these sets can load a part of the lanes.
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 requires(lanes_of<F> >= 8) TYNDALL_INLINE F load_some(const float* from, int count) {
-  F r;
   const HWY_NAMESPACE::TagF tag;
-  r.v = HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
-  return r;
+  return HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 requires(lanes_of<F> >= 8) TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
-  IntOf<F> r;
   const HWY_NAMESPACE::TagI tag;
-  r.v = HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
-  return r;
+  return HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
-  MaskOf<F> m;
 #if HWY_TARGET == HWY_AVX3
-  m.v.raw = static_cast<__mmask16>(b);
+  return HWY_NAMESPACE::hn::Mask<HWY_NAMESPACE::TagF>{static_cast<__mmask16>(b)};
 #else
   alignas(8) std::uint8_t bytes[8] = {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(b >> 8)};
-  m.v = HWY_NAMESPACE::hn::LoadMaskBits(HWY_NAMESPACE::TagF(), bytes);
+  return HWY_NAMESPACE::hn::LoadMaskBits(HWY_NAMESPACE::TagF(), bytes);
 #endif
-  return m;
 }
 
 }  // namespace tyndall

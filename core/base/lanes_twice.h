@@ -11,6 +11,51 @@ struct Twice {
   Twice() = default;
   TYNDALL_INLINE Twice(T first, T second) : a(first), b(second) {}
   TYNDALL_INLINE Twice(typename T::Scalar value) : a(value), b(value) {}
+
+  // "tyndall::Twice" is a pair of whatever its arguments are; "Twice" is this very type.
+  TYNDALL_INLINE friend Twice operator+(Twice x, Twice y) { return {x.a + y.a, x.b + y.b}; }
+  TYNDALL_INLINE friend Twice operator-(Twice x, Twice y) { return {x.a - y.a, x.b - y.b}; }
+  TYNDALL_INLINE friend Twice operator*(Twice x, Twice y) { return {x.a * y.a, x.b * y.b}; }
+  TYNDALL_INLINE friend Twice operator/(Twice x, Twice y) { return {x.a / y.a, x.b / y.b}; }
+  TYNDALL_INLINE friend Twice operator&(Twice x, Twice y) { return {x.a & y.a, x.b & y.b}; }
+  TYNDALL_INLINE friend Twice operator^(Twice x, Twice y) { return {x.a ^ y.a, x.b ^ y.b}; }
+  TYNDALL_INLINE friend Twice operator|(Twice x, Twice y) { return {x.a | y.a, x.b | y.b}; }
+  TYNDALL_INLINE friend auto operator<(Twice x, Twice y) { return tyndall::Twice(x.a < y.a, x.b < y.b); }
+  TYNDALL_INLINE friend auto operator<=(Twice x, Twice y) { return tyndall::Twice(x.a <= y.a, x.b <= y.b); }
+  TYNDALL_INLINE friend auto operator==(Twice x, Twice y) { return tyndall::Twice(x.a == y.a, x.b == y.b); }
+  TYNDALL_INLINE friend Twice operator-(Twice x) { return {-x.a, -x.b}; }
+  TYNDALL_INLINE friend Twice mask_and(Twice x, Twice y) { return {mask_and(x.a, y.a), mask_and(x.b, y.b)}; }
+  TYNDALL_INLINE friend Twice mask_or(Twice x, Twice y) { return {mask_or(x.a, y.a), mask_or(x.b, y.b)}; }
+  TYNDALL_INLINE friend Twice mask_and_not(Twice x, Twice y) {
+    return {mask_and_not(x.a, y.a), mask_and_not(x.b, y.b)};
+  }
+  TYNDALL_INLINE friend Twice mask_not(Twice x) { return {mask_not(x.a), mask_not(x.b)}; }
+  TYNDALL_INLINE friend bool any(Twice x) { return any(mask_or(x.a, x.b)); }
+  TYNDALL_INLINE friend bool all(Twice x) { return all(mask_and(x.a, x.b)); }
+  TYNDALL_INLINE friend std::uint32_t bits(Twice x) { return bits(x.a) | bits(x.b) << T::lanes; }
+  TYNDALL_INLINE friend Twice min(Twice x, Twice y) { return {min(x.a, y.a), min(x.b, y.b)}; }
+  TYNDALL_INLINE friend Twice max(Twice x, Twice y) { return {max(x.a, y.a), max(x.b, y.b)}; }
+  TYNDALL_INLINE friend Twice copy_sign(Twice x, Twice y) { return {copy_sign(x.a, y.a), copy_sign(x.b, y.b)}; }
+  TYNDALL_INLINE friend Twice abs(Twice x) { return {abs(x.a), abs(x.b)}; }
+  TYNDALL_INLINE friend Twice sqrt(Twice x) { return {sqrt(x.a), sqrt(x.b)}; }
+  TYNDALL_INLINE friend Twice floor(Twice x) { return {floor(x.a), floor(x.b)}; }
+  TYNDALL_INLINE friend Twice mul_add(Twice x, Twice y, Twice z) {
+    return {mul_add(x.a, y.a, z.a), mul_add(x.b, y.b, z.b)};
+  }
+  TYNDALL_INLINE friend Twice neg_mul_add(Twice x, Twice y, Twice z) {
+    return {neg_mul_add(x.a, y.a, z.a), neg_mul_add(x.b, y.b, z.b)};
+  }
+  TYNDALL_INLINE friend auto to_int(Twice x) { return tyndall::Twice(to_int(x.a), to_int(x.b)); }
+  TYNDALL_INLINE friend auto float_from_int(Twice x) {
+    return tyndall::Twice(float_from_int(x.a), float_from_int(x.b));
+  }
+  TYNDALL_INLINE friend auto as_uint(Twice x) { return tyndall::Twice(as_uint(x.a), as_uint(x.b)); }
+  TYNDALL_INLINE friend auto as_int(Twice x) { return tyndall::Twice(as_int(x.a), as_int(x.b)); }
+  TYNDALL_INLINE friend auto float_bits(Twice x) { return tyndall::Twice(float_bits(x.a), float_bits(x.b)); }
+  TYNDALL_INLINE friend auto float_from_bits(Twice x) {
+    return tyndall::Twice(float_from_bits(x.a), float_from_bits(x.b));
+  }
+  TYNDALL_INLINE friend float min_lane(Twice x) { return min_lane(min(x.a, x.b)); }
 };
 
 template <class T>
@@ -22,140 +67,11 @@ requires(LaneTypes<T>::lanes > 1) struct LaneTypes<Twice<T>> {
   static constexpr int lanes = 2 * lanes_of<T>;
 };
 
-template <class T>
-TYNDALL_INLINE Twice<T> operator+(Twice<T> x, Twice<T> y) {
-  return {x.a + y.a, x.b + y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator-(Twice<T> x, Twice<T> y) {
-  return {x.a - y.a, x.b - y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator*(Twice<T> x, Twice<T> y) {
-  return {x.a * y.a, x.b * y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator/(Twice<T> x, Twice<T> y) {
-  return {x.a / y.a, x.b / y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator&(Twice<T> x, Twice<T> y) {
-  return {x.a & y.a, x.b & y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator^(Twice<T> x, Twice<T> y) {
-  return {x.a ^ y.a, x.b ^ y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator|(Twice<T> x, Twice<T> y) {
-  return {x.a | y.a, x.b | y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<decltype(T() < T())> operator<(Twice<T> x, Twice<T> y) {
-  return {x.a < y.a, x.b < y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<decltype(T() <= T())> operator<=(Twice<T> x, Twice<T> y) {
-  return {x.a <= y.a, x.b <= y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<decltype(T() == T())> operator==(Twice<T> x, Twice<T> y) {
-  return {x.a == y.a, x.b == y.b};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> operator-(Twice<T> x) {
-  return {-x.a, -x.b};
-}
-
-template <class T>
-TYNDALL_INLINE Twice<T> mask_and(Twice<T> x, Twice<T> y) {
-  return {mask_and(x.a, y.a), mask_and(x.b, y.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> mask_or(Twice<T> x, Twice<T> y) {
-  return {mask_or(x.a, y.a), mask_or(x.b, y.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> mask_and_not(Twice<T> x, Twice<T> y) {
-  return {mask_and_not(x.a, y.a), mask_and_not(x.b, y.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> mask_not(Twice<T> x) {
-  return {mask_not(x.a), mask_not(x.b)};
-}
-template <class T>
-TYNDALL_INLINE bool any(Twice<T> x) {
-  return any(mask_or(x.a, x.b));
-}
-template <class T>
-TYNDALL_INLINE bool all(Twice<T> x) {
-  return all(mask_and(x.a, x.b));
-}
-template <class T>
-TYNDALL_INLINE std::uint32_t bits(Twice<T> x) {
-  return bits(x.a) | bits(x.b) << T::lanes;
-}
 template <class M, class T>
 TYNDALL_INLINE Twice<T> select(Twice<M> m, Twice<T> x, Twice<T> y) {
   return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 
-template <class T>
-TYNDALL_INLINE Twice<T> min(Twice<T> x, Twice<T> y) {
-  return {min(x.a, y.a), min(x.b, y.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> max(Twice<T> x, Twice<T> y) {
-  return {max(x.a, y.a), max(x.b, y.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> copy_sign(Twice<T> x, Twice<T> y) {
-  return {copy_sign(x.a, y.a), copy_sign(x.b, y.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> abs(Twice<T> x) {
-  return {abs(x.a), abs(x.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> sqrt(Twice<T> x) {
-  return {sqrt(x.a), sqrt(x.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> floor(Twice<T> x) {
-  return {floor(x.a), floor(x.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> mul_add(Twice<T> x, Twice<T> y, Twice<T> z) {
-  return {mul_add(x.a, y.a, z.a), mul_add(x.b, y.b, z.b)};
-}
-template <class T>
-TYNDALL_INLINE Twice<T> neg_mul_add(Twice<T> x, Twice<T> y, Twice<T> z) {
-  return {neg_mul_add(x.a, y.a, z.a), neg_mul_add(x.b, y.b, z.b)};
-}
-template <class T>
-TYNDALL_INLINE auto to_int(Twice<T> x) {
-  return Twice<decltype(to_int(x.a))>{to_int(x.a), to_int(x.b)};
-}
-template <class T>
-TYNDALL_INLINE auto float_from_int(Twice<T> x) {
-  return Twice<decltype(float_from_int(x.a))>{float_from_int(x.a), float_from_int(x.b)};
-}
-template <class T>
-TYNDALL_INLINE auto as_uint(Twice<T> x) {
-  return Twice<decltype(as_uint(x.a))>{as_uint(x.a), as_uint(x.b)};
-}
-template <class T>
-TYNDALL_INLINE auto as_int(Twice<T> x) {
-  return Twice<decltype(as_int(x.a))>{as_int(x.a), as_int(x.b)};
-}
-template <class T>
-TYNDALL_INLINE auto float_bits(Twice<T> x) {
-  return Twice<decltype(float_bits(x.a))>{float_bits(x.a), float_bits(x.b)};
-}
-template <class T>
-TYNDALL_INLINE auto float_from_bits(Twice<T> x) {
-  return Twice<decltype(float_from_bits(x.a))>{float_from_bits(x.a), float_from_bits(x.b)};
-}
 template <int by, class T>
 TYNDALL_INLINE Twice<T> shift_left(Twice<T> x) {
   return {shift_left<by>(x.a), shift_left<by>(x.b)};
@@ -163,10 +79,6 @@ TYNDALL_INLINE Twice<T> shift_left(Twice<T> x) {
 template <int by, class T>
 TYNDALL_INLINE Twice<T> shift_right(Twice<T> x) {
   return {shift_right<by>(x.a), shift_right<by>(x.b)};
-}
-template <class T>
-TYNDALL_INLINE float min_lane(Twice<T> x) {
-  return min_lane(min(x.a, x.b));
 }
 template <class S, class T>
 TYNDALL_INLINE void store(S* to, Twice<T> x) {

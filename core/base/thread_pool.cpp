@@ -1,8 +1,6 @@
 #include "core/base/thread_pool.h"
 
 #include "core/base/error.h"
-#include "core/base/limits.h"
-#include "core/base/thread_pool_memory.h"
 #include "core/system/processors.h"
 
 #include <cassert>

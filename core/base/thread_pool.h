@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -20,8 +21,6 @@ class ThreadPool {
   /// allow so many threads.
   explicit ThreadPool(int size);
   ~ThreadPool();
-  ThreadPool(const ThreadPool&) = delete;
-  ThreadPool& operator=(const ThreadPool&) = delete;
 
   int size() const { return static_cast<int>(threads_.size()); }
 
@@ -42,5 +41,10 @@ class ThreadPool {
   std::exception_ptr failure_;            ///< what a job of this round threw first
   std::vector<StoppableThread> threads_;  // declared last, so that the threads end before what they use goes
 };
+
+/// Returns the pointer in which jobs keep memory on the calling pool thread from one job to the next; null at first.
+/// Only one kind of job may use it. (A thread_local with a destructor would end the program where there is no memory to
+/// register the destructor.)
+std::shared_ptr<void>& thread_pool_memory();
 
 }  // namespace tyndall

@@ -1,7 +1,6 @@
 // The filter for AVX2: 8 lanes. This file is compiled with flags that older CPUs cannot run, so it may contain nothing
 // but the filter.
 #include "core/base/lanes_simd.h"
-#include "core/base/lanes_simd_pairs.h"
 #include "core/clean/filter_entry.h"
 
 namespace tyndall::filter {

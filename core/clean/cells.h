@@ -6,7 +6,7 @@
 /// and sums the products of each two columns.
 namespace tyndall::filter {
 
-/// The sum of two numbers; base/lanes_simd_pairs.h has the version for groups of lanes.
+/// The sum of two numbers; base/lanes_simd.h has the version for groups of lanes.
 TYNDALL_INLINE float pair_sums(float a, float b) { return a + b; }
 
 TYNDALL_INLINE int minimum(int a, int b) { return a < b ? a : b; }

@@ -1,6 +1,5 @@
 // The filter for NEON, which every 64-bit ARM processor has: 4 lanes.
 #include "core/base/lanes_simd.h"
-#include "core/base/lanes_simd_pairs.h"
 #include "core/clean/filter_entry.h"
 
 namespace tyndall::filter {

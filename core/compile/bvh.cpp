@@ -1,7 +1,5 @@
 #include "core/compile/bvh.h"
 
-#include "core/compile/bvh_binary.h"
-
 #include <algorithm>
 #include <array>
 #include <cassert>

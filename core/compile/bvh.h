@@ -1,5 +1,5 @@
 #pragma once
-#include "core/compile/bvh_input.h"
+#include "core/compile/bvh_binary.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,10 +1,27 @@
 #pragma once
-#include "core/compile/bvh_input.h"
+#include "core/base/vec.h"
 
+#include <cstdint>
 #include <vector>
 
-/// The binary tree from which build_bvh() makes a tree of up to eight children a node.
+/// What trees are built from, and the binary tree from which build_bvh() makes a tree of up to eight children a node.
 namespace tyndall {
+
+struct Bounds {
+  Vec3f low, high;
+  bool operator==(const Bounds&) const = default;
+};
+
+/// Kinds of primitives in leaves.
+enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box };
+inline constexpr int primitive_kinds = static_cast<int>(PrimitiveKind::box) + 1;
+
+/// A primitive as the builder sees it.
+struct BvhInput {
+  Bounds bounds;  ///< finite; exact or wider
+  PrimitiveKind kind;
+  bool operator==(const BvhInput&) const = default;
+};
 
 struct BinaryNode {
   Bounds bounds;

@@ -12,7 +12,7 @@ void push(std::vector<float> (&columns)[3], Vec3d v);
 
 /// Of the whole lens, scene units; 0: a pinhole.
 double lens_radius(const Camera& camera);
-/// Fills in all but the surface on which the camera stands: see camera_surface.h.
+/// Fills in all but the surface on which the camera stands: see surroundings.h.
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);

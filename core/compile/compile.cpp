@@ -1,11 +1,10 @@
 #include "core/compile/compile.h"
 
-#include "core/compile/camera_surface.h"
 #include "core/compile/columns.h"
-#include "core/compile/enclosing_walls.h"
+#include "core/compile/flatten.h"
 #include "core/compile/lights.h"
-#include "core/compile/scene_features.h"
 #include "core/compile/specular_pairs.h"
+#include "core/compile/surroundings.h"
 #include "core/film/film.h"
 
 #include <algorithm>

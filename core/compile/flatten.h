@@ -1,12 +1,13 @@
 #pragma once
-#include "core/compile/object_tree.h"
+#include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
 #include <optional>
 #include <variant>
 #include <vector>
 
-/// The first half of compiling: resolves groups and transforms, in double and in world space.
+/// The first half of compiling: resolves groups and transforms, in double and in world space, and finds the models that
+/// the scene contains.
 namespace tyndall {
 
 /// A rotation about the y axis by `degrees`, then a translation.
@@ -57,5 +58,9 @@ struct Extent {
 };
 Extent extent_of(const PlacedShape& shape, const Camera& camera);
 Extent extent_of(const PlacedVolume& volume, const Camera& camera);
+
+/// Returns the features of a scene. flat: the scene, flattened. Materials and textures count only where something in
+/// the picture uses them.
+SceneFeatures features_of(const Scene& scene, const Flattened& flat);
 
 }  // namespace tyndall

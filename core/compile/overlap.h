@@ -1,12 +1,13 @@
 #pragma once
 #include "core/compile/flatten.h"
+#include "core/compile/render_scene.h"
 
 #include <array>
 #include <initializer_list>
 #include <vector>
 
 /// Tests for overlap: whether a shape or medium reaches into a sphere at any time from 0 to 1, and whether boxes and
-/// flats meet or coincide.
+/// flats meet or coincide; and how much of a light a sphere sees past the rest of the scene.
 namespace tyndall {
 
 /// A sphere in world space that moves from `center` to `center + motion` while time runs from 0 to 1.
@@ -47,5 +48,21 @@ std::vector<Flat> list_flats(const Flattened& flat);
 /// Whether another flat lies in the plane of a parallelogram and covers a part of it, so that rounding decides which of
 /// the two a ray hits. shape: index of the shape to which the parallelogram belongs.
 bool is_covered(const Block& parallelogram, std::size_t shape, const std::vector<Flat>& flats);
+
+/// All surfaces of a scene, which may block a line of sight.
+struct Obstacles {
+  std::vector<RoundBody> spheres;
+  std::vector<Flat> flats;
+};
+Obstacles list_obstacles(const Flattened& flat);
+
+/// Returns the fraction, in (0, 1], of the lines of sight from a light to a sphere that nothing blocks, estimated from
+/// 64 lines. If all 64 are blocked, 1/64, because other lines may be open; 1 if the light is within the sphere. Moving
+/// shapes are taken at half time.
+///
+/// A sphere that holds an end of a line does not block it: for example the light and the sphere themselves. Nor do
+/// spheres within the sphere. light: index into `lights`; origin: see RenderScene.
+double visible_fraction(const Obstacles& obstacles, const Lights& lights, std::size_t light, Vec3d origin,
+                        const RoundBody& sphere);
 
 }  // namespace tyndall

@@ -3,12 +3,12 @@
 #include "core/base/random.h"
 #include "core/base/vec.h"
 #include "core/compile/bvh.h"
-#include "core/compile/object_tree.h"
 #include "core/materials/materials.h"
 #include "core/scene/integrator.h"
 #include "core/shapes/quad.h"
 #include "core/textures/textures.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -17,6 +17,37 @@
 
 /// The scene as kernels read it: flat float arrays, made from a Scene by compile(). Positions are relative to `origin`.
 namespace tyndall {
+
+/// Numbers all objects of a scene, from 0, and gives the path of each: the indices into Scene::objects and the lists of
+/// its groups. Stores two numbers an object, because a scene may have millions.
+class ObjectTree {
+ public:
+  /// Makes room for as many objects.
+  void reserve(std::size_t objects) { steps_.reserve(objects); }
+
+  /// Adds the object at `index` in the list of a group and returns its number. group: number of the group; -1:
+  /// Scene::objects.
+  std::int32_t add(std::int32_t group, std::size_t index) {
+    steps_.push_back({group, static_cast<std::int32_t>(index)});
+    return static_cast<std::int32_t>(steps_.size()) - 1;
+  }
+
+  /// The path of an object, from Scene::objects to itself.
+  std::vector<int> path(std::int32_t object) const {
+    std::vector<int> indices;
+    for (; object >= 0; object = step(object).group) indices.push_back(step(object).index);
+    std::reverse(indices.begin(), indices.end());
+    return indices;
+  }
+
+ private:
+  struct Step {
+    std::int32_t group, index;
+  };
+  const Step& step(std::int32_t object) const { return steps_[static_cast<std::size_t>(object)]; }
+
+  std::vector<Step> steps_;
+};
 
 /// The models that a scene contains. They select a kernel that leaves out other models; which kernel runs changes no
 /// bit of the picture.
@@ -45,7 +76,7 @@ constexpr bool needs_trait(const SceneFeatures& features) {
 /// Names of the features that are set, in the order above.
 std::vector<std::string> names_of(const SceneFeatures& features);
 
-/// The surface on which the camera stands (camera_surface.h). Camera rays that start within rounding of it leave it
+/// The surface on which the camera stands (surroundings.h). Camera rays that start within rounding of it leave it
 /// like all other rays that leave a surface, so that they cannot hit the place where they start.
 struct CameraSurface {
   std::int32_t element = -1;  ///< -1: the camera stands on none
@@ -84,7 +115,7 @@ struct Flats {
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
   /// Boxes only: the numbers of `map` once more, in columns: x, y, z of the rows, then the offsets.
   std::vector<float> column[affine_numbers];
-  int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (enclosing_walls.h)
+  int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (surroundings.h)
 };
 
 /// Columns by element. An element is a sphere, a quad or a face of a box.

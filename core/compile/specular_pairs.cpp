@@ -1,11 +1,9 @@
 #include "core/compile/specular_pairs.h"
 
 #include "core/compile/columns.h"
+#include "core/compile/flat_objects.h"
 #include "core/compile/lights.h"
-#include "core/compile/mirrors.h"
 #include "core/compile/overlap.h"
-#include "core/compile/slabs.h"
-#include "core/compile/visibility.h"
 
 #include <algorithm>
 #include <cmath>

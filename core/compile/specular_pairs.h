@@ -12,13 +12,13 @@ namespace tyndall {
 /// - Spheres: metal without fuzz, solid glass, and glass shells (two spheres around one centre) with the same medium
 /// inside as outside.
 /// - Flat mirrors: quads and faces of boxes, of metal without fuzz.
-/// - Slabs: boxes of glass, see slabs.h.
+/// - Slabs: boxes of glass, see flat_objects.h.
 /// - Lights: the radius of the light is at most 1/4 of its distance from the sphere (0.15 of it if it shines through
 /// solid glass from outside), or 1/4 of the radius of a sphere around it, or 1/2 of its distance from the mirror or
 /// slab. BSDF sampling finds larger lights about as fast.
 ///
-/// A pair is worth less if its sphere does not see the whole light (visibility.h); this is not tested in scenes of very
-/// many pairs and shapes.
+/// A pair is worth less if its sphere does not see the whole light (visible_fraction); this is not tested in scenes of
+/// very many pairs and shapes.
 SpecularPairs find_specular_pairs(const Flattened& flat, const Scene& scene, const RenderScene& compiled);
 
 }  // namespace tyndall

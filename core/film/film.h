@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 /// What a render gathers: exact sums of each pixel's samples, and their counts.
@@ -140,5 +141,23 @@ struct FilmTotals {
   std::uint32_t min_taken = 0, max_taken = 0;  ///< of any pixel
 };
 FilmTotals totals(const Film& film);
+
+/// A checksum of size, region, first sample, quantum, sums, counts and planned rounds, and of the text that goes with
+/// them. Films or texts that differ in a single bit always get different ones, others almost always. Not safe against
+/// films made by an adversary.
+std::uint64_t film_checksum(const Film& film, std::string_view text);
+
+/// Edge, in pixels, of the cells that have an entry in Film::planned. They are cut from the upper left corner of the
+/// film's region, row by row; cells at the right and lower edge may be smaller.
+inline constexpr int planned_cell_edge = 4;
+
+/// Number of cells of a region: in a row, and in all.
+inline std::size_t planned_columns(const Region& region) {
+  return static_cast<std::size_t>((region.width() + planned_cell_edge - 1) / planned_cell_edge);
+}
+inline std::size_t planned_cells(const Region& region) {
+  return planned_columns(region) *
+         static_cast<std::size_t>((region.height() + planned_cell_edge - 1) / planned_cell_edge);
+}
 
 }  // namespace tyndall

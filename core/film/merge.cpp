@@ -22,9 +22,7 @@ std::string region_text(const Region& region) {
 void check_same_picture(const FilmPart& first, const FilmPart& part) {
   const Film &a = first.film, &b = part.film;
   const std::string like = " as in " + first.name;
-  if (a.width != b.width || a.height != b.height) {
-    refuse(part, "an image of " + size_text(b), size_text(a) + like);
-  }
+  if (a.width != b.width || a.height != b.height) refuse(part, "an image of " + size_text(b), size_text(a) + like);
   if (a.region != b.region) refuse(part, "the region " + region_text(b.region), region_text(a.region) + like);
   if (a.quantum != b.quantum) refuse(part, "another brightest light", "the same scene" + like);
 }

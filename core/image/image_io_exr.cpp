@@ -1,7 +1,6 @@
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io.h"
 
-#include "core/film/checksum.h"
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
 
@@ -154,9 +153,8 @@ struct Picture {
   }
   void add_floats(const std::string& prefix, const std::vector<std::string>& channels,
                   const std::vector<float>& values) {
-    for (std::size_t i = 0; i < channels.size(); ++i) {
+    for (std::size_t i = 0; i < channels.size(); ++i)
       add(prefix + channels[i], Imf::FLOAT, values.data() + i, channels.size() * sizeof(float));
-    }
   }
   void add_layer(const Layer& layer) {
     if (!layer.half) return add_floats(layer.name + ".", layer.channels, layer.values);

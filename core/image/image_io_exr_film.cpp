@@ -1,6 +1,6 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/film/rounds.h"
+#include "core/film/film.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_exr_open.h"
 
@@ -68,20 +68,17 @@ Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
   Film film;
   film.width = value_of<Imf::IntAttribute>(file, header, exr_name::width);
   film.height = value_of<Imf::IntAttribute>(file, header, exr_name::height);
-  if (window.min.x < 0 || window.min.y < 0 || window.max.x >= film.width || window.max.y >= film.height) {
+  if (window.min.x < 0 || window.min.y < 0 || window.max.x >= film.width || window.max.y >= film.height)
     damaged_film(file, "its data window is not within the image");
-  }
   film.region = {window.min.x, window.min.y, window.min.x + region_width, window.min.y + region_height};
   const double first = value_of<Imf::DoubleAttribute>(file, header, exr_name::first_sample);
-  if (!(first >= 0 && first <= std::numeric_limits<std::uint32_t>::max() && first == std::floor(first))) {
+  if (!(first >= 0 && first <= std::numeric_limits<std::uint32_t>::max() && first == std::floor(first)))
     damaged_film(file, std::string(exr_name::first_sample) + " is no sample index");
-  }
   film.first_sample = static_cast<std::uint32_t>(first);
   film.quantum = value_of<Imf::DoubleAttribute>(file, header, exr_name::quantum);
   int exponent = 0;
-  if (!(film.quantum > 0) || !std::isfinite(film.quantum) || std::frexp(film.quantum, &exponent) != 0.5) {
+  if (!(film.quantum > 0) || !std::isfinite(film.quantum) || std::frexp(film.quantum, &exponent) != 0.5)
     damaged_film(file, std::string(exr_name::quantum) + " is no power of two");
-  }
   film.cut_throughput = read_cut_throughput(file, header);
   return film;
 }

@@ -1,9 +1,8 @@
 #pragma once
-#include "core/base/limits.h"
+#include "core/base/error.h"
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io_file.h"
 
-#include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
@@ -15,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-/// How EXR files are opened, which of their channels are a picture, and what their header says of its colours: for the
-/// files of this folder that include OpenEXR.
+/// How EXR files are opened, and which of their channels are a picture: for the files of this folder that include
+/// OpenEXR.
 namespace tyndall {
 
 /// Runs `read` on the opened EXR. Whatever goes wrong becomes an ImageFileError that names the file.
@@ -83,15 +82,5 @@ struct ExrLayer {
 /// Throws NoSuchLayer for an unknown name, ImageFileError for a file without colour; both list what there is.
 ExrLayer find_exr_layer(const std::filesystem::path& file, const Imf::MultiPartInputFile& exr,
                         const std::optional<std::string>& name);
-
-/// The fractions of red, green and blue in the luminance, by the attribute "chromaticities"; without it those of
-/// Rec.709. Throws ImageFileError for chromaticities that span no colours.
-Imath::V3f luminance_weights(const std::filesystem::path& file, const Imf::Header& header);
-
-/// Converts linear RGB, 3 floats a pixel, by the attribute "chromaticities" to the Rec.709 RGB of the same CIE XYZ.
-/// The white of the file is converted like any other colour, unless the attribute "adoptedNeutral" says which
-/// chromaticity is to look neutral: that one becomes the white of Rec.709, by a linear Bradford transform. Values of
-/// files in Rec.709 stay as they are, bit for bit. Throws ImageFileError for chromaticities that span no colours.
-void convert_to_rec709(const std::filesystem::path& file, const Imf::Header& header, std::vector<float>& rgb);
 
 }  // namespace tyndall

@@ -86,9 +86,8 @@ std::uint64_t min_hdr_bytes(int width, int height) {
 
 void put_row(std::vector<float>& rgb, const std::vector<std::uint8_t>& row) {
   for (std::size_t x = 0; x < row.size(); x += 4) {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
       rgb.push_back(row[x + 3] == 0 ? 0 : std::ldexp(static_cast<float>(row[x + i]), row[x + 3] - 136));
-    }
   }
 }
 

@@ -4,9 +4,87 @@
 #include "core/image/tonemap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 namespace tyndall {
+namespace {
+
+using Profile = std::span<const std::uint8_t>;
+
+/// A number of `size` bytes, highest byte first; 0 beyond the end.
+std::uint32_t number(Profile bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  if (at > bytes.size() || size > bytes.size() - at) return 0;
+  for (std::size_t i = 0; i < size; ++i) value = value << 8 | bytes[at + i];
+  return value;
+}
+
+/// A signed number of 16 bits and 16 bits behind the point.
+double fixed(Profile bytes, std::size_t at) { return static_cast<std::int32_t>(number(bytes, at, 4)) / 65536.0; }
+
+bool says(Profile bytes, std::size_t at, std::string_view text) {
+  return bytes.size() >= at + text.size() &&
+         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+/// The data of a tag; empty if it is not there.
+Profile tag(Profile profile, std::string_view name) {
+  const std::uint32_t count = number(profile, 128, 4);
+  for (std::size_t at = 132; at < 132 + std::size_t{12} * count && at + 12 <= profile.size(); at += 12) {
+    const std::size_t start = number(profile, at + 4, 4), size = number(profile, at + 8, 4);
+    if (says(profile, at, name) && start <= profile.size() && size <= profile.size() - start)
+      return profile.subspan(start, size);
+  }
+  return {};
+}
+
+/// A curve that is one of five formulas.
+std::optional<double> by_formula(Profile curve, double x) {
+  constexpr std::size_t counts[] = {1, 3, 4, 5, 7};
+  const std::uint32_t formula = number(curve, 8, 2);
+  if (formula > 4 || curve.size() < 12 + 4 * counts[formula]) return {};
+  std::array<double, 7> p{};  // g, a, b, c, d, e, f
+  for (std::size_t i = 0; i < counts[formula]; ++i) p[i] = fixed(curve, 12 + 4 * i);
+  const auto [g, a, b, c, d, e, f] = p;
+  const auto power = [&, g = g, a = a, b = b] { return std::pow(std::max(a * x + b, 0.0), g); };
+  if (formula == 0) return std::pow(x, g);
+  if (formula <= 2) return x >= -b / a ? power() + c : c;
+  return x >= d ? power() + e : c * x + f;
+}
+
+/// The value of a curve at x in [0, 1].
+std::optional<double> value(Profile curve, double x) {
+  if (says(curve, 0, "para")) return by_formula(curve, x);
+  const std::size_t count = number(curve, 8, 4);
+  if (!says(curve, 0, "curv") || count > (curve.size() - std::min<std::size_t>(curve.size(), 12)) / 2) return {};
+  if (count == 0) return x;
+  if (count == 1) return std::pow(x, number(curve, 12, 2) / 256.0);
+  const double place = x * static_cast<double>(count - 1);
+  const auto before = std::min(static_cast<std::size_t>(place), count - 2);
+  const double low = number(curve, 12 + 2 * before, 2), high = number(curve, 14 + 2 * before, 2);
+  return (low + (place - static_cast<double>(before)) * (high - low)) / 65535;
+}
+
+bool has_srgb_curve(Profile curve) {
+  for (int i = 0; i <= 32; ++i) {
+    const auto found = value(curve, i / 32.0);
+    const double expected = static_cast<double>(srgb_decode(static_cast<float>(i) / 32));
+    if (!found || !(std::abs(*found - expected) <= 0.012)) return false;
+  }
+  return true;
+}
+
+bool is_near(Profile primary, const std::array<double, 3>& xyz) {
+  if (!says(primary, 0, "XYZ ") || primary.size() < 20) return false;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(std::abs(fixed(primary, 8 + 4 * i) - xyz[i]) <= 0.003)) return false;
+  return true;
+}
+
+}  // namespace
 
 double power_of_exponent(double exponent) {
   constexpr double usual = 0.45455;  // as PNG's gAMA writes 1 / 2.2
@@ -86,6 +164,16 @@ Orientation exif_orientation(std::span<const std::uint8_t> tiff) {
     return {value >= 5 && value <= 8, from_right, from_bottom};
   }
   return {};
+}
+
+bool is_srgb_profile(Profile profile) {
+  if (!says(profile, 36, "acsp")) return false;
+  if (says(profile, 16, "GRAY")) return has_srgb_curve(tag(profile, "kTRC"));
+  // sRGB's primaries, adapted to the white D50 of profiles.
+  return says(profile, 16, "RGB ") && is_near(tag(profile, "rXYZ"), {0.4360, 0.2225, 0.0139}) &&
+         is_near(tag(profile, "gXYZ"), {0.3851, 0.7169, 0.0971}) &&
+         is_near(tag(profile, "bXYZ"), {0.1431, 0.0606, 0.7139}) && has_srgb_curve(tag(profile, "rTRC")) &&
+         has_srgb_curve(tag(profile, "gTRC")) && has_srgb_curve(tag(profile, "bTRC"));
 }
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
 #include "core/render/mailbox.h"
 
 #include "core/base/seconds.h"
-#include "core/scene/change.h"
+#include "core/scene/scene.h"
 
 #include <algorithm>
 #include <utility>

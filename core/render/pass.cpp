@@ -1,6 +1,5 @@
 #include "core/render/pass.h"
 
-#include "core/base/thread_pool_memory.h"
 #include "core/film/groups.h"
 
 #include <algorithm>

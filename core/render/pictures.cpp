@@ -23,6 +23,17 @@ Vec3f get(const std::vector<float>& rgba, std::size_t pixel) {
   return {from[0], from[1], from[2]};
 }
 
+/// A grey picture, from the value of each pixel.
+template <class Value>
+std::vector<float> greys(std::size_t pixels, const Value& value_of) {
+  std::vector<float> rgba(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float value = value_of(i);
+    put(rgba, i, {value, value, value});
+  }
+  return rgba;
+}
+
 /// Perceived brightness of a colour, in [0, 1): its differences show edges in light and in shadow alike.
 float look_of(Vec3f colour) {
   const float light = std::max(0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z, 0.0f);
@@ -90,20 +101,14 @@ PictureGrid coarse_rgba(const Film& film, int step, ThreadPool& thread_pool, std
 }
 
 std::vector<float> grey_rgba(std::size_t pixels, float grey) {
-  std::vector<float> rgba(4 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i) put(rgba, i, {grey, grey, grey});
-  return rgba;
+  return greys(pixels, [grey](std::size_t) { return grey; });
 }
 
 std::vector<float> noise_rgba(const Film& film) { return noise_rgba(pixel_relative_error(film)); }
 
 std::vector<float> noise_rgba(const std::vector<float>& errors) {
-  std::vector<float> rgba(4 * errors.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    const float error = std::min(errors[i], 1.0f);  // the error is infinite before two samples
-    put(rgba, i, {error, error, error});
-  }
-  return rgba;
+  // The error is infinite before two samples.
+  return greys(errors.size(), [&](std::size_t i) { return std::min(errors[i], 1.0f); });
 }
 
 double twice_mean_samples(const Film& film) {
@@ -113,12 +118,8 @@ double twice_mean_samples(const Film& film) {
 
 std::vector<float> samples_rgba(const Film& film) {
   const auto twice_mean = static_cast<float>(twice_mean_samples(film));
-  std::vector<float> rgba(4 * film.pixels.size());
-  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-    const float fraction = std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f);
-    put(rgba, i, {fraction, fraction, fraction});
-  }
-  return rgba;
+  return greys(film.pixels.size(),
+               [&](std::size_t i) { return std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f); });
 }
 
 std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, ThreadPool& thread_pool,
@@ -144,19 +145,12 @@ std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Th
 }
 
 float largest(const std::vector<float>& values) {
-  float maximum = 1e-37f;
-  for (const float value : values) maximum = std::max(maximum, value);
-  return maximum;
+  return values.empty() ? 1e-37f : std::max(1e-37f, *std::max_element(values.begin(), values.end()));
 }
 
 std::vector<float> relative_rgba(const std::vector<float>& values) {
   const float maximum = largest(values);
-  std::vector<float> rgba(4 * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const float fraction = values[i] / maximum;
-    put(rgba, i, {fraction, fraction, fraction});
-  }
-  return rgba;
+  return greys(values.size(), [&](std::size_t i) { return values[i] / maximum; });
 }
 
 void look_at_pixel(const Film& film, PixelReport& report) {

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/base/thread_pool.h"
 #include "core/film/film.h"
-#include "core/film/rounds.h"
 
 #include <cstdint>
 #include <vector>

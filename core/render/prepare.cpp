@@ -1,13 +1,163 @@
 #include "core/render/prepare.h"
 
 #include "core/compile/compile.h"
-#include "core/render/caustics.h"
+#include "core/compile/flatten.h"
 #include "core/specular/find_subpixel_lights.h"
 #include "core/targets/scalar.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tyndall {
+namespace {
+
+constexpr double min_catch = 0.01;  // fraction of a light's power that a smooth shape has to catch to matter
+constexpr double max_fuzz = 0.05;   // largest fuzz with which metal counts as smooth
+
+constexpr std::size_t max_pairs = 1000000;
+
+struct BoundingSphere {
+  Vec3d center;
+  double radius = 0;
+};
+
+BoundingSphere bounding_sphere(const Extent& extent) {
+  BoundingSphere sphere;
+  for (const Vec3d& p : extent.points)
+    sphere.center = sphere.center + (1.0 / static_cast<double>(extent.points.size())) * p;
+  for (const Vec3d& p : extent.points) sphere.radius = std::max(sphere.radius, length(p - sphere.center));
+  sphere.radius += extent.radius;
+  return sphere;
+}
+
+/// Fraction of all directions that a sphere fills, seen from a point at `distance` from its centre; 1 inside the
+/// sphere.
+double fraction_of_directions(double radius, double distance) {
+  if (radius >= distance) return 1;
+  const double sine2 = (radius / distance) * (radius / distance);
+  return 0.5 * sine2 / (1 + std::sqrt(1 - sine2));  // (1 - cos) / 2 without cancellation
+}
+
+const Material& material_of(const Scene& scene, const PlacedShape& shape) {
+  return scene.materials[static_cast<std::size_t>(shape.material)];
+}
+
+bool is_light(const Material& material) { return traits_of(material.kind).emits; }
+
+/// Whether a material reflects or refracts light in a narrow lobe.
+bool is_smooth(const Material& material) { return lobe_width(material.kind) < max_fuzz; }
+
+/// A light, or a smooth shape that throws light on other surfaces.
+struct Thing {
+  std::size_t shape;  // index into Flattened::shapes
+  BoundingSphere sphere;
+  double fuzz = 0;
+  bool glass = false;
+};
+
+struct Things {
+  std::vector<Thing> lights, smooth;
+};
+
+Things list_things(const Scene& scene, const Flattened& flat) {
+  Things things;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const Material& material = material_of(scene, flat.shapes[i]);
+    if (!is_light(material) && !is_smooth(material)) continue;
+    const bool smooth = is_smooth(material), glass = boundary_index(material.kind) > 0;
+    const double fuzz = smooth ? lobe_width(material.kind) : 0;
+    const Thing thing{i, bounding_sphere(extent_of(flat.shapes[i], scene.camera)), fuzz, glass};
+    (is_light(material) ? things.lights : things.smooth).push_back(thing);
+  }
+  return things;
+}
+
+/// The bounding box of a matt surface or a medium, on which light from any direction shows.
+struct Receiver {
+  Vec3d low, high;
+};
+
+Vec3d min_of(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3d max_of(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+
+Receiver receiver_around(const Extent& extent) {
+  Receiver box{extent.points.front(), extent.points.front()};
+  for (const Vec3d& p : extent.points) box = {min_of(box.low, p), max_of(box.high, p)};
+  const Vec3d grown{extent.radius, extent.radius, extent.radius};
+  return {box.low - grown, box.high + grown};
+}
+
+std::vector<Receiver> list_receivers(const Scene& scene, const Flattened& flat) {
+  std::vector<Receiver> receivers;
+  for (const PlacedVolume& volume : flat.volumes) receivers.push_back(receiver_around(extent_of(volume, scene.camera)));
+  for (const PlacedShape& shape : flat.shapes)
+    if (traits_of(material_of(scene, shape).kind).diffuse)
+      receivers.push_back(receiver_around(extent_of(shape, scene.camera)));
+  return receivers;
+}
+
+double distance_to_nearest(const std::vector<Receiver>& receivers, Vec3d point) {
+  double minimum = std::numeric_limits<double>::infinity();
+  for (const Receiver& box : receivers)
+    minimum = std::min(minimum, length(max_of(max_of(box.low - point, point - box.high), {0, 0, 0})));
+  return minimum;
+}
+
+/// Whether a light is inside a glass sphere and shines out of it. If the camera is in the sphere, too, the sphere is a
+/// room and not a bulb.
+bool is_bulb(const Thing& light, const Thing& thing, Vec3d camera) {
+  const BoundingSphere& sphere = thing.sphere;
+  return thing.glass && length(light.sphere.center - sphere.center) < sphere.radius &&
+         light.sphere.radius < sphere.radius && length(camera - sphere.center) > sphere.radius;
+}
+
+}  // namespace
+
+double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
+  const auto has = [&](const auto& is) { return std::any_of(scene.materials.begin(), scene.materials.end(), is); };
+  if (!has(is_light) || !has(is_smooth)) return 1;  // at once, also in a scene of a million spheres
+  const Flattened flat = flatten(scene);
+  const std::vector<Receiver> receivers = list_receivers(scene, flat);
+  if (receivers.empty()) return 1;
+  const Things things = list_things(scene, flat);
+  const std::size_t step =
+      1 + things.lights.size() * things.smooth.size() / max_pairs;  // for very many pairs only every step-th
+  double minimum = 1;
+  for (const Thing& light : things.lights)
+    for (std::size_t i = 0; i < things.smooth.size(); i += step) {
+      const Thing& thing = things.smooth[i];
+      if (is_found && is_found(light.shape, thing.shape)) continue;
+      double distance = length(light.sphere.center - thing.sphere.center);
+      if (is_bulb(light, thing, scene.camera.look_from))
+        distance = std::max(thing.sphere.radius, distance_to_nearest(receivers, light.sphere.center));
+      else if (fraction_of_directions(thing.sphere.radius, distance) < min_catch)
+        continue;
+      minimum = std::min(minimum, fraction_of_directions(light.sphere.radius + thing.fuzz * distance, distance));
+    }
+  return minimum;
+}
+
+double chance_of_caustics(const Scene& scene, const RenderScene& compiled) {
+  const SpecularPairs& specular = compiled.specular;
+  if (specular.sphere.empty()) return chance_of_caustics(scene);
+  std::vector<std::size_t> elements{0};  // the first of each shape, and one behind the last
+  for (const PlacedShape& shape : flatten(scene).shapes)
+    elements.push_back(elements.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
+  const std::size_t lights = compiled.lights.kind.size();
+  const auto is_pair = [&](std::size_t light, std::size_t thing) {
+    const std::int32_t light_index = compiled.elements.light[light], sphere = specular.sphere_of[thing];
+    if (light_index < 0 || sphere < 0) return false;
+    return specular.pair_of[static_cast<std::size_t>(sphere / 2) * lights + static_cast<std::size_t>(light_index)] >= 0;
+  };
+  return chance_of_caustics(scene, [&](std::size_t light, std::size_t shape) {
+    for (std::size_t i = elements[light]; i < elements[light + 1]; ++i)
+      for (std::size_t k = elements[shape]; k < elements[shape + 1]; ++k)
+        if (is_pair(i, k)) return true;
+    return false;
+  });
+}
 
 PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns)
     : scene_(std::move(scene)),

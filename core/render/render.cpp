@@ -1,6 +1,5 @@
 #include "core/render/render.h"
 
-#include "core/accuracy/rare.h"
 #include "core/base/seconds.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"

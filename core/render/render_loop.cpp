@@ -1,9 +1,9 @@
 #include "core/render/render_loop.h"
 
-#include "core/accuracy/rare.h"
-#include "core/base/limits.h"
+#include "core/accuracy/estimate.h"
+#include "core/base/error.h"
 #include "core/base/seconds.h"
-#include "core/scene/change.h"
+#include "core/scene/scene.h"
 
 #include <exception>
 #include <new>

@@ -20,8 +20,6 @@ class Renderer {
   /// on_frame: called from a thread of the renderer after each frame; must be quick (for example, wake an event loop).
   explicit Renderer(const Options& options, std::function<void()> on_frame = {});
   ~Renderer();
-  Renderer(const Renderer&) = delete;
-  Renderer& operator=(const Renderer&) = delete;
 
   /// Replaces the request, and returns the number of the edit that it shows. A scene that renders to the same picture
   /// as the one before (equal but for names and display) restarts nothing and keeps its number.

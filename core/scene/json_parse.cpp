@@ -1,5 +1,6 @@
 #include "core/base/text.h"
-#include "core/scene/json_syntax.h"
+#include "core/scene/check.h"
+#include "core/scene/json.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 
@@ -10,6 +11,89 @@
 
 namespace tyndall {
 namespace {
+
+/// "line 3, column 5" of a byte offset; columns count letters.
+std::string line_and_column(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::string_view row = before.substr(before.rfind('\n') + 1);  // npos + 1 is 0
+  const auto column =
+      1 + std::count_if(row.begin(), row.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+bool is_word(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '.' ||
+         c == '+' || c == '-';
+}
+
+/// Where the word, text or letter that holds the byte at `last` begins, and what follows it.
+struct Span {
+  std::size_t begin, end;
+};
+Span token_at(std::string_view text, std::size_t last) {
+  Span span{last, last + 1};
+  if (text[last] == '"' && last > 0) {  // the parser reads a whole string before it finds that it is misplaced
+    const std::size_t opening = text.rfind('"', last - 1);
+    if (opening != text.npos && text.substr(opening, last - opening).find('\n') == text.npos) span.begin = opening;
+  } else if (is_word(text[last])) {
+    while (span.begin > 0 && is_word(text[span.begin - 1])) --span.begin;
+    while (span.end < text.size() && is_word(text[span.end])) ++span.end;
+  } else {
+    while (span.begin > 0 && (static_cast<unsigned char>(text[span.begin]) & 0xc0) == 0x80) --span.begin;
+    while (span.end < text.size() && (static_cast<unsigned char>(text[span.end]) & 0xc0) == 0x80) ++span.end;
+  }
+  return span;
+}
+
+struct Phrase {
+  std::string_view reason, said;
+};
+
+/// What the parser waited for.
+std::string_view expected_instead(std::string_view reason) {
+  constexpr Phrase phrases[] = {{"expected string literal", "a key in double quotes"},
+                                {"expected ':'", "':'"},
+                                {"expected ']'", "',' or ']'"},
+                                {"expected '}'", "',' or '}'"},
+                                {"expected end of input", "the end of the file"}};
+  for (const Phrase& phrase : phrases)
+    if (reason.ends_with(phrase.reason)) return phrase.said;
+  return "a value: a number, a text in double quotes, a list or an object";
+}
+
+/// Faults inside a text, a number or a comment: what is found and what should be there instead.
+struct Fault {
+  std::string_view reason, found, expected;
+};
+constexpr Fault faults[] = {
+    {"invalid comment", "a comment that is not closed", "*/ at its end"},
+    {"missing closing quote", "a text that is not closed", "\" at its end"},
+    {"control character", "a line break or control character in a text", "\" at the end of the text, or \\n"},
+    {"forbidden character after backslash", "a backslash before a letter that it cannot escape",
+     "\\\\ for a backslash"},
+    {"surrogate", "half of a \\u pair", "both halves of it"},
+    {"'\\u' must be followed by 4 hex digits", "\\u without 4 hexadecimal digits", "\\u and 4 hexadecimal digits"},
+    {"zero byte", "a zero byte", "text in UTF-8"},
+    {"UTF-8", "bytes that are not UTF-8", "text in UTF-8"},
+    {"invalid BOM", "a broken byte order mark", "text in UTF-8"}};
+
+/// Says what is wrong with a text that is not JSON as a person would, at "line L, column C".
+/// end: bytes that the parser had read when it gave up, the offending one included; above the text's size at its end.
+/// reason: the parser's own message.
+ParseError syntax_error(std::string_view text, std::size_t end, std::string_view reason) {
+  const bool at_end = end > text.size() || text.empty();
+  const std::size_t last = at_end ? text.size() : std::max<std::size_t>(end, 1) - 1;
+  for (const Fault& fault : faults)
+    if (reason.find(fault.reason) != reason.npos)
+      return {line_and_column(text, last), std::string(fault.found), std::string(fault.expected)};
+  const std::string expected(expected_instead(reason));
+  if (at_end) return {line_and_column(text, last), "the end of the file", expected};
+  const Span token = token_at(text, last);
+  const std::string_view found = text.substr(token.begin, token.end - token.begin);
+  return {line_and_column(text, token.begin), found[0] == '"' ? shortened(found, 80) : "'" + shortened(found, 80) + "'",
+          expected};
+}
 
 /// Most values of a document. A real scene of 256 MiB has fewer; as a tree, this many take about 2 GB of memory.
 constexpr std::size_t max_values = std::size_t(1) << 25;
@@ -130,6 +214,14 @@ class TreeBuilder {
 
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }
 
+constexpr std::string_view blanks = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
 }  // namespace
 
 JsonDocument parse_json(std::string_view text) {
@@ -143,6 +235,24 @@ JsonDocument parse_json(std::string_view text) {
                                     true))
     throw builder.failure.value_or(ParseError{"/", "text that is not JSON", "JSON"});
   return {std::move(memory), std::move(builder.root)};
+}
+
+std::vector<std::string> leading_comments(std::string_view text) {
+  std::vector<std::string> lines;
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    const bool block = text.starts_with("/*");
+    if (!block && !text.starts_with("//")) return lines;
+    const std::size_t end = std::min(text.find(block ? "*/" : "\n", 2), text.size());
+    std::string_view comment = text.substr(2, end - 2);
+    text.remove_prefix(std::min(end + (block ? 2 : 1), text.size()));
+    while (!comment.empty()) {
+      const std::size_t line_end = std::min(comment.find('\n'), comment.size());
+      lines.push_back(printable(trimmed(comment.substr(0, line_end))));
+      comment.remove_prefix(std::min(line_end + 1, comment.size()));
+    }
+  }
 }
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 #include "core/system/processors.h"
 
-#include "core/system/cgroup.h"
+#include "core/system/mounts.h"
 
 #ifdef __linux__
 #include <sched.h>

@@ -1,4 +1,4 @@
-#include "core/accuracy/bias.h"
+#include "core/accuracy/error.h"
 
 #include <doctest/doctest.h>
 

@@ -21,8 +21,8 @@ killed() {
 }
 
 box=(render cornell-box --size 64x64)
-whole=$(image_hash "${box[@]:1}" --spp 10000)
-killed "${box[@]}" --spp 10000
+whole=$(image_hash "${box[@]:1}" --spp 3000)
+killed "${box[@]}" --spp 3000
 grep -aq unfinished k.exr || fail 'a checkpoint does not say that it is unfinished'
 cp k.exr killed.exr
 
@@ -34,23 +34,23 @@ refused() {
   complains k.exr "$text" --fresh
   cmp -s k.exr killed.exr || fail "an unfinished film was replaced: $*"
 }
-refused 'seed 0' "${box[@]}" --spp 10000 --seed 3
-refused 'sampler sobol' "${box[@]}" --spp 10000 --sampler random
-refused '64x64' render cornell-box --size 64x63 --spp 10000
-refused 'another scene' "${box[@]}" --spp 10000 --set /camera/vfov=30
-refused 'region' "${box[@]}" --spp 10000 --region 0,0,64,63
-refused 'from 0' "${box[@]}" --samples 4:10000
-refused 'instruction set' "${box[@]}" --spp 10000 --isa scalar
+refused 'seed 0' "${box[@]}" --spp 3000 --seed 3
+refused 'sampler sobol' "${box[@]}" --spp 3000 --sampler random
+refused '64x64' render cornell-box --size 64x63 --spp 3000
+refused 'another scene' "${box[@]}" --spp 3000 --set /camera/vfov=30
+refused 'region' "${box[@]}" --spp 3000 --region 0,0,64,63
+refused 'from 0' "${box[@]}" --samples 4:3000
+refused 'instruction set' "${box[@]}" --spp 3000 --isa scalar
 refused 'samples up to' "${box[@]}" --samples 0:1
-expect 2 "$tyndall" "${box[@]}" --spp 10000 --resume --isa scalar -q -o k.exr
+expect 2 "$tyndall" "${box[@]}" --spp 3000 --resume --isa scalar -q -o k.exr
 complains 'instruction set' '--fresh'
 
 # Nor is one in a further output, which no render goes on with, nor where the output is to hold no film.
-refused 'first .exr output' "${box[@]}" --spp 10000 -o first.exr
-refused 'first .exr output' "${box[@]}" --spp 10000 --exr-film no
+refused 'first .exr output' "${box[@]}" --spp 3000 -o first.exr
+refused 'first .exr output' "${box[@]}" --spp 3000 --exr-film no
 [ ! -e first.exr ] || fail 'a refused render wrote its first output'
 cp killed.exr first.exr
-expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o first.exr -o k.exr --stats k.json
+expect 0 "$tyndall" "${box[@]}" --spp 3000 -q -o first.exr -o k.exr --stats k.json
 complains 'goes on from'
 same 'a render with two films that went on' "$(json k.json image_hash)" "$whole"
 cmp -s first.exr k.exr || fail 'its two films differ'
@@ -61,18 +61,18 @@ rm first.exr
 expect 0 "$tyndall" "${box[@]}" --spp 1 -q -o k.exr --stats k.json
 complains 'more than the 1 asked for'
 cp killed.exr k.exr
-expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o k.exr -o k.pfm --stats k.json
+expect 0 "$tyndall" "${box[@]}" --spp 3000 -q -o k.exr -o k.pfm --stats k.json
 complains 'goes on from'
 same 'a killed render that went on' "$(json k.json image_hash)" "$whole"
-same 'its samples' "$(json k.json samples)" $((64 * 64 * 10000))
+same 'its samples' "$(json k.json samples)" $((64 * 64 * 3000))
 
 # Complete: nothing is rendered. Without other outputs not even the file is touched.
 before=$(stat -c %z k.exr)
-expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o k.exr
-complains 'already complete: 10000 samples a pixel'
+expect 0 "$tyndall" "${box[@]}" --spp 3000 -q -o k.exr
+complains 'already complete: 3000 samples a pixel'
 same 'the complete file' "$(stat -c %z k.exr)" "$before"
 rm k.pfm
-expect 0 "$tyndall" "${box[@]}" --spp 10000 -q -o k.exr -o k.pfm --stats again.json
+expect 0 "$tyndall" "${box[@]}" --spp 3000 -q -o k.exr -o k.pfm --stats again.json
 complains 'already complete'
 [ -s k.pfm ] || fail 'an output that was missing is not written'
 same 'rays of a complete render' "$(json again.json rays)" 0
@@ -102,12 +102,12 @@ complains --checkpoint .exr
 expect 2 "$tyndall" "${box[@]}" --checkpoint -1 -q -o no.exr
 
 # Shards and adaptive renders go on in the same way.
-killed "${box[@]}" --samples 5:8000
-expect 0 "$tyndall" "${box[@]}" --samples 5:8000 -q -o k.exr --stats k.json
+killed "${box[@]}" --samples 5:3000
+expect 0 "$tyndall" "${box[@]}" --samples 5:3000 -q -o k.exr --stats k.json
 complains 'goes on from'
-expect 0 "$tyndall" "${box[@]}" --samples 5:8000 -q -o one.exr
+expect 0 "$tyndall" "${box[@]}" --samples 5:3000 -q -o one.exr
 expect 0 "$tyndall" compare k.exr one.exr --max-rmse 0
-room=(render showroom --size 64x48 --adaptive --spp 3000)
+room=(render showroom --size 64x48 --adaptive --spp 1500)
 killed "${room[@]}"
 expect 0 "$tyndall" "${room[@]}" -q -o k.exr --stats k.json
 complains 'goes on from'
@@ -132,14 +132,14 @@ complains old.exr 'instruction set scalar'
 mkfifo pipe.exr
 cat pipe.exr >piped.exr &
 reader=$!
-expect 0 "$tyndall" "${box[@]}" --spp 3000 -q -o pipe.exr --stats piped.json
+expect 0 "$tyndall" "${box[@]}" --spp 100 -q -o pipe.exr --stats piped.json
 wait "$reader"
 expect 0 "$tyndall" compare piped.exr piped.exr --max-rmse 0
 
 # Without checkpoints there is nothing before the end.
 "$tyndall" "${box[@]}" --spp 10000000 --checkpoint 0 -q -o none.exr &
 render=$!
-wait_worked "$render" 1
+wait_worked "$render" 0.5
 [ ! -e none.exr ] || fail '--checkpoint 0 writes'
 kill -KILL "$render"
 wait "$render" 2>/dev/null

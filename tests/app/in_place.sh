@@ -6,6 +6,9 @@ export TMPDIR=$PWD/temporary
 mkdir "$TMPDIR"
 scene=(cornell-box --size 24x16)
 expect 0 "$tyndall" render "${scene[@]}" --spp 2 -q -o right.pfm
+# Seconds of work after which a small render has surely begun: some times what a whole one takes.
+begun=$(awk "BEGIN { print 0.1 + 3 * $(work_of "$tyndall" render "${scene[@]}" --spp 2 -q -o begun.pfm) }")
+rm -f begun.pfm
 beside() { # FILES...: these are all that the folder holds, but for what commands printed
   same 'files' "$(find . -maxdepth 1 -type f ! -name out ! -name err -printf '%f\n' | sort | tr '\n' ' ')" "$* "
 }
@@ -15,7 +18,7 @@ mkdir late && cd late || exit 1
 taken_meanwhile() { # COMMAND...: runs a long render of a.pfm, and the command while it runs
   "$tyndall" render "${scene[@]}" --spp 10000000 -q -o a.pfm 2>err &
   local render=$! code=0
-  wait_worked "$render" 1
+  wait_worked "$render" "$begun"
   "$@"
   kill -TERM "$render"
   wait "$render" || code=$?
@@ -33,7 +36,7 @@ cd .. || exit 1
 mkdir gone
 "$tyndall" render "${scene[@]}" --spp 10000000 -q -o gone/a.pfm --stats gone/a.json 2>err &
 render=$!
-wait_worked "$render" 1
+wait_worked "$render" "$begun"
 rmdir gone
 kill -TERM "$render"
 code=0
@@ -140,12 +143,22 @@ if ! unshare -rm true 2>probe; then
   finish
 fi
 mkdir bound && cd bound || exit 1
-# mounted COMMAND...: the command sees "real" mounted at the name of the same ending.
-mounted() {
-  unshare -rm bash -c 'for name in png pfm exr json svg csv html xml; do
+# in_mounts, mounted COMMAND...: the command sees "real" mounted at the name of the same ending.
+in_mounts=(unshare -rm bash -c 'for name in png pfm exr json svg csv html xml; do
       [ ! -e a.$name ] || mount --bind real.$name a.$name || exit 99
     done
-    exec "$@"' bash "$@"
+    exec "$@"' bash)
+mounted() { "${in_mounts[@]}" "$@"; }
+# stopped SIGNAL COMMAND...: the same, ended by the signal once it has worked and there is a checkpoint.
+stopped() {
+  local signal=$1 render
+  shift
+  "${in_mounts[@]}" "$@" 2>err &
+  render=$!
+  wait_worked "$render" "$begun"
+  for _ in $(seq 1200); do [ -s a.unfinished.exr ] && break || sleep 0.05; done
+  kill -"$signal" "$render"
+  wait "$render" 2>/dev/null
 }
 put() { for name in "$@"; do echo "old old old $name" >"real.$name" && : >"a.$name"; done; }
 
@@ -184,7 +197,7 @@ complains a.pfm 'No space' 'it is in a.new.pfm instead'
 rm -f a.new.pfm
 # Mounted while the render runs: written into like one that was mounted before.
 put pfm
-expect 0 unshare -rm bash -c '"$0" render cornell-box --size 24x16 -t 1 --time 3 -q -o a.pfm & sleep 1
+expect 0 unshare -rm bash -c '"$0" render cornell-box --size 24x16 -t 1 --time 2 -q -o a.pfm & sleep 0.5
   mount --bind real.pfm a.pfm; wait $!' "$tyndall"
 expect 0 "$tyndall" compare real.pfm real.pfm --max-rmse 0
 
@@ -193,7 +206,7 @@ if has_exr; then
   long=(render cornell-box --size 64x64 -q)
   rm -f -- *.pfm *.png probe.exr
   put exr
-  mounted timeout -s KILL 6 "$tyndall" render cornell-box --size 64x64 --spp 10000000 --checkpoint 0.2 -q -o a.exr 2>err
+  stopped KILL "$tyndall" "${long[@]}" --spp 10000000 --checkpoint 0.2 -o a.exr
   grep -q 'a.exr: cannot be replaced, as it is a mount point; .*checkpoints go to a.unfinished.exr' err ||
     fail "where checkpoints go is not said: $(cat err)"
   same 'a mounted film before the end' "$(cat real.exr)" 'old old old exr'
@@ -202,14 +215,14 @@ if has_exr; then
   complains a.unfinished.exr 'seed 0' --fresh
   cp a.unfinished.exr killed.exr
   expect 0 mounted "$tyndall" merge a.unfinished.exr -o a.exr
-  mounted timeout -s TERM 3 "$tyndall" render cornell-box --size 64x64 --spp 10000000 -q -o a.exr 2>err
+  stopped TERM "$tyndall" "${long[@]}" --spp 10000000 -o a.exr
   grep -q 'a.unfinished.exr: goes on from' err || fail "it does not go on from the file beside: $(cat err)"
   grep -aq unfinished real.exr || fail 'the picture at a signal is not in the mounted file'
   [ ! -e a.unfinished.exr ] || fail 'the file beside stays when the film is in the mounted one'
   put exr
-  mounted timeout -s KILL 3 "$tyndall" "${long[@]}" --spp 1000000 --checkpoint 0.2 -o a.exr 2>err
+  stopped KILL "$tyndall" "${long[@]}" --spp 1000000 --checkpoint 0.2 -o a.exr
   [ -s a.unfinished.exr ] || fail 'no checkpoint beside a mounted file'
-  expect 0 mounted "$tyndall" "${long[@]}" --spp 20000 -o a.exr --stats goes_on.json
+  expect 0 mounted "$tyndall" "${long[@]}" --spp 5000 -o a.exr --stats goes_on.json
   same 'a film that went on from the file beside' "$(json goes_on.json image_hash)" \
     "$(image_hash cornell-box --size 64x64 --spp "$(json goes_on.json spp)")"
   [ ! -e a.unfinished.exr ] || fail 'the file beside stays at the end'

@@ -1,4 +1,4 @@
-#include "core/compile/enclosing_walls.h"
+#include "core/compile/surroundings.h"
 #include "core/scene/load.h"
 
 #include <doctest/doctest.h>

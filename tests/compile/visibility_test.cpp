@@ -1,5 +1,5 @@
-#include "core/compile/visibility.h"
 #include "core/compile/compile.h"
+#include "core/compile/overlap.h"
 #include "tests/support/lit_floor.h"
 
 #include <doctest/doctest.h>

@@ -49,10 +49,10 @@ def scenarios():
     files = ["-o", "a.exr", "-o", "a.png", "--stats", "a.json"]
     yield Scenario("save", two + ["--spp", "2", *files], [two + ["--spp", "1", *files]], ["a.exr", "a.png"], ["a.json"])
     yield Scenario("save-first", two + ["--spp", "2", "-o", "a.pfm", "-o", "a.hdr"], [], ["a.pfm", "a.hdr"])
-    long = two + ["--spp", "1500", "--checkpoint", "0.001", "-o", "a.exr"]
+    long = two + ["--spp", "900", "--checkpoint", "0.001", "-o", "a.exr"]
     yield Scenario("checkpoint", long, [], ["a.exr"])
     # The film that is gone on with is the one of a killed render.
-    yield Scenario("resume", two + ["--spp", "1500", "-o", "a.exr"], [("killed", long)], ["a.exr"])
+    yield Scenario("resume", two + ["--spp", "900", "-o", "a.exr"], [("killed", long)], ["a.exr"])
     parts = [["render", box, *SMALL, "--samples", f"{i}:{i + 1}", "-o", f"{i}.exr"] for i in range(3)]
     yield Scenario("merge", ["merge", "2.exr", "0.exr", "1.exr", "-o", "m.exr", "-o", "m.png"], parts, ["m.exr", "m.png"])
     yield Scenario("scene", ["convert", box, "-o", "a.json"], [["convert", "showroom", "-o", "a.json"]], ["a.json"])
@@ -247,7 +247,7 @@ class Faults:
         begin = time.monotonic()
         assert self.run(command)[0] == 0
         seconds = time.monotonic() - begin
-        command[5] = str(int(6000 * max(1, 8 * INTERVAL / seconds)))
+        command[5] = str(int(6000 * max(1, 5 * INTERVAL / seconds)))
         self.start(None)
         assert self.run(command)[0] == 0
         whole = self.contents(["a.exr"])

@@ -1,4 +1,4 @@
-#include "core/film/checksum.h"
+#include "core/film/film.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "core/film/rounds.h"
+#include "core/film/film.h"
 #include "core/image/image_io.h"
 #include "tests/support/scratch.h"
 

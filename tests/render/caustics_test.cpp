@@ -1,4 +1,4 @@
-#include "core/render/caustics.h"
+#include "core/render/prepare.h"
 
 #include "core/compile/compile.h"
 #include "core/scene/load.h"

@@ -1,6 +1,5 @@
 #include "core/accuracy/estimate.h"
-#include "core/accuracy/rare.h"
-#include "core/render/caustics.h"
+#include "core/render/prepare.h"
 #include "core/render/render.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"

@@ -1,7 +1,7 @@
-#include "core/accuracy/rare.h"
+#include "core/accuracy/estimate.h"
 
 #include "core/compile/compile.h"
-#include "core/render/caustics.h"
+#include "core/render/prepare.h"
 #include "core/render/render.h"
 #include "core/scene/json.h"
 #include "core/scene/load.h"

@@ -1,6 +1,6 @@
 #include "core/render/renderer.h"
 
-#include "core/scene/change.h"
+#include "core/scene/scene.h"
 #include "tests/support/allocations.h"
 #include "tests/support/watched_renderer.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/accuracy/relative.h"
+#include "core/accuracy/error.h"
 #include "core/film/film.h"
 #include "core/scene/scene.h"
 

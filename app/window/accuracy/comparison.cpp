@@ -1,7 +1,7 @@
 #include "app/window/accuracy/comparison.h"
 
 #include "app/report/heat_map.h"
-#include "app/window/system/clock.h"
+#include "app/window/system/pacing.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"
 

@@ -8,6 +8,10 @@
 /// Measures how far one picture is from another, as numbers and as a picture of the differences.
 namespace tyndall {
 
+/// The halves of a split view: on the right `current`, the scene as it is edited; on the left `kept`, the same scene
+/// with the render settings that it had when the view was split. Without a split view all is `current`.
+enum class Half { current, kept };
+
 /// Pictures of differences, beside the views of the renderer.
 enum class ErrorView { none, error, flip };
 

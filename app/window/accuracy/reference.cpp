@@ -7,8 +7,8 @@
 #include "core/accuracy/estimate.h"
 #include "core/image/image_io_file.h"
 #include "core/render/render.h"
-#include "core/scene/change.h"
 #include "core/scene/load.h"
+#include "core/scene/scene.h"
 
 #include <cmath>
 #include <exception>
@@ -41,13 +41,14 @@ Scene without_method(Scene scene) {
   return scene;
 }
 
-}  // namespace
-
+/// Throws UsageError unless the sizes are equal.
 void check_size(const std::string& name, const LinearImage& image, const Scene& scene) {
   if (image.width == scene.width && image.height == scene.height) return;
   throw UsageError(name + ": found " + size_text(image.width, image.height) + " pixels, expected " +
                    size_text(scene.width, scene.height) + " as the picture has");
 }
+
+}  // namespace
 
 Reference read_reference(const fs::path& name, const Document& document) {
   PictureFile picture = read_whole_picture(name);

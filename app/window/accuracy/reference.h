@@ -43,9 +43,6 @@ struct ReferenceOrder {
 std::optional<Reference> rendered_reference(const ReferenceOrder& order,
                                             const std::function<bool(std::uint32_t spp)>& progress);
 
-/// Throws UsageError unless the sizes are equal.
-void check_size(const std::string& name, const LinearImage& image, const Scene& scene);
-
 /// How a reference goes with a scene.
 enum class ReferenceFit {
   fits,          ///< the same scene, perhaps rendered by another method: what differs is error

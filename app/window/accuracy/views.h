@@ -16,7 +16,7 @@ struct ViewEntry {
   View view = View::beauty;           ///< what the renderer draws
   ErrorView error = ErrorView::none;  ///< a picture of differences over it; it needs something to measure against
   const char* meaning = "";           ///< grey line beneath the buttons
-  bool stops = false;                 ///< the picture's luminance in colours, a stop each: see stops.h
+  bool stops = false;                 ///< the picture's luminance in colours, a stop each: see stop_colours
 };
 
 constexpr ViewEntry entry_of(View view) { return {label(view).name, view, ErrorView::none, label(view).help}; }

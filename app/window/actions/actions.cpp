@@ -142,8 +142,7 @@ void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
 std::span<const ActionEntry> actions() { return entries; }
 
 const ActionEntry* find_action(Action action) {
-  const auto found = std::find_if(std::begin(entries), std::end(entries),
-                                  [action](const ActionEntry& entry) { return entry.action == action; });
+  const auto* found = std::ranges::find(entries, action, &ActionEntry::action);
   return found == std::end(entries) ? nullptr : found;
 }
 
@@ -159,8 +158,7 @@ std::optional<Request> request_of_key(int key, Modifiers modifiers) {
 
 std::string text_of(const Key& key) {
   if (key.code == 0) return "";
-  const auto named = std::find_if(std::begin(named_keys), std::end(named_keys),
-                                  [&](const auto& named_key) { return named_key.first == key.code; });
+  const auto* named = std::ranges::find(named_keys, key.code, &std::pair<int, const char*>::first);
   const bool has_name = named != std::end(named_keys);
   return std::string(key.control ? "Ctrl + " : "") + (key.shift ? "Shift + " : "") +
          (has_name ? named->second : std::string(1, static_cast<char>(key.code)));
@@ -168,10 +166,9 @@ std::string text_of(const Key& key) {
 
 void log_actions(UiLog& log) {
   for (const ActionEntry& entry : entries) {
-    std::string name = entry.name, key = entry.key.code != 0 ? text_of(entry.key) : "none";
+    std::string key = entry.key.code != 0 ? text_of(entry.key) : "none";
     std::erase(key, ' ');
-    std::replace(name.begin(), name.end(), ' ', '_');
-    log.line(fmt::format("action {} {}", name, key));
+    log.line(fmt::format("action {} {}", log_name(entry.name), key));
   }
 }
 

@@ -1,7 +1,7 @@
 #include "app/window/document/autosave.h"
 
 #include "app/files/outputs.h"
-#include "app/files/user_folders.h"
+#include "app/window/system/preferences.h"
 #include "core/base/error.h"
 #include "core/base/stoppable.h"
 

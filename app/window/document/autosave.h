@@ -1,7 +1,6 @@
 #pragma once
 #include "app/window/document/document.h"
-#include "app/window/document/kept_slot.h"
-#include "app/window/document/kept_text.h"
+#include "app/window/document/kept_edits.h"
 
 #include <filesystem>
 #include <functional>
@@ -42,8 +41,6 @@ class Autosave {
   explicit Autosave(std::filesystem::path folder, std::function<void()> on_change = {});
   /// Writes what is still to be written.
   ~Autosave();
-  Autosave(const Autosave&) = delete;
-  Autosave& operator=(const Autosave&) = delete;
 
   /// Takes over the newest file that nobody has: of the scene `what`, in the state folder or beside the scene; or, if
   /// `what` is empty, of any in the state folder. From then on the file is this window's. Returns its path; empty:

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// A scene under edit, and the file that it came from.
+/// A scene under edit, the file that it came from, and how the window names an object of it.
 namespace tyndall {
 
 /// Where a scene came from. Never changes once it is shared by documents.
@@ -32,5 +32,17 @@ struct Document {
 
 /// Whether the scene differs from what its file holds.
 inline bool edited(const Document& document) { return !(document.scene == document.origin->saved); }
+
+/// Indices into Scene::objects and, for each further one, into the group's objects. Empty: nothing.
+using ObjectPath = std::vector<int>;
+using ObjectPaths = std::vector<ObjectPath>;
+
+/// The object at a path; null for an empty path and for one that leads nowhere.
+const Object* find_object(const Scene& scene, const ObjectPath& path);
+Object* find_object(Scene& scene, const ObjectPath& path);
+
+/// Where objects of a scene are in another state of it: those that are equal, else those of the same name, else those
+/// that stand at the same place. Objects that are gone are left out.
+ObjectPaths paths_after(const Scene& before, const Scene& after, const ObjectPaths& paths);
 
 }  // namespace tyndall

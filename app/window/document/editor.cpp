@@ -1,9 +1,8 @@
 #include "app/window/document/editor.h"
 
 #include "app/book/load_program.h"
-#include "app/window/document/open_document.h"
-#include "core/scene/change.h"
 #include "core/scene/check.h"
+#include "core/scene/scene.h"
 
 #include <cmath>
 #include <exception>

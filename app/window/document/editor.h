@@ -3,7 +3,7 @@
 #include "app/window/document/history.h"
 #include "app/window/document/job_queue.h"
 #include "app/window/document/message.h"
-#include "app/window/document/opened_film.h"
+#include "app/window/document/open_document.h"
 #include "core/scene/load.h"
 
 #include <atomic>
@@ -39,8 +39,6 @@ class Editor {
   /// constructed later than the editor, and ends before it. log: may be null.
   Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, EditorEvents events, JobQueue& jobs,
          MessageLine& messages, UiLog* log);
-  Editor(const Editor&) = delete;
-  Editor& operator=(const Editor&) = delete;
 
   const Document& document() const { return history_.current(); }
   const Scene& scene() const { return history_.current().scene; }

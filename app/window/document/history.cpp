@@ -103,26 +103,15 @@ const Document* History::unsaved() const {
   return step < steps_.size() ? &steps_[step].document : nullptr;
 }
 
-bool History::go_to_unsaved() {
-  const std::size_t step = unsaved_step();
-  if (step == steps_.size()) return false;
-  at_ = step;
+/// Goes to a step, where there is one.
+bool History::go_to(bool there_is, std::size_t step) {
   open_ = false;
-  return true;
+  if (there_is) at_ = step;
+  return there_is;
 }
 
-bool History::undo() {
-  open_ = false;
-  if (!can_undo()) return false;
-  --at_;
-  return true;
-}
-
-bool History::redo() {
-  open_ = false;
-  if (!can_redo()) return false;
-  ++at_;
-  return true;
-}
+bool History::go_to_unsaved() { return unsaved() && go_to(true, unsaved_step()); }
+bool History::undo() { return go_to(can_undo(), at_ - 1); }
+bool History::redo() { return go_to(can_redo(), at_ + 1); }
 
 }  // namespace tyndall

@@ -1,6 +1,5 @@
 #pragma once
 #include "app/window/document/document.h"
-#include "app/window/document/object_path.h"
 
 #include <cstdint>
 #include <vector>
@@ -44,6 +43,7 @@ class History {
 
  private:
   std::size_t unsaved_step() const;
+  bool go_to(bool there_is, std::size_t step);
 
   struct Step {
     Document document;

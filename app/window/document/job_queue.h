@@ -20,8 +20,6 @@ class JobQueue {
   explicit JobQueue(std::function<void()> on_result);
   /// Finishes the jobs that are waiting; their results are dropped.
   ~JobQueue();
-  JobQueue(const JobQueue&) = delete;
-  JobQueue& operator=(const JobQueue&) = delete;
 
   void run(Job job);
   /// Calls the results that have come; whether there were any. For the main thread.

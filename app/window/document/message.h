@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/system/clock.h"
+#include "app/window/system/pacing.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/text.h"
 

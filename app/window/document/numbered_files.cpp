@@ -1,6 +1,12 @@
 #include "app/window/document/numbered_files.h"
 
+#include "app/files/film_files.h"
+#include "app/files/outputs.h"
+#include "app/files/stats.h"
+#include "app/window/system/pacing.h"
+
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <sys/file.h>
 #include <fcntl.h>
@@ -10,11 +16,46 @@
 #include <cerrno>
 #include <cstdlib>
 #include <exception>
+#include <thread>
 #include <utility>
 
 namespace tyndall {
+namespace {
 
 namespace fs = std::filesystem;
+
+/// Keeps other windows from choosing a name in the folder while this lives. Where folders cannot be locked it does not.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder) : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (folder_ >= 0 && flock(folder_, LOCK_EX) != 0 && errno == EINTR) continue;
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) close(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_;
+};
+
+/// Writes the files; returns their names, for the user.
+std::string write_files(const Snapshot& snapshot, const Picture& picture) {
+  std::vector<fs::path> files{snapshot.base.string() + ".png"};
+  if (has_openexr()) files.emplace_back(snapshot.base.string() + ".exr");
+  const std::vector<std::string> problems = write_images(picture, files);
+  if (!problems.empty()) throw ImageFileError(fmt::format("{}", fmt::join(problems, "; ")));
+  return files[0].filename().string() + (files.size() > 1 ? " and .exr" : "");
+}
+
+std::string write_without_scene(const Snapshot& snapshot, const Film& film) {
+  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+  const auto nothing = [](const fs::path&) { return Embedded{"", "", {}, false}; };
+  return "saved " + write_files(snapshot, {film, image, snapshot.document.scene.display, nothing, {}});
+}
+
+}  // namespace
 
 fs::path numbered_base(const fs::path& folder, const std::string& stem, int minimum,
                        const std::vector<const char*>& endings) {
@@ -40,26 +81,6 @@ fs::path NumberedFiles::next_base(const std::string& stem) {
   return base;
 }
 
-namespace {
-
-/// Keeps other windows from choosing a name in the folder while this lives. Where folders cannot be locked it does not.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    while (folder_ >= 0 && flock(folder_, LOCK_EX) != 0 && errno == EINTR) continue;
-  }
-  ~FolderLock() {
-    if (folder_ >= 0) close(folder_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int folder_;
-};
-
-}  // namespace
-
 void NumberedFiles::write(const fs::path& base, std::function<std::string(const fs::path& base)> work) {
   jobs_.run([this, base, work = std::move(work)]() -> JobQueue::Result {
     try {
@@ -77,6 +98,44 @@ void NumberedFiles::write(const fs::path& base, std::function<std::string(const 
       return [this, text = std::string(error.what())] { messages_.say(text, true); };
     }
   });
+}
+
+std::string write_snapshot(const Snapshot& snapshot, Film film) {
+  if (!snapshot.has_scene) return write_without_scene(snapshot, film);
+  const Scene& scene = snapshot.document.scene;
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
+  RenderResult result;
+  result.film = std::move(film);
+  result.threads = snapshot.threads;
+  result.kernels = choose_kernels(snapshot.isa).value();
+  result.estimate = estimate_error(*prepared, result.kernels, result.film, 1);
+  const FinishedPicture finished = finished_picture(*prepared, result);
+  const std::string stats =
+      embedded_stats_text({snapshot.document.origin->title, *prepared, result, finished, 0, 0, 0});
+  const Picture picture{result.film, finished.image, scene.display,
+                        [&](const fs::path& file) {
+                          return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file),
+                                          stats,
+                                          {TYNDALL_VERSION, result.kernels.isa, false}};
+                        },
+                        [&] { return layers_of(*prepared, result.film, result.kernels); }};
+  const std::string files = write_files(snapshot, picture);
+  const FilmTotals& sum = finished.totals;
+  const bool uneven = !scene.render.adaptive && sum.min_taken != sum.max_taken;  // within a pass, or refined first
+  return "saved " + files + ", " + std::to_string(finished.spp) +
+         (uneven ? " to " + std::to_string(sum.max_taken) : "") + " spp";
+}
+
+Film wait_for_film(const std::function<Film()>& film, const std::function<bool()>& current,
+                   const std::function<bool()>& patient) {
+  for (const double end = clock_seconds() + 20; clock_seconds() < end;) {
+    Film now = film();
+    if (!current()) return {};
+    if (!now.pixels.empty() && totals(now).min_taken > 0) return now;
+    if (!patient()) return {};
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return {};
 }
 
 }  // namespace tyndall

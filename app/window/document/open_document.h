@@ -1,13 +1,16 @@
 #pragma once
 #include "app/window/document/document.h"
+#include "core/film/film.h"
 #include "core/scene/load.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// From scene files to documents, and back.
+/// From scene files to documents, and back; and the film of a snapshot that is opened again: its picture goes on from
+/// where it was.
 namespace tyndall {
 
 /// A loaded scene as a document without edits.
@@ -33,5 +36,15 @@ std::string stem_of(const std::string& title);
 
 /// What the window calls a file: its name, as one line.
 std::string title_of(const std::filesystem::path& file);
+
+struct OpenedFilm {
+  std::shared_ptr<Film> film;  ///< null: the picture starts over, or it is no snapshot
+  std::string remark;          ///< what the user is told of it; "": nothing
+};
+
+/// Reads the film of a scene that was loaded from an image. It is only of use if it is whole and its samples are those
+/// that this program would take with these kernels, so that nobody can tell that the picture was ever closed; else the
+/// word says what it lacks. isa: of the kernels; "": the best. Never throws.
+OpenedFilm read_opened_film(const LoadedScene& loaded, const std::string& isa);
 
 }  // namespace tyndall

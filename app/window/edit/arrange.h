@@ -1,9 +1,29 @@
 #pragma once
-#include "app/window/edit/drag_rounding.h"
 #include "app/window/tools/selection.h"
+#include "core/base/vec.h"
 
-/// Moving and turning objects.
+#include <vector>
+
+/// This room edits the objects and materials of a scene: a scene goes in, the scene changes, and nothing is drawn.
+/// Every function leaves numbers that a person would write. Here: rounding, and moving, turning and sizing objects.
 namespace tyndall {
+
+/// A step that numbers are rounded to: multiple * 10^exponent, multiple being 1, 2 or 5.
+struct DragRounding {
+  int multiple = 1, exponent = 0;
+  double size() const;
+};
+/// The largest power of ten that is at most `size` > 0.
+DragRounding decimal_below(double size);
+/// The largest of 1, 2 or 5 times a power of ten that is at most `size` > 0.
+DragRounding nice_below(double size);
+
+/// The multiple of the grain that is nearest; it prints short.
+double rounded(double value, DragRounding drag_rounding);
+Vec3d rounded(Vec3d v, DragRounding drag_rounding);
+/// Twelve significant digits: 0.1 + 0.2 becomes 0.3.
+double without_noise(double value);
+Vec3d without_noise(Vec3d v);
 
 /// The transform of an object that moving and turning it changes: its own, or a medium's boundary's where its own has
 /// nothing.
@@ -27,5 +47,20 @@ double angle_of(const Scene& scene, const ObjectPath& path);
 
 /// The middle of an object in the world; of an empty group its origin.
 Vec3d middle_of(const Scene& scene, const ObjectPath& path);
+
+/// A number of a shape's size, and the place from which it can be pulled.
+struct SizeGrip {
+  Vec3d at;          ///< in the world
+  Vec3d pull;        ///< unit: pulling this way makes the shape larger
+  double value = 0;  ///< grows as far as the grip is pulled: a radius, an edge's length, how far out a face of a box is
+  const char* name;  ///< "radius", "u", "v", "x", "-x", "y", "-y", "z", "-z"
+};
+
+/// The grips of a shape: a sphere's radius, a quad's edges, a box's faces. None for groups. across: unit, where a
+/// sphere's grip is seen from its centre.
+std::vector<SizeGrip> size_grips(const Scene& scene, const ObjectPath& path, Vec3d across);
+
+/// Sets the number of a grip (its place in the list). What cannot be so small stops at `minimum` > 0.
+void set_size(Scene& scene, const ObjectPath& path, std::size_t grip, double value, double minimum);
 
 }  // namespace tyndall

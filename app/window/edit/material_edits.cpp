@@ -1,6 +1,6 @@
 #include "app/window/edit/material_edits.h"
 
-#include "app/window/edit/drag_rounding.h"
+#include "app/window/edit/arrange.h"
 #include "app/window/edit/linked_objects.h"
 #include "core/base/kinds.h"
 
@@ -10,8 +10,8 @@ namespace tyndall {
 namespace {
 
 constexpr const char* types[] = {Lambertian<>::type, Metal<>::type, Dielectric<>::type, Light<>::type, "fog within"};
-constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, medium_within = 4;
-constexpr double usual_power = 5;  // of what becomes a light
+constexpr int dielectric = 2, light = 3, medium_within = 4;  // places in `types`
+constexpr double usual_power = 5;                            // of what becomes a light
 constexpr Vec3d usual_albedo{0.8, 0.8, 0.8};
 
 const Solid3d* solid_at(const Scene& scene, const ObjectPath& path) {
@@ -69,11 +69,9 @@ void set_kind(Material& material, int type, MaterialMemory& memory) {
   if (static_cast<std::size_t>(type) == before.kind.index()) return;
   KindsOfMaterial& known = memory[material.name];
   known[before.kind.index()] = before;
-  if (type == lambertian) material.kind = Lambertian<>{};
-  if (type == metal) material.kind = Metal<>{};
-  if (type == dielectric) material.kind = Dielectric<>{};
-  if (type == light) material.kind = Light<>{};
-  if (const auto& same = known[static_cast<std::size_t>(type)]) material.kind = same->kind;
+  const decltype(material.kind) usual[] = {Lambertian<>{}, Metal<>{}, Dielectric<>{}, Light<>{}};
+  const auto& same = known[static_cast<std::size_t>(type)];
+  material.kind = same ? same->kind : usual[type];
   material.colour = colour_for(type, before, known);
 }
 
@@ -171,15 +169,9 @@ void set_background_kind(Background& background, int kind, BackgroundMemory& mem
     background = *known;
     return;
   }
-  const auto [up, down] = std::visit(Overloaded{[](const Vec3d& colour) {
-                                                  return std::pair{colour, colour};
-                                                },
-                                                [](const Gradient& sky) {
-                                                  return std::pair{sky.top, sky.bottom};
-                                                },
-                                                [](const Hemispheres& sky) {
-                                                  return std::pair{sky.up, sky.down};
-                                                }},
+  const auto [up, down] = std::visit(Overloaded{[](const Vec3d& colour) { return std::pair(colour, colour); },
+                                                [](const Gradient& sky) { return std::pair(sky.top, sky.bottom); },
+                                                [](const Hemispheres& sky) { return std::pair(sky.up, sky.down); }},
                                      before);
   if (kind == place_in<Vec3d, Background>) background = up;
   if (kind == place_in<Gradient, Background>) background = Gradient{down, up};

@@ -1,10 +1,12 @@
 #pragma once
+#include "app/window/tools/projection.h"
 #include "app/window/tools/selection.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
-/// Duplicating, deleting and naming objects.
+/// Adding, duplicating, deleting and naming objects.
 namespace tyndall {
 
 /// The list that holds the object at a path.
@@ -23,5 +25,35 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
 
 /// "ball", else "ball 2" and so on: the first that no object has. A number at the end of the wish counts on.
 std::string free_name(const Scene& scene, const std::string& wish);
+
+/// What can be added.
+enum class Addition { sphere, hollow_sphere, box, quad, light, medium };
+
+struct AdditionEntry {
+  Addition what;
+  const char* name;  ///< "hollow ball"
+  const char* help;
+};
+/// All there is to add, in the order of the menu.
+std::span<const AdditionEntry> additions();
+
+/// Where something is added: on a surface.
+struct Spot {
+  Vec3d point;            ///< in the world
+  Vec3d normal{0, 1, 0};  ///< unit, the side from which it is seen
+  double size = 1;        ///< > 0: what would look neither large nor small there, scene units
+};
+
+/// The side of the object's surface, at a point of it, that is turned to the eye. Upwards for what has no surface.
+Vec3d normal_at(const Scene& scene, const ObjectPath& path, Vec3d point);
+
+/// Where something is added: on the object (empty: none) that is seen at a point of the image, else as far away as what
+/// the camera looks at. seen: the point of the object.
+Spot spot_at(const Scene& scene, ImagePoint at, const ObjectPath& object, Vec3d seen);
+
+/// Adds an object at the end of the list, so that it stands on the spot, with a material of its kind: one that the
+/// scene has under the usual name and with the usual values, else a new one. Returns the new objects, the largest
+/// first.
+ObjectPaths add_object(Scene& scene, Addition what, const Spot& spot);
 
 }  // namespace tyndall

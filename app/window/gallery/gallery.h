@@ -1,15 +1,23 @@
 #pragma once
-#include "app/window/gallery/recent_files.h"
 #include "app/window/gallery/thumbnails.h"
-#include "app/window/picture/texture.h"
+#include "app/window/picture/display.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-/// What the list of scenes shows beside names: pictures and recent files.
+/// What the list of scenes shows beside names: pictures, and the files that were opened last, which a small file keeps
+/// from one start to the next.
 namespace tyndall {
+
+inline constexpr std::size_t max_recent_files = 8;
+
+/// The files that the list names and that are there, the newest first. Whatever else is in the list is ignored.
+std::vector<std::filesystem::path> read_recent_files(const std::filesystem::path& list);
+/// Puts a file first in the list: read anew, as another window may have written it. Fails silently.
+void add_recent_file(const std::filesystem::path& list, const std::filesystem::path& file);
 
 /// By what load_scene takes; null: the scene has no picture.
 using SmallPictures = std::map<std::string, std::unique_ptr<const PictureTexture>>;

@@ -1,17 +1,39 @@
 #pragma once
 #include "app/window/document/job_queue.h"
-#include "app/window/gallery/thumbnail.h"
+#include "core/scene/load.h"
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-/// The small pictures of scenes, made in the background.
+/// This room makes the small pictures of scenes, and keeps them and the list of recent files from one start to the
+/// next.
 namespace tyndall {
+
+/// A small picture as the screen shows it: 8-bit sRGB, 3 bytes a pixel, top row first.
+struct Thumbnail {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is an absolute
+/// path.
+std::filesystem::path thumbnails_folder();
+
+/// 16 hex digits that say which picture a scene has: they change with the text of the scene and the bytes of its
+/// textures, and with how thumbnails are made.
+std::string thumbnail_key(const LoadedScene& loaded);
+
+/// A picture of the cache. Nothing if it is not there, or is damaged.
+std::optional<Thumbnail> read_thumbnail(const std::filesystem::path& file);
+/// Puts a picture into the cache; fails silently, as it can be made again.
+void write_thumbnail(const std::filesystem::path& file, const Thumbnail& picture);
 
 /// Finds pictures in the cache folder, and renders those that are not there, one at a time and at low priority. For
 /// the main thread.
@@ -21,8 +43,6 @@ class Thumbnails {
   Thumbnails(std::filesystem::path folder, const std::function<void()>& wake)
       : folder_(std::move(folder)), jobs_(wake) {}
   ~Thumbnails() { closing_ = true; }
-  Thumbnails(const Thumbnails&) = delete;
-  Thumbnails& operator=(const Thumbnails&) = delete;
 
   /// The scenes whose pictures are to be seen now, by what load_scene takes: the first that has none is made next.
   /// Takes the place of what was wanted before.

@@ -1,13 +1,33 @@
 #pragma once
-#include "app/window/handles/handle_drag.h"
-#include "app/window/system/mouse.h"
+#include "app/window/handles/handles.h"
+#include "app/window/system/input_events.h"
 
 #include <optional>
 #include <string>
 
 /// The mouse on the handles of the selection, and moving by the keyboard: G, then X, Y or Z, then the mouse or a
-/// number.
+/// number. What that does to a scene is pure: the scene at the beginning and two places of the mouse give the scene.
 namespace tyndall {
+
+/// A drag of a handle.
+struct HandleDrag {
+  Handle handle;
+  ObjectPaths selected;         ///< at least one; the first is the one whose numbers snapping rounds
+  Vec3d origin;                 ///< where the handles were, in the world
+  WindowPoint from, to;         ///< of the mouse
+  bool snap = false;            ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
+  bool fine = false;            ///< a tenth of these
+  std::optional<double> typed;  ///< in place of the mouse: scene units along the axis, the angle, or the size
+};
+
+/// What was done, for the line that tells the user of it.
+struct DragResult {
+  Vec3d moved;       ///< how far the objects went, world
+  std::string said;  ///< "x +0.35"
+};
+
+/// Does it to `scene`, which is the scene at the beginning of the drag.
+DragResult apply_drag(Scene& scene, const PictureFrame& frame, const HandleDrag& drag);
 
 /// Moves, turns and sizes the selected objects.
 class HandleTool {

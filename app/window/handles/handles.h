@@ -1,10 +1,12 @@
 #pragma once
+#include "app/window/edit/arrange.h"
 #include "app/window/edit/object_list.h"
-#include "app/window/edit/size.h"
 #include "app/window/system/layout.h"
+#include "app/window/system/ui_log.h"
 #include "app/window/tools/projection.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 /// This room lets the user move, turn and size the selected objects with the mouse, right in the picture.
@@ -54,5 +56,13 @@ std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, co
 
 /// The handle at a place; nothing where there is none.
 std::optional<Handle> handle_at(const std::vector<Handle>& handles, WindowPoint at, double scale);
+
+/// Draws the handles over the picture, the hovered one bright. only: just that one, while it is dragged.
+void draw_handles(const PictureFrame& frame, const std::vector<Handle>& handles, const std::optional<Handle>& hovered,
+                  bool only);
+/// What is being done, at the foot of the picture.
+void draw_handle_text(const PictureFrame& frame, const std::string& text);
+/// Tells the log where each handle can be taken. names: of the handles.
+void log_handles(UiLog& log, const std::vector<Handle>& handles, const std::vector<std::string>& names, double scale);
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/panels/widgets.h"
+#include "app/window/system/input_events.h"
 #include "app/window/system/layout.h"
-#include "app/window/system/mouse.h"
 #include "core/film/film.h"
 
 #include <optional>

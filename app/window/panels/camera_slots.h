@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/panels/widgets.h"
-#include "app/window/picture/texture.h"
+#include "app/window/picture/display.h"
 #include "core/render/frame.h"
 #include "core/scene/settings.h"
 

@@ -28,17 +28,13 @@ constexpr ThemeTone earlier_tones[Convergence::max_earlier]{{{0.50f, 0.72f, 0.52
                                                             {{0.68f, 0.66f, 0.42f, 1}, {0.43f, 0.41f, 0.12f, 1}}};
 
 ChartLine line_of(const NamedCurve& named, std::size_t index) {
-  switch (named.role) {
-    case NamedCurve::Role::earlier:
-      break;
-    case NamedCurve::Role::kept:
-      return {named.curve, named.name, shade(palette::amber), 2};
-    case NamedCurve::Role::clean:
-      return {named.curve, named.name, shade(palette::text), 2};
-    case NamedCurve::Role::current:
-      return {named.curve, named.name, shade(palette::blue), 2.5f};
-  }
-  return {named.curve, named.name, shade(earlier_tones[index % std::size(earlier_tones)], 0.8f), 1.5f};
+  using Role = NamedCurve::Role;
+  if (named.role == Role::earlier)
+    return {named.curve, named.name, shade(earlier_tones[index % std::size(earlier_tones)], 0.8f), 1.5f};
+  const Tone tone = named.role == Role::kept    ? palette::amber
+                    : named.role == Role::clean ? palette::text
+                                                : palette::blue;
+  return {named.curve, named.name, shade(tone), named.role == Role::current ? 2.5f : 2.0f};
 }
 
 /// How the named curves are drawn; the earlier ones come first among them.

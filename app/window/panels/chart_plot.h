@@ -1,6 +1,5 @@
 #pragma once
 #include "app/curves/curve.h"
-#include "app/curves/decades.h"
 #include "app/window/system/layout.h"
 
 #include <optional>

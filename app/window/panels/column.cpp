@@ -1,5 +1,5 @@
+#include "app/window/panels/list_rows.h"
 #include "app/window/panels/panels.h"
-#include "app/window/panels/wheel.h"
 #include "app/window/system/imgui_compat.h"
 
 #include <algorithm>
@@ -28,10 +28,14 @@ constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindo
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-bool begin_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more) {
+/// A window of ImGui's own. padding: around what `draw` puts into it.
+void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more, ImVec2 padding, auto draw) {
   ImGui::SetNextWindowPos({where.x0, where.y0});
   ImGui::SetNextWindowSize({where.width(), where.height()});
-  return ImGui::Begin(name, nullptr, part_flags | more | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  if (ImGui::Begin(name, nullptr, part_flags | more | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0))) draw();
+  ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 /// The row of tabs, and a button for all actions.
@@ -115,21 +119,22 @@ void draw_parts(Ui& ui, PanelState& state, std::span<const Part> parts) {
 /// The left edge of the column: dragging it makes the column wider.
 void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
   const float reach = 4 * ui.scale;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  const auto handle = [&] {
+    ImGui::InvisibleButton("edge", {2 * reach, std::max(1.0f, column.height())});
+    log_item(ui, "column.edge", "edge");
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
+      const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
+      state.look.column =
+          std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
+    }
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look.column = column_width;
+  };
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-  begin_part(ui, "##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
-             ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::InvisibleButton("edge", {2 * reach, std::max(1.0f, column.height())});
-  log_item(ui, "column.edge", "edge");
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
-    const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
-    state.look.column =
-        std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
-  }
-  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look.column = column_width;
-  ImGui::End();
-  ImGui::PopStyleVar(2);
+  draw_part(ui, "##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
+            ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
+            handle);
+  ImGui::PopStyleVar();
 }
 
 void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
@@ -143,19 +148,14 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   Rect body = column;
   if (has_tabs) body.y0 += head;
   if (fixed_chart) body.y1 -= foot;
-  if (has_tabs) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12 * s, 8 * s});
-    if (begin_part(ui, "##tabs", {column.x0, column.y0, column.x1, body.y0},
-                   stays_behind | ImGuiWindowFlags_NoScrollbar))
-      draw_tabs(ui, state);
-    ImGui::End();
-    ImGui::PopStyleVar();
-  }
+  if (has_tabs)
+    draw_part(ui, "##tabs", {column.x0, column.y0, column.x1, body.y0}, stays_behind | ImGuiWindowFlags_NoScrollbar,
+              {12 * s, 8 * s}, [&] { draw_tabs(ui, state); });
   const bool other = state.shown != state.selected && !state.selected.empty() && state.objects.shown != state.selected;
   state.shown = state.selected;
   if (other) state.tabs.jump = 0;  // selected in the picture: its values are shown
   begin_jump(ui, state);
-  if (begin_part(ui, "##column", body, stays_behind | ImGuiWindowFlags_NoScrollWithMouse)) {
+  const auto draw_body = [&] {
     std::vector<Part> parts{{"Object", object_panel},
                             {"Camera", camera_panel},
                             {"Image", image_panel},
@@ -169,16 +169,12 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
     std::erase_if(parts, [&state](const Part& part) { return !is_shown(state, part.name); });
     draw_parts(ui, state, parts);
     scroll_column(ui);
-  }
-  ImGui::End();
-  if (fixed_chart) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {16 * s, 2 * s});
-    if (begin_part(ui, "##chart", {column.x0, body.y1, column.x1, column.y1},
-                   stays_behind | ImGuiWindowFlags_NoScrollbar))
-      chart_panel(ui, state, chart);
-    ImGui::End();
-    ImGui::PopStyleVar();
-  }
+  };
+  draw_part(ui, "##column", body, stays_behind | ImGuiWindowFlags_NoScrollWithMouse, ImGui::GetStyle().WindowPadding,
+            draw_body);
+  if (fixed_chart)
+    draw_part(ui, "##chart", {column.x0, body.y1, column.x1, column.y1}, stays_behind | ImGuiWindowFlags_NoScrollbar,
+              {16 * s, 2 * s}, [&] { chart_panel(ui, state, chart); });
   draw_edge(ui, state, column);
 }
 

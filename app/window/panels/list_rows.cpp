@@ -5,6 +5,39 @@
 #include <algorithm>
 
 namespace tyndall {
+namespace {
+
+constexpr double pause = 0.5;  // seconds without the wheel after which it is a new movement
+
+/// Whether a movement of the wheel that another window has is still going on.
+bool belongs_to_other(const Ui& ui, ImGuiID id) {
+  return ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
+}
+
+void scroll(Ui& ui, ImGuiID id, float notches) {
+  ui.wheel = {id, ImGui::GetTime(), true};
+  const float step = std::min(5 * ImGui::GetFontSize(), 0.67f * ImGui::GetWindowHeight());
+  ImGui::SetScrollY(std::clamp(ImGui::GetScrollY() - notches * step, 0.0f, ImGui::GetScrollMaxY()));
+}
+
+void scroll_list(Ui& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImGuiID id = ImGui::GetID("wheel");
+  if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || belongs_to_other(ui, id)) return;
+  const bool at_end = io.MouseWheel > 0 ? ImGui::GetScrollY() <= 0 : ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
+  if (!at_end) scroll(ui, id, io.MouseWheel);
+}
+
+}  // namespace
+
+void scroll_column(Ui& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool used = ui.wheel.used;
+  ui.wheel.used = false;
+  if (used || io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows)) return;
+  scroll(ui, ImGui::GetID("wheel"), io.MouseWheel);
+  ui.wheel.used = false;
+}
 
 bool list_line(Ui& ui, const std::string& name, const std::string& label, const std::string& note, bool on) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -19,16 +52,21 @@ bool list_line(Ui& ui, const std::string& name, const std::string& label, const 
   return pressed;
 }
 
-bool begin_list(Ui& ui, const char* name, float line, std::size_t lines, std::size_t maximum) {
-  const float height = line * static_cast<float>(std::clamp<std::size_t>(lines, 1, maximum)) + 8 * ui.scale;
+void list(Ui& ui, const char* name, float line, std::size_t lines, std::size_t shown,
+          const std::function<void(std::size_t)>& draw, const std::function<void()>& before) {
+  const float height = line * static_cast<float>(std::max<std::size_t>(shown, 1)) + 8 * ui.scale;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::ink);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * ui.scale, 6 * ui.scale});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * ui.scale, 4 * ui.scale});
-  return ImGui::BeginChild(name, {0, height}, false,
-                           ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollWithMouse);
-}
-
-void end_list() {
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollWithMouse;
+  if (ImGui::BeginChild(name, {0, height}, false, flags)) {
+    if (before) before();
+    scroll_list(ui);
+    ImGuiListClipper clipper;  // lines that are not seen cost nothing
+    clipper.Begin(static_cast<int>(lines), line);
+    while (clipper.Step())
+      for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) draw(static_cast<std::size_t>(k));
+  }
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
   ImGui::PopStyleColor();

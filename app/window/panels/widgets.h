@@ -1,6 +1,5 @@
 #pragma once
 #include "app/text/numbers.h"
-#include "app/window/system/fonts.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/vec.h"
@@ -89,6 +88,25 @@ struct Ui {
   bool changed = false;          ///< a control has changed its value in this drawing: the scene may be another one
   std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed
+};
+
+/// Puts a prefix before the names of controls in the log, and makes them distinct, as long as it lives.
+class Scope {
+ public:
+  Scope(Ui& ui, const std::string& name) : ui_(ui), before_(ui.scope) {
+    ui.scope += name + ".";
+    ImGui::PushID(ui.scope.c_str());
+  }
+  ~Scope() {
+    ImGui::PopID();
+    ui_.scope = before_;
+  }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+
+ private:
+  Ui& ui_;
+  std::string before_;
 };
 
 /// What a row of a number shows.

@@ -6,12 +6,38 @@
 #include <glad/gl.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 namespace tyndall {
 namespace {
+
+using Pixel = std::array<std::uint8_t, 4>;
+
+/// The bands' colours in bytes.
+std::array<Pixel, stop_colours.size()> stop_pixels() {
+  std::array<Pixel, stop_colours.size()> pixels;
+  const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
+  std::transform(stop_colours.begin(), stop_colours.end(), pixels.begin(), [&](const ScreenColour& c) {
+    return Pixel{byte(c.r), byte(c.g), byte(c.b), 255};
+  });
+  return pixels;
+}
+
+void put_stops(const std::vector<float>& rgba, double exposure, std::vector<std::uint8_t>& bytes) {
+  const auto pixels = stop_pixels();
+  const float gain = std::exp2(static_cast<float>(exposure));
+  const auto light = [&](std::size_t i) { return rgba[i] > 0 ? std::min(gain * rgba[i], 1e30f) : 0.0f; };
+  bytes.resize(rgba.size());
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    const float luminance = 0.2126f * light(i) + 0.7152f * light(i + 1) + 0.0722f * light(i + 2);  // Rec.709
+    const float band = std::floor(std::log2(luminance / middle_grey) + 0.5f) - darkest_stop;
+    const Pixel pixel =
+        luminance > 0 ? pixels[static_cast<std::size_t>(std::clamp(band, 0.0f, static_cast<float>(pixels.size() - 1)))]
+                      : Pixel{0, 0, 0, 255};
+    std::copy(pixel.begin(), pixel.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
 
 GLuint compile_shader(GLenum kind, const char* source) {
   const GLuint shader = glCreateShader(kind);
@@ -41,6 +67,11 @@ GLuint link_program() {
 int whole(float v) { return static_cast<int>(std::lround(v)); }
 
 }  // namespace
+
+void screen_bytes(const std::vector<float>& rgba, int width, const Look& look, std::vector<std::uint8_t>& bytes) {
+  if (look.stops) return put_stops(rgba, look.exposure, bytes);
+  tone_map_rgba(rgba, look.exposure, look.tone_map, width, look.dither, bytes);
+}
 
 FrameDisplay::FrameDisplay() : program_(link_program()) {
   place_at_ = glGetUniformLocation(program_, "place");
@@ -107,6 +138,74 @@ void FrameDisplay::draw(const Rect& where, int framebuffer_width, int framebuffe
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   glBindVertexArray(0);
   glDisable(GL_SCISSOR_TEST);
+}
+
+PictureTexture::PictureTexture(int width, int height, const std::vector<std::uint8_t>& rgb)
+    : width_(static_cast<float>(width)), height_(static_cast<float>(height)) {
+  glGenTextures(1, &number_);
+  glBindTexture(GL_TEXTURE_2D, number_);
+  for (const GLenum name : std::array<GLenum, 2>{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_2D, name, GL_LINEAR);
+  for (const GLenum name : std::array<GLenum, 2>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+PictureTexture::~PictureTexture() { glDeleteTextures(1, &number_); }
+
+Rect overlap(const Rect& a, const Rect& b) {
+  const float x0 = std::max(a.x0, b.x0), y0 = std::max(a.y0, b.y0);
+  return {x0, y0, std::max(x0, std::min(a.x1, b.x1)), std::max(y0, std::min(a.y1, b.y1))};
+}
+
+Rect ImageZoom::place(const Rect& area, const Rect& fit, int width, int height, float dots) {
+  area_ = area, image_ = fit;
+  fit_ = shown_ = fit.width() * dots / static_cast<float>(std::max(1, width));
+  if (fits() || fit.width() <= 0) return image_;
+  shown_ = scale_;
+  const float w = static_cast<float>(width) * scale_ / dots, h = static_cast<float>(height) * scale_ / dots;
+  // On whole pixels of the screen, so that at actual size each of the picture's is one of them.
+  const auto rounded = [dots](float v) { return std::round(v * dots) / dots; };
+  const float x0 = rounded((area.x0 + area.x1) / 2 - at_x_ * w), y0 = rounded((area.y0 + area.y1) / 2 - at_y_ * h);
+  return image_ = {x0, y0, x0 + w, y0 + h};
+}
+
+/// What is at (x, y) now is there at the new scale, too. A picture that is smaller than the area goes to its middle.
+void ImageZoom::set(float scale, float x, float y) {
+  if (image_.width() <= 0 || image_.height() <= 0) return;
+  const float u = (x - image_.x0) / image_.width(), v = (y - image_.y0) / image_.height();
+  const float grown = scale / shown_, w = image_.width() * grown, h = image_.height() * grown;
+  scale_ = scale;
+  at_x_ = u + ((area_.x0 + area_.x1) / 2 - x) / w;
+  at_y_ = v + ((area_.y0 + area_.y1) / 2 - y) / h;
+  if (scale < fit_) at_x_ = at_y_ = 0.5f;
+  limit();
+}
+
+/// The middle of the area always shows some of the picture, so that it cannot be lost.
+void ImageZoom::limit() {
+  at_x_ = std::clamp(at_x_, 0.0f, 1.0f);
+  at_y_ = std::clamp(at_y_, 0.0f, 1.0f);
+}
+
+void ImageZoom::enlarge(float factor, float x, float y) {
+  const float wanted = shown_ * factor, minimum = std::min(1.0f, fit_);
+  if (wanted <= minimum * 1.001f && fit_ <= 1) return fit();
+  set(std::clamp(wanted, minimum, std::max(maximum, fit_)), x, y);
+}
+
+void ImageZoom::move(float dx, float dy) {
+  if (fits() || image_.width() <= 0) return;
+  at_x_ -= dx / image_.width();
+  at_y_ -= dy / image_.height();
+  limit();
+}
+
+void ImageZoom::toggle(float x, float y) {
+  if (!fits() && scale_ == 1) return fit();
+  set(1, x, y);
 }
 
 }  // namespace tyndall

@@ -7,12 +7,43 @@
 namespace tyndall {
 namespace {
 
+constexpr double slice = 0.3, slack = 0.5;  // seconds of a turn; by which one may be ahead while both work
+
 RenderingTime time_of(const Renderer& renderer) {
   const auto frame = renderer.latest();
   return frame ? RenderingTime{frame->seconds, frame->finished} : RenderingTime{};
 }
 
 }  // namespace
+
+Active next_active(Active now, RenderingTime first, RenderingTime second, bool together) {
+  if (first.finished || second.finished) return Active::both;  // one that has finished takes no time from the other
+  const double lead = first.seconds - second.seconds;
+  if (together) {
+    if (now == Active::second && lead > 0) return Active::second;
+    if (now == Active::first && lead < 0) return Active::first;
+    return lead > slack ? Active::second : lead < -slack ? Active::first : Active::both;
+  }
+  if (now == Active::both) return lead > 0 ? Active::second : Active::first;
+  if (now == Active::first) return lead > slice ? Active::second : Active::first;
+  return lead < -slice ? Active::first : Active::second;
+}
+
+void ThreadBudget::begin(int threads, bool split) {
+  threads_ = threads, split_ = split;
+  active_ = split && !together() ? Active::first : Active::both;
+}
+
+bool ThreadBudget::go_on(RenderingTime current, RenderingTime kept) {
+  const Active active = split_ ? next_active(active_, current, kept, together()) : Active::both;
+  return std::exchange(active_, active) != active;
+}
+
+RenderRequest ThreadBudget::part_of(RenderRequest wanted, Half half) const {
+  if (split_ && together()) wanted.threads /= 2;
+  wanted.paused |= active_ == (half == Half::current ? Active::second : Active::first);
+  return wanted;
+}
 
 RendererPair::RendererPair(int threads, std::string isa, std::function<void()> on_frame)
     : isa_(std::move(isa)), told_(std::move(on_frame)), renderer_({threads, isa_}, [this] { on_frame_of_either(); }) {}

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <vector>
 
-/// What the user did between two drawings, apart from the mouse (mouse.h).
+/// What the user did between two drawings, with keys and mouse.
 namespace tyndall {
 
 /// Keys that are held while another one is pressed.
@@ -24,5 +24,24 @@ struct InputEvents {
   std::vector<KeyPress> keys;
   std::vector<std::filesystem::path> dropped;  ///< files
 };
+
+/// The mouse as one drawing of the window finds it. Places are in window units, y down; the buttons are left, right,
+/// middle.
+struct Mouse {
+  float x = 0, y = 0;
+  float dx = 0, dy = 0;  ///< how far it went since the last drawing
+  float wheel = 0;       ///< notches turned since the last drawing, positive: away from the user
+  bool clicked[3] = {};  ///< pressed since the last drawing, and maybe released again
+  bool down[3] = {};
+  float pressed_x[3] = {}, pressed_y[3] = {};  ///< where each button went down last
+  bool control = false, shift = false, alt = false;
+  bool taken = false;   ///< a control of the panels or a dialog has it
+  bool typing = false;  ///< a control has the keyboard
+
+  bool any_down() const { return down[0] || down[1] || down[2]; }
+};
+
+/// What Dear ImGui knows of the mouse. Within one of its frames.
+Mouse read_mouse();
 
 }  // namespace tyndall

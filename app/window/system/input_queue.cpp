@@ -3,6 +3,8 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -40,46 +42,24 @@ Role role_of_key(const RawInput& input) {
 }
 
 Role role_of(const RawInput& input) {
-  switch (input.kind) {
-    case RawInput::Kind::key:
-      return role_of_key(input);
-    case RawInput::Kind::character:
-      return character;
-    case RawInput::Kind::button:
-      return button;
-    case RawInput::Kind::motion:
-      return motion;
-    case RawInput::Kind::scroll:
-      return scroll;
-    case RawInput::Kind::focus:
-      return focus;
-  }
-  return nothing;
+  constexpr Role roles[] = {nothing, character, button, motion, scroll, focus};  // in the order of RawInput::Kind
+  return input.kind == RawInput::Kind::key ? role_of_key(input) : roles[static_cast<int>(input.kind)];
 }
 
 /// What must not have been delivered for the same frame before.
 unsigned waits_for(Role role) {
-  switch (role) {
-    case shift:
-      return acting_key | button | motion | scroll;
-    case modifier:
-      return plain_key | acting_key | character | button | motion | scroll;
-    case plain_key:
-      return acting_key;
-    case character:
-      return acting_key | button;
-    case acting_key:
-      return acting_key | character;
-    case button:
-      return plain_key | acting_key | character | button;
-    case motion:
-    case scroll:
-      return button;
-    case focus:
-      return ~unsigned(release);
-    default:
-      return 0;
-  }
+  constexpr std::pair<Role, unsigned> rules[] = {
+      {shift, acting_key | button | motion | scroll},
+      {modifier, plain_key | acting_key | character | button | motion | scroll},
+      {plain_key, acting_key},
+      {character, acting_key | button},
+      {acting_key, acting_key | character},
+      {button, plain_key | acting_key | character | button},
+      {motion, button},
+      {scroll, button},
+      {focus, ~unsigned(release)}};
+  const auto* rule = std::ranges::find(rules, role, &std::pair<Role, unsigned>::first);
+  return rule == std::end(rules) ? 0 : rule->second;
 }
 
 /// Whether an acting key stays within the text or list that has the keyboard.

@@ -1,7 +1,6 @@
 #include "app/window/system/pacing.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tyndall {
 

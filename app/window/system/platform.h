@@ -25,8 +25,6 @@ class Platform {
   /// A window whose image area has the given size at scale 1, smaller if the screen is. Throws IoError.
   Platform(int image_width, int image_height);
   ~Platform();
-  Platform(const Platform&) = delete;
-  Platform& operator=(const Platform&) = delete;
 
   /// Waits for events up to `seconds`; infinite: until one comes. 0: only looks.
   void wait(double seconds);

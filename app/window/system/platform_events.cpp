@@ -1,7 +1,7 @@
 #include "app/window/system/platform_events.h"
 
-#include "app/window/system/clock.h"
 #include "app/window/system/imgui_compat.h"
+#include "app/window/system/pacing.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>

@@ -1,23 +1,17 @@
 #include "app/window/system/preferences.h"
 
 #include "app/files/outputs.h"
-#include "app/files/user_folders.h"
 #include "app/text/numbers.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 
 namespace tyndall {
-
-std::filesystem::path preferences_file() {
-  const std::filesystem::path config = user_folder("XDG_CONFIG_HOME", ".config");
-  return config.empty() ? config : config / "tyndall" / "window.txt";
-}
-
 namespace {
 
 /// Takes what one line says. Returns whether it says anything that a window can have.
@@ -36,6 +30,11 @@ bool take(const std::string& name, const std::string& value, Preferences& prefer
 }
 
 }  // namespace
+
+std::filesystem::path preferences_file() {
+  const std::filesystem::path config = user_folder("XDG_CONFIG_HOME", ".config");
+  return config.empty() ? config : config / "tyndall" / "window.txt";
+}
 
 std::optional<Preferences> read_preferences(const std::filesystem::path& file) {
   Preferences preferences;
@@ -73,6 +72,16 @@ std::filesystem::path set_aside(const std::filesystem::path& file) {
 double stepped_text_size(double size, int steps) {
   const auto at = std::lower_bound(text_sizes.begin(), text_sizes.end(), size) - text_sizes.begin();
   return text_sizes[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + steps, 0, text_sizes.size() - 1))];
+}
+
+std::filesystem::path user_folder(const char* xdg_variable, const char* below) {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    const std::filesystem::path path = value ? value : "";
+    return path.is_absolute() ? path : std::filesystem::path();
+  };
+  const std::filesystem::path named = folder(xdg_variable), home = folder("HOME");
+  return named.empty() && !home.empty() ? home / below : named;
 }
 
 }  // namespace tyndall

@@ -38,4 +38,8 @@ std::filesystem::path set_aside(const std::filesystem::path& file);
 /// The size that is so many steps larger, or smaller, than the one that is next to `size`.
 double stepped_text_size(double size, int steps);
 
+/// What an XDG variable such as "XDG_STATE_HOME" names, else $HOME/below, for example ".local/state". Relative paths
+/// are no names of folders (XDG Base Directory Specification) and count as not set. Empty: neither variable is set.
+std::filesystem::path user_folder(const char* xdg_variable, const char* below);
+
 }  // namespace tyndall

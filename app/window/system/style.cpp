@@ -1,5 +1,10 @@
 #include "app/window/system/style.h"
 
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <vector>
+
 namespace tyndall {
 namespace {
 
@@ -9,6 +14,133 @@ Theme current_theme = Theme::dark;
 ImVec4 faded(Tone tone, float alpha) {
   tone.w *= alpha;
   return tone;
+}
+
+namespace fs = std::filesystem;
+
+/// A font file's path in the first folder that has it, of those of Debian, Arch, Fedora and the user; "" if none has.
+std::string find_font(const char* file) {
+  static constexpr const char* folders[] = {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/",
+                                            "/usr/share/fonts/truetype/jetbrains-mono/",
+                                            "/usr/share/fonts/TTF/",
+                                            "/usr/share/fonts/google-roboto/",
+                                            "/usr/share/fonts/jetbrains-mono-fonts/",
+                                            "/usr/local/share/fonts/",
+                                            "/Library/Fonts/"};
+  std::error_code ignored;
+  for (const std::string folder : folders)
+    if (std::filesystem::is_regular_file(folder + file, ignored)) return folder + file;
+  return "";
+}
+
+/// Latin, Greek, Cyrillic and the signs that the panels use.
+const ImWchar* glyphs() {
+  static constexpr ImWchar ranges[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2010, 0x2026, 0x2070, 0x209c, 0x2190, 0x2193,
+                                       0x2212, 0x2212, 0x221e, 0x221e, 0x2248, 0x2248, 0x2264, 0x2265, 0};
+  return ranges;
+}
+
+bool is_always_loaded(ImWchar c) {
+  for (const ImWchar* range = glyphs(); *range != 0; range += 2)
+    if (c >= range[0] && c <= range[1]) return true;
+  return c < 0x20;
+}
+
+/// All font files below a folder, by their names.
+void find_fonts(const fs::path& folder, std::map<std::string, fs::path>& out) {
+  std::error_code error;
+  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    const std::string ending = at->path().extension().string();
+    if (ending == ".ttf" || ending == ".ttc" || ending == ".otf")
+      out.emplace(at->path().filename().string(), at->path());
+  }
+}
+
+/// The installed fonts in which characters are looked for that the first ones do not have, best first.
+std::vector<std::string> further_fonts() {
+  static constexpr const char* names[] = {"NotoSansCJK-Regular.ttc",
+                                          "NotoSansCJK-VF.otf.ttc",
+                                          "NotoSansCJKsc-Regular.otf",
+                                          "SourceHanSans-Regular.ttc",
+                                          "wqy-microhei.ttc",
+                                          "wqy-zenhei.ttc",
+                                          "DroidSansFallbackFull.ttf",
+                                          "DroidSansFallback.ttf",
+                                          "ipagp.ttf",
+                                          "fonts-japanese-gothic.ttf",
+                                          "NanumGothic.ttf",
+                                          "uming.ttc",
+                                          "NotoSans-Regular.ttf",
+                                          "DejaVuSans.ttf",
+                                          "FreeSans.ttf",
+                                          "unifont.ttf"};
+  std::map<std::string, fs::path> installed;
+  for (const char* folder : {"/usr/share/fonts", "/usr/local/share/fonts", "/Library/Fonts"})
+    find_fonts(folder, installed);
+  if (const char* home = std::getenv("HOME")) find_fonts(fs::path(home) / ".local/share/fonts", installed);
+  std::vector<std::string> files;
+  for (const char* name : names)
+    if (const auto found = installed.find(name); found != installed.end()) files.push_back(found->second.string());
+  return files;
+}
+
+/// Pairs of first and last, and a 0 at the end, as Dear ImGui takes them.
+std::vector<ImWchar> ranges_of(const Characters& characters) {
+  std::vector<ImWchar> ranges;
+  for (const ImWchar c : characters) {
+    if (!ranges.empty() && ranges.back() + 1 == c)
+      ranges.back() = c;
+    else
+      ranges.insert(ranges.end(), {c, c});
+  }
+  ranges.push_back(0);
+  return ranges;
+}
+
+/// What the fonts beyond the first ones are loaded for.
+struct Further {
+  std::vector<std::string> files;
+  std::vector<ImWchar> ranges;
+};
+
+ImFont* add_first(const std::string& file, float size) {
+  ImFontAtlas* atlas = ImGui::GetIO().Fonts;
+  if (!file.empty()) {
+    ImFontConfig config;
+    config.OversampleH = 2;
+    config.OversampleV = 1;
+    if (ImFont* font = atlas->AddFontFromFileTTF(file.c_str(), size, &config, glyphs())) return font;
+  }
+  ImFontConfig config;
+  config.SizePixels = size;
+  return atlas->AddFontDefault(&config);
+}
+
+/// A font of a size, and into it what the further ones have.
+ImFont* add_font(const std::string& file, float size, const Further& further) {
+  ImFont* font = add_first(file, size);
+  for (const std::string& more : further.files) {
+    ImFontConfig config;
+    config.MergeMode = true;
+    config.OversampleH = 1;
+    ImGui::GetIO().Fonts->AddFontFromFileTTF(more.c_str(), size, &config, further.ranges.data());
+  }
+  return font;
+}
+
+/// The code of the character at a byte of a UTF-8 text, and the place of the next one; 0xfffd for what is broken.
+unsigned next_character(const std::string& text, std::size_t& at) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  const unsigned first = byte(at++);
+  if (first < 0x80) return first;
+  const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
+  unsigned code = more == 3 ? first & 0x07 : more == 2 ? first & 0x0f : first & 0x1f;
+  for (int k = 0; k < more; ++k) {
+    if ((byte(at) & 0xc0) != 0x80) return 0xfffd;
+    code = (code << 6) | (byte(at++) & 0x3f);
+  }
+  return more == 0 ? 0xfffd : code;
 }
 
 }  // namespace
@@ -61,6 +193,36 @@ void set_style(float scale, Theme theme) {
   c[ImGuiCol_ModalWindowDimBg] = {0.04f, 0.05f, 0.06f, 0.6f};
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
+}
+
+bool add_characters(const std::string& text, Characters& more) {
+  constexpr std::size_t maximum = 4000;  // more would make the atlas too large for some displays
+  bool added = false;
+  for (std::size_t at = 0; at < text.size() && more.size() < maximum;) {
+    const unsigned code = next_character(text, at);
+    if (code > 0xffff || code == 0xfffd || is_always_loaded(static_cast<ImWchar>(code))) continue;
+    added = more.insert(static_cast<ImWchar>(code)).second || added;
+  }
+  return added;
+}
+
+Fonts load_fonts(float pixels, float scale, const Characters& more) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  const std::string regular = find_font("Roboto-Regular.ttf"), medium = find_font("Roboto-Medium.ttf"),
+                    mono = find_font("JetBrainsMono-Regular.ttf");
+  const Further further{more.empty() ? std::vector<std::string>() : further_fonts(), ranges_of(more)};
+  Fonts fonts;
+  fonts.body = add_font(regular, 16 * pixels, further);
+  fonts.small = add_font(regular, 13 * pixels, further);
+  fonts.strong = add_font(medium, 16 * pixels, further);
+  fonts.mono = add_font(mono, 14 * pixels, further);
+  io.FontGlobalScale = scale / pixels;
+#if IMGUI_VERSION_NUM < 19200
+  io.Fonts->Build();           // now, while the ranges live
+  io.Fonts->ClearInputData();  // the files may be large
+#endif
+  return fonts;
 }
 
 }  // namespace tyndall

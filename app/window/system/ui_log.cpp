@@ -11,11 +11,17 @@
 #include <cstring>
 
 namespace tyndall {
+
 double quantile(std::vector<double>& values, double q) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
   const double at = std::ceil(q * static_cast<double>(values.size())) - 1;
   return values[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(values.size() - 1)))];
+}
+
+std::string log_name(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
 }
 
 UiLog::UiLog(const std::filesystem::path& file) {
@@ -44,9 +50,7 @@ void UiLog::widget(const std::string& name, const Rect& rect, const std::string&
   const bool same = known.drawing != 0 && known.rect == rect && known.value == value;
   known = {rect, value, drawing_};
   if (same) return;
-  std::string word = name;
-  std::replace(word.begin(), word.end(), ' ', '_');
-  line("widget " + word +
+  line("widget " + log_name(name) +
        fmt::format(" {:.0f} {:.0f} {:.0f} {:.0f} ", static_cast<double>(rect.x0), static_cast<double>(rect.y0),
                    static_cast<double>(rect.x1), static_cast<double>(rect.y1)) +
        value);
@@ -58,16 +62,11 @@ std::optional<Rect> UiLog::find(const std::string& name) const {
 }
 
 void UiLog::end_of_widgets() {
-  for (auto it = widgets_.begin(); it != widgets_.end();) {
-    if (it->second.drawing == drawing_) {
-      ++it;
-      continue;
-    }
-    std::string word = it->first;
-    std::replace(word.begin(), word.end(), ' ', '_');
-    line("gone " + word);
-    it = widgets_.erase(it);
-  }
+  std::erase_if(widgets_, [this](const auto& widget) {
+    const bool gone = widget.second.drawing != drawing_;
+    if (gone) line("gone " + log_name(widget.first));
+    return gone;
+  });
   ++drawing_;
 }
 

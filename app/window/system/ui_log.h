@@ -1,6 +1,6 @@
 #pragma once
+#include "app/window/system/input_events.h"
 #include "app/window/system/layout.h"
-#include "app/window/system/mouse.h"
 #include "core/render/renderer.h"
 
 #include <cstdint>
@@ -93,6 +93,9 @@ class UiLog {
   std::uint64_t drawing_ = 1, shown_ = 0, shown_clean_ = 0, pass_ = 0;
   bool resting_ = false;  ///< "rest" is the last line
 };
+
+/// A name as the log has it: without spaces.
+std::string log_name(std::string name);
 
 /// The value below which a share q in [0, 1] of the values lies; 0 for none. Sorts.
 double quantile(std::vector<double>& values, double q);

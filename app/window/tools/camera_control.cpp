@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace tyndall {
 namespace {
@@ -122,6 +123,35 @@ Vec3d in_camera_frame(const Camera& camera, Vec3d point) {
   const CameraAxes axes = axes_of(camera);
   const Vec3d v = point - camera.look_from;
   return {dot(v, axes.right), dot(v, axes.up), dot(v, axes.forward)};
+}
+
+std::optional<FlyKey> fly_key(int key) {
+  constexpr std::string_view keys = "DAEQWS";  // each axis in both directions
+  const std::size_t at = key < 128 ? keys.find(static_cast<char>(key)) : keys.npos;
+  if (at == keys.npos) return {};
+  return FlyKey{static_cast<int>(at) / 2, at % 2 == 0 ? 1 : -1};
+}
+
+bool holds_fly_key(const std::set<int>& held) {
+  return std::any_of(held.begin(), held.end(), [](int key) { return fly_key(key).has_value(); });
+}
+
+bool Flight::update(const std::set<int>& held, bool fast, double now, Camera& camera) {
+  Vec3d heading;
+  double* const axes[3] = {&heading.x, &heading.y, &heading.z};
+  for (const int key : held)
+    if (const auto direction = fly_key(key)) *axes[direction->axis] += direction->sign;
+  const bool flies = !(heading == Vec3d{}), tapped = !flies && last_ >= 0 && !moved_;
+  const double seconds = tapped ? tap : flies && last_ >= 0 ? std::min(now - last_, 0.1) : 0;
+  if (seconds > 0) {
+    const double speed = (fast ? 3.0 : 0.75) * target_distance(camera);  // scene units a second
+    const Vec3d step = seconds * speed * (tapped ? heading_ : heading);
+    camera = fly(camera, step.x, step.y, step.z);
+  }
+  moved_ = flies && last_ >= 0;
+  heading_ = heading;
+  last_ = flies ? now : -1;
+  return flies;
 }
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
 #include "app/window/tools/pointer.h"
 
 #include "app/window/tools/camera_control.h"
-#include "app/window/tools/objects_under.h"
+#include "app/window/tools/projection.h"
 #include "core/base/math.h"
 
 #include <algorithm>

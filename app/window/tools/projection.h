@@ -1,9 +1,11 @@
 #pragma once
+#include "app/window/tools/selection.h"
 #include "core/scene/scene.h"
 
 #include <optional>
+#include <vector>
 
-/// From points in space to points of the picture, and back.
+/// From points in space to points of the picture and back, and what is seen at them.
 namespace tyndall {
 
 /// A point of the image: x to the right and y down, both in [0, 1] inside it.
@@ -43,5 +45,20 @@ class Projection {
   Camera camera_;
   double height_, width_, near_;
 };
+
+/// The outline of an object as the camera sees it, hidden or not: a sphere's silhouette, the edges of quads, the
+/// silhouette of boxes. Of a group: of what is in it, up to a limit. What is behind the eye is left out.
+std::vector<ImageLine> outline(const Scene& scene, const ObjectPath& path);
+
+/// An object and how far along the line of sight it begins, scene units.
+struct ObjectUnder {
+  ObjectPath path;
+  double distance = 0;
+  bool medium = false;
+};
+
+/// The objects that a line of sight meets, nearest first; groups count as what is in them. Fog and boxes of media that
+/// hold the eye are not met: they cannot be seen from there. Moving spheres are where they are at time 0.
+std::vector<ObjectUnder> objects_under(const Scene& scene, ImagePoint at);
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/document/object_path.h"
+#include "app/window/document/document.h"
 #include "core/compile/flatten.h"
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include "app/curves/convergence.h"
+#include "app/curves/curve.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/files/layers.h"
+#include "app/files/stats.h"
 
 #include "core/render/render.h"
 #include "tests/support/pictures.h"

@@ -1,5 +1,4 @@
 #pragma once
-#include "app/window/edit/add_object.h"
 #include "app/window/edit/arrange.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/edit/object_list.h"

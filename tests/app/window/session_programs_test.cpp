@@ -1,7 +1,7 @@
 #include "app/files/open_scene.h"
-#include "app/window/document/kept_text.h"
+#include "app/window/document/kept_edits.h"
 #include "app/window/document/open_document.h"
-#include "app/window/gallery/recent_files.h"
+#include "app/window/gallery/gallery.h"
 #include "tests/app/window/opened_session.h"
 
 #include <doctest/doctest.h>

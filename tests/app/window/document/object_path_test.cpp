@@ -1,4 +1,4 @@
-#include "app/window/document/object_path.h"
+#include "app/window/document/document.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/document/send_timer.h"
+#include "app/window/system/pacing.h"
 
 #include <doctest/doctest.h>
 

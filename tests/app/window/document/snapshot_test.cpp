@@ -1,4 +1,4 @@
-#include "app/window/document/snapshot.h"
+#include "app/window/document/numbered_files.h"
 
 #include "app/window/document/open_document.h"
 #include "core/image/image_io.h"

@@ -1,4 +1,4 @@
-#include "app/window/edit/add_object.h"
+#include "app/window/edit/object_list.h"
 
 #include "app/window/edit/linked_objects.h"
 #include "core/scene/check.h"

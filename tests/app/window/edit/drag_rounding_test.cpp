@@ -1,4 +1,4 @@
-#include "app/window/edit/drag_rounding.h"
+#include "app/window/edit/arrange.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/edit/size.h"
+#include "app/window/edit/arrange.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/gallery/recent_files.h"
+#include "app/window/gallery/gallery.h"
 #include "app/window/gallery/thumbnails.h"
 #include "tests/support/news.h"
 #include "tests/support/paths.h"

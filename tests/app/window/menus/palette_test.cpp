@@ -1,4 +1,4 @@
-#include "app/window/menus/palette.h"
+#include "app/window/menus/menu.h"
 
 #include "tests/app/window/panels/null_imgui.h"
 

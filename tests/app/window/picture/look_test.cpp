@@ -1,6 +1,4 @@
-#include "app/window/picture/look.h"
-
-#include "app/window/picture/stops.h"
+#include "app/window/picture/display.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/picture/zoom.h"
+#include "app/window/picture/display.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/rendering/split_view.h"
+#include "app/window/rendering/picture_view.h"
 
 #include "tests/app/window/panels/null_imgui.h"
 

@@ -1,4 +1,4 @@
-#include "app/window/system/fonts.h"
+#include "app/window/system/style.h"
 #include "tests/app/window/panels/null_imgui.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,6 @@
-#include "app/window/tools/flight.h"
-
 #include "app/window/tools/camera_control.h"
-#include "app/window/tools/gestures.h"
+
+#include "app/window/tools/pointer.h"
 
 #include <doctest/doctest.h>
 

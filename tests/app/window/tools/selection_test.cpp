@@ -1,6 +1,5 @@
 #include "app/window/tools/selection.h"
-#include "app/window/tools/objects_under.h"
-#include "app/window/tools/outline.h"
+#include "app/window/tools/projection.h"
 
 #include <doctest/doctest.h>
 

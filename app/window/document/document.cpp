@@ -1,0 +1,84 @@
+#include "app/window/document/document.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+using Objects = std::vector<Object>;
+
+/// The index of the object in `after` that equals before[from]; of several equal ones, that with the same number.
+std::optional<std::size_t> equal_object(const Objects& before, const Objects& after, std::size_t from) {
+  const Object& object = before[from];
+  if (from < after.size() && after[from] == object) return from;
+  auto number = std::count(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(from), object);
+  for (std::size_t k = 0; k < after.size(); ++k)
+    if (after[k] == object && number-- == 0) return k;
+  return {};
+}
+
+/// The index of an object in another state of its list; nothing: it is gone.
+std::optional<std::size_t> index_after(const Objects& before, const Objects& after, std::size_t from) {
+  if (const auto equal = equal_object(before, after, from)) return equal;
+  const std::string& name = before[from].name;
+  const auto has_name = [&](const Object& object) { return object.name == name; };
+  const auto named = std::find_if(after.begin(), after.end(), has_name);
+  if (!name.empty() && named != after.end()) return named - after.begin();
+  if (before.size() == after.size()) return from;
+  if (!name.empty() || std::find(after.begin(), after.end(), before[from]) != after.end()) return {};
+  // The list grew or shrank, so what stands before and behind that place is still the same.
+  const auto [was, is] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
+  if (from < static_cast<std::size_t>(was - before.begin())) return from;
+  const auto same_end =
+      std::mismatch(before.rbegin(), std::make_reverse_iterator(was), after.rbegin(), std::make_reverse_iterator(is))
+          .first -
+      before.rbegin();
+  if (from + static_cast<std::size_t>(same_end) < before.size()) return {};
+  return from + after.size() - before.size();
+}
+
+ObjectPath path_after(const Objects& before, const Objects& after, const ObjectPath& path, std::size_t level = 0) {
+  const auto from = static_cast<std::size_t>(path[level]);
+  const auto to = index_after(before, after, from);
+  if (!to) return {};
+  ObjectPath found{static_cast<int>(*to)};
+  if (level + 1 == path.size()) return found;
+  const Group *was = std::get_if<Group>(&before[from].kind), *is = std::get_if<Group>(&after[*to].kind);
+  const ObjectPath rest = was && is ? path_after(was->objects, is->objects, path, level + 1) : ObjectPath{};
+  if (rest.empty()) return {};
+  found.insert(found.end(), rest.begin(), rest.end());
+  return found;
+}
+
+}  // namespace
+
+const Object* find_object(const Scene& scene, const ObjectPath& path) {
+  const std::vector<Object>* objects = &scene.objects;
+  const Object* object = nullptr;
+  for (const int index : path) {
+    if (!objects || index < 0 || static_cast<std::size_t>(index) >= objects->size()) return nullptr;
+    object = &(*objects)[static_cast<std::size_t>(index)];
+    const Group* group = std::get_if<Group>(&object->kind);
+    objects = group ? &group->objects : nullptr;
+  }
+  return object;
+}
+
+Object* find_object(Scene& scene, const ObjectPath& path) {
+  return const_cast<Object*>(find_object(static_cast<const Scene&>(scene), path));
+}
+
+ObjectPaths paths_after(const Scene& before, const Scene& after, const ObjectPaths& paths) {
+  ObjectPaths found;
+  for (const ObjectPath& path : paths) {
+    if (!find_object(before, path)) continue;
+    ObjectPath now = path_after(before.objects, after.objects, path);
+    if (!now.empty()) found.push_back(std::move(now));
+  }
+  return found;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,239 @@
+#include "app/window/panels/list_rows.h"
+#include "app/window/panels/panels.h"
+#include "app/window/system/imgui_compat.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace tyndall {
+namespace {
+
+constexpr std::size_t searched = 9;       // lists of at least so many objects can be searched
+constexpr std::size_t max_unfolded = 20;  // larger groups are folded at first
+
+struct ObjectLine {
+  ObjectPath path;
+  std::string label, note;
+  bool group = false, open = false;
+};
+
+bool is_open(const ObjectsView& view, const ObjectPath& path, std::size_t size) {
+  return (size <= max_unfolded) != view.toggled.contains(path);
+}
+
+/// The lines that are shown: what is in folded groups is left out; while a text is searched for, only what holds it is
+/// shown, wherever it is.
+void add_lines(const PanelState& state, const std::vector<Object>& objects, ObjectPath& path,
+               std::vector<ObjectLine>& out) {
+  const std::string wanted = lower_case(state.objects.search);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    path.push_back(static_cast<int>(i));
+    const Material* material = material_of(state.scene, objects[i]);
+    const Group* group = std::get_if<Group>(&objects[i].kind);
+    ObjectLine line{path, title_of(state.scene, path), material ? material->name : kind_name(objects[i]),
+                    group != nullptr,
+                    group && (!wanted.empty() || is_open(state.objects, path, group->objects.size()))};
+    if (group) line.note = std::to_string(group->objects.size()) + " in " + line.note;
+    const bool found = wanted.empty() || lower_case(line.label + " " + line.note).find(wanted) != std::string::npos;
+    const bool open = line.open;
+    if (found) out.push_back(std::move(line));
+    if (open) add_lines(state, group->objects, path, out);
+    path.pop_back();
+  }
+}
+
+/// Opens the groups around an object, so that its line can be seen.
+void unfold_around(PanelState& state, const ObjectPath& path) {
+  ObjectPath group;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    group.push_back(path[k]);
+    const auto size = std::get<Group>(find_object(state.scene, group)->kind).objects.size();
+    if (is_open(state.objects, group, size)) continue;
+    if (!state.objects.toggled.erase(group)) state.objects.toggled.insert(group);
+  }
+}
+
+/// A click in the list: selects, with Ctrl as well, or deselects.
+void choose(PanelState& state, const ObjectPath& path, bool on) {
+  const bool more = ImGui::GetIO().KeyCtrl && !state.selected.empty();
+  const auto had = std::find(state.also.begin(), state.also.end(), path);
+  if (more && had != state.also.end()) {
+    state.also.erase(had);
+  } else if (more && path != state.selected) {
+    state.also.insert(state.also.begin(), state.selected);
+    state.selected = path;
+  } else {
+    state.also.clear();
+    state.selected = on ? ObjectPath{} : path;
+  }
+  state.objects.shown = state.selected;  // the list stays where the mouse is
+}
+
+void draw_line(Ui& ui, PanelState& state, const ObjectLine& line, std::size_t number) {
+  const bool also = std::find(state.also.begin(), state.also.end(), line.path) != state.also.end();
+  const bool on = line.path == state.selected || also;
+  const std::string fold = line.group ? (line.open ? "- " : "+ ") : "";
+  const std::string label = std::string(2 * (line.path.size() - 1), ' ') + fold + line.label;
+  const float left = ImGui::GetCursorScreenPos().x;
+  if (!list_line(ui, std::to_string(number), label, line.note, on)) return;
+  const bool on_sign = ImGui::GetIO().MousePos.x <
+                       left + ImGui::CalcTextSize(label.substr(0, label.size() - line.label.size()).c_str()).x;
+  if (line.group && on_sign) {
+    if (!state.objects.toggled.erase(line.path)) state.objects.toggled.insert(line.path);
+  } else {
+    choose(state, line.path, on && !also);
+  }
+}
+
+/// Scrolls to the line of the selected object if it was selected elsewhere. line: the height of one.
+void follow_selection(PanelState& state, const std::vector<ObjectLine>& lines, float line) {
+  if (state.objects.shown == state.selected) return;
+  state.objects.shown = state.selected;
+  const auto at =
+      std::find_if(lines.begin(), lines.end(), [&](const ObjectLine& l) { return l.path == state.selected; });
+  if (at == lines.end()) return;
+  const float top = line * static_cast<float>(at - lines.begin()), height = ImGui::GetWindowHeight();
+  if (top < ImGui::GetScrollY() || top + line > ImGui::GetScrollY() + height) ImGui::SetScrollY(top - height / 2);
+}
+
+void search_row(Ui& ui, PanelState& state) {
+  char text[64] = {};
+  state.objects.search.copy(text, sizeof text - 1);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::InputTextWithHint("##search", "search by name, kind or material", text, sizeof text))
+    state.objects.search = text;
+  log_item(ui, "search", state.objects.search);
+}
+
+constexpr float row_height = 46, picture_width = 64, picture_height = 40;  // units of the design
+
+/// A scene that can be opened.
+struct SceneRow {
+  std::string name;     ///< in the log
+  std::string what;     ///< what load_scene takes
+  std::string label;    ///< its first line
+  std::string line;     ///< its second one
+  std::string details;  ///< tooltip
+};
+
+/// What a scene's file says between two of its words ("Fails:" and "Right:"); "" if it does not say it.
+std::string said_after(const std::string& about, const std::string& word, const std::string& next) {
+  const std::size_t at = about.find(word);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + word.size(), end = std::min(about.find(next, from), about.size());
+  return about.substr(from, end - from);
+}
+
+std::string without_blanks(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// The picture in the middle of its place, or an empty place where there is none.
+void draw_picture(const Ui& ui, const PanelState& state, const std::string& what, ImVec2 at) {
+  const ImVec2 place{picture_width * ui.scale, picture_height * ui.scale};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + place.x, at.y + place.y}, shade(palette::field), 3 * ui.scale);
+  if (!state.model.pictures) return;
+  const auto found = state.model.pictures->find(what);
+  if (found == state.model.pictures->end() || !found->second) return;
+  const PictureTexture& picture = *found->second;
+  const float fit = std::min(place.x / picture.width(), place.y / picture.height());
+  const ImVec2 size{fit * picture.width(), fit * picture.height()};
+  const ImVec2 from{at.x + (place.x - size.x) / 2, at.y + (place.y - size.y) / 2};
+  const auto texture = (ImTextureID) static_cast<std::intptr_t>(picture.number());  // NOLINT: a pointer before 1.92
+  draw->AddImageRounded(texture, from, {from.x + size.x, from.y + size.y}, {0, 0}, {1, 1}, IM_COL32_WHITE,
+                        3 * ui.scale);
+}
+
+/// Picture, name and a grey line. Returns whether it was clicked.
+bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float s = ui.scale, right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  const bool on = row.what == state.model.what;
+  const ImVec2 size{0, row_height * s - ImGui::GetStyle().ItemSpacing.y};
+  const bool pressed = ImGui::Selectable(("##" + row.name).c_str(), on, 0, size);
+  log_item(ui, row.name, on ? "on" : "off");
+  tooltip(ui, row.details);
+  draw_picture(ui, state, row.what, at);
+  state.wanted_pictures.push_back(row.what);
+  const float left = at.x + (picture_width + 10) * s;
+  clipped_text_at(row.label, {left, at.y + 2 * s}, right - left, palette::text);
+  compat::push_font(ui.fonts.small);
+  clipped_text_at(row.line, {left, at.y + 22 * s}, right - left, palette::dim);
+  ImGui::PopFont();
+  return pressed;
+}
+
+std::vector<SceneRow> rows_of(const std::vector<BuiltIn>& scenes) {
+  std::vector<SceneRow> rows;
+  for (const BuiltIn& scene : scenes) {
+    const std::string fails = without_blanks(said_after(scene.about, "Fails:", "Right:"));
+    rows.push_back({scene.name, scene.name, scene.name, fails.empty() ? scene.title : "Fails: " + fails,
+                    scene.about.empty() ? scene.title : scene.about});
+  }
+  return rows;
+}
+
+std::vector<SceneRow> rows_of(const std::vector<std::filesystem::path>& files) {
+  std::vector<SceneRow> rows;
+  for (std::size_t k = 0; k < files.size(); ++k)
+    rows.push_back({"recent." + std::to_string(k), files[k].string(), files[k].filename().string(),
+                    files[k].parent_path().string(), files[k].string()});
+  return rows;
+}
+
+void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<SceneRow>& rows, std::size_t maximum) {
+  list(ui, name, row_height * ui.scale, rows.size(), std::min(rows.size(), maximum), [&](std::size_t k) {
+    if (scene_row(ui, state, rows[k])) state.requests.push_back({Action::scene, 0, rows[k].what});
+  });
+}
+
+}  // namespace
+
+void objects_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Objects", "click in the picture, or here")) return;
+  const Scope scope(ui, "objects");
+  if (state.objects.shown != state.selected) unfold_around(state, state.selected);
+  std::vector<ObjectLine> lines;
+  ObjectPath path;
+  add_lines(state, state.scene.objects, path, lines);
+  const bool searches = leaves(state.scene).size() >= searched || !state.objects.search.empty();
+  if (searches) search_row(ui, state);
+  const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
+  list(
+      ui, "objects", line, lines.size(), searches ? 8 : std::min<std::size_t>(lines.size(), 8),
+      [&](std::size_t k) { draw_line(ui, state, lines[k], k); }, [&] { follow_selection(state, lines, line); });
+}
+
+void scenes_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Scenes", "or drop a file")) return;
+  const Scope scope(ui, "scenes");
+  scene_list(ui, state, "scenes", rows_of(state.model.scenes), 6);
+  const std::vector<SceneRow> recent = rows_of(state.model.recent);
+  if (!recent.empty()) {
+    note(ui, "Opened before", false);
+    scene_list(ui, state, "recent", recent, 3);
+  }
+}
+
+void window_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Window", "remembered")) return;
+  const Scope scope(ui, "window");
+  static constexpr Choice themes[] = {{"dark"}, {"light"}};
+  int theme = static_cast<int>(state.look.theme);
+  if (choice_row(ui, {"theme", "Theme", {}, {}, "", "of panels and lines; the picture stays as it is", ""}, themes,
+                 theme))
+    state.look.theme = static_cast<Theme>(theme);
+  std::vector<std::string> names;
+  std::vector<Choice> sizes;
+  for (const double size : text_sizes) names.push_back(format_short(100 * size));
+  for (const std::string& name : names) sizes.push_back({name.c_str()});
+  int chosen =
+      static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look.text_size) - text_sizes.begin());
+  if (choice_row(ui, {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", ""}, sizes, chosen))
+    state.look.text_size = text_sizes[static_cast<std::size_t>(chosen)];
+}
+
+}  // namespace tyndall

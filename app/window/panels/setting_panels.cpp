@@ -1,0 +1,239 @@
+#include "app/files/memory.h"
+#include "app/report/contents.h"
+#include "app/text/values.h"
+#include "app/window/accuracy/views.h"
+#include "app/window/panels/field_rows.h"
+#include "app/window/panels/panels.h"
+#include "app/window/tools/camera_control.h"
+#include "core/base/kinds.h"
+#include "core/base/thread_pool.h"
+#include "core/system/processors.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+std::string focus_meaning(const Scene& scene) {
+  const Camera& camera = scene.camera;
+  if (camera.defocus_angle == 0) return "";
+  const SharpRange sharp = sharp_range(camera, scene.height);
+  if (!std::isfinite(sharp.far)) return "sharp from " + format_short(sharp.near) + " on";
+  return "sharp from " + format_short(sharp.near) + " to " + format_short(sharp.far);
+}
+
+/// Shows the distance that is in use, also where the scene leaves it open.
+void focus_row(Ui& ui, Scene& scene, const Camera& saved) {
+  Camera shown = scene.camera, original = saved;
+  const double before = focus_distance(shown);
+  shown.focus_distance = before;
+  original.focus_distance = focus_distance(saved);
+  field_rows(
+      ui, shown, &original, [](const auto& value, auto name) { return is_any_of<std::optional<double>>(value, name); },
+      [&](std::string_view) { return focus_meaning(scene); });
+  if (*shown.focus_distance != before) scene.camera.focus_distance = shown.focus_distance;
+}
+
+/// What a background can be, by the kind's place in the variant.
+template <class... Skies>
+std::vector<Choice> sky_choices(const std::variant<Vec3d, Skies...>&) {
+  return {{"colour"}, {Skies::type}...};
+}
+
+std::string fraction_cut_off(const Frame* frame) {
+  if (!frame || frame->spp == 0) return "scattering events of the longest path";
+  const double fraction = static_cast<double>(frame->truncated) / static_cast<double>(frame->samples);
+  if (fraction == 0) return "no path was cut off";
+  if (fraction < 1e-5) return "cuts off less than 0.001 % of the paths";
+  return fmt::format("cuts off {:.2g} % of the paths", 100 * fraction);
+}
+
+const char* view_meaning(const PanelState& state) {
+  if (shows_errors(state.model.view) && !state.model.accuracy->map()) return "is being computed";
+  return view_entry(state.model.view).meaning;
+}
+
+std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
+  if (!render.sharing) return "each pixel by itself";
+  if (render.integrator != Integrator::mis) return "a part of integrator mis";
+  return frame && frame->reuses_paths ? "pays here: groups of eight pixels share" : "does not pay in this scene";
+}
+
+/// The grey line beneath a setting's row.
+std::string setting_meaning(const PanelState& state, std::string_view name) {
+  const RenderSettings& render = state.scene.render;
+  if (name == "integrator") return label(render.integrator).help;
+  if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
+  if (name == "adaptive")
+    return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";
+  if (name == "max_depth") return fraction_cut_off(state.model.frame.get());
+  if (name == "spp") return render.spp ? "samples a pixel at which it stops" : "0: goes on for ever";
+  return "";
+}
+
+void threads_row(Ui& ui, PanelState& state) {
+  int threads = state.model.threads;
+  static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
+  const Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
+  if (value_row(ui, row, threads)) state.requests.push_back({Action::threads, threads});
+}
+
+/// Width and height of the picture. Sizes that do not fit into memory are refused.
+void pixels_row(Ui& ui, PanelState& state) {
+  Scene& scene = state.scene;
+  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", "width and height in pixels, also of snapshots", ""};
+  row.whole = true;
+  double width = scene.width, height = scene.height;
+  begin_row(ui, row);
+  const float space = 4 * ui.scale, box = (value_width(ui) - space) / 2;
+  row.original = Vec3d{static_cast<double>(state.model.saved->width), 0, 0};
+  bool changed = value_box(ui, "width", row, width, box, false);
+  ImGui::SameLine(0, space);
+  row.original = Vec3d{static_cast<double>(state.model.saved->height), 0, 0};
+  changed = value_box(ui, "height", row, height, box, false) || changed;
+  end_row(ui, row);
+  if (!changed) return;
+  const int old_width = scene.width, old_height = scene.height;
+  scene.width = static_cast<int>(width), scene.height = static_cast<int>(height);
+  try {
+    const bool clean = state.model.clean > 0;
+    check_memory(WindowPlan{scene.width, scene.height, has_lights(scene), clean}, free_memory(),
+                 "switch the clean view off");
+  } catch (const UsageError& error) {
+    ui.problem = error.what();
+    scene.width = old_width, scene.height = old_height;
+  }
+}
+
+/// A choice that changes nothing by itself: another one is asked for, by its number.
+void request_row(Ui& ui, PanelState& state, const Row& row, std::span<const Choice> choices, int chosen, Action action,
+                 int columns = 0) {
+  if (choice_row(ui, row, choices, chosen, columns)) state.requests.push_back({action, chosen});
+}
+
+void size_row(Ui& ui, PanelState& state) {
+  static constexpr Choice choices[] = {{"file"}, {"window"}};
+  const Frame* frame = state.model.frame.get();
+  const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
+  const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
+  const Row row{"at", "Render at", {}, {}, "", help, meaning};
+  request_row(ui, state, row, choices, state.model.at_window ? 1 : 0, Action::render_at);
+}
+
+void split_row(Ui& ui, PanelState& state) {
+  static constexpr Choice choices[] = {{"off"}, {"on"}};
+  const std::string& kept = state.model.kept_method;
+  const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
+  const Row row{"split", "Split", {}, {}, "", help, kept.empty() ? "" : "A keeps " + kept + "; above: B"};
+  int chosen = kept.empty() ? 0 : 1;
+  if (choice_row(ui, row, choices, chosen)) state.requests.push_back({Action::split});
+}
+
+std::string clean_meaning(const PanelState& state) {
+  if (state.model.clean == 0) return "as it is in files";
+  const CleanFrame* clean = state.model.frame ? state.model.frame->clean.get() : nullptr;
+  if (!clean) return "from 2 samples a pixel on";
+  if (clean->spp == 0) return "coarse at first, then filtered from 2 spp on";
+  return fmt::format("filtered at {} spp; files are not", format_count(clean->spp));
+}
+
+void clean_row(Ui& ui, PanelState& state) {
+  static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
+  const char* help = "filters noise away where the samples show that it is noise: key N";
+  const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state)};
+  request_row(ui, state, row, choices, state.model.clean, Action::clean_as);
+}
+
+/// "7 spheres, 1 quad, 1 medium, 1 light".
+std::string contents_text(const Scene& scene) {
+  const Contents contents = contents_of(scene);
+  std::string text;
+  const auto add = [&](int count, const std::string& one, const std::string& many) {
+    if (count > 0)
+      text += (text.empty() ? "" : ", ") + format_count(static_cast<unsigned>(count)) + " " + (count == 1 ? one : many);
+  };
+  for (const auto& [kind, count] : contents.shapes) add(count, kind, kind == "box" ? "boxes" : kind + "s");
+  add(contents.media, "medium", "media");
+  add(contents.lights, "light", "lights");
+  for (const auto& [kind, count] : contents.textures) add(count, kind + " texture", kind + " textures");
+  return text;
+}
+
+/// Why a view cannot be shown; null: it can.
+const char* missing_for_view(const PanelModel& model, int number) {
+  if (!model.has_scene && view_entry(number).view != View::beauty) return "a picture without a scene has none";
+  return shows_errors(number) && !model.can_show_errors ? "needs a reference: see Speed and accuracy" : nullptr;
+}
+
+std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × " + std::to_string(frame->lanes) : ""; }
+
+}  // namespace
+
+void camera_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Camera", "Home: reset")) return;
+  const Scope scope(ui, "camera");
+  Camera& camera = state.scene.camera;
+  const Camera* saved = &state.model.saved->camera;
+  field_rows(ui, camera, saved, [](const auto& value, auto name) { return is_any_of<double>(value, name); });
+  focus_row(ui, state.scene, *saved);
+  const bool plain_up = camera.vup == Vec3d{0, 1, 0} && !is_sought(ui, label_of("vup"));
+  field_rows(ui, camera, saved, [&](const auto& value, std::string_view name) {
+    return is_any_of<Vec3d>(value, name) && !(plain_up && name == "vup");
+  });
+  CameraSlots& slots = state.cameras[state.model.title];
+  const SlotWish wish = camera_slots_row(ui, slots, camera);
+  if (wish.recall) camera = slots[*wish.recall].camera;
+  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene.display);
+}
+
+void background_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Background", "seen beyond all objects")) return;
+  const Scope scope(ui, "background");
+  Background& background = state.scene.background;
+  const Background& saved = state.model.saved->background;
+  int kind = static_cast<int>(background.index());
+  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background), kind))
+    set_background_kind(background, kind, state.backgrounds);
+  std::visit(Overloaded{[&](Vec3d& constant) {
+                          Meaning radiance = colour_meaning("radiance");
+                          radiance.slider.high = 2;
+                          Row row = row_of("colour", radiance, "");
+                          if (const Vec3d* original = std::get_if<Vec3d>(&saved)) row.original = *original;
+                          colour_row(ui, row, constant);
+                        },
+                        [&](auto& sky) { field_rows(ui, sky, same_kind(sky, &saved)); }},
+             background);
+}
+
+void image_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Image", state.model.has_scene ? "rendering goes on" : "")) return;
+  const Scope scope(ui, "image");
+  field_rows(ui, state.scene.display, &state.model.saved->display);
+  if (state.model.has_scene) clean_row(ui, state);
+  Choice choices[view_count];
+  for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.model, k)};
+  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)};
+  request_row(ui, state, row, choices, state.model.view, Action::view, 3);
+}
+
+void render_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Render", kernel_note(state.model.frame.get()))) return;
+  const Scope scope(ui, "render");
+  RenderSettings& render = state.scene.render;
+  const auto said = [&state](std::string_view name) { return setting_meaning(state, name); };
+  const auto is_choice = []<class T>(const T&, std::string_view) { return NamedEnum<T> || std::is_same_v<T, bool>; };
+  const RenderSettings* saved = &state.model.saved->render;
+  field_rows(ui, render, saved, is_choice, said);
+  split_row(ui, state);
+  field_rows(
+      ui, render, saved, [&](const auto& value, auto name) { return !is_choice(value, name); }, said);
+  pixels_row(ui, state);
+  size_row(ui, state);
+  threads_row(ui, state);
+  note(ui, contents_text(state.scene), false);
+}
+
+}  // namespace tyndall

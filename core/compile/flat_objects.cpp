@@ -1,0 +1,263 @@
+#include "core/compile/flat_objects.h"
+
+#include "core/compile/columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double largest_light = 0.5;  // of a light's reach against its distance from the mirror
+
+FlatMirror mirror_of(std::size_t shape, const Placement& placement, const BoxFace& face) {
+  FlatMirror mirror;
+  mirror.shape = shape;
+  mirror.u = 0.5 * rotate(placement, face.u), mirror.v = 0.5 * rotate(placement, face.v);
+  mirror.normal = normalize(rotate(placement, face.normal));
+  mirror.middle = place(placement, face.corner) + mirror.u + mirror.v;
+  return mirror;
+}
+
+/// Whether light from a light's image through the face may reach a quad on its front or back: the face has to reach in
+/// between the image and the quad's plane.
+bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, const Receiver& quad) {
+  const Vec3d on_plane = quad.extent.points.front();
+  const double start = dot(quad.normal, image - on_plane);
+  if (std::abs(start) <= reach) return true;
+  double low = 1e300, high = -1e300;
+  for (const Vec3d& c : corner) {
+    const double height = dot(quad.normal, c - on_plane) * (start > 0 ? 1 : -1);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  return high > -reach && low < std::abs(start) + reach;
+}
+
+/// Whether light that seems to come from within `reach` of a light's image may reach a receiver: a part of the receiver
+/// has to be on the light's side of the mirror, within the pyramid from the image through the face. May wrongly be
+/// true, never wrongly false.
+bool may_light(const FlatMirror& m, Vec3d image, double reach, const Receiver& receiver) {
+  const std::vector<Vec3d>& points = receiver.extent.points;
+  const double height = dot(image - m.middle, m.normal);
+  const Vec3d corner[] = {m.middle - m.u - m.v, m.middle + m.u - m.v, m.middle + m.u + m.v, m.middle - m.u + m.v};
+  const auto reaches = [&](Vec3d inward, Vec3d from) {
+    return std::any_of(points.begin(), points.end(), [&](Vec3d p) {
+      const double room = receiver.extent.radius + reach * (1 + 2 * length(p - image) / std::abs(height));
+      return dot(inward, p - from) > -room;
+    });
+  };
+  if (!reaches(height > 0 ? -m.normal : m.normal, m.middle)) return false;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3d side = normalize(cross(corner[i] - image, corner[(i + 1) % 4] - image));
+    if (!reaches(dot(side, m.middle - image) > 0 ? side : -side, image)) return false;
+  }
+  return !receiver.is_quad || approaches(corner, image, reach, receiver);
+}
+
+constexpr double widest_light = 0.5;  // of a light's reach against its distance from the slab
+constexpr double contact = 1e-6;      // of the longest half edge: by so much things may overlap without counting
+
+/// The slab with its faces moved outward by `room`.
+Block grown(const Slab& p, double room) {
+  return {p.middle, {(p.half[0] + room) * p.edge[0], (p.half[1] + room) * p.edge[1], (p.half[2] + room) * p.edge[2]}};
+}
+
+/// Returns a thin block around a face of the slab, without the face's rim. side: -1 or 1.
+Block face_of(const Slab& p, std::size_t edge, double side, double thin) {
+  Block block = grown(p, -10 * thin);
+  block.middle = p.middle + side * p.half[edge] * p.edge[edge];
+  block.edge[edge] = thin * p.edge[edge];
+  return block;
+}
+
+std::vector<Vec3d> corners_of(const Slab& p) {
+  std::vector<Vec3d> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(p.middle + (i & 1 ? 1 : -1) * p.half[0] * p.edge[0] + (i & 2 ? 1 : -1) * p.half[1] * p.edge[1] +
+                      (i & 4 ? 1 : -1) * p.half[2] * p.edge[2]);
+  return corners;
+}
+
+double distance_to(const Slab& p, Vec3d point) {
+  double squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double out = std::max(std::abs(dot(p.edge[i], point - p.middle)) - p.half[i], 0.0);
+    squared += out * out;
+  }
+  return std::sqrt(squared);
+}
+
+/// Whether the surface of a sphere is in the slab or reaches into it, at any time. May wrongly be true.
+bool crosses(const Slab& slab, const RoundBody& body, double slack) {
+  constexpr int times = 64;
+  const int steps = length(body.motion) > 0 ? times : 0;
+  const double room = 0.5 * length(body.motion) / times;
+  const std::vector<Vec3d> corners = corners_of(slab);
+  for (int i = 0; i <= steps; ++i) {
+    const Vec3d center = body.center + (static_cast<double>(i) / times) * body.motion;
+    const bool holds = std::all_of(corners.begin(), corners.end(),
+                                   [&](Vec3d corner) { return length(corner - center) <= body.radius - room + slack; });
+    if (!holds && distance_to(slab, center) < body.radius + room - slack) return true;
+  }
+  return false;
+}
+
+/// Whether no sphere reaches into the slab.
+bool spheres_keep_out(const Flattened& flat, const Slab& slab, double slack) {
+  return std::none_of(flat.shapes.begin(), flat.shapes.end(), [&](const PlacedShape& shape) {
+    const auto* sphere = std::get_if<Sphere<>>(&shape.shape);
+    return sphere && crosses(slab, round_body(*sphere, shape.placement), slack);
+  });
+}
+
+/// Whether no flat reaches into the slab. Marks the faces that a flat touches as closed.
+bool flats_keep_out(const std::vector<Flat>& flats, Slab& slab, double slack) {
+  const double radius = std::hypot(slab.half[0], slab.half[1], slab.half[2]) + slack;
+  for (const Flat& flat : flats) {
+    if (flat.shape == slab.shape || length(flat.block.middle - slab.middle) > flat.radius + radius) continue;
+    if (!are_apart(grown(slab, -slack), flat.block)) return false;
+    for (std::size_t i = 0; i < 6; ++i)
+      if (!are_apart(face_of(slab, i / 2, i % 2 ? 1 : -1, slack), flat.block)) slab.closed |= 1 << i;
+  }
+  return true;
+}
+
+/// Whether a medium fills the slab completely or leaves it free. If it fills the slab, its density is added to the
+/// slab's.
+bool is_even(const PlacedVolume& volume, Slab& slab, double slack) {
+  const std::vector<Vec3d> corners = corners_of(slab);
+  const auto holds = [&](const auto& is_in) { return std::all_of(corners.begin(), corners.end(), is_in); };
+  bool filled = false, free = false;
+  if (const auto* sphere = std::get_if<Sphere<>>(&volume.boundary)) {
+    const RoundBody body = round_body(*sphere, volume.placement);
+    filled = holds([&](Vec3d corner) { return length(corner - body.center) <= body.radius + slack; });
+    free = distance_to(slab, body.center) >= body.radius - slack;
+  } else {
+    const Block block = block_of(std::get<Box<>>(volume.boundary), volume.placement);
+    filled = holds([&](Vec3d corner) {
+      return std::all_of(block.edge.begin(), block.edge.end(), [&](Vec3d e) {
+        return std::abs(dot(normalize(e), corner - block.middle)) <= length(e) + slack;
+      });
+    });
+    free = are_apart(grown(slab, -slack), block);
+  }
+  if (filled) slab.medium_density += volume.medium.density;
+  return filled || free;
+}
+
+/// Fills in the properties of a slab that depend on its surroundings. Returns false if specular paths cannot pass
+/// through it.
+bool look_around(const Flattened& flat, const std::vector<Flat>& flats, Slab& slab) {
+  const double longest = std::max({slab.half[0], slab.half[1], slab.half[2]}), slack = contact * longest;
+  if (std::min({slab.half[0], slab.half[1], slab.half[2]}) < 100 * slack) return false;
+  if (!spheres_keep_out(flat, slab, slack) || !flats_keep_out(flats, slab, slack)) return false;
+  return std::all_of(flat.volumes.begin(), flat.volumes.end(),
+                     [&](const PlacedVolume& volume) { return is_even(volume, slab, slack); });
+}
+
+}  // namespace
+
+std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene) {
+  std::vector<FlatMirror> list;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const PlacedShape& shape = flat.shapes[i];
+    if (!is_mirror(scene.materials[static_cast<std::size_t>(shape.material)].kind)) continue;
+    if (const auto* quad = std::get_if<Quad<>>(&shape.shape))
+      list.push_back(mirror_of(i, shape.placement, {cross(quad->u, quad->v), quad->corner, quad->u, quad->v}));
+    const auto* box = std::get_if<Box<>>(&shape.shape);
+    if (!box) continue;
+    const Vec3d size = box->max - box->min;
+    for (int face = 0; face < 6; ++face) {
+      list.push_back(mirror_of(i, shape.placement, box_face_edges(*box, face)));
+      list.back().face = face;
+      list.back().depth = face < 2 ? size.x : face < 4 ? size.y : size.z;
+    }
+  }
+  std::erase_if(list, [&](const FlatMirror& m) { return is_covered({m.middle, {m.u, m.v, {}}}, m.shape, flats); });
+  return list;
+}
+
+std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) {
+  std::vector<Receiver> list;
+  for (const PlacedShape& shape : flat.shapes) {
+    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
+    if (!traits_of(material.kind).diffuse) continue;
+    Receiver receiver{extent_of(shape, scene.camera), false, {}};
+    if (const auto* quad = std::get_if<Quad<>>(&shape.shape)) {
+      receiver.is_quad = true;
+      receiver.normal = normalize(rotate(shape.placement, cross(quad->u, quad->v)));
+    }
+    list.push_back(receiver);
+  }
+  for (const PlacedVolume& volume : flat.volumes) list.push_back({extent_of(volume, scene.camera), false, {}});
+  return list;
+}
+
+double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d origin,
+                const std::vector<Receiver>& receivers) {
+  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d to_light = light - m.middle;
+  const double height = dot(to_light, m.normal), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
+  if (height == 0) return 0;
+  if (m.depth > 0 && height < 0) {  // the inside of a box's face: for lights within the box
+    const Reciprocal r = reciprocal_edges(m.u, m.v);
+    if (-height > m.depth || std::abs(dot(r.a, to_light)) > 1 || std::abs(dot(r.b, to_light)) > 1) return 0;
+  }
+  const double distance = distance_to_flat(light, m.middle - m.u - m.v, 2.0 * m.u, 2.0 * m.v);
+  if (reach > largest_light * distance) return 0;
+  const Vec3d image = light - 2 * height * m.normal;
+  if (std::none_of(receivers.begin(), receivers.end(),
+                   [&](const Receiver& r) { return may_light(m, image, reach, r); }))
+    return 0;
+  const double fraction = length(cross(m.u, m.v)) * std::abs(height) / std::pow(distance, 3);
+  return static_cast<double>(lights.power[k]) * std::min(fraction, 1.0);
+}
+
+void append_numbers(const FlatMirror& m, Vec3d origin, std::vector<float>& numbers) {
+  const Reciprocal r = reciprocal_edges(m.u, m.v);
+  const Vec3d middle = m.middle - origin, rows[] = {r.a, r.b, m.normal};
+  const auto add = [&](double value) { numbers.push_back(static_cast<float>(value)); };
+  for (const Vec3d& row : rows) add(row.x), add(row.y), add(row.z);
+  for (const Vec3d& row : rows) add(-dot(row, middle));
+  add(length(r.a)), add(length(r.b));
+}
+
+std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene) {
+  std::vector<Slab> list;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const PlacedShape& shape = flat.shapes[i];
+    const double index = boundary_index(scene.materials[static_cast<std::size_t>(shape.material)].kind);
+    const auto* box = std::get_if<Box<>>(&shape.shape);
+    if (!box || index < min_slab_index) continue;
+    const Block block = block_of(*box, shape.placement);
+    Slab slab;
+    slab.shape = i, slab.middle = block.middle, slab.index = index;
+    for (std::size_t k = 0; k < 3; ++k) {
+      slab.half[k] = length(block.edge[k]);
+      slab.edge[k] = normalize(block.edge[k]);
+    }
+    if (look_around(flat, flats, slab)) list.push_back(slab);
+  }
+  return list;
+}
+
+double worth_of(const Slab& slab, const Lights& lights, std::size_t k, Vec3d origin) {
+  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const double distance = distance_to(slab, light), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
+  if (reach > widest_light * distance) return 0;
+  double area = 0;  // as seen from the light
+  const Vec3d to_light = normalize(slab.middle - light);
+  for (int i = 0; i < 3; ++i)
+    area += 4 * std::abs(dot(slab.edge[i], to_light)) * slab.half[(i + 1) % 3] * slab.half[(i + 2) % 3];
+  return static_cast<double>(lights.power[k]) * std::min(area / (distance * distance), 1.0);
+}
+
+void append_numbers(const Slab& p, Vec3d origin, std::vector<float>& numbers) {
+  const auto add = [&](double value) { numbers.push_back(static_cast<float>(value)); };
+  for (const Vec3d& edge : p.edge) add(edge.x), add(edge.y), add(edge.z);
+  for (const Vec3d& edge : p.edge) add(-dot(edge, p.middle - origin));
+  for (const double half : p.half) add(half);
+  add(p.index), add(p.medium_density), add(p.closed);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,147 @@
+#include "core/base/text.h"
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
+#include "core/image/picture_file.h"
+#include "core/image/pnm_reader.h"
+#include "core/image/whole_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+namespace tyndall {
+namespace {
+
+/// Believes the size that a header says only where the file is long enough for it. left: bytes behind the header.
+void check_length(const std::filesystem::path& file, const PnmHeader& header, std::size_t left) {
+  const std::size_t needed = header.is_text() ? 2 * header.numbers() : 1 + header.numbers() * header.number_size();
+  if (left < needed)
+    cannot_read(file, "damaged: found " + std::to_string(left) + " bytes behind the header, expected at least " +
+                          std::to_string(needed) + " for " + std::to_string(header.width) + " x " +
+                          std::to_string(header.height) + " pixels");
+}
+
+struct PfmHeader {
+  int width = 0, height = 0;
+  std::size_t channels = 3;
+  double scale = -1;    ///< negative: little endian
+  std::size_t end = 0;  ///< behind the last word
+  std::size_t pixels() const {
+    return channels * sizeof(float) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+};
+
+/// The next word of a header.
+std::string_view next_word(std::string_view& text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  const auto end = std::find_if(text.begin(), text.end(), is_space);
+  const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+bool parse(std::string_view word, int& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+bool parse(std::string_view word, double& value) { return number_from_text(word, value); }
+
+PfmHeader read_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  PfmHeader header;
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 256));
+  const std::size_t start = text.size();
+  header.channels = next_word(text) == "PF" ? 3 : 1;
+  const bool good = parse(next_word(text), header.width) && parse(next_word(text), header.height) &&
+                    parse(next_word(text), header.scale);
+  if (!good || header.scale == 0 || !std::isfinite(header.scale))
+    cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
+  check_readable(file, header.width, header.height);
+  header.end = start - text.size();
+  return header;
+}
+
+float read_float(const std::uint8_t* bytes, bool swap) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes, sizeof word);
+  return std::bit_cast<float>(swap ? __builtin_bswap32(word) : word);
+}
+
+}  // namespace
+
+void write_ppm(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
+               PpmCurve ppm, std::optional<DitherOrigin> dither) {
+  check_writable(file, image);
+  const std::string header = "P6\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
+  WholeFile out(file);
+  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
+  if (ppm == PpmCurve::gamma2)
+    out.write(gamma2_bytes(image.rgb, exposure, curve));
+  else
+    out.write(dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
+                     : tone_map(image.rgb, exposure, curve));
+  out.commit();
+}
+
+PictureFile read_ppm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, PpmCurve curve) {
+  PnmReader reader(file, curve, bytes.size());
+  PictureFile picture;
+  std::vector<float>& rgb = picture.image.rgb;
+  std::size_t at = reader.take(bytes, rgb, true);
+  if (!reader.header()) reader.end(rgb);
+  const std::string ends = std::string("damaged: the file ends where ") + reader.expected() + " is expected";
+  if (!reader.header()) cannot_read(file, ends);
+  const PnmHeader& header = *reader.header();
+  check_length(file, header, bytes.size() - at);
+  picture.image.width = static_cast<int>(header.width), picture.image.height = static_cast<int>(header.height);
+  picture.bits = header.largest > 255 ? 16 : 8;
+  rgb.reserve(std::size_t{3} * static_cast<std::size_t>(header.width * header.height));
+  at += reader.take(bytes.subspan(at), rgb);
+  reader.end(rgb);
+  if (!reader.whole())
+    cannot_read(file, header.is_text() ? "damaged: the file ends where a colour is expected"
+                                       : "damaged: the PPM ends in the middle");
+  check_end(file, bytes.subspan(at), header.is_text() ? "P" : std::string("P") + header.kind);
+  if (const auto remark = reader.remark()) add_remark(picture, file, *remark);
+  return picture;
+}
+
+static_assert(std::endian::native == std::endian::little, "PFM is written as it is in memory");
+
+void write_pfm(const std::filesystem::path& file, const LinearImage& image) {
+  check_writable(file, image);
+  const std::string header = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+  const auto row = 3 * static_cast<std::size_t>(image.width);
+  WholeFile out(file);
+  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
+  for (std::size_t left = image.rgb.size(); left > 0; left -= row)
+    out.write(std::span<const float>(image.rgb).subspan(left - row, row));
+  out.commit();
+}
+
+PictureFile read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  const PfmHeader header = read_header(file, bytes);
+  const auto pixels = bytes.subspan(pixels_after(bytes, header.end, header.pixels()));
+  if (pixels.size() < header.pixels()) cannot_read(file, "damaged: the PFM ends in the middle");
+  check_end(file, pixels.subspan(header.pixels()), "P");
+  const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
+  PictureFile picture;
+  LinearImage& image = picture.image;
+  image.width = header.width, image.height = header.height;
+  image.rgb.reserve(width * height * 3);
+  const auto factor = static_cast<float>(std::abs(header.scale));
+  for (std::size_t y = height; y-- > 0;) {
+    const std::uint8_t* row = pixels.data() + y * width * header.channels * sizeof(float);
+    for (std::size_t i = 0; i < width * 3; ++i) {
+      const std::size_t at = header.channels == 3 ? i : i / 3;
+      image.rgb.push_back(factor * read_float(row + at * sizeof(float), header.scale > 0));
+    }
+  }
+  return picture;
+}
+
+}  // namespace tyndall
