@@ -7,12 +7,36 @@ install(DIRECTORY app/book/tyndall/book DESTINATION ${CMAKE_INSTALL_DATADIR}/tyn
 install(PROGRAMS assets/farm/slurm.sh assets/farm/parallel.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/farm)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(FILES app/README.md app/FARMS.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-foreach(page IN ITEMS book cli window)
+foreach(page IN ITEMS book cli watch window)
   install(FILES app/${page}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${page})
 endforeach()
 install(FILES assets/desktop/tyndall.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES assets/desktop/tyndall.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES assets/desktop/tyndall.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+
+# The library with the window for programs of others, for CMake's find_package(tyndall) and for pkg-config.
+include(CMakePackageConfigHelpers)
+set(package ${PROJECT_BINARY_DIR}/package)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tyndall)
+install(TARGETS tyndall_watch EXPORT tyndallTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY app/watch/tyndall DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT tyndallTargets NAMESPACE tyndall:: DESTINATION ${package_folder})
+file(CONFIGURE OUTPUT ${package}/tyndallConfig.cmake
+     CONTENT "include(\"\${CMAKE_CURRENT_LIST_DIR}/tyndallTargets.cmake\")\n" @ONLY)
+write_basic_package_version_file(${package}/tyndallConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${package}/tyndallConfig.cmake ${package}/tyndallConfigVersion.cmake DESTINATION ${package_folder})
+# The prefix is found from the place of the file, so that an installed tree may be moved.
+file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+file(CONFIGURE OUTPUT ${package}/tyndall-watch.pc @ONLY CONTENT [[
+prefix=${pcfiledir}/@to_prefix@
+Name: tyndall-watch
+Description: Tyndall's window over samples that a program computes
+Version: @PROJECT_VERSION@
+Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
+Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -ltyndall-watch
+]])
+install(FILES ${package}/tyndall-watch.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(DIRECTORY assets/examples/watch DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/examples)
 
 # The manual's page and the completion of shells are printed by the program itself, while it is installed.
 set(manual ${PROJECT_BINARY_DIR}/manual)

@@ -39,7 +39,8 @@ void Commands::act(const Request& request) {
   if (entry) panels_.leave_row = request.action != Action::deselect;
   if (request.action == Action::rename) shows_panels_ = true;
   pacing_.on_event();
-  if (session_.shows_picture() && requires_scene(request))
+  const bool refused = requires_scene(request) || (requires_rendering(request) && !session_.renders());
+  if (session_.shows_picture() && refused)
     return session_.messages().say("this is a picture without a scene: it can be looked at, compared and saved");
   if (picture_.act(request.action) || objects_.act(request.action)) return;
   act_on_window(request);

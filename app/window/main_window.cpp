@@ -48,8 +48,10 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   panels_.look = session_.preferences();
   ui_.folded = panels_.look.folded;
   ui_.folded.insert("Histogram");  // it takes time with each picture
+  if (!options.hosted) signals_.emplace([] { Platform::wake(); });
   if (log_) log_actions(*log_);
   if (reference) session_.references().set(std::move(reference));
+  if (options.reference_scene) session_.render_reference(*options.reference_scene);
 }
 
 /// Asks the renderers for what is wanted now, see Session. Returns whether that is a new edit.
@@ -98,7 +100,7 @@ double MainWindow::waiting_time(double now) {
 /// What the user changed about the window's look is remembered, once no button is held any more.
 void MainWindow::use_preferences() {
   Preferences look = panels_.look;
-  look.clean = session_.clean();
+  look.clean = session_.preferences().clean;
   look.folded.clear();
   for (const char* section : lasting_sections())
     if (ui_.folded.contains(section)) look.folded.insert(section);
@@ -197,6 +199,7 @@ void MainWindow::fill_panels() {
   panels_.model.what = what_of(*session_.editor().document().origin);
   panels_.model.recent = gallery_.recent();
   panels_.model.has_scene = !session_.shows_picture();
+  panels_.model.renders = session_.renders();
   panels_.model.threads = session_.wanted().threads;
   panels_.model.kept_method = session_.split() ? session_.method(Half::kept) : "";
   panels_.model.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
@@ -214,9 +217,10 @@ void MainWindow::draw_interface(const Layout& layout) {
   const LiveAccuracy& accuracy = session_.accuracy();
   draw_status(
       ui_, layout.status,
-      status_cells(panels_.model.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
-                   {session_.wanted().paused, accuracy.is_true(), session_.split(), session_.editor().edited(),
-                    &accuracy.curves(Half::current, Kind::clean).current(), session_.arrived()}));
+      status_cells(
+          panels_.model.frame.get(), accuracy.curves(Half::current).current(), session_.editor().document(),
+          {session_.wanted().paused, accuracy.is_true(), session_.split(), session_.editor().edited(),
+           &accuracy.curves(Half::current, Kind::clean).current(), session_.arrived(), !session_.shows_picture()}));
   draw_message(ui_, layout.area, session_.messages().current());
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;

@@ -65,7 +65,7 @@ class MainWindow {
   Platform platform_;
   FrameAlarm alarm_;
   Session session_;
-  EndSignals signals_{[] { Platform::wake(); }};
+  std::optional<EndSignals> signals_;  ///< none where signals are left to the program that the window belongs to
   PictureView picture_;
   Gallery gallery_{[] { Platform::wake(); }};
   Ui ui_;

@@ -62,6 +62,14 @@ void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& st
   cells.push_back({state.is_true ? "estimated" : raw, percent(frame.relative_error), state.is_true ? 3 : 1});
 }
 
+/// How quickly a picture is rendered: in rays, or in samples where a caller's function computes these.
+std::string speed(const Frame& frame, bool has_scene) {
+  const double samples = frame.seconds > 0 ? 1e-6 * static_cast<double>(frame.samples) / frame.seconds : 0;
+  const double millions = has_scene ? frame.mrays_per_s : samples;
+  if (!has_scene && millions < 0.1) return fmt::format("{:.3g} samples/s", 1e6 * millions);
+  return fmt::format("{:.{}f} {}/s", millions, millions < 10 ? 1 : 0, has_scene ? "Mrays" : "Msamples");
+}
+
 /// Of a picture that another program writes: nothing is rendered, but it may be compared.
 std::vector<StatusCell> cells_of_picture(const Frame* frame, const ErrorCurve& run, const Document& document,
                                          const StatusState& state) {
@@ -81,23 +89,24 @@ std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, 
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
-    const std::string missing = missing_in(document.scene);
+    const std::string missing = state.has_scene ? missing_in(document.scene) : "";
     if (missing.empty()) {
       add_errors(*frame, run, state, cells);
       cells.push_back({"to 1 %", time_left(*frame, run), 2});
     } else {
       cells.push_back({"", missing, 1, true});
     }
-    cells.push_back({"", fmt::format("{:.{}f} Mrays/s", frame->mrays_per_s, frame->mrays_per_s < 10 ? 1 : 0), 3});
-    cells.push_back({frame->isa + " x" + std::to_string(frame->lanes),
+    cells.push_back({"", speed(*frame, state.has_scene), 3});
+    cells.push_back({state.has_scene ? frame->isa + " x" + std::to_string(frame->lanes) : "",
                      std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});
     cells.push_back({"film", fmt::format("{:.0f} MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
     cells.push_back({"rejected", format_count(frame->rejected), frame->rejected > 0 ? 1 : 5, frame->rejected > 0});
     if (frame->rare_bright_paths) cells.push_back({"not converged", "rare bright paths", 1, true});
     if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});
   }
-  cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});
-  cells.push_back({document.origin->title, state.edited ? "edited" : "", 2});
+  if (state.has_scene)
+    cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});
+  cells.push_back({document.origin->title, state.has_scene && state.edited ? "edited" : "", 2});
   return cells;
 }
 

@@ -25,7 +25,8 @@ struct StatusState {
   bool split = false;                     ///< the frame is the right half, B
   bool edited = false;                    ///< the document differs from its file
   const ErrorCurve* clean_run = nullptr;  ///< how the error of its clean view fell; null: not known
-  std::string arrived{};  ///< how much is there of a picture that another program writes; "": a scene is rendered
+  std::string arrived{};  ///< how much is there of a picture that another program writes; "": what is shown is rendered
+  bool has_scene = true;  ///< false: samples come from a caller's function
 };
 
 /// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.

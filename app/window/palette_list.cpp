@@ -84,7 +84,7 @@ bool requires_scene(const Request& request) {
       Action::split,        Action::grab,         Action::add,          Action::duplicate,
       Action::remove,       Action::rename,       Action::own_material, Action::replay,
       Action::refine_first, Action::store_camera, Action::next_camera,  Action::render_reference};
-  if (request.action == Action::view) return view_entry(request.number).view != View::beauty;
+  if (request.action == Action::view) return is_view_of_scene(request.number);
   if (request.action == Action::section)
     return is_part_of_scene(column_tabs()[static_cast<std::size_t>(request.number)].name);
   if (request.action == Action::row) {
@@ -92,6 +92,11 @@ bool requires_scene(const Request& request) {
     return is_part_of_scene(row.part) || row.label == "Clean";
   }
   return is_addition(request.action) || std::ranges::find(of_scenes, request.action) != std::end(of_scenes);
+}
+
+bool requires_rendering(const Request& request) {
+  const bool view = request.action == Action::view && view_entry(request.number).view != View::beauty;
+  return view || request.action == Action::pause || request.action == Action::restart;
 }
 
 }  // namespace tyndall

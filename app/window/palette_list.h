@@ -15,7 +15,11 @@ namespace tyndall {
 std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& selected,
                                        const std::vector<std::string>& scenes);
 
-/// Whether a request is about a scene, or about rendering it: a picture without one has nothing to answer.
+/// Whether a request is about a scene, or about how one is rendered: a picture without one has nothing to answer.
 bool requires_scene(const Request& request);
+
+/// Whether a request is about rendering, of whatever samples: a picture that another program writes has nothing to
+/// answer.
+bool requires_rendering(const Request& request);
 
 }  // namespace tyndall

@@ -39,7 +39,7 @@ void give_freed_memory_back() {
 }  // namespace
 
 int MainWindow::run() {
-  while (!commands_.closed() && signals_.received() == 0) {
+  while (!commands_.closed() && (!signals_ || signals_->received() == 0)) {
     // Asked first: a picture that comes later is not missed.
     const bool at_rest = log_ && session_.at_rest() && picture_tools_.at_rest() && gallery_.idle();
     const double wait = waiting_time(clock_seconds());
@@ -66,7 +66,7 @@ int MainWindow::run() {
 
 /// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
-  const int signal = signals_.received();
+  const int signal = signals_ ? signals_->received() : 0;
   session_.wanted().paused = true;
   session_.send(clock_seconds(), false);
   const std::string edits = session_.flush_edits();
@@ -77,7 +77,7 @@ int MainWindow::end_of_signal() {
 }
 
 int run_window(const WindowOptions& options) {
-  give_freed_memory_back();
+  if (!options.hosted) give_freed_memory_back();
   // GLFW is not touched without a display: its error would say less.
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
     throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
@@ -85,6 +85,7 @@ int run_window(const WindowOptions& options) {
   if (!options.reference.empty())
     reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));
   MainWindow window(options, std::move(reference));
+  if (options.hosted) return window.run();
   end_when_display_is_lost([&window] { return printable(window.flush_edits(), 2000); });
   const int code = window.run();
   end_when_display_is_lost({});  // what is left is gone soon

@@ -32,6 +32,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
               loading_, messages_, log),
       kept_(state_folder(), wake),
       picture_(options.picture),
+      function_(options.function),
       references_(editor_, accuracy_, messages_, wake),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
@@ -39,11 +40,12 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       saving_(wake) {
   wanted_.threads = thread_count(options.threads).count;
   read_preferences_file();
-  if (!picture_) restore_edits(options);
+  if (!picture_ && !function_) restore_edits(options);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
   if (options.scene.source.empty()) editor_.open_film(options.scene);
   if (picture_) picture_->start(wake);
+  if (function_) function_->set_on_news(wake);
 }
 
 /// Reads the first scene again, as long as the window is open; empty: cannot be read again.
@@ -78,6 +80,7 @@ void Session::set_picture_size(std::optional<PictureSize> size) {
 Session::~Session() {
   closing_ = true;
   if (picture_) picture_->stop();
+  if (function_) function_->set_on_news({});
 }
 
 std::string Session::finish_files() {
@@ -108,7 +111,7 @@ void Session::submit(double now) {
   if (std::exchange(limited_edit_, 0) > 0) wanted_.paused = false;
   const auto before = std::exchange(wanted_.scene, rendered_scene());
   wanted_.film = std::exchange(opened_film_, nullptr);
-  wanted_.samples = shows_picture() ? picture_->source() : nullptr;
+  wanted_.samples = source();
   if (wanted_.film && !same_picture(*wanted_.scene, editor_.document().origin->saved))
     wanted_.film = nullptr;  // it was edited meanwhile
   if (split()) kept_scene_ = with_kept_settings(*wanted_.scene);
@@ -121,7 +124,7 @@ void Session::submit(double now) {
 
 /// The one place where the renderers are asked for anything. Returns whether the current half begins another picture.
 bool Session::ask() {
-  wanted_.clean = preferences_.clean;
+  wanted_.clean = clean();
   RenderRequest kept = wanted_;
   kept.scene = kept_scene_;
   kept.film = nullptr;
@@ -169,6 +172,7 @@ bool Session::collect() {
   came = references_.collect() || came;
   came = tell_of_keeping() || came;
   came = collect_rows() || came;
+  came = collect_problem() || came;
   const auto problem = renderers_.reply().problem;
   if (problem == told_problem_) return came;
   told_problem_ = problem;
@@ -254,7 +258,8 @@ void Session::render_reference() {
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
   constexpr std::uint32_t minimum = 64;
-  references_.render({*rendered_scene(), std::max(minimum, frame->spp), wanted_.threads, isa_});
+  const Scene& scene = *rendered_scene();
+  references_.render({scene, std::max(minimum, frame->spp), wanted_.threads, isa_, "", scene});
 }
 
 void Session::snapshot() {

@@ -44,7 +44,9 @@ class Session {
 
   /// Whether what is shown is a picture that another program writes, without a scene that could be edited.
   bool shows_picture() const { return editor_.document().origin->is_picture; }
-  /// How much of that picture is there, a few words; "": none is shown.
+  /// Whether what is shown is rendered: a scene, or a picture whose samples a caller's function computes.
+  bool renders() const { return !shows_picture() || function_ != nullptr; }
+  /// How much of an arriving picture is there, a few words; "": none is shown.
   std::string arrived() const;
 
   /// What the renderers are asked for, in a split view of the right half. Goes to them with the next send(); all parts
@@ -101,7 +103,7 @@ class Session {
   void set_preferences(const Preferences& preferences);
   /// Shows pictures filtered, or as they are: one of the preferences.
   void set_clean(bool clean);
-  bool clean() const { return preferences_.clean; }
+  bool clean() const { return preferences_.clean && !shows_picture(); }
   /// The picture as it is on the left, the clean view on the right, while the clean view is on and nothing else is
   /// compared.
   void set_clean_beside_raw(bool beside);
@@ -120,6 +122,8 @@ class Session {
   /// Renders a reference of the scene on the screen in the background, with as many samples as the picture has and
   /// other random numbers: its own ones would make its error look smaller than it is.
   void render_reference();
+  /// The same of another scene of the same size, which the picture on the screen should look like.
+  void render_reference(const LoadedScene& loaded);
   /// Writes the picture as numbered files into the current folder, in the background.
   void snapshot();
   /// Writes the chart's curves as numbered files beside the snapshots, in the background.
@@ -133,6 +137,8 @@ class Session {
   std::shared_ptr<const Scene> rendered_scene();
   bool tell_of_keeping();
   bool collect_rows();
+  bool collect_problem();
+  std::shared_ptr<const SampleSource> source() const;
   void restore_edits(const WindowOptions& options);
   std::function<LoadedScene()> reload_of(const WindowOptions& options);
   void read_preferences_file();
@@ -162,8 +168,10 @@ class Session {
   bool discarded_ = false;                               ///< edits are not kept any more
   Keeping::Kind told_keeping_ = Keeping::Kind::nothing;  ///< what the user was told last
   Autosave kept_;
-  std::shared_ptr<ArrivingPicture> picture_;  ///< null: none was given
-  Arrival arrival_;                           ///< of the picture, as it is known here
+  std::shared_ptr<ArrivingPicture> picture_;   ///< null: none was given
+  Arrival arrival_;                            ///< of the picture, as it is known here
+  std::shared_ptr<WatchedFunction> function_;  ///< null: none was given
+  std::string told_function_problem_;          ///< what the user was told of it
   References references_;
   NumberedFiles snapshots_, charts_;
   JobQueue loading_, saving_;  // last: their jobs use the others

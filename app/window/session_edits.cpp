@@ -1,5 +1,8 @@
 #include "app/window/session.h"
 
+#include "app/window/document/open_document.h"
+#include "core/system/processors.h"
+
 #include <fmt/core.h>
 
 #include <utility>
@@ -80,8 +83,29 @@ bool Session::collect_rows() {
   return true;
 }
 
+/// Tells of the first sample that the function could not compute. Whether that is news.
+bool Session::collect_problem() {
+  if (!function_) return false;
+  const std::string problem = function_->first_problem();
+  if (problem == told_function_problem_) return false;
+  messages_.say(told_function_problem_ = problem, true);
+  return true;
+}
+
+/// Where samples come from; null: from the scene.
+std::shared_ptr<const SampleSource> Session::source() const {
+  if (!shows_picture()) return nullptr;
+  return picture_ ? picture_->source() : function_->source();
+}
+
+void Session::render_reference(const LoadedScene& loaded) {
+  constexpr int usual = 256;
+  const auto spp = static_cast<std::uint32_t>(loaded.scene.render.spp.value_or(usual));
+  references_.render({loaded.scene, spp, thread_count(0).count, isa_, title_of(loaded.name), *rendered_scene()});
+}
+
 std::string Session::arrived() const {
-  if (!shows_picture()) return "";
+  if (!shows_picture() || !picture_) return "";
   if (arrival_.rows == picture_->height()) return fmt::format("all {} rows", arrival_.rows);
   return fmt::format("{} {} of {}", arrival_.ended ? "ended at row" : "row", arrival_.rows, picture_->height());
 }

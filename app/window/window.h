@@ -1,11 +1,13 @@
 #pragma once
 #include "app/files/arriving_picture.h"
+#include "app/files/watched_function.h"
 #include "core/scene/load.h"
 
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 /// The window as the command line sees it: what it can be told, and the call that runs it.
@@ -33,6 +35,13 @@ struct WindowOptions {
   /// A picture that is shown in the scene's place while it comes; `scene` then has its size and nothing else, and one
   /// sample a pixel. Null: the scene is rendered.
   std::shared_ptr<ArrivingPicture> picture{};
+  /// A function whose samples are shown in the scene's place; `scene` then has the picture's size, and the settings
+  /// that choose its samples. Null: none.
+  std::shared_ptr<WatchedFunction> function{};
+  std::optional<LoadedScene> reference_scene{};  ///< is rendered to be the reference; of the size of the picture
+  /// The window belongs to a program of somebody else: it leaves alone what is of the whole process, such as signals
+  /// and how memory is given back.
+  bool hosted = false;
 };
 
 /// Opens the window and returns the exit code when it is closed. Throws IoError where there is no display (neither

@@ -10,12 +10,11 @@
 namespace tyndall {
 namespace {
 
-constexpr double paths_per_tile = 2048;
 constexpr int max_tile = 64;  // kernels take at most max_tile² pixels (max_tile_pixels)
 
-/// Edge of tiles whose tile jobs have about paths_per_tile paths: a multiple of `minimum`.
-int chosen_tile(std::uint32_t samples, int step, int minimum) {
-  const double pixels = paths_per_tile * step * step / std::max(1u, samples);
+/// Edge of tiles whose tile jobs have about `paths` paths: a multiple of `minimum`.
+int chosen_tile(double paths, std::uint32_t samples, int step, int minimum) {
+  const double pixels = paths * step * step / std::max(1u, samples);
   return std::clamp(static_cast<int>(std::sqrt(pixels)) / minimum * minimum, minimum, max_tile);
 }
 
@@ -68,8 +67,8 @@ std::uint32_t mean_lack(const Film& film, const std::vector<std::uint32_t>& want
 }
 
 /// Fills in the first and last sample of the next tile job, for each pixel of a tile. Pixels that lack samples get so
-/// many that the job has about paths_per_tile. Returns false if no pixel lacks any.
-bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile,
+/// many that the job has about `paths` paths. Returns false if no pixel lacks any.
+bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, const Region& tile, double paths,
                   std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) {
   first.clear(), last.clear();
   std::uint32_t lacking = 0, deepest = 0;
@@ -82,7 +81,7 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
       deepest = std::max(deepest, last.back() - first.back());
     }
   if (lacking == 0) return false;
-  const std::uint32_t maximum = std::max(static_cast<std::uint32_t>(paths_per_tile) / lacking, 1u);
+  const std::uint32_t maximum = std::max(static_cast<std::uint32_t>(paths) / lacking, 1u);
   if (deepest > maximum + maximum / 2)  // else this job takes all, so that no small rest is left over
     for (std::size_t i = 0; i < last.size(); ++i) last[i] = std::min(last[i], first[i] + maximum);
   return true;
@@ -105,8 +104,9 @@ Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& pa
 
 void Pass::cut(Tiling tiling, std::uint32_t samples) {
   // Coarse passes sample every 8th pixel. A tile job that cuts a block of groups in two traces all of it twice.
-  const int minimum = tiling.reuses_paths ? std::max(block_width, block_height) : 8;
-  tile_ = tiling.edge > 0 ? std::min(tiling.edge, max_tile) : chosen_tile(samples, step_, minimum);
+  const int minimum = tiling.any_edge ? step_ : tiling.reuses_paths ? std::max(block_width, block_height) : 8;
+  paths_per_tile_ = tiling.paths;
+  tile_ = tiling.edge > 0 ? std::min(tiling.edge, max_tile) : chosen_tile(tiling.paths, samples, step_, minimum);
   left_ = rounded_down(region_.x0, tiling.reuses_paths ? block_width : 1);
   top_ = rounded_down(region_.y0, tiling.reuses_paths ? block_height : 1);
   columns_ = divided_up(region_.x1 - left_, tile_);
@@ -125,27 +125,25 @@ bool Pass::run(const RenderEngine& engine, Film& film, const std::atomic<bool>& 
   const auto job = [&](int index) {
     auto& done = done_[static_cast<std::size_t>(index)];
     if (done || give_up.load(std::memory_order_relaxed)) return;
-    if (wanted_.empty()) {
-      run_tile(index, engine, film);
-      done = 1;
-    } else {
-      done = fill_tile(index, engine, film, give_up);
-    }
+    done = wanted_.empty() ? run_tile(index, engine, film, give_up) : fill_tile(index, engine, film, give_up);
   };
   engine.thread_pool.for_each(columns_ * rows_, job, poll);
   film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
   return std::all_of(done_.begin(), done_.end(), [](std::uint8_t d) { return d != 0; });
 }
 
-void Pass::run_tile(int index, const RenderEngine& engine, Film& film) {
+/// False if a source of samples left the tile job unfinished, because `give_up` was set.
+bool Pass::run_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up) {
   const Region where = tile(index);
   TileBuffer& tile_film = buffer();
   tile_film.clear(where, step_, !film.emission.empty());
   TileCounts counts;
-  engine.render_tile({where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
-                     tile_film.emission_or_null());
+  if (!engine.render_tile({where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
+                          tile_film.emission_or_null(), give_up))
+    return false;
   add_tile(where, step_, first_ == film.first_sample, film);
   add_counts(counts);
+  return true;
 }
 
 /// Runs units until the tile's pixels have what is wanted. False if `give_up` was set before.
@@ -153,12 +151,14 @@ bool Pass::fill_tile(int index, const RenderEngine& engine, Film& film, const st
   const Region where = tile(index);
   TileBuffer& tile_film = buffer();
   for (;;) {
-    if (!list_lacking(film, wanted_, where, tile_film.first, tile_film.last)) return true;
+    if (!list_lacking(film, wanted_, where, paths_per_tile_, tile_film.first, tile_film.last)) return true;
     if (give_up.load(std::memory_order_relaxed)) return false;
     tile_film.clear(where, 1, !film.emission.empty());
     TileCounts counts;
     const TileJob lacking{where, 1, 0, 0, 0, tile_film.first.data(), tile_film.last.data()};
-    engine.render_tile(lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null());
+    if (!engine.render_tile(lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null(),
+                            give_up))
+      return false;
     add_tile(where, 1, false, film);
     add_counts(counts);
   }

@@ -19,13 +19,13 @@ struct RenderEngine {
   const SceneView& scene;
   const SampleSource* samples = nullptr;  ///< null: the kernels take them
 
-  /// See Kernels::render_tile.
-  void render_tile(const TileJob& job, double film_quantum, FilmPixel* pixels, TileCounts& counts,
-                   EmissionSums* emission = nullptr) const {
-    if (samples)
-      sample_tile(*samples, scene, job, film_quantum, pixels);
-    else
-      kernels.render_tile(scene, job, film_quantum, pixels, counts, emission);
+  /// See Kernels::render_tile. Returns whether the tile job is whole: a source of samples leaves it where `give_up` is
+  /// set.
+  bool render_tile(const TileJob& job, double film_quantum, FilmPixel* pixels, TileCounts& counts,
+                   EmissionSums* emission, const std::atomic<bool>& give_up) const {
+    if (samples) return sample_tile(*samples, scene, job, film_quantum, pixels, give_up);
+    kernels.render_tile(scene, job, film_quantum, pixels, counts, emission);
+    return true;
   }
 };
 
@@ -33,6 +33,8 @@ struct RenderEngine {
 struct Tiling {
   int edge = 0;               ///< of tiles, in pixels; 0: chosen by the pass
   bool reuses_paths = false;  ///< the scene reuses second vertices: chosen tiles hold whole blocks of pixels
+  double paths = 2048;        ///< of a tile job, about
+  bool any_edge = false;      ///< chosen tiles may have any number of pixels; else, at least 8 x 8
 };
 
 /// One sweep over an image. It takes the same range of sample indices for every pixel, or brings each pixel up to its
@@ -65,7 +67,7 @@ class Pass {
  private:
   void cut(Tiling tiling, std::uint32_t samples);
   Region tile(int index) const;
-  void run_tile(int index, const RenderEngine& engine, Film& film);
+  bool run_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
   bool fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
   void add_tile(const Region& where, int step, bool replace, Film& film);
   void add_counts(const TileCounts& counts);
@@ -74,6 +76,7 @@ class Pass {
   std::uint32_t first_ = 0, last_ = 0;
   std::vector<std::uint32_t> wanted_;  ///< for each pixel; empty: first_ to last_ for all
   int step_ = 1, skip_step_ = 0, tile_;
+  double paths_per_tile_ = 0;
   int left_, top_;  ///< of the first tile: at most those of the region
   int columns_, rows_;
   std::vector<std::uint8_t> done_;  ///< for each tile; written only by the thread that runs it

@@ -100,6 +100,18 @@ PictureGrid coarse_rgba(const Film& film, int step, ThreadPool& thread_pool, std
   return {2 * columns, 2 * rows, 0.5f * static_cast<float>(step)};
 }
 
+void filled_rgba(const Film& film, int step, ThreadPool& thread_pool, std::vector<float>& rgba) {
+  const int width = film.region.width(), height = film.region.height();
+  rgba.resize(4 * film.pixels.size());
+  thread_pool.for_each(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const FilmPixel& own = film.pixels[offset(width, x, y)];
+      put(rgba, offset(width, x, y),
+          mean(film, own.taken > 0 ? own : film.pixels[offset(width, x - x % step, y - y % step)]));
+    }
+  });
+}
+
 std::vector<float> grey_rgba(std::size_t pixels, float grey) {
   return greys(pixels, [grey](std::size_t) { return grey; });
 }

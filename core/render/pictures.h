@@ -22,6 +22,9 @@ void beauty_rgba(const Film& film, ThreadPool& thread_pool, std::vector<float>& 
 /// has twice as many columns and rows: pixels between samples are interpolated along edges. step >= 1.
 PictureGrid coarse_rgba(const Film& film, int step, ThreadPool& thread_pool, std::vector<float>& rgba);
 
+/// Writes the mean of every pixel that has samples; pixels without show that of the coarse pass of that step.
+void filled_rgba(const Film& film, int step, ThreadPool& thread_pool, std::vector<float>& rgba);
+
 /// Keeps the memory of released objects for new ones: fresh memory from the system takes longer than drawing a picture
 /// into it. kept: the members whose memory is kept.
 template <class T, std::vector<float> T::*... kept>

@@ -4,6 +4,7 @@
 #include "core/film/groups.h"
 #include "core/render/plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -54,37 +55,57 @@ PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) 
 Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
                          const RenderEngine& engine) {
   if (pass_) return *pass_;
-  coarse_ = level_to_ == 0 && taken_ == 0 && !coarse_done_ && options_.coarse_step > 1;
+  const int step = next_step(film, paths_per_second, engine);
+  coarse_ = step > 1 ? step : 0;
   if (level_to_ == 0 && taken_ > 0) pass_ = refining_pass(film, limit, paths_per_second, engine);
   refining_ = pass_ != nullptr;
   if (refining_) return *pass_;
   end_ = 1;
   if (level_to_ > 0) {
     end_ = level_to_;
-    const Tiling tiling{options_.tile, engine.scene.reuses_paths};
-    pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
-  } else if (coarse_) {
-    pass_ = std::make_unique<Pass>(film.region, film.first_sample, film.first_sample + 1, options_.coarse_step, 0,
-                                   Tiling{options_.tile});
+    pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_),
+                                   tiling_for(engine, paths_per_second));
+  } else if (coarse_ > 0) {
+    Tiling tiling = tiling_for(engine, paths_per_second);
+    tiling.reuses_paths = false;
+    pass_ =
+        std::make_unique<Pass>(film.region, film.first_sample, film.first_sample + 1, coarse_, coarse_done_, tiling);
   } else {
     pass_ = full_pass(film, limit, paths_per_second, engine);
   }
   return *pass_;
 }
 
+/// Step of the next pass: above 1, it is a coarse one.
+int PassSchedule::next_step(const Film& film, double paths_per_second, const RenderEngine& engine) const {
+  if (level_to_ > 0 || taken_ > 0) return 1;
+  if (coarse_done_ == 0) return options_.coarse_step;
+  const auto pixels = static_cast<std::int64_t>(film.pixels.size());
+  return engine.samples && is_slow_source(pixels, paths_per_second) ? coarse_done_ / 2 : 1;
+}
+
+/// Tiles of passes. A source of samples may be slow: its tile jobs have as many paths as take about 2 ms.
+Tiling PassSchedule::tiling_for(const RenderEngine& engine, double paths_per_second) const {
+  Tiling tiling{options_.tile, engine.scene.reuses_paths};
+  if (!engine.samples) return tiling;
+  tiling.paths = source_paths_per_tile(paths_per_second, engine.thread_pool.size());
+  tiling.any_edge = true;
+  return tiling;
+}
+
 std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
                                               const RenderEngine& engine) {
-  const Tiling tiling{options_.tile, engine.scene.reuses_paths};
+  const Tiling tiling = tiling_for(engine, paths_per_second);
   end_ = taken_ + pass_samples(options_.length, taken_, film.pixels.size(), paths_per_second);
   if (limit) end_ = std::min(end_, *limit);
   if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.thread_pool));
   if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
   if (max_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
   // The pixels of a coarse pass keep their first sample, unless it was taken without its group.
-  const bool after_coarse = taken_ == 0 && coarse_done_;
+  const bool after_coarse = taken_ == 0 && coarse_done_ > 0;
   replaces_ = after_coarse && tiling.reuses_paths;
   if (replaces_) film.cut_throughput = {};
-  const int skip_step = after_coarse && !replaces_ ? options_.coarse_step : 0;
+  const int skip_step = after_coarse && !replaces_ ? coarse_done_ : 0;
   return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
                                 tiling);
 }
@@ -101,12 +122,12 @@ std::unique_ptr<Pass> PassSchedule::refining_pass(const Film& film, std::optiona
   if (limit) end_ = std::min(end_, *limit);
   if (end_ <= minimum) return nullptr;
   return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), part,
-                                Tiling{options_.tile, engine.scene.reuses_paths});
+                                tiling_for(engine, paths_per_second));
 }
 
 void PassSchedule::finish() {
-  if (coarse_)
-    coarse_done_ = true;
+  if (coarse_ > 0)
+    coarse_done_ = coarse_;
   else if (refining_)
     max_ = std::max(max_, end_);
   else
@@ -120,14 +141,16 @@ void Progression::start(const RenderScene& scene, const Region& region, std::uin
                         const ProgressionOptions& options) {
   const auto pixels = static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height());
   const bool emission = needs_trait<&BsdfTraits::emits>(scene.features);
+  const double quantum = options.quantum > 0 ? options.quantum : scene.film_quantum;
   if (film_.pixels.size() != pixels) {
-    film_ = make_film(scene.width, scene.height, region, first_sample, scene.film_quantum, emission);
+    film_ = make_film(scene.width, scene.height, region, first_sample, quantum, emission);
   } else {  // the first pass replaces the pixels' contents
+    if (options.clear) std::fill(film_.pixels.begin(), film_.pixels.end(), FilmPixel{});
     film_.emission.resize(emission ? pixels : 0);
     film_.width = scene.width, film_.height = scene.height;
     film_.region = region;
     film_.first_sample = first_sample;
-    film_.quantum = scene.film_quantum;
+    film_.quantum = quantum;
     film_.cut_throughput = {};
     film_.planned.clear();
   }

@@ -51,7 +51,11 @@ struct EstimateTimes {
 struct ProgressionOptions {
   bool adaptive = false;  ///< see plan.h
   int tile = 0;           ///< see Tiling
-  int coarse_step = 1;    ///< above 1: the first pass takes one sample of every coarse_step-th pixel in x and y
+  /// Above 1: the first pass takes one sample of every coarse_step-th pixel in x and y. With a slow source of samples
+  /// further coarse passes follow, see is_slow_source(): then it is a power of two.
+  int coarse_step = 1;
+  double quantum = 0;  ///< of the film; 0: the scene's
+  bool clear = false;  ///< the film is cleared first: see Progression::is_filling()
   /// The part of the picture that gets all further samples once each pixel has one, until it has the wanted number;
   /// then the rest follows. Empty: none. No effect with `adaptive`, which distributes the samples itself.
   Region first;
@@ -81,10 +85,14 @@ class PassSchedule {
   bool replaces() const { return replaces_; }       ///< whether the pass replaces the samples of the coarse one
   std::uint32_t taken() const { return taken_; }    ///< samples of every pixel; after adaptive rounds their mean
   std::uint32_t maximum() const { return std::max(taken_, max_); }  ///< samples of the part refined first
-  bool coarse_done() const { return coarse_done_; }
-  int coarse_step() const { return options_.coarse_step; }
+  /// Step of the finest coarse pass that is complete; 0: there was none.
+  int coarse_done() const { return coarse_done_; }
+  /// Step of the present pass, if it is a coarse one; else 0.
+  int coarse() const { return coarse_; }
 
  private:
+  int next_step(const Film& film, double paths_per_second, const RenderEngine& engine) const;
+  Tiling tiling_for(const RenderEngine& engine, double paths_per_second) const;
   std::unique_ptr<Pass> full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
                                   const RenderEngine& engine);
   std::unique_ptr<Pass> refining_pass(const Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
@@ -92,7 +100,8 @@ class PassSchedule {
 
   ProgressionOptions options_;
   std::unique_ptr<Pass> pass_;
-  bool coarse_ = false, coarse_done_ = false, refining_ = false, replaces_ = false;
+  int coarse_ = 0, coarse_done_ = 0;
+  bool refining_ = false, replaces_ = false;
   std::uint32_t taken_ = 0, end_ = 0;
   std::uint32_t max_ = 0;       ///< if above taken_: samples of the pixels that were refined first
   std::uint32_t level_to_ = 0;  ///< samples that an interrupted pass gave to some pixels: all get these first; 0: none
@@ -141,9 +150,12 @@ class Progression {
   /// See ProgressionOptions; from the next pass on.
   void set_first(const Region& first);
   /// Whether there is a picture to show.
-  bool has_picture() const { return taken() > 0 || schedule_.coarse_done(); }
+  bool has_picture() const { return taken() > 0 || schedule_.coarse_done() > 0; }
   /// 1, or larger after a coarse pass: then only every step-th pixel in x and y has samples.
-  int step() const { return taken() == 0 ? schedule_.coarse_step() : 1; }
+  int step() const { return taken() == 0 && schedule_.coarse_done() > 0 ? schedule_.coarse_done() : 1; }
+  /// Whether a pass was interrupted that gives the pixels beside those of a coarse pass their first samples, in a film
+  /// that was cleared before: pixels without samples have none yet.
+  bool is_filling() const { return options_.clear && taken() == 0 && within_pass() && schedule_.coarse() == 0; }
   /// Whether a pass was interrupted and is not complete.
   bool within_pass() const { return schedule_.pass() != nullptr; }
   /// May be called from run_pass()'s poll.

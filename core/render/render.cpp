@@ -17,6 +17,7 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   ProgressionOptions made;
   made.adaptive = options.adaptive;
   made.tile = options.tile;
+  if (options.samples) made.quantum = source_quantum;
   made.count_breaks = true;
   // If time or error decide when to stop, passes are short, because both are checked between passes only. Otherwise
   // there are few passes: each doubles the samples, or takes a tenth of a second, up to PassLength::maximum.
@@ -96,7 +97,7 @@ class Rendering {
     else
       picture_.go_on(std::move(film), how);
     thread_pool_.emplace(options.threads);
-    engine_.emplace(RenderEngine{*thread_pool_, kernels_, view_});
+    engine_.emplace(RenderEngine{*thread_pool_, kernels_, view_, options.samples.get()});
     clean_.emplace(options, *engine_, picture_.levels());
   }
 
@@ -154,7 +155,7 @@ class Rendering {
     if (picture_.taken() >= 2 && (progress_ || picture_.estimate_is_new())) result.estimate = picture_.estimate();
     result.film = picture_.take_film();
     clean_->finish(result.film, picture_.taken(), whole, result);
-    result.first_rejected = find_rejected(kernels_, view_, result.film);
+    if (!options_.samples) result.first_rejected = find_rejected(kernels_, view_, result.film);
     return result;
   }
 

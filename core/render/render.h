@@ -5,12 +5,14 @@
 #include "core/film/film.h"
 #include "core/image/image.h"
 #include "core/render/prepare.h"
+#include "core/render/sample_source.h"
 #include "core/render/single_pixels.h"
 #include "core/scene/scene.h"
 #include "core/targets/kernels.h"
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -40,7 +42,9 @@ struct RenderOptions {
   double target_error = 0;  ///< estimated relative error at which to stop, with `clean` that of the clean view; 0: none
   bool clean = false;       ///< make the clean view, too; needs 2 samples a pixel
   bool adaptive = false;    ///< more samples where the error is larger (see plan.h); spp is then their mean
-  int tile = 0;             ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
+  /// Where samples come from; null: from the scene, which otherwise gives size, seed and sampler (see RenderRequest).
+  std::shared_ptr<const SampleSource> samples{};
+  int tile = 0;  ///< edge of a tile in pixels; 0: chosen. Never changes the picture.
   RenderBreaks breaks{};
 };
 

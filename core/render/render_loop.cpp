@@ -12,7 +12,8 @@
 namespace tyndall {
 namespace {
 
-constexpr double pass_budget = 0.15;  // from one picture to the next while a picture converges
+constexpr double pass_budget = 0.15;   // from one picture to the next while a picture converges
+constexpr double picture_pause = 0.5;  // the same where a pass takes longer, as a source of samples is slow
 
 ProgressionOptions progression_options(const Scene& scene, int coarse_step, const Region& first) {
   ProgressionOptions options;
@@ -50,8 +51,21 @@ void RenderLoop::run(const StopToken& stop) {
 void RenderLoop::go_on() {
   if (stalled_) return;
   const std::uint32_t limit = request_.limit();
-  if (unfinished(limit) && picture_.run_pass(engine(), {.spp = limit}, mail_.give_up())) finish_pass();
+  if (unfinished(limit) && run_pass(limit)) finish_pass();
   if (clean_is_due() && !mail_.give_up()) make_clean();
+}
+
+/// Returns whether a pass is complete. With a source of samples, which may be slow, it breaks off a pass now and then
+/// to show what all pixels have by then; the next call continues it.
+bool RenderLoop::run_pass(std::uint32_t limit) {
+  const Limits limits{.spp = limit};
+  if (!shown_.samples) return picture_.run_pass(engine(), limits, mail_.give_up());
+  const Clock::time_point start = Clock::now();
+  std::atomic<bool> pause = false;
+  const auto look = [&] { pause = mail_.give_up() || seconds_since(start) >= picture_pause; };
+  if (picture_.run_pass(engine(), limits, pause, look)) return true;
+  if (!mail_.give_up() && (picture_.taken() > 0 || picture_.is_filling())) publish();
+  return false;
 }
 
 /// Memory can run out at any step. Then the callers get a RenderProblem, the pictures so far stay, and nothing is tried
@@ -138,9 +152,14 @@ bool RenderLoop::go_on_from(Film* film) {
 void RenderLoop::start_over(double budget) {
   const RenderScene& scene = shown_.prepared->columns();
   const auto pixels = static_cast<std::int64_t>(scene.width) * scene.height;
-  const int step = first_pictures_.step_for(pixels, budget, request_.wanted.shown_pixels);
-  picture_.start(scene, {0, 0, scene.width, scene.height}, 0,
-                 progression_options(shown_.prepared->scene(), step, request_.wanted.refine_first));
+  const int step = shown_.samples ? source_coarse_step(pixels, first_pictures_.paths_per_second(), budget)
+                                  : first_pictures_.step_for(pixels, budget, request_.wanted.shown_pixels);
+  ProgressionOptions options = progression_options(shown_.prepared->scene(), step, request_.wanted.refine_first);
+  if (shown_.samples) {
+    options.quantum = source_quantum;
+    options.clear = is_slow_source(pixels, first_pictures_.paths_per_second());
+  }
+  picture_.start(scene, {0, 0, scene.width, scene.height}, 0, options);
   begin_picture();
 }
 
@@ -230,9 +249,9 @@ void RenderLoop::publish() {
 
 /// Gives a copy of the film to callers who wait for one. Within a pass some pixels lack samples that others have, so an
 /// interrupted pass is finished first. If the renderer is paused, has reached its limit or has failed, nothing would
-/// finish the pass: then the film is given as it is.
+/// finish the pass: then the film is given as it is; and so it is where a source of samples may take long to finish it.
 void RenderLoop::answer_films() {
-  if (picture_.within_pass() && unfinished(request_.limit()) && !stalled_) return;
+  if (picture_.within_pass() && unfinished(request_.limit()) && !stalled_ && !shown_.samples) return;
   for (auto& request : mail_.take_film_requests()) {
     try {
       request.set_value(picture_.taken() > 0 ? picture_.film() : Film{});

@@ -30,6 +30,7 @@ class RenderLoop {
 
  private:
   void go_on();
+  bool run_pass(std::uint32_t limit);
   void tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step);
   void tell(std::uint64_t edit, const std::exception& error);
   void follow(const ReceivedRequest& next);

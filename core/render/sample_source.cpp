@@ -2,6 +2,8 @@
 
 #include "core/base/random.h"
 
+#include <algorithm>
+
 namespace tyndall {
 namespace {
 
@@ -14,8 +16,8 @@ Vec3f sample_at(const SampleSource& source, const SceneView& scene, int x, int y
 
 }  // namespace
 
-void sample_tile(const SampleSource& source, const SceneView& scene, const TileJob& job, double film_quantum,
-                 FilmPixel* pixels) {
+bool sample_tile(const SampleSource& source, const SceneView& scene, const TileJob& job, double film_quantum,
+                 FilmPixel* pixels, const std::atomic<bool>& give_up) {
   for (int y = job.tile.y0; y < job.tile.y1; ++y)
     for (int x = job.tile.x0; x < job.tile.x1; ++x) {
       if (x % job.step != 0 || y % job.step != 0) continue;
@@ -24,9 +26,30 @@ void sample_tile(const SampleSource& source, const SceneView& scene, const TileJ
       FilmPixel& pixel = pixels[place];
       const std::uint32_t first = job.first_of ? job.first_of[place] : job.first;
       const std::uint32_t last = job.last_of ? job.last_of[place] : job.last;
-      for (std::uint32_t index = first; index < last; ++index, ++pixel.taken)
+      for (std::uint32_t index = first; index < last; ++index, ++pixel.taken) {
+        if (give_up.load(std::memory_order_relaxed)) return false;
         add_sample(pixel, index & 1u, sample_at(source, scene, x, y, index), 1 / film_quantum);
+      }
     }
+  return true;
+}
+
+double source_paths_per_tile(double paths_per_second, int threads) {
+  constexpr double seconds = 0.002, at_first = 16, maximum = 2048;
+  if (paths_per_second <= 0) return at_first;
+  return std::clamp(seconds * paths_per_second / std::max(threads, 1), 1.0, maximum);
+}
+
+int source_coarse_step(std::int64_t pixels, double paths_per_second, double seconds) {
+  constexpr int maximum = 64;
+  int step = 1;
+  while (step<maximum&& static_cast<double>(pixels)> paths_per_second * seconds * step * step) step *= 2;
+  return step;
+}
+
+bool is_slow_source(std::int64_t pixels, double paths_per_second) {
+  constexpr double seconds = 0.5;
+  return static_cast<double>(pixels) > paths_per_second * seconds;
 }
 
 }  // namespace tyndall

@@ -40,6 +40,7 @@ PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame*
   white_ = 1;
   switch (view) {
     case View::beauty:
+      if (picture.is_filling()) return filled_rgba(film, picture.step(), engine.thread_pool, rgba), every_pixel;
       return coarse_rgba(film, picture.step(), engine.thread_pool, rgba);
     case View::noise:
       if (clean && clean->spp > 0) {

@@ -7,6 +7,10 @@
 #include "core/scene/place.h"
 
 #include <dirent.h>
+#ifdef __GLIBC__
+#include <dlfcn.h>
+#include <link.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -128,14 +132,29 @@ BuiltIn built_in(const std::string& name, const fs::path& path) {
   return scene;
 }
 
+/// The file that holds this code: the library where another program uses it, else the program.
+fs::path own_file() {
+  std::error_code error;
+#ifdef __GLIBC__
+  Dl_info found{};
+  void* map = nullptr;
+  if (dladdr1(reinterpret_cast<void*>(&own_file), &found, &map, RTLD_DL_LINKMAP) != 0) {
+    const char* library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
+    if (library && *library) return fs::canonical(library, error);
+  }
+#endif
+  return fs::read_symlink("/proc/self/exe", error);
+}
+
 }  // namespace
 
 fs::path assets_folder() {
   if (const char* chosen = std::getenv("TYNDALL_ASSETS"); chosen && *chosen) return chosen;
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path folder = program.parent_path();
-  for (const fs::path& assets : {folder.parent_path() / "share" / "tyndall", folder / "assets"})
+  const fs::path folder = own_file().parent_path(), above = folder.parent_path();
+  const fs::path shared = fs::path("share") / "tyndall";
+  // A library may lie in lib/x86_64-linux-gnu.
+  for (const fs::path& assets : {above / shared, above.parent_path() / shared, folder / "assets"})
     if (fs::is_directory(assets / "scenes", error)) return assets;
   return {};
 }

@@ -46,7 +46,7 @@ struct BuiltIn {
 std::vector<BuiltIn> built_in_scenes();
 
 /// The folder with scenes/ and textures/: $TYNDALL_ASSETS, else share/tyndall of the installation, else assets beside
-/// the program; empty if there is none.
+/// the program, or beside the library that holds this code; empty if there is none.
 std::filesystem::path assets_folder();
 
 /// The scene with its relative texture files respelt so that a scene file in folder `to` finds what one in folder

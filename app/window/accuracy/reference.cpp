@@ -91,9 +91,11 @@ std::optional<Reference> rendered_reference(const ReferenceOrder& order,
   if (result.interrupted) return {};
   FinishedPicture picture = finished_picture(*prepared, result);
   const double error = picture.estimate.relative_error;
+  const bool same_scene = order.name.empty();
+  const std::string seed = same_scene ? ", seed " + std::to_string(scene.render.seed) : "";
   return Reference{std::move(picture.image), std::isfinite(error) ? error * error : 0,
-                   "this scene at " + format_count(order.spp) + " spp, seed " + std::to_string(scene.render.seed),
-                   std::move(scene), true};
+                   (same_scene ? "this scene" : order.name) + " at " + format_count(order.spp) + " spp" + seed,
+                   same_scene ? std::move(scene) : order.shown, same_scene};
 }
 
 ReferenceFit fit_of(const Reference& reference, const Scene& scene) {

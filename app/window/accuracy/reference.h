@@ -36,7 +36,9 @@ struct ReferenceOrder {
   Scene scene;            ///< with the picture's seed: another one is taken
   std::uint32_t spp = 1;  ///< samples a pixel
   int threads = 1;
-  std::string isa;  ///< "": the best
+  std::string isa;     ///< "": the best
+  std::string name{};  ///< of the scene, where it is not the one on the screen; else ""
+  Scene shown{};       ///< what is on the screen
 };
 /// Renders the scene with random numbers that are not those of the picture. progress: called now and then with the
 /// samples so far; returns false to stop, then there is no result.

@@ -29,10 +29,11 @@ void References::drop() {
 
 void References::render(const ReferenceOrder& order) {
   const std::uint64_t number = ++order_;
-  scene_ = order.scene;
+  scene_ = order.shown;
+  doing_ = order.name.empty() ? "rendering a reference with another seed" : "rendering the reference " + order.name;
   wanted_ = order.spp;
   rendered_ = told_ = 0;
-  messages_.say_until_done("rendering a reference with another seed …");
+  messages_.say_until_done(doing_ + " …");
   rendering_.run([this, order, number]() -> JobQueue::Result {
     double next = 0;
     const auto progress = [&](std::uint32_t spp) {
@@ -65,8 +66,7 @@ bool References::collect() {
   const std::uint32_t now = rendered_;
   if (now > told_) {
     told_ = now;
-    messages_.say_until_done("rendering a reference with another seed: " + format_count(now) + " of " +
-                             format_count(wanted_) + " spp");
+    messages_.say_until_done(doing_ + ": " + format_count(now) + " of " + format_count(wanted_) + " spp");
   }
   return rendering_.collect();
 }

@@ -45,7 +45,8 @@ class References {
   std::atomic<std::uint64_t> order_ = 0;     ///< counts up; what is rendered for an older number stops
   std::atomic<std::uint32_t> rendered_ = 0;  ///< samples a pixel so far
   std::uint32_t told_ = 0;                   ///< of these, in the newest message
-  Scene scene_;                              ///< of what is rendered
+  Scene scene_;                              ///< what the picture on the screen was when this began
+  std::string doing_;                        ///< "rendering a reference with another seed"
   std::uint32_t wanted_ = 0;                 ///< samples a pixel of it
   JobQueue rendering_;                       // declared last, because it uses the others
 };

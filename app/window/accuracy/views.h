@@ -47,6 +47,12 @@ inline ViewEntry view_entry(int number) { return view_entries[static_cast<std::s
 /// Whether a view shows differences from a reference or from the other half.
 inline bool shows_errors(int number) { return view_entry(number).error != ErrorView::none; }
 
+/// Whether a view shows the scene itself, or how it is rendered; the others are drawn from the samples.
+inline bool is_view_of_scene(int number) {
+  const View view = view_entry(number).view;
+  return view != View::beauty && view != View::noise && view != View::samples;
+}
+
 /// The number of a view; that of beauty for a name that no view has.
 inline int view_named(std::string_view name) {
   for (int k = 0; k < view_count; ++k)

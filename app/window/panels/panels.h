@@ -34,6 +34,7 @@ struct PanelModel {
   std::string what;                           ///< the open scene, by what load_scene takes
   std::string title;                          ///< of the open scene
   bool has_scene = true;                      ///< false: a picture without one is shown
+  bool renders = true;                        ///< false: what is shown has no samples that could still be taken
   int clean = 0;                              ///< see Action::clean_as
   int threads = 1;
   bool at_window = false;  ///< the picture has as many pixels as the window shows; else as the file says

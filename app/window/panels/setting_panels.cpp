@@ -164,7 +164,8 @@ std::string contents_text(const Scene& scene) {
 
 /// Why a view cannot be shown; null: it can.
 const char* missing_for_view(const PanelModel& model, int number) {
-  if (!model.has_scene && view_entry(number).view != View::beauty) return "a picture without a scene has none";
+  const bool missing = !model.renders && view_entry(number).view != View::beauty;
+  if (missing || (!model.has_scene && is_view_of_scene(number))) return "a picture without a scene has none";
   return shows_errors(number) && !model.can_show_errors ? "needs a reference: see Speed and accuracy" : nullptr;
 }
 
@@ -209,7 +210,7 @@ void background_panel(Ui& ui, PanelState& state) {
 }
 
 void image_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Image", state.model.has_scene ? "rendering goes on" : "")) return;
+  if (!section(ui, "Image", state.model.renders ? "rendering goes on" : "")) return;
   const Scope scope(ui, "image");
   field_rows(ui, state.scene.display, &state.model.saved->display);
   if (state.model.has_scene) clean_row(ui, state);

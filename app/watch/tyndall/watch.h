@@ -1,0 +1,167 @@
+/* Tyndall's window over samples that a function of yours computes: the picture while it becomes sharper, zoom, the
+ * values of a pixel, exposure, the estimated error, comparison with a reference, snapshots as PNG and EXR. Or, without
+ * a window, a picture file.
+ *
+ * C++17:  tyndall::watch(width, height, [&](double x, double y, std::uint64_t sample) { return colour; });
+ * C99:    tyndall_watch(width, height, function, user, NULL);
+ * Link with -ltyndall-watch (pkg-config tyndall-watch), or in CMake find_package(tyndall) and tyndall::watch. */
+#ifndef TYNDALL_WATCH_H
+#define TYNDALL_WATCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __GNUC__
+#define TYNDALL_WATCH_API __attribute__((visibility("default")))
+#else
+#define TYNDALL_WATCH_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Computes one sample of the picture. x, y: a point, in pixels from the upper left corner, y down; the points of a
+ * pixel are spread over it. sample: which of the pixel's samples it is, from 0 on: may serve as a seed of your own
+ * random numbers. rgb: is to be set to linear radiance, without any gamma curve. A function that leaves rgb as it is,
+ * or sets it to values that are not finite, has failed: the sample is left out and told with its pixel. May be called
+ * from any thread, but by no more at once than options say. */
+typedef void (*tyndall_watch_function)(void* user, double x, double y, uint64_t sample, double rgb[3]);
+
+typedef struct tyndall_watch_options {
+  size_t size;           /* sizeof(tyndall_watch_options) */
+  int threads;           /* that call the function at the same time; 0: 1 */
+  uint32_t spp;          /* samples a pixel; 0: 64 in a file, 4,096 in the window */
+  uint32_t seed;         /* another one gives other points */
+  const char* title;     /* of the window; NULL: "watch" */
+  const char* output;    /* write this file instead of opening a window: .png, .exr, .pfm, .hdr, .ppm; NULL: window */
+  const char* reference; /* what the picture should look like: a picture of the same size, or a scene; NULL: none */
+} tyndall_watch_options;
+
+/* tyndall_watch_options options = TYNDALL_WATCH_OPTIONS; */
+#define TYNDALL_WATCH_OPTIONS \
+  { sizeof(tyndall_watch_options), 0, 0, 0, NULL, NULL, NULL }
+
+/* Shows the picture until the window is closed, or writes the file. user: is handed to the function. options: may be
+ * NULL. Returns 0: all is well; 1: the same, but some samples have failed; 2: an argument or an option is wrong; 3: no
+ * display, or the file cannot be written. What is wrong goes to standard error, a line each. One call at a time. */
+TYNDALL_WATCH_API int tyndall_watch(int width, int height, tyndall_watch_function function, void* user,
+                                    const tyndall_watch_options* options);
+
+/* For use within the function: the present sample has no value, for this reason, which the user is told. */
+TYNDALL_WATCH_API void tyndall_watch_fail(const char* reason);
+
+#ifdef __cplusplus
+} /* extern "C" */
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace tyndall {
+
+/// Options of watch(); see tyndall_watch_options.
+struct WatchOptions {
+  int threads = 1;
+  std::uint32_t spp = 0;
+  std::uint32_t seed = 0;
+  std::string title{};
+  std::string output{};
+  std::string reference{};
+};
+
+namespace watch_details {
+
+template <class C, class = void>
+struct HasXyz : std::false_type {};
+template <class C>
+struct HasXyz<C,
+              std::void_t<decltype(static_cast<double>(std::declval<C&>().x), static_cast<double>(std::declval<C&>().y),
+                                   static_cast<double>(std::declval<C&>().z))>> : std::true_type {};
+
+template <class C, class = void>
+struct HasXyzFunctions : std::false_type {};
+template <class C>
+struct HasXyzFunctions<C, std::void_t<decltype(static_cast<double>(std::declval<C&>().x()))>> : std::true_type {};
+
+template <class C, class = void>
+struct HasRgb : std::false_type {};
+template <class C>
+struct HasRgb<C,
+              std::void_t<decltype(static_cast<double>(std::declval<C&>().r), static_cast<double>(std::declval<C&>().g),
+                                   static_cast<double>(std::declval<C&>().b))>> : std::true_type {};
+
+template <class C, class = void>
+struct HasIndex : std::false_type {};
+template <class C>
+struct HasIndex<C, std::void_t<decltype(static_cast<double>(std::declval<C&>()[0]))>> : std::true_type {};
+
+template <class C, class = void>
+struct HasE : std::false_type {};
+template <class C>
+struct HasE<C, std::void_t<decltype(static_cast<double>(std::declval<C&>().e[0]))>> : std::true_type {};
+
+template <class C>
+constexpr bool always_false = false;
+
+/// Takes a colour apart, whatever its type calls the parts.
+template <class C>
+void take_apart(C colour, double* rgb) {
+  const auto put = [rgb](auto r, auto g, auto b) {
+    rgb[0] = static_cast<double>(r), rgb[1] = static_cast<double>(g), rgb[2] = static_cast<double>(b);
+  };
+  if constexpr (std::is_arithmetic_v<C>)
+    put(colour, colour, colour);
+  else if constexpr (HasXyz<C>::value)
+    put(colour.x, colour.y, colour.z);
+  else if constexpr (HasXyzFunctions<C>::value)
+    put(colour.x(), colour.y(), colour.z());
+  else if constexpr (HasRgb<C>::value)
+    put(colour.r, colour.g, colour.b);
+  else if constexpr (HasIndex<C>::value)
+    put(colour[0], colour[1], colour[2]);
+  else if constexpr (HasE<C>::value)
+    put(colour.e[0], colour.e[1], colour.e[2]);
+  else
+    static_assert(
+        always_false<C>,
+        "tyndall::watch: the function has to return a colour, with members x, y, z or r, g, b or e[0] to e[2], "
+        "with functions x(), y(), z(), or with [0] to [2]");
+}
+
+}  // namespace watch_details
+
+/// Shows the picture whose samples `function` computes until the window is closed, or writes it to options.output.
+/// function(double x, double y, std::uint64_t sample) returns a colour: see tyndall_watch_function. An exception that
+/// it throws means that the sample has failed. Returns what tyndall_watch() does.
+template <class Function>
+int watch(int width, int height, Function&& function, const WatchOptions& options = WatchOptions()) {
+  auto sample_of = [&function](double x, double y, std::uint64_t sample, double* rgb) {
+    watch_details::take_apart(function(x, y, sample), rgb);
+  };
+  const auto call = [](void* user, double x, double y, std::uint64_t sample, double* rgb) {
+    try {
+      (*static_cast<decltype(sample_of)*>(user))(x, y, sample, rgb);
+    } catch (const std::exception& error) {
+      tyndall_watch_fail(error.what());
+    } catch (...) {
+      tyndall_watch_fail("an exception that is no std::exception");
+    }
+  };
+  const auto text = [](const std::string& option) { return option.empty() ? nullptr : option.c_str(); };
+  tyndall_watch_options plain = TYNDALL_WATCH_OPTIONS;
+  plain.threads = options.threads;
+  plain.spp = options.spp;
+  plain.seed = options.seed;
+  plain.title = text(options.title);
+  plain.output = text(options.output);
+  plain.reference = text(options.reference);
+  return tyndall_watch(width, height, call, &sample_of, &plain);
+}
+
+}  // namespace tyndall
+#endif /* __cplusplus */
+
+#endif

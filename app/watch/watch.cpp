@@ -1,0 +1,207 @@
+#include <tyndall/watch.h>
+
+#include "app/files/memory.h"
+#include "app/files/open_scene.h"
+#include "app/files/outputs.h"
+#include "app/files/watched_function.h"
+#include "app/text/standard_streams.h"
+#include "app/text/values.h"
+#include "app/watch/host.h"
+#include "app/window/window.h"
+#include "core/base/error.h"
+#include "core/base/limits.h"
+#include "core/base/thread_pool.h"
+#include "core/image/image.h"
+#include "core/image/image_io_file.h"
+#include "core/render/render.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+
+/// The library for programs of others: what <tyndall/watch.h> promises, by the parts of the program.
+namespace tyndall {
+namespace {
+
+constexpr const char* no_window = "; with the option output the picture is written to a file, without a window";
+
+/// What the caller wants, checked and complete.
+struct Order {
+  std::shared_ptr<WatchedFunction> function;
+  LoadedScene loaded;  ///< has the picture's size and the settings of its samples, and no objects
+  int threads = 1;
+  std::filesystem::path output, reference;
+};
+
+std::string text(const char* option) { return option ? option : ""; }
+
+/// The options as this library knows them: those of an older header lack members, which then have their defaults.
+tyndall_watch_options whole(const tyndall_watch_options* given) {
+  tyndall_watch_options options = TYNDALL_WATCH_OPTIONS;
+  if (!given) return options;
+  if (given->size < offsetof(tyndall_watch_options, threads) + sizeof(int) || given->size > 4096)
+    throw UsageError(fmt::format("watch: size of the options: found {}, expected sizeof(tyndall_watch_options), {}",
+                                 given->size, sizeof options));
+  std::memcpy(&options, given, std::min(given->size, sizeof options));
+  return options;
+}
+
+void check(int width, int height, bool has_function, const tyndall_watch_options& options) {
+  constexpr int max_size = 65536;
+  const auto refuse = [](const std::string& what) { throw UsageError("watch: " + what); };
+  if (!has_function) refuse("found no function, expected one that computes samples");
+  if (std::min(width, height) < 1 || std::max(width, height) > max_size)
+    refuse(fmt::format("found a picture of {}x{} pixels, expected 1 to {} each way", width, height, max_size));
+  if (options.threads < 0 || options.threads > max_threads)
+    refuse(fmt::format("threads: found {}, expected 1 to {}", options.threads, max_threads));
+  if (options.spp > max_samples) refuse(fmt::format("spp: found {}, expected at most {}", options.spp, max_samples));
+}
+
+Order order_of(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options& options,
+               const Host& host) {
+  Order order;
+  order.function = std::make_shared<WatchedFunction>(
+      [function, user, &host](double x, double y, std::uint64_t sample, double rgb[3]) {
+        host.call([&] { function(user, x, y, sample, rgb); });
+      });
+  order.threads = std::max(options.threads, 1);
+  order.output = text(options.output);
+  order.reference = text(options.reference);
+  order.loaded.name = options.title && *options.title ? options.title : "watch";
+  order.loaded.folder = ".";
+  order.loaded.is_picture = true;
+  Scene& scene = order.loaded.scene;
+  scene.width = width, scene.height = height;
+  scene.render.seed = options.seed;
+  if (options.spp > 0) scene.render.spp = static_cast<int>(options.spp);
+  return order;
+}
+
+void write_picture(const Order& order) {
+  const Scene& scene = order.loaded.scene;
+  const std::vector<std::filesystem::path> files{order.output};
+  check_image_names(files);
+  check_can_write(order.output);
+  check_memory({.width = scene.width, .height = scene.height, .place = "watch", .files = files}, free_memory());
+  const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
+  RenderOptions options;
+  options.threads = order.threads;
+  options.spp = static_cast<std::uint32_t>(scene.render.spp.value_or(64));
+  options.samples = order.function->source();
+  const RenderResult result = render(*prepared, options);
+  const LinearImage image{scene.width, scene.height, resolve(result.film)};
+  const auto nothing = [](const std::filesystem::path&) { return Embedded{"", "", {}, false}; };
+  for (const std::string& problem : write_images({result.film, image, scene.display, nothing, {}}, files))
+    throw IoError(problem);
+}
+
+/// Whether the file is a picture to compare with as it is, and not to be rendered.
+bool is_picture_file(const std::filesystem::path& name) {
+  const std::filesystem::path file = picture_name(name).file;
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) &&
+         image_kind(read_bytes(file, kind_size)) != ImageKind::unknown;
+}
+
+[[maybe_unused]] void add_reference(const Order& order, WindowOptions& options) {
+  if (order.reference.empty()) return;
+  if (is_picture_file(order.reference)) {
+    options.reference = order.reference;
+    return;
+  }
+  SceneRequest request;
+  request.what = order.reference.string();
+  options.reference_scene = open_scene(request);
+  options.reference_scene->scene.width = order.loaded.scene.width;
+  options.reference_scene->scene.height = order.loaded.scene.height;
+}
+
+#ifdef TYNDALL_WINDOW
+/// One window at a time: the libraries that draw it are of the whole process.
+struct OnlyWindow {
+  OnlyWindow() {
+    if (is_open.exchange(true)) throw UsageError("watch: a window is open; expected one at a time");
+  }
+  ~OnlyWindow() { is_open = false; }
+  static inline std::atomic<bool> is_open = false;
+};
+#endif
+
+void show_window([[maybe_unused]] const Order& order) {
+#ifdef TYNDALL_WINDOW
+  const OnlyWindow only;
+  const Scene& scene = order.loaded.scene;
+  check_memory(WindowPlan{scene.width, scene.height}, free_memory(), "");
+  WindowOptions options;
+  options.scene = order.loaded;
+  options.threads = order.threads;
+  options.function = order.function;
+  options.hosted = true;
+  if (const char* log = std::getenv("TYNDALL_UI_LOG")) options.ui_log = log;  // for tests
+  add_reference(order, options);
+  try {
+    run_window(options);
+  } catch (const IoError& error) {
+    throw IoError(error.what() + std::string(no_window));
+  }
+#else
+  throw IoError(std::string("this build has no window") + no_window);
+#endif
+}
+
+/// Tells how many samples have failed, if it was more than the one that was told already. Returns whether any have.
+bool tell_failures(const WatchedFunction& function) {
+  if (function.problems() > 1)
+    complain(fmt::format("{} samples have failed; the first: {}", function.problems(), function.first_problem()));
+  return function.problems() > 0;
+}
+
+int run(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options* given) {
+  const tyndall_watch_options options = whole(given);
+  check(width, height, function != nullptr, options);
+  const Host host;
+  const Order order = order_of(width, height, function, user, options, host);
+  if (order.output.empty())
+    show_window(order);
+  else
+    write_picture(order);
+  return tell_failures(*order.function) ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace tyndall
+
+int tyndall_watch(int width, int height, tyndall_watch_function function, void* user,
+                  const tyndall_watch_options* options) {
+  constexpr int wrong_usage = 2, input_output_error = 3;
+  const auto fail = [](const std::exception& error, int code) {
+    tyndall::complain(error.what());
+    return code;
+  };
+  try {
+    return tyndall::run(width, height, function, user, options);
+  } catch (const tyndall::UsageError& error) {
+    return fail(error, wrong_usage);
+  } catch (const tyndall::SceneError& error) {
+    return fail(error, wrong_usage);
+  } catch (const tyndall::NoSuchLayer& error) {
+    return fail(error, wrong_usage);
+  } catch (const std::bad_alloc&) {
+    tyndall::complain("not enough memory" + tyndall::memory_limit_text());
+  } catch (const std::exception& error) {
+    return fail(error, input_output_error);
+  }
+  return input_output_error;
+}
+
+void tyndall_watch_fail(const char* reason) {
+  if (!tyndall::WatchedFunction::fail(reason)) tyndall::complain(tyndall::text(reason));
+}
