@@ -1,7 +1,7 @@
 #include "app/cli/render_setup.h"
 
 #include "app/cli/setting_options.h"
-#include "app/files/film_files.h"
+#include "core/files/film_files.h"
 #include "app/report/contents.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"

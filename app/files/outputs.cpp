@@ -4,6 +4,7 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/files/stats.h"
 #include "core/image/whole_file.h"
 
 #include <unistd.h>
@@ -16,13 +17,6 @@
 namespace tyndall {
 namespace fs = std::filesystem;
 namespace {
-
-std::string ending(const fs::path& file) { return lower_case(file.extension().string()); }
-
-/// The file's name, or for standard output one that ends in its format.
-fs::path name_with_ending(const fs::path& file, const ImageForm& form) {
-  return file == "-" ? fs::path("standard-output." + form.format) : file;
-}
 
 void check_standard_output(const std::vector<fs::path>& files, const ImageForm& form, const fs::path& stats) {
   const auto streams = std::count(files.begin(), files.end(), "-");
@@ -43,49 +37,6 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   if (fs::equivalent(a, b, error)) return true;
   const auto full = [&error](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file, error), error); };
   return full(a) == full(b);
-}
-
-/// Layers of an EXR: those of the scene and, if there is one, the clean view with its error.
-std::vector<Layer> all_layers(const Picture& picture) {
-  std::vector<Layer> layers;
-  if (picture.layers) layers = picture.layers();
-  if (!picture.clean) return layers;
-  Layer clean{"denoised", {"R", "G", "B", "error"}, {}};
-  clean.values.reserve(4 * picture.clean->pixel_error.size());
-  for (std::size_t i = 0; i < picture.clean->pixel_error.size(); ++i) {
-    const float* rgb = picture.clean->rgb.data() + 3 * i;
-    clean.values.insert(clean.values.end(), {rgb[0], rgb[1], rgb[2], picture.clean->pixel_error[i]});
-  }
-  layers.push_back(std::move(clean));
-  return layers;
-}
-
-Embedded embedded_in_exr(const Picture& picture, const fs::path& file) {
-  Embedded embedded = picture.embedded(file);
-  embedded.film = picture.form.exr_film;
-  return embedded;
-}
-
-/// What files of one picture show.
-LinearImage shown(const Picture& picture) {
-  if (!picture.clean) return picture.image;
-  return {picture.clean->width, picture.clean->height, picture.clean->rgb};
-}
-
-void write_image(const Picture& picture, const std::string& kind, const fs::path& file) {
-  const Display& display = picture.display;
-  const Region& region = picture.film.region;
-  const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
-  if (kind == ".exr")
-    write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
-  else if (kind == ".png")
-    write_png(file, shown(picture), display.exposure, display.tone_map, picture.embedded(file), dither);
-  else if (kind == ".ppm")
-    write_ppm(file, shown(picture), display.exposure, display.tone_map, picture.form.ppm, dither);
-  else if (kind == ".pfm")
-    write_pfm(file, shown(picture));
-  else
-    write_hdr(file, shown(picture));
 }
 
 /// A name beside the file that nothing has; empty: there is none.
@@ -117,8 +68,6 @@ bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::
 
 }  // namespace
 
-bool is_exr(const fs::path& file) { return ending(file) == ".exr"; }
-
 fs::path kept_film(const std::vector<fs::path>& outputs, const ImageForm& form) {
   if (!form.exr_film) return {};
   const auto keeps = [](const fs::path& file) {
@@ -130,16 +79,14 @@ fs::path kept_film(const std::vector<fs::path>& outputs, const ImageForm& form) 
   return file == outputs.end() ? fs::path() : *file;
 }
 
-std::string image_ending(const fs::path& file, const ImageForm& form) { return ending(name_with_ending(file, form)); }
-
 void check_image_names(const std::vector<fs::path>& files, const ImageForm& form, const fs::path& stats) {
   check_standard_output(files, form, stats);
   for (const fs::path& file : files) {
     const std::string name = "--output: found " + in_quotes(file.string());
-    const fs::path full = name_with_ending(file, form);
-    if (!is_image_output(full))
+    const std::string kind = image_ending(file, form);
+    if (!is_image_output("image" + kind))
       throw UsageError(name + ", expected a name that ends in .png, .exr, .pfm, .hdr or .ppm");
-    if (is_exr(full) && !has_openexr())
+    if (kind == ".exr" && !has_openexr())
       throw UsageError(name + ", expected .png, .pfm, .hdr or .ppm: this build has no OpenEXR");
   }
   const auto is_ppm = [&form](const auto& file) { return image_ending(file, form) == ".ppm"; };
@@ -203,7 +150,7 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   for (const fs::path& file : files) {
     try {
       const std::string kind = image_ending(file, picture.form);
-      write_or_rescue(file, [&](const fs::path& to) { write_image(picture, kind, to); });
+      write_or_rescue(file, [&](const fs::path& to) { write_picture(picture, kind, to); });
     } catch (const std::bad_alloc&) {
       problems.push_back(file.string() + ": cannot write: not enough memory" + memory_limit_text());
     } catch (const std::exception& error) {
@@ -211,6 +158,17 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
     }
   }
   return problems;
+}
+
+std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
+                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
+                                    const std::optional<CleanOfFilm>& clean) {
+  const auto embedded = [&](const std::filesystem::path& file) {
+    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
+                    label};
+  };
+  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
 }
 
 void write_text_file(const fs::path& file, const std::string& text) {

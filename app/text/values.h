@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/error.h"
 #include "core/base/fields.h"
 #include "core/film/film.h"
 #include "core/scene/json.h"
@@ -6,18 +7,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 /// The values of command-line options, as text and as what they mean. All readers take the whole text or throw
 /// UsageError `found "X", expected Y`; nothing is clamped.
 namespace tyndall {
-
-/// Wrong usage of the command line. what(): one line.
-struct UsageError : std::runtime_error {
-  using runtime_error::runtime_error;
-};
 
 struct Size {
   int width = 0, height = 0;  ///< pixels

@@ -26,13 +26,17 @@ std::string gigabytes(std::uint64_t bytes) {
 
 }  // namespace
 
-SceneError::SceneError(const std::string& file, const std::string& where, const std::string& found,
-                       const std::string& expected)
-    : runtime_error(printable(file) + ": " + printable(where) + ": found " + printable(found) + ", expected " +
-                    printable(expected, 600)) {}
+SceneError::SceneError(const std::string& file_, const std::string& where_, const std::string& found_,
+                       const std::string& expected_)
+    : runtime_error(printable(file_) + ": " + (where_.empty() ? "" : printable(where_) + ": ") + "found " +
+                    printable(found_) + ", expected " + printable(expected_, 600)),
+      file(file_),
+      where(where_),
+      found(found_),
+      expected(expected_) {}
 
-SceneError::SceneError(const std::string& file, const std::string& found, const std::string& expected)
-    : runtime_error(printable(file) + ": found " + printable(found) + ", expected " + printable(expected, 600)) {}
+SceneError::SceneError(const std::string& file_, const std::string& found_, const std::string& expected_)
+    : SceneError(file_, "", found_, expected_) {}
 
 std::string memory_limit_text() {
   const std::uint64_t space = limit_of(RLIMIT_AS), data = limit_of(RLIMIT_DATA);

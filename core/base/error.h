@@ -13,6 +13,13 @@ struct SceneError : std::runtime_error {
   SceneError(const std::string& file, const std::string& where, const std::string& found, const std::string& expected);
   /// "FILE: found FOUND, expected EXPECTED": about the file as a whole.
   SceneError(const std::string& file, const std::string& found, const std::string& expected);
+
+  std::string file, where, found, expected;  ///< the parts of the line; where: "" for the file as a whole
+};
+
+/// What the user asks for cannot be done, for example with the file that is named. what() is one line.
+struct UsageError : std::runtime_error {
+  using runtime_error::runtime_error;
 };
 
 /// Something outside of the program failed, for example a file or a device. what() is one line.

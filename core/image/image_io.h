@@ -14,6 +14,9 @@ namespace tyndall {
 
 void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
                const Embedded& embedded, std::optional<DitherOrigin> dither = {});
+/// The bytes of that PNG. name: what errors call it.
+std::vector<std::uint8_t> png_bytes(const std::filesystem::path& name, const LinearImage& image, double exposure,
+                                    ToneMap curve, const Embedded& embedded, std::optional<DitherOrigin> dither = {});
 /// PPM (P6, 8 bits): the bytes of the PNG; with PpmCurve::gamma2 those of gamma2_bytes(), which are not dithered. It
 /// carries no scene and no statistics.
 void write_ppm(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,

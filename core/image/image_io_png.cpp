@@ -94,20 +94,25 @@ std::optional<std::string> text_of(const std::filesystem::path& file, const Chun
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
-               const Embedded& embedded, std::optional<DitherOrigin> dither) {
-  check_writable(file, image);
-  const Bytes png = checked_png(file, image,
-                                dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                                       : tone_map(image.rgb, exposure, curve));
+Bytes png_bytes(const std::filesystem::path& name, const LinearImage& image, double exposure, ToneMap curve,
+                const Embedded& embedded, std::optional<DitherOrigin> dither) {
+  check_writable(name, image);
+  Bytes png = checked_png(name, image,
+                          dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
+                                 : tone_map(image.rgb, exposure, curve));
   Bytes extra;
   put_chunk(extra, "sRGB", {std::string_view("\0", 1)});  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);
   put_text(extra, "tyndall:stats", embedded.stats);
+  png.insert(png.begin() + header_end, extra.begin(), extra.end());
+  return png;
+}
+
+void write_png(const std::filesystem::path& file, const LinearImage& image, double exposure, ToneMap curve,
+               const Embedded& embedded, std::optional<DitherOrigin> dither) {
+  const Bytes png = png_bytes(file, image, exposure, curve, embedded, dither);
   WholeFile out(file);
-  out.write(std::span(png).first(header_end));
-  out.write(extra);
-  out.write(std::span(png).subspan(header_end));
+  out.write(png);
   out.commit();
 }
 

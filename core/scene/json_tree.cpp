@@ -10,24 +10,6 @@
 namespace tyndall {
 namespace {
 
-/// The steps of a JSON pointer, with ~0 and ~1 replaced by what they stand for; nothing if the text is no pointer.
-std::optional<std::vector<std::string>> pointer_steps(std::string_view pointer) {
-  if (!pointer.starts_with('/')) return std::nullopt;
-  std::vector<std::string> steps;
-  for (std::size_t i = 0; i < pointer.size(); ++i) {
-    if (pointer[i] == '/') {
-      steps.emplace_back();
-    } else if (pointer[i] == '~') {
-      const char code = i + 1 < pointer.size() ? pointer[++i] : ' ';
-      if (code != '0' && code != '1') return std::nullopt;
-      steps.back() += code == '0' ? '~' : '/';
-    } else {
-      steps.back() += pointer[i];
-    }
-  }
-  return steps;
-}
-
 /// An array's index as RFC 6901 writes it: digits, no leading zero.
 std::optional<std::size_t> array_index(std::string_view step) {
   std::size_t index = 0;
@@ -165,6 +147,23 @@ void print(const JsonValue& json, std::string& out, std::size_t indent, std::siz
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> pointer_steps(std::string_view pointer) {
+  if (!pointer.starts_with('/')) return std::nullopt;
+  std::vector<std::string> steps;
+  for (std::size_t i = 0; i < pointer.size(); ++i) {
+    if (pointer[i] == '/') {
+      steps.emplace_back();
+    } else if (pointer[i] == '~') {
+      const char code = i + 1 < pointer.size() ? pointer[++i] : ' ';
+      if (code != '0' && code != '1') return std::nullopt;
+      steps.back() += code == '0' ? '~' : '/';
+    } else {
+      steps.back() += pointer[i];
+    }
+  }
+  return steps;
+}
 
 const JsonValue* find(const JsonObject& object, std::string_view key) {
   const auto at = std::find_if(object.begin(), object.end(), [key](const JsonMember& m) { return m.key == key; });

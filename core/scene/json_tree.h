@@ -87,6 +87,9 @@ inline constexpr std::size_t max_scene_bytes = std::size_t(256) << 20;
 /// max_scene_bytes.
 JsonDocument parse_json(std::string_view text);
 
+/// The steps of a JSON pointer (RFC 6901), with ~0 and ~1 replaced by what they stand for; nothing if the text is none.
+std::optional<std::vector<std::string>> pointer_steps(std::string_view pointer);
+
 /// Replaces or adds one value. Throws ParseError at "--set POINTER".
 void apply_override(JsonValue& root, const Override& override_);
 

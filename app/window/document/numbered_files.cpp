@@ -1,8 +1,8 @@
 #include "app/window/document/numbered_files.h"
 
-#include "app/files/film_files.h"
+#include "core/files/film_files.h"
 #include "app/files/outputs.h"
-#include "app/files/stats.h"
+#include "core/files/stats.h"
 #include "app/window/system/pacing.h"
 
 #include <fmt/core.h>

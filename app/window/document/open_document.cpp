@@ -1,6 +1,6 @@
 #include "app/window/document/open_document.h"
 
-#include "app/files/film_files.h"
+#include "core/files/film_files.h"
 #include "app/files/outputs.h"
 #include "app/text/numbers.h"
 #include "core/base/fnv1a.h"

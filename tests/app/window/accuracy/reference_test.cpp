@@ -1,6 +1,6 @@
 #include "app/window/accuracy/reference.h"
 
-#include "app/files/film_files.h"
+#include "core/files/film_files.h"
 #include "app/text/values.h"
 #include "app/window/document/open_document.h"
 #include "core/accuracy/error.h"

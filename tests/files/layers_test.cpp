@@ -1,4 +1,4 @@
-#include "app/files/stats.h"
+#include "core/files/stats.h"
 
 #include "core/render/render.h"
 #include "tests/support/pictures.h"

@@ -4,6 +4,7 @@
 #include "core/render/render.h"
 #include "core/targets/kernels.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct RunFigures {
   double seconds_total = 0;          ///< from the command's start to now
   std::string threads_from{};        ///< what decided the number of threads: see ThreadCount
 };
+
+/// A picture's hash as --stats says it: 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
 
 /// All figures, as a JSON object. What is not known is null.
 std::string stats_text(const RunFigures& run);

@@ -1,5 +1,4 @@
 #pragma once
-#include "app/files/outputs.h"
 #include "core/clean/clean.h"
 #include "core/film/merge.h"
 #include "core/image/image_io.h"
@@ -9,6 +8,8 @@
 #include <optional>
 #include <string>
 
+/// This room keeps pictures and films in files, with what is said beside them: scene, figures, layers.
+///
 /// Films in files: what --resume goes on from and merge adds.
 namespace tyndall {
 
@@ -54,11 +55,5 @@ struct CleanOfFilm {
 /// Filters the film of the scene. Throws UsageError, which names `file`, if some pixels have fewer than 2 samples.
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads = 0,
                        const std::string& isa = "");
-
-/// Writes all images of a film that can be written; returns what went wrong, a line each. textures: see embedded_scene.
-/// Layers (albedo, normal, depth) are not written: such an EXR has none.
-std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                                    const std::optional<CleanOfFilm>& clean);
 
 }  // namespace tyndall

@@ -1,16 +1,15 @@
-#include "app/files/film_files.h"
+#include "core/files/film_files.h"
 
-#include "app/files/stats.h"
-#include "app/text/values.h"
+#include "core/base/error.h"
 #include "core/base/seconds.h"
+#include "core/base/text.h"
 #include "core/compile/compile.h"
+#include "core/files/stats.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/load.h"
 #include "core/scene/place.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
@@ -94,7 +93,7 @@ std::string both_of(const std::string& a, const std::string& b) {
   std::set<std::string> names = names_in(a);
   names.merge(names_in(b));
   if (names.size() == 1) return *names.begin();
-  return fmt::format("{}{}", several, fmt::join(names, ", "));
+  return std::string(several) + joined({names.begin(), names.end()});
 }
 
 }  // namespace
@@ -127,8 +126,9 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
 
 std::string uneven_text(const Scene& scene, const FilmTotals& totals) {
   if (scene.render.adaptive || totals.min_taken == totals.max_taken) return "";
-  return fmt::format("the pixels have {} to {} samples, as the render was interrupted within a pass{}",
-                     totals.min_taken, totals.max_taken, totals.min_taken > 0 ? "" : "; those with none are black");
+  return "the pixels have " + std::to_string(totals.min_taken) + " to " + std::to_string(totals.max_taken) +
+         " samples, as the render was interrupted within a pass" +
+         (totals.min_taken > 0 ? "" : "; those with none are black");
 }
 
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
@@ -145,17 +145,6 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
   CleanOfFilm clean{clean_film(film, *prepared, threads, isa)};
   clean.seconds = seconds_since(start);
   return clean;
-}
-
-std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                                    const std::optional<CleanOfFilm>& clean) {
-  const auto embedded = [&](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
-                    label};
-  };
-  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
 }
 
 }  // namespace tyndall

@@ -1,11 +1,9 @@
-#include "app/files/stats.h"
+#include "core/files/stats.h"
 
 #include "core/base/text.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
-
-#include <fmt/core.h>
 
 #include <sys/resource.h>
 
@@ -16,8 +14,6 @@
 
 namespace tyndall {
 namespace {
-
-std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 double per_second(std::uint64_t count, double seconds) {
   return seconds > 0 ? static_cast<double>(count) / seconds / 1e6 : 0;
@@ -82,6 +78,13 @@ Layer variance_layer(const Film& film) {
 }
 
 }  // namespace
+
+std::string hash_text(std::uint64_t hash) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t i = 16; i-- > 0; hash >>= 4) text[i] = digits[hash & 15];
+  return text;
+}
 
 std::string stats_text(const RunFigures& run) {
   const Film& film = run.result.film;

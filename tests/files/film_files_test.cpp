@@ -1,4 +1,4 @@
-#include "app/files/film_files.h"
+#include "core/files/film_files.h"
 
 #include "core/image/image_io.h"
 #include "core/scene/json.h"
