@@ -10,7 +10,7 @@ build_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libgl-dev libimgui
 # shellcheck disable=SC2034
 run_packages=(libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono)
 # shellcheck disable=SC2034
-test_packages=(xvfb xauth xdotool libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono python3)
+test_packages=(python3-dev pybind11-dev python3-numpy python3-pytest xvfb xauth xdotool libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono python3)
 # Only ./test --all needs them: large, and all that they check is style. The version is part of the style.
 # shellcheck disable=SC2034
 style_packages=(clang-format-14 clang-tidy-14)

@@ -1,0 +1,221 @@
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <tyndall/tyndall.h>
+
+#include <exception>
+#include <initializer_list>
+
+/// What the Python package takes from the library; app/python/tyndall/__init__.py makes it Python's own. Numbers and
+/// pictures are not copied: arrays look into the picture, which they keep alive.
+namespace {
+
+namespace py = pybind11;
+using WithoutLock = py::call_guard<py::gil_scoped_release>;
+
+/// Floats of a picture, as an array that cannot be written to. owner: keeps them alive.
+py::array_t<float> look_into(const std::vector<float>& values, std::initializer_list<py::ssize_t> shape,
+                             const py::object& owner) {
+  py::array_t<float> array(shape, values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+using Values = const std::vector<float>& (tyndall::Picture::*)() const;
+
+template <Values values, py::ssize_t channels>
+py::array_t<float> array_of(const py::object& self) {
+  const auto& picture = self.cast<const tyndall::Picture&>();
+  const std::vector<float>* found = nullptr;
+  {
+    const py::gil_scoped_release unlocked;
+    found = &(picture.*values)();
+  }
+  const py::ssize_t height = picture.height(), width = picture.width();
+  if constexpr (channels == 1)
+    return look_into(*found, {height, width}, self);
+  else
+    return look_into(*found, {height, width, channels}, self);
+}
+
+/// Renders without the interpreter's lock. Between passes it looks whether Ctrl-C was pressed, and calls `progress`.
+tyndall::Picture render(const tyndall::Scene& scene, tyndall::RenderOptions options, const py::object& progress) {
+  std::exception_ptr failure;
+  options.progress = [&](const tyndall::Progress& now) {
+    const py::gil_scoped_acquire locked;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      return progress.is_none() || progress(now).ptr() != Py_False;
+    } catch (...) {
+      failure = std::current_exception();
+      return false;
+    }
+  };
+  const tyndall::Picture picture = [&] {
+    const py::gil_scoped_release unlocked;
+    return tyndall::render(scene, options);
+  }();
+  if (failure) std::rethrow_exception(failure);
+  return picture;
+}
+
+std::vector<float> numbers(const py::array_t<float, py::array::c_style | py::array::forcecast>& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+/// Names of files need not be UTF-8: Python's own functions give the same text for them.
+py::object text_of(const std::string& bytes) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "surrogateescape"));
+}
+
+void add_error(py::module_& module) {
+  static PyObject* error = PyErr_NewExceptionWithDoc(
+      "tyndall.Error", "Why something cannot be done, in one line; its parts are file, place, found and expected.",
+      PyExc_ValueError, nullptr);
+  module.add_object("Error", py::reinterpret_borrow<py::object>(error));
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const tyndall::Error& why) {
+      const py::object instance = py::reinterpret_borrow<py::object>(error)(text_of(why.what()));
+      instance.attr("file") = text_of(why.file);
+      instance.attr("place") = text_of(why.place);
+      instance.attr("found") = text_of(why.found);
+      instance.attr("expected") = text_of(why.expected);
+      PyErr_SetObject(error, instance.ptr());
+    }
+  });
+}
+
+void add_scene(py::module_& module) {
+  using tyndall::Scene;
+  py::class_<Scene>(module, "Scene")
+      .def(py::init<>())
+      .def(py::init<const Scene&>())
+      .def_static("load", &Scene::load, WithoutLock())
+      .def_static("parse", &Scene::parse, WithoutLock())
+      .def_static("built_in", &Scene::built_in, WithoutLock())
+      .def("set_json", &Scene::set_json, WithoutLock())
+      .def("get_json", &Scene::get_json, WithoutLock())
+      .def("remove", &Scene::remove, WithoutLock())
+      .def("add_json", &Scene::add_json, WithoutLock())
+      .def("json", &Scene::json, WithoutLock())
+      .def("save", &Scene::save, WithoutLock())
+      .def_property_readonly("width", &Scene::width)
+      .def_property_readonly("height", &Scene::height);
+}
+
+void add_film(py::module_& module) {
+  using tyndall::Film;
+  py::class_<Film>(module, "Film")
+      .def_static("load", &Film::load, WithoutLock())
+      .def_static("merge", &Film::merge, WithoutLock())
+      .def("save", &Film::save, WithoutLock())
+      .def("picture", &Film::picture, WithoutLock())
+      .def_property_readonly("scene", &Film::scene)
+      .def_property_readonly("width", &Film::width)
+      .def_property_readonly("height", &Film::height)
+      .def_property_readonly("spp", &Film::spp)
+      .def_property_readonly("hash", &Film::hash);
+}
+
+void add_picture(py::module_& module) {
+  using tyndall::Picture;
+  py::class_<tyndall::Progress>(module, "Progress")
+      .def_readonly("spp", &tyndall::Progress::spp)
+      .def_readonly("seconds", &tyndall::Progress::seconds)
+      .def_readonly("error", &tyndall::Progress::error)
+      .def_readonly("mrays_per_s", &tyndall::Progress::mrays_per_s);
+  py::class_<Picture>(module, "Picture")
+      .def_property_readonly("rgb", &array_of<&Picture::rgb, 3>)
+      .def_property_readonly("error_map", &array_of<&Picture::error_map, 1>)
+      .def_property_readonly("clean", &array_of<&Picture::clean, 3>)
+      .def_property_readonly("albedo", &array_of<&Picture::albedo, 3>)
+      .def_property_readonly("normal", &array_of<&Picture::normal, 3>)
+      .def_property_readonly("depth", &array_of<&Picture::depth, 1>)
+      .def_property_readonly("width", &Picture::width)
+      .def_property_readonly("height", &Picture::height)
+      .def_property_readonly("error", &Picture::error)
+      .def_property_readonly("error_is_reliable", &Picture::error_is_reliable)
+      .def_property_readonly("clean_error", &Picture::clean_error)
+      .def_property_readonly("hash", &Picture::hash)
+      .def_property_readonly("clean_hash", &Picture::clean_hash)
+      .def_property_readonly("spp", &Picture::spp)
+      .def_property_readonly("seconds", &Picture::seconds)
+      .def_property_readonly("stopped", &Picture::stopped)
+      .def_property_readonly("rejected", &Picture::rejected)
+      .def_property_readonly("film", &Picture::film)
+      .def_property_readonly("scene", &Picture::scene)
+      .def("save", &Picture::save, WithoutLock())
+      .def("png", [](const Picture& picture) {
+        const std::vector<unsigned char> bytes = [&] {
+          const py::gil_scoped_release unlocked;
+          return picture.png();
+        }();
+        return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      });
+}
+
+void add_render(py::module_& module) {
+  using tyndall::RenderOptions;
+  py::class_<RenderOptions>(module, "RenderOptions")
+      .def(py::init<>())
+      .def_readwrite("spp", &RenderOptions::spp)
+      .def_readwrite("time", &RenderOptions::time)
+      .def_readwrite("target_error", &RenderOptions::target_error)
+      .def_readwrite("clean", &RenderOptions::clean)
+      .def_readwrite("threads", &RenderOptions::threads)
+      .def_readwrite("isa", &RenderOptions::isa)
+      .def_readwrite("first_sample", &RenderOptions::first_sample)
+      .def_readwrite("film", &RenderOptions::film)
+      .def("set_region", [](RenderOptions& options, int x0, int y0, int x1, int y1) {
+        options.region = tyndall::Region{x0, y0, x1, y1};
+      });
+  module.def("render", &render);
+}
+
+void add_compare(py::module_& module) {
+  using tyndall::Comparison;
+  const auto tuple = [](const tyndall::Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
+  py::class_<Comparison>(module, "Comparison")
+      .def_readonly("mse", &Comparison::mse)
+      .def_readonly("rmse", &Comparison::rmse)
+      .def_readonly("relmse", &Comparison::relmse)
+      .def_readonly("psnr", &Comparison::psnr)
+      .def_readonly("flip", &Comparison::flip)
+      .def_readonly("blocks", &Comparison::blocks)
+      .def_readonly("block_score", &Comparison::block_score)
+      .def_readonly("block_limit", &Comparison::block_limit)
+      .def_readonly("worst_z", &Comparison::worst_z)
+      .def_readonly("only_noise", &Comparison::only_noise)
+      .def_property_readonly("mean_image", [tuple](const Comparison& c) { return tuple(c.mean_image); })
+      .def_property_readonly("mean_reference", [tuple](const Comparison& c) { return tuple(c.mean_reference); });
+  module.def(
+      "compare_pictures",
+      [](const tyndall::Picture& image, const tyndall::Picture& reference) {
+        return tyndall::compare(image, reference);
+      },
+      WithoutLock());
+  module.def("compare_arrays",
+             [](const py::array_t<float, py::array::c_style | py::array::forcecast>& image,
+                const py::array_t<float, py::array::c_style | py::array::forcecast>& reference, int width, int height) {
+               const std::vector<float> a = numbers(image), b = numbers(reference);
+               const py::gil_scoped_release unlocked;
+               return tyndall::compare(a, b, width, height);
+             });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_tyndall, module) {
+  module.doc() = "The library libtyndall; the package tyndall is its face.";
+  add_error(module);
+  add_scene(module);
+  add_film(module);
+  add_picture(module);
+  add_render(module);
+  add_compare(module);
+  module.def("version", &tyndall::version);
+}

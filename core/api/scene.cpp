@@ -1,0 +1,298 @@
+#include "core/api/data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace tyndall {
+inline namespace v0 {
+namespace {
+
+using inner::guarded;
+
+std::shared_ptr<const Scene::Data> data_of(LoadedScene loaded, std::shared_ptr<const PreparedScene> before = {}) {
+  auto data = std::make_shared<Scene::Data>();
+  data->scene = std::move(loaded.scene);
+  data->name = std::move(loaded.name);
+  data->folder = std::move(loaded.folder);
+  data->before = std::move(before);
+  return data;
+}
+
+/// The value of a field of that name in `owner`; nothing if there is no such field.
+template <class Owner>
+std::optional<JsonValue> value_of(const Owner& owner, std::string_view key) {
+  std::optional<JsonValue> found;
+  for_each_field(fields_of<Owner>(), [&](const auto& field) {
+    if (key == field.name) found = to_json(owner.*field.value);
+  });
+  return found;
+}
+
+/// What a field is where a thing of that type does not say it.
+template <class... Kinds>
+std::optional<JsonValue> default_of(std::string_view type, std::string_view key, const std::variant<Kinds...>*) {
+  std::optional<JsonValue> found;
+  const auto look = [&]<class Kind>(const Kind*) {
+    if constexpr (requires { fields(static_cast<const Kind*>(nullptr)); })
+      if (type == Kind::type && !found) found = value_of(Kind(), key);
+  };
+  (look(static_cast<const Kinds*>(nullptr)), ...);
+  return found;
+}
+
+/// The value at the steps of a pointer; null: there is none.
+const JsonValue* value_at(const JsonValue& root, const std::vector<std::string>& steps) {
+  const JsonValue* at = &root;
+  for (const std::string& step : steps) {
+    const auto* array = at ? std::get_if<JsonArray>(&at->value) : nullptr;
+    std::size_t index = 0;
+    if (array && !step.empty() && std::all_of(step.begin(), step.end(), [](char c) { return c >= '0' && c <= '9'; }))
+      index = static_cast<std::size_t>(std::strtoull(step.c_str(), nullptr, 10));
+    else
+      index = std::string::npos;
+    at = array ? (index < array->size() ? &(*array)[index] : nullptr) : find(at, step);
+  }
+  return at;
+}
+
+/// A setting that is not written because it is at its default.
+std::optional<JsonValue> unwritten(const inner::CoreScene& scene, const JsonValue& root,
+                                   std::vector<std::string> steps) {
+  if (steps.empty()) return std::nullopt;
+  const std::string key = steps.back();
+  steps.pop_back();
+  if (steps == std::vector<std::string>{"camera"}) return value_of(scene.camera, key);
+  if (steps == std::vector<std::string>{"render"}) return value_of(scene.render, key);
+  if (steps == std::vector<std::string>{"display"}) return value_of(scene.display, key);
+  const std::string type = text_of(find(value_at(root, steps), "type"));
+  if (const auto found = default_of(type, key, static_cast<const decltype(Material::kind)*>(nullptr))) return found;
+  if (const auto found = default_of(type, key, static_cast<const decltype(Texture::kind)*>(nullptr))) return found;
+  if (const auto found = default_of(type, key, static_cast<const decltype(Solid3d::shape)*>(nullptr))) return found;
+  return default_of(type, key, static_cast<const std::variant<inner::CoreMedium>*>(nullptr));
+}
+
+/// Adds the part of a scene that a pointer goes into, if the scene does not write it because it is at its defaults.
+void add_part(JsonValue& root, const std::vector<std::string>& steps) {
+  if (steps.size() != 2 || find(&root, steps[0])) return;
+  for (const char* part : {"camera", "render", "display", "textures", "materials"})
+    if (steps[0] == part) put(std::get<JsonObject>(root.value), part, JsonValue{JsonObject()});
+}
+
+/// The object that a text describes, as one of the scene's.
+std::vector<Object> read_object(const Scene::Data& data, const std::string& text) {
+  const JsonDocument document = parse_json(text);
+  References names;
+  for (std::size_t i = 0; i < data.scene.textures.size(); ++i)
+    names.textures.emplace(data.scene.textures[i].name, static_cast<int>(i));
+  for (std::size_t i = 0; i < data.scene.materials.size(); ++i)
+    names.materials.emplace(data.scene.materials[i].name, static_cast<int>(i));
+  const Place whole, list(whole, "objects");
+  std::vector<Object> objects = read_objects(JsonValue{JsonArray{document.root}}, list, names);
+  inner::CoreScene alone = data.scene;
+  alone.objects = objects;
+  if (const auto fault = check(alone)) throw *fault;
+  return objects;
+}
+
+}  // namespace
+
+const std::shared_ptr<const PreparedScene>& Scene::Data::prepared() const {
+  const std::lock_guard lock(mutex_);
+  if (!prepared_) prepared_ = prepare(std::make_shared<const inner::CoreScene>(scene), before.get());
+  return prepared_;
+}
+
+std::shared_ptr<const PreparedScene> Scene::Data::prepared_already() const {
+  const std::lock_guard lock(mutex_);
+  return prepared_ ? prepared_ : before;
+}
+
+Scene Access::scene(std::shared_ptr<const Scene::Data> data) {
+  Scene made;
+  made.data_ = std::move(data);
+  return made;
+}
+
+Error::Error(const std::string& sentence, std::string file_, std::string place_, std::string found_,
+             std::string expected_)
+    : runtime_error(sentence),
+      file(std::move(file_)),
+      place(std::move(place_)),
+      found(std::move(found_)),
+      expected(std::move(expected_)) {}
+Error::~Error() = default;
+
+Scene::Scene() : data_(std::make_shared<const Data>()) {}
+
+Scene Scene::load(const std::string& what) {
+  return guarded([&] {
+    if (what == "-") throw SceneError(what, "standard input", "a file, or a built-in scene's name");
+    return Access::scene(data_of(load_scene(what)));
+  });
+}
+
+Scene Scene::parse(const std::string& json, const std::string& folder) {
+  return guarded([&] { return Access::scene(data_of(load_scene_text(json, "scene", folder))); });
+}
+
+std::vector<std::string> Scene::built_in() {
+  return guarded([] {
+    std::vector<std::string> names;
+    for (const BuiltIn& scene : built_in_scenes()) names.push_back(scene.name);
+    return names;
+  });
+}
+
+void Scene::set_json(const std::string& pointer, const std::string& json) {
+  data_ = guarded([&] {
+    JsonValue root = scene_json(data_->scene);
+    const auto steps = pointer_steps(pointer);
+    if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+    add_part(root, *steps);
+    try {
+      apply_override(root, {pointer, json});
+    } catch (const ParseError& fault) {
+      throw inner::error_of(data_->name, {pointer, fault.found, fault.expected});
+    }
+    return data_of(load_scene_text(print_json(root), data_->name, data_->folder), data_->prepared_already());
+  });
+}
+
+void Scene::set(const std::string& pointer, double value) {
+  if (!std::isfinite(value)) throw inner::error_of(data_->name, {pointer, number_text(value), "a finite number"});
+  set_json(pointer, number_text(value));
+}
+
+void Scene::set(const std::string& pointer, const Vec3& value) {
+  for (const double number : {value.x, value.y, value.z})
+    if (!std::isfinite(number)) throw inner::error_of(data_->name, {pointer, number_text(number), "finite numbers"});
+  set_json(pointer, "[" + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + "]");
+}
+
+void Scene::set(const std::string& pointer, bool value) { set_json(pointer, value ? "true" : "false"); }
+
+void Scene::set(const std::string& pointer, const std::string& text) {
+  if (!is_utf8(text)) throw inner::error_of(data_->name, {pointer, in_quotes(printable(text)), "text in UTF-8"});
+  set_json(pointer, in_quotes(text));
+}
+
+void Scene::remove(const std::string& pointer) {
+  data_ = guarded([&] {
+    JsonValue root = scene_json(data_->scene);
+    const auto steps = pointer_steps(pointer);
+    if (!steps || steps->empty() || !value_at(root, *steps))
+      throw SceneError(data_->name, pointer, "nothing", "a value that the scene file writes");
+    auto* holder = const_cast<JsonValue*>(value_at(root, {steps->begin(), steps->end() - 1}));
+    if (auto* object = std::get_if<JsonObject>(&holder->value))
+      std::erase_if(*object, [&](const JsonMember& member) { return member.key == steps->back(); });
+    if (auto* array = std::get_if<JsonArray>(&holder->value))
+      array->erase(array->begin() + static_cast<std::ptrdiff_t>(std::stoull(steps->back())));
+    return data_of(load_scene_text(print_json(root), data_->name, data_->folder), data_->prepared_already());
+  });
+}
+
+std::string Scene::get_json(const std::string& pointer) const {
+  return guarded([&] {
+    const JsonValue root = scene_json(data_->scene);
+    const auto steps = pointer_steps(pointer);
+    if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+    const JsonValue* written = value_at(root, *steps);
+    const std::optional<JsonValue> value = written ? *written : unwritten(data_->scene, root, *steps);
+    if (!value) throw SceneError(data_->name, pointer, "nothing", "a value of the scene");
+    std::string text = print_json(*value);
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+  });
+}
+
+std::string Scene::json() const {
+  return guarded([&] { return write_scene(data_->scene); });
+}
+
+void Scene::save(const std::string& file) const {
+  guarded([&] {
+    const std::filesystem::path to = file;
+    const std::string text = write_scene(move_textures(data_->scene, data_->folder, to.parent_path()));
+    WholeFile out(to);
+    out.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    out.commit();
+  });
+}
+
+void Scene::add_json(const std::string& object) {
+  data_ = guarded([&] {
+    auto changed = std::make_shared<Data>();
+    changed->scene = data_->scene, changed->name = data_->name, changed->folder = data_->folder;
+    const std::string index = std::to_string(data_->scene.objects.size());
+    try {
+      for (Object& added : read_object(*data_, object)) changed->scene.objects.push_back(std::move(added));
+    } catch (ParseError& fault) {
+      constexpr std::string_view first = "/objects/0";
+      if (fault.where.starts_with(first)) fault.where = "/objects/" + index + fault.where.substr(first.size());
+      throw inner::error_of(data_->name, fault);
+    }
+    return std::shared_ptr<const Data>(std::move(changed));
+  });
+}
+
+int Scene::width() const { return data_->scene.width; }
+int Scene::height() const { return data_->scene.height; }
+
+std::string version() { return TYNDALL_VERSION; }
+
+namespace detail {
+
+Members::Members(const char* type) : text_("{\"type\": " + in_quotes(type)) {}
+
+void Members::put(const char* key, const std::string& json) { text_ += ", " + in_quotes(key) + ": " + json; }
+
+void Members::operator()(const char* key, double value) {
+  if (!std::isfinite(value)) throw inner::error_of("scene", {key, number_text(value), "a finite number"});
+  put(key, number_text(value));
+}
+
+void Members::operator()(const char* key, const Vec3& value) {
+  std::string text;
+  for (const double number : {value.x, value.y, value.z}) {
+    if (!std::isfinite(number)) throw inner::error_of("scene", {key, number_text(number), "finite numbers"});
+    text += (text.empty() ? "[" : ", ") + number_text(number);
+  }
+  put(key, text + "]");
+}
+
+void Members::operator()(const char* key, const Colour& value) {
+  if (value.texture.empty())
+    (*this)(key, value.rgb);
+  else
+    (*this)(key, value.texture);
+}
+
+void Members::operator()(const char* key, const std::string& value) {
+  if (!is_utf8(value)) throw inner::error_of("scene", {key, in_quotes(printable(value)), "text in UTF-8"});
+  if (!value.empty()) put(key, in_quotes(value));
+}
+
+void Members::operator()(const char* key, const Transform& value) {
+  std::string text;
+  for (const auto& step : value) {
+    Members members("");
+    members.text_ = "{";
+    std::visit(
+        [&]<class Step>(const Step& one) {
+          if constexpr (std::is_same_v<Step, RotateY>)
+            members("rotate_y", one.degrees);
+          else
+            members("translate", one.offset);
+        },
+        step);
+    text += (text.empty() ? "[{" : ", {") + members.text_.substr(3) + "}";
+  }
+  if (!text.empty()) put(key, text + "]");
+}
+
+std::string pointer_step(const std::string& name) { return tyndall::pointer_step(std::string_view(name)); }
+
+}  // namespace detail
+}  // namespace v0
+}  // namespace tyndall
