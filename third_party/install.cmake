@@ -1,4 +1,6 @@
 # "cmake --install" and, by CPack, a Debian package and an archive. Included by CMakeLists.txt.
+# The parts are those of Debian's packages: tyndall, libtyndall0, libtyndall-dev, python3-tyndall.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME tyndall)
 install(TARGETS tyndall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES assets/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
 install(DIRECTORY assets/scenes assets/textures assets/verify DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall
@@ -14,29 +16,44 @@ install(FILES assets/desktop/tyndall.desktop DESTINATION ${CMAKE_INSTALL_DATADIR
 install(FILES assets/desktop/tyndall.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES assets/desktop/tyndall.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
 
-# The library with the window for programs of others, for CMake's find_package(tyndall) and for pkg-config.
+# The libraries for programs of others, for CMake's find_package(tyndall) and for pkg-config.
 include(CMakePackageConfigHelpers)
 set(package ${PROJECT_BINARY_DIR}/package)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tyndall)
-install(TARGETS tyndall_watch EXPORT tyndallTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY app/watch/tyndall DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-install(EXPORT tyndallTargets NAMESPACE tyndall:: DESTINATION ${package_folder})
+install(TARGETS tyndall_library EXPORT tyndallTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libtyndall NAMELINK_COMPONENT libtyndall-dev)
+# The window belongs to the program's package: programs without one need no libraries of a display.
+install(TARGETS tyndall_watch EXPORT tyndallTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tyndall NAMELINK_COMPONENT libtyndall-dev)
+install(DIRECTORY core/api/tyndall app/watch/tyndall DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libtyndall-dev
+        FILES_MATCHING PATTERN "*.h")
+install(EXPORT tyndallTargets NAMESPACE tyndall:: DESTINATION ${package_folder} COMPONENT libtyndall-dev)
 file(CONFIGURE OUTPUT ${package}/tyndallConfig.cmake
      CONTENT "include(\"\${CMAKE_CURRENT_LIST_DIR}/tyndallTargets.cmake\")\n" @ONLY)
 write_basic_package_version_file(${package}/tyndallConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${package}/tyndallConfig.cmake ${package}/tyndallConfigVersion.cmake DESTINATION ${package_folder})
+install(FILES ${package}/tyndallConfig.cmake ${package}/tyndallConfigVersion.cmake DESTINATION ${package_folder}
+        COMPONENT libtyndall-dev)
 # The prefix is found from the place of the file, so that an installed tree may be moved.
 file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-file(CONFIGURE OUTPUT ${package}/tyndall-watch.pc @ONLY CONTENT [[
+function(tyndall_pkg_config name description)
+  file(CONFIGURE OUTPUT ${package}/${name}.pc @ONLY CONTENT [[
 prefix=${pcfiledir}/@to_prefix@
-Name: tyndall-watch
-Description: Tyndall's window over samples that a program computes
+Name: @name@
+Description: @description@
 Version: @PROJECT_VERSION@
 Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
-Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -ltyndall-watch
+Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -l@name@
 ]])
-install(FILES ${package}/tyndall-watch.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-install(DIRECTORY assets/examples/watch DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/examples)
+  install(FILES ${package}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libtyndall-dev)
+endfunction()
+tyndall_pkg_config(tyndall "Tyndall's scenes, renders and comparisons")
+tyndall_pkg_config(tyndall-watch "Tyndall's window over samples that a program computes")
+install(DIRECTORY assets/examples/cmake assets/examples/watch DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/examples
+        COMPONENT libtyndall-dev)
+if(TARGET tyndall_python)
+  install(DIRECTORY assets/examples/pytest assets/notebooks DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/examples
+          COMPONENT python3-tyndall PATTERN __pycache__ EXCLUDE PATTERN baselines EXCLUDE)
+endif()
 
 # The manual's page and the completion of shells are printed by the program itself, while it is installed.
 set(manual ${PROJECT_BINARY_DIR}/manual)
@@ -70,7 +87,28 @@ set(CPACK_PACKAGE_FILE_NAME tyndall-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CM
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL tyndall libtyndall libtyndall-dev)
+set(same_version "(= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_TYNDALL_PACKAGE_NAME tyndall)
+set(CPACK_DEBIAN_LIBTYNDALL_PACKAGE_NAME libtyndall${PROJECT_VERSION_MAJOR})
+set(CPACK_DEBIAN_LIBTYNDALL_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBTYNDALL_PACKAGE_RECOMMENDS "tyndall") # the built-in scenes
+set(CPACK_DEBIAN_LIBTYNDALL_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_LIBTYNDALL_PACKAGE_GENERATE_SHLIBS_POLICY "=")
+set(CPACK_DEBIAN_LIBTYNDALL-DEV_PACKAGE_NAME libtyndall-dev)
+set(CPACK_DEBIAN_LIBTYNDALL-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBTYNDALL-DEV_PACKAGE_DEPENDS
+    "libtyndall${PROJECT_VERSION_MAJOR} ${same_version}, tyndall ${same_version}")
+if(TARGET tyndall_python)
+  list(APPEND CPACK_COMPONENTS_ALL python3-tyndall)
+  set(CPACK_DEBIAN_PYTHON3-TYNDALL_PACKAGE_NAME python3-tyndall)
+  set(CPACK_DEBIAN_PYTHON3-TYNDALL_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON3-TYNDALL_PACKAGE_SHLIBDEPS OFF) # its own library is not installed while it is built
+  set(CPACK_DEBIAN_PYTHON3-TYNDALL_PACKAGE_DEPENDS
+      "libtyndall${PROJECT_VERSION_MAJOR} ${same_version}, python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
+endif()
 if(TARGET tyndall_window_libraries)
-  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri, fonts-roboto-unhinted, fonts-jetbrains-mono")
+  set(CPACK_DEBIAN_TYNDALL_PACKAGE_RECOMMENDS "libgl1-mesa-dri, fonts-roboto-unhinted, fonts-jetbrains-mono")
 endif()
 include(CPack)

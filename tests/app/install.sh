@@ -8,11 +8,12 @@ share=there/share
 for file in there/bin/tyndall $share/tyndall/scene.schema.json $share/tyndall/scenes/showroom.json \
   $share/man/man1/tyndall.1.gz $share/bash-completion/completions/tyndall $share/zsh/vendor-completions/_tyndall \
   $share/fish/vendor_completions.d/tyndall.fish $share/applications/tyndall.desktop $share/mime/packages/tyndall.xml \
-  $share/icons/hicolor/scalable/apps/tyndall.svg $share/doc/tyndall/copyright there/include/tyndall/watch.h; do
+  $share/icons/hicolor/scalable/apps/tyndall.svg $share/doc/tyndall/copyright there/include/tyndall/watch.h \
+  there/include/tyndall/tyndall.h; do
   [ -s $file ] || fail "$file was not installed"
 done
-[ -z "$(find there -name '.*' -o -name '*.py' -o -name '*.md~')" ] || fail "installed too much: $(find there -name '.*')"
-[ -z "$(find there -type l ! -name 'libtyndall-watch.so*')" ] || fail 'links are installed'
+[ -z "$(find there -name '.*' -o -name '__pycache__' -o -name '*.md~')" ] || fail "installed too much: $(find there -name '.*')"
+[ -z "$(find there -type l ! -name 'libtyndall*.so*')" ] || fail 'links are installed'
 ! grep -rlF -- "$source_root" there >found || fail "the folder of the sources is named in $(cat found)"
 
 # Moved elsewhere it finds its scenes, which are those of the sources.
