@@ -33,6 +33,7 @@ LEVELS = [
     ["app/curves"],
     ["app/report"],
     ["app/comparison"],
+    ["app/check"],
     ["app/window/system"],
     ["app/window/document", "app/window/picture"],
     ["app/window/tools"],

@@ -86,7 +86,8 @@ std::string undefined_reference(const std::vector<std::string>& lines) {
 }
 
 /// Compilers by their names, each with arguments that the user gave.
-std::vector<std::vector<std::string>> compilers() {
+std::vector<std::vector<std::string>> compilers(const std::string& wanted) {
+  if (!wanted.empty()) return {{wanted}};
   const char* chosen = std::getenv("CXX");
   std::istringstream words(chosen ? chosen : "");
   std::vector<std::string> command;
@@ -119,7 +120,7 @@ void check_end(const ProgramTask& task, const std::string& compiler, const Child
 
 /// Compiles by the first compiler that can be started.
 ChildEnd compile(const ProgramTask& task, const std::vector<std::string>& arguments) {
-  for (const std::vector<std::string>& compiler : compilers()) {
+  for (const std::vector<std::string>& compiler : compilers(task.compiler)) {
     ChildPlan plan;
     plan.command = compiler;
     plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());

@@ -19,6 +19,7 @@ struct ProgramTask {
   std::filesystem::path folder;  ///< of temporary files, that exists
   std::function<bool()> go_on;   ///< see ChildPlan
   bool watch_signals = true;
+  std::string compiler{};  ///< see ProgramBuild
 };
 
 /// Compiles a program whose texts are in the folder `code` of the task's. include_folders: whole paths. By $CXX, else

@@ -104,6 +104,14 @@ ChildEnd run(const ProgramRequest& request, const ProgramLayout& layout, const f
   return run_child(plan);
 }
 
+void choose_generator(ProgramLayout& layout, const std::vector<std::string>& options) {
+  std::erase_if(layout.options, [](const std::string& option) {
+    return option.starts_with("-DTYNDALL_BOOK_ENGINE") || option.starts_with("-DTYNDALL_BOOK_SEED") ||
+           option == "-DTYNDALL_BOOK_DRAND48";
+  });
+  layout.options.insert(layout.options.end(), options.begin(), options.end());
+}
+
 std::vector<fs::path> whole_paths(const std::vector<fs::path>& paths) {
   std::vector<fs::path> whole;
   for (const fs::path& path : paths) whole.push_back(fs::absolute(path));
@@ -120,10 +128,12 @@ bool is_program(const std::string& name) {
 ProgramScene load_program(const ProgramRequest& request) {
   const fs::path& main = request.sources.files.front();
   const fs::path headers = fs::absolute(book_folder());
-  const ProgramLayout layout = lay_out(request.sources, headers);
+  ProgramLayout layout = lay_out(request.sources, headers);
+  if (request.build.random) choose_generator(layout, *request.build.random);
   const ScratchFolder scratch;
   for (const auto& [name, text] : layout.texts) scratch.write(fs::path("code") / name, text);
-  const ProgramTask task{printable(main.string()), scratch.path(), request.go_on, request.watch_signals};
+  const ProgramTask task{printable(main.string()), scratch.path(), request.go_on, request.watch_signals,
+                         request.build.compiler};
   std::vector<fs::path> folders{headers};  // ours first
   for (const fs::path& folder : whole_paths(request.sources.include_folders)) folders.push_back(folder);
   const fs::path program = scratch.path() / "program";

@@ -12,7 +12,8 @@ namespace tyndall {
 bool is_program(const std::string& name);
 
 struct ProgramRequest {
-  ProgramSources sources;       ///< as the user named them
+  ProgramSources sources;  ///< as the user named them
+  ProgramBuild build{};
   double seconds = 20;          ///< that the program may run
   std::function<bool()> go_on;  ///< asked now and then; false gives up; may be empty
   bool watch_signals = true;    ///< SIGINT, SIGTERM and SIGHUP end it; false where a window watches them

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,13 @@ namespace tyndall {
 struct ProgramSources {
   std::vector<std::filesystem::path> files;            ///< that with main() first
   std::vector<std::filesystem::path> include_folders;  ///< -I
+};
+
+/// What decides where balls lie that a program places at random, in place of what its source and the user choose.
+struct ProgramBuild {
+  std::string compiler;  ///< "": $CXX, else c++, g++ or clang++
+  /// Options for the compiler that choose the generator: see tyndall/book/parts/random.h. Absent: the program's.
+  std::optional<std::vector<std::string>> random{};
 };
 
 /// A class of the reader's own in a header that one of ours takes the place of.

@@ -1,12 +1,19 @@
+#include "app/check/check.h"
+#include "app/check/report.h"
 #include "app/cli/commands.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
+#include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
 
 namespace tyndall {
 namespace {
@@ -20,7 +27,25 @@ std::optional<BlockScores> compare_films(const CompareCommand& command) {
   return scores.blocks > 0 ? std::optional(scores) : std::nullopt;
 }
 
-std::string json_text(const Comparison& c, const std::optional<BlockScores>& blocks) {
+/// The picture against a scene; nothing if the reference is a picture.
+std::optional<Check> check_against_scene(const CompareCommand& command) {
+  if (!names_scene(command.reference.string())) {
+    const bool of_scene = command.seconds || !command.scene.overrides.empty() ||
+                          !command.scene.program.include_folders.empty() || !command.scene.program.more_files.empty();
+    if (of_scene) throw UsageError("--time, --set, -I and further files need a scene in place of REFERENCE");
+    return {};
+  }
+  CheckRequest request{command.image, command.baseline.ppm, command.scene, {}, {}};
+  request.options.seconds = command.seconds.value_or(request.options.seconds);
+  ProgressReport report(isatty(STDERR_FILENO) != 0 ? ProgressStyle::automatic : ProgressStyle::none);
+  request.progress = [&](const std::string& stage, double seconds) {
+    report.show(seconds, std::min(1.0, seconds / request.options.seconds), stage);
+    return true;
+  };
+  return check_picture(request);
+}
+
+std::string json_text(const Comparison& c, const std::optional<BlockScores>& blocks, const Findings* verdict) {
   const auto channels = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
   nlohmann::ordered_json json;
   json["width"] = c.width;
@@ -40,6 +65,7 @@ std::string json_text(const Comparison& c, const std::optional<BlockScores>& blo
                       {"limit", blocks->maximum},
                       {"only_noise", blocks->noise()}};
   json["not_finite"] = c.not_finite;
+  if (verdict) json["verdict"] = verdict_json(*verdict);
   return json.dump(2) + "\n";
 }
 
@@ -115,15 +141,18 @@ int run(const CompareCommand& command) {
   check_outputs({{"--heatmap", command.heatmap}},
                 {picture_name(command.image).file, picture_name(command.reference).file});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
-  const Comparison comparison = compare_images(command.image, command.reference, command.baseline.ppm);
+  const std::optional<Check> check = check_against_scene(command);
+  const Comparison comparison =
+      check ? check->comparison : compare_images(command.image, command.reference, command.baseline.ppm);
   check_gamma2(command.baseline.ppm, comparison.has_ppm);
   for (const std::string& remark : comparison.remarks) complain(remark);
-  const std::optional<BlockScores> blocks = compare_films(command);
+  const std::optional<BlockScores> blocks = check ? std::nullopt : compare_films(command);
   const auto write_heat_map = [&comparison](const std::filesystem::path& file) {
     write_png(file, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb, {});
   };
   bool whole = command.heatmap.empty() || written_or_told([&] { write_or_rescue(command.heatmap, write_heat_map); });
-  const std::string text = command.json ? json_text(comparison, blocks) : table(comparison, blocks);
+  const std::string text = command.json ? json_text(comparison, blocks, check ? &check->verdict : nullptr)
+                                        : table(comparison, blocks) + (check ? verdict_text(check->verdict) : "");
   whole = written_or_told([&text] { write_standard_output(text); }) && whole;
   const std::vector<std::string> failures = too_large(comparison, command.limits);
   for (const std::string& failure : failures) complain("check failed: " + failure);

@@ -1,11 +1,11 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
-#include "core/files/film_files.h"
 #include "app/files/memory.h"
 #include "app/files/outputs.h"
-#include "core/files/stats.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
+#include "core/files/film_files.h"
+#include "core/files/stats.h"
 #include "core/render/clean_film.h"
 
 #include <fmt/core.h>

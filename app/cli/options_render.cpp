@@ -179,6 +179,10 @@ void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
       ->option_text(" ")
       ->type_name("")
       ->take_all();
+  add_scene_options(app, scene);
+}
+
+void add_scene_options(CLI::App& app, SceneRequest& scene) {
   add_values(app, "--set", "POINTER=VALUE",
              "override one value of the scene's JSON before it is checked, e.g.\n"
              "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"

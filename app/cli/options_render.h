@@ -5,11 +5,12 @@
 /// The options of the commands that render, and the groups of options that several commands share.
 namespace tyndall {
 
-/// Read the words after "view", "render", "verify" or "chart".
+/// Read the words after "view", "render", "verify", "chart" or "compare".
 Command read_view(const std::vector<std::string>& arguments);
 Command read_render(const std::vector<std::string>& arguments);
 Command read_verify(const std::vector<std::string>& arguments);
 Command read_chart(const std::vector<std::string>& arguments);
+Command read_compare(const std::vector<std::string>& arguments);
 
 /// Groups of options that commands share.
 void add_method_options(CLI::App& app, SceneRequest& scene);
@@ -24,5 +25,7 @@ void add_progress(CLI::App& app, ProgressStyle& style);
 
 /// Adds SCENE and --set. note: text that is added to the help of SCENE.
 void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note = "");
+/// --set and -I alone.
+void add_scene_options(CLI::App& app, SceneRequest& scene);
 
 }  // namespace tyndall

@@ -1,10 +1,10 @@
 #include "app/cli/render_setup.h"
 
 #include "app/cli/setting_options.h"
-#include "core/files/film_files.h"
 #include "app/report/contents.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
+#include "core/files/film_files.h"
 #include "core/render/plan.h"
 
 #include <cmath>

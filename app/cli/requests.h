@@ -49,6 +49,8 @@ struct RenderCommand {
 
 struct CompareCommand {
   std::filesystem::path image, reference;  ///< without a baseline
+  SceneRequest scene;                      ///< what the reference is if its name is a scene's
+  std::optional<double> seconds;           ///< for a scene, all of it; absent: 20
   std::filesystem::path heatmap;           ///< empty: none
   BaselineRequest baseline;                ///< without a folder: none
   bool update = false;                     ///< the baseline becomes like the images

@@ -27,9 +27,12 @@ void find_not_finite(const Picture& image, const Picture& reference, Comparison&
 
 }  // namespace
 
-Comparison compare_images(const std::filesystem::path& image_file, const std::filesystem::path& reference_file,
-                          PpmCurve ppm) {
-  PicturePair pair = read_pair(image_file, reference_file, ppm);
+Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference, PpmCurve ppm) {
+  return compare_pair(read_pair(image, reference, ppm), image, reference);
+}
+
+Comparison compare_pair(PicturePair pair, const std::filesystem::path& image_file,
+                        const std::filesystem::path& reference_file) {
   const LinearImage &image = pair.image, &reference = pair.reference;
   Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}};
   result.image_pixels = pair.image_pixels, result.reference_pixels = pair.reference_pixels;

@@ -35,6 +35,10 @@ struct Comparison {
 Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
                           PpmCurve ppm = PpmCurve::srgb);
 
+struct PicturePair;
+/// Compares two pictures of a pair that was read from files of these names.
+Comparison compare_pair(PicturePair pair, const std::filesystem::path& image, const std::filesystem::path& reference);
+
 /// Throws UsageError if --gamma2 was given and no PPM was read.
 void check_gamma2(PpmCurve ppm, bool has_ppm);
 

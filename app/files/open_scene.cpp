@@ -37,10 +37,12 @@ LoadedScene load_program_scene(const SceneRequest& request) {
   parts.sources = {{file}, request.program.include_folders};
   const auto& more = request.program.more_files;
   parts.sources.files.insert(parts.sources.files.end(), more.begin(), more.end());
+  parts.build = request.program.build;
   parts.go_on = request.program.go_on;
   parts.watch_signals = !parts.go_on;
   const ProgramScene made = load_program(parts);
-  for (const std::string& note : made.notes) complain(note);
+  for (const std::string& note : made.notes)
+    if (!request.program.told) complain(note);
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   LoadedScene loaded = load_scene_text(made.json, request.what, folder, request.overrides);
   loaded.scene = name_textures_from(folder, std::move(loaded.scene));
@@ -59,7 +61,8 @@ LoadedScene open_scene(const SceneRequest& request) {
   apply(request.display, loaded.scene.display);
   if (const auto error = check(loaded.scene))
     throw SceneError(loaded.name, error->where, error->found, error->expected);
-  for (const std::string& remark : texture_remarks(loaded.scene)) complain(remark);
+  for (const std::string& remark : texture_remarks(loaded.scene))
+    if (!request.program.told) complain(remark);
   return loaded;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/book/program_layout.h"
 #include "app/text/values.h"
 #include "core/scene/load.h"
 #include "core/scene/place.h"
@@ -46,6 +47,8 @@ struct ProgramParts {
   std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
+  ProgramBuild build{};
+  bool told = false;            ///< what is to be told of it was told before
   std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
 };
 

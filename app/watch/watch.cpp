@@ -9,7 +9,7 @@
 #include "app/watch/host.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
-#include "core/base/limits.h"
+#include "core/base/error.h"
 #include "core/base/thread_pool.h"
 #include "core/image/image.h"
 #include "core/image/image_io_file.h"

@@ -1,12 +1,9 @@
 #pragma once
-#include "core/accuracy/bias.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"
 #include "core/base/error.h"
-#include "core/base/limits.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
-#include "core/files/layers.h"
 #include "core/files/picture_files.h"
 #include "core/files/stats.h"
 #include "core/film/merge.h"

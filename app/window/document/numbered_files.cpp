@@ -1,9 +1,9 @@
 #include "app/window/document/numbered_files.h"
 
-#include "core/files/film_files.h"
 #include "app/files/outputs.h"
-#include "core/files/stats.h"
 #include "app/window/system/pacing.h"
+#include "core/files/film_files.h"
+#include "core/files/stats.h"
 
 #include <fmt/core.h>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "app/window/document/open_document.h"
 
-#include "core/files/film_files.h"
 #include "app/files/outputs.h"
 #include "app/text/numbers.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
+#include "core/files/film_files.h"
 #include "core/image/image_io_file.h"
 #include "core/targets/kernels.h"
 

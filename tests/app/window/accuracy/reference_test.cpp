@@ -1,9 +1,9 @@
 #include "app/window/accuracy/reference.h"
 
-#include "core/files/film_files.h"
 #include "app/text/values.h"
 #include "app/window/document/open_document.h"
 #include "core/accuracy/error.h"
+#include "core/files/film_files.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>

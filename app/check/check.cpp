@@ -1,0 +1,102 @@
+#include "app/check/check.h"
+
+#include "app/book/load_program.h"
+#include "app/check/arrangement.h"
+#include "app/comparison/pair.h"
+#include "app/files/open_scene.h"
+#include "core/base/seconds.h"
+#include "core/base/text.h"
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
+#include "core/image/tonemap.h"
+#include "core/scene/load.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double part_for_reference = 0.25;  // of the time
+
+bool is_picture_name(const fs::path& name) {
+  const std::string ending = lower_case(name.extension().string());
+  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".ppm",
+                                     ".pgm", ".pnm", ".pfm",  ".hdr", ".exr"};
+  return std::any_of(std::begin(endings), std::end(endings), [&](const char* known) { return ending == known; });
+}
+
+/// What read_picture() would have made of a PPM with PpmCurve::gamma2.
+void read_as_gamma2(LinearImage& image) {
+  for (float& value : image.rgb) {
+    const float number = srgb_encode(value);
+    value = number * number;
+  }
+}
+
+std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image, int width, int height) {
+  if (std::abs(static_cast<double>(width) * image.height - static_cast<double>(height) * image.width) <=
+      std::max(width, image.width))
+    return "";
+  return loaded.name + ": its picture is " + std::to_string(width) + "x" + std::to_string(height) +
+         ", which is rendered as " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+         " with the same vertical field of view";
+}
+
+}  // namespace
+
+bool names_scene(const std::string& name) {
+  if (is_program(name)) return true;
+  const auto scenes = built_in_scenes();
+  if (std::any_of(scenes.begin(), scenes.end(), [&](const BuiltIn& scene) { return scene.name == name; })) return true;
+  const fs::path file = picture_name(name).file;
+  std::error_code error;
+  if (!fs::exists(file, error)) return lower_case(file.extension().string()) == ".json";
+  if (is_picture_name(file) || !fs::is_regular_file(file, error)) return false;
+  return image_kind(read_bytes(file, kind_size)) == ImageKind::unknown;
+}
+
+Check check_picture(const CheckRequest& request) {
+  const auto begin = std::chrono::steady_clock::now();
+  const double limit = request.options.seconds;
+  std::string stage = "rendering the scene";
+  const std::function<bool()> go_on = [&] {
+    const double seconds = seconds_since(begin);
+    return (!request.progress || request.progress(stage, seconds)) && seconds < limit;
+  };
+  PictureFile picture = read_whole_picture(request.image);
+  const PictureNumbers numbers = numbers_of(picture);
+  LoadedScene loaded = open_scene(request.scene);
+  const std::string remark = remark_on_size(loaded, picture.image, loaded.scene.width, loaded.scene.height);
+  Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
+  Scene& scene = arrangement.loaded.scene;
+  scene.width = picture.image.width, scene.height = picture.image.height;
+  Reference reference = render_reference(scene, picture.image, part_for_reference * limit, go_on);
+  stage = "looking for what explains the difference";
+  Check check;
+  check.verdict = explain(numbers, scene, reference, request.options, go_on);
+  if (!arrangement.words.empty())
+    check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, 1});
+  const bool ppm = picture.kind == ImageKind::ppm;
+  check.gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == Curve::gamma2;
+  if (ppm && (check.gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
+  PicturePair pair{std::move(picture.image), std::move(reference.image)};
+  pair.image.frame.reset();
+  pair.image_pixels = pair.reference_pixels = pair.image.rgb.size() / 3;
+  pair.has_ppm = ppm, pair.remarks = std::move(picture.remarks);
+  if (!remark.empty()) pair.remarks.push_back(remark);
+  if (picture.has_alpha)
+    pair.remarks.push_back(request.image.string() + ": alpha is not looked at: what is hidden beneath it is compared");
+  if (check.gamma2)
+    pair.remarks.push_back(request.image.string() +
+                           ": read as the books' programs write it (gamma 2), which fits the scene better");
+  check.comparison = compare_pair(std::move(pair), request.image, arrangement.loaded.name);
+  return check;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,36 @@
+#pragma once
+#include "app/check/explain.h"
+#include "app/comparison/comparison.h"
+#include "app/files/open_scene.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace tyndall {
+
+/// Whether a name stands for a scene to compare with, and not for a picture: a built-in scene, a C++ source file, or a
+/// file that is no picture. PNG and EXR are pictures, also those that carry a scene.
+bool names_scene(const std::string& name);
+
+struct CheckRequest {
+  std::filesystem::path image;
+  PpmCurve ppm = PpmCurve::srgb;  ///< how the numbers of a PPM are read for `comparison`
+  SceneRequest scene;
+  CheckOptions options;
+  /// Told what is being done, and asked whether to go on; empty: nobody is.
+  std::function<bool(const std::string& stage, double seconds)> progress;
+};
+
+/// A picture against a scene.
+struct Check {
+  Comparison comparison;  ///< with the scene, rendered in the picture's size
+  Findings verdict;
+  bool gamma2 = false;  ///< the PPM was read by the square of its numbers, as that fits better
+};
+
+/// Renders the scene in the picture's size, and compares. Throws as open_scene(), read_whole_picture() and
+/// compare_pair() do.
+Check check_picture(const CheckRequest& request);
+
+}  // namespace tyndall

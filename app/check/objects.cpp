@@ -1,0 +1,172 @@
+#include "app/check/objects.h"
+
+#include "app/check/statistics.h"
+#include "app/report/names.h"
+#include "core/trace/camera.h"
+#include "core/trace/flight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace tyndall {
+namespace {
+
+constexpr int min_object_pixels = 12;
+constexpr double object_limit = 5.5;  // standard errors: there may be hundreds of objects, of few pixels each
+constexpr float seen_depth = 0.1f;    // optical depth of a medium that is seen before what lies behind it
+
+/// The medium that most of the light through the middle of a pixel comes from; -1: none that can be seen.
+int seen_medium(const SceneView& view, int x, int y, float distance) {
+  if (!view.features.media) return -1;
+  const float time = view.camera.shutter_open + 0.5f * view.camera.shutter_length;
+  const Ray<float> ray =
+      camera_ray(view.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, Pair<float>{0, 0}, time);
+  int seen = -1;
+  float most = seen_depth;
+  for (int k = 0; k < view.medium_count; ++k) {
+    const MediumColumns& medium = view.media[k];
+    const Interval<float> inside = medium_interval(medium, ray.origin, ray.direction, ray.from);
+    if (!inside.hit) continue;
+    const float depth = (std::min(inside.far, distance) - std::max(inside.near, 0.0f)) * medium.density;
+    if (depth > most) most = depth, seen = k;
+  }
+  return seen;
+}
+
+bool has_noise(const Scene& scene, const ColourOrTexture& colour) {
+  const auto* texture = std::get_if<TextureIndex>(&colour);
+  return texture && std::holds_alternative<Noise<>>(scene.textures[static_cast<std::size_t>(texture->index)].kind);
+}
+
+const Object& object_at(const Scene& scene, const std::vector<int>& path) {
+  const std::vector<Object>* list = &scene.objects;
+  const Object* object = nullptr;
+  for (const int index : path) {
+    object = &(*list)[static_cast<std::size_t>(index)];
+    if (const auto* group = std::get_if<Group>(&object->kind)) list = &group->objects;
+  }
+  return *object;
+}
+
+SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
+  const Object& object = object_at(scene, path);
+  SeenObjects::Object seen{object_text(scene, path), "smoke"};
+  if (const auto* volume = std::get_if<Volume>(&object.kind)) seen.noisy_texture = has_noise(scene, volume->albedo);
+  const auto* solid = std::get_if<Solid3d>(&object.kind);
+  if (!solid) return seen;
+  const Material& material = scene.materials[static_cast<std::size_t>(solid->material)];
+  const BsdfTraits traits = traits_of(material.kind);
+  const auto* sphere = std::get_if<Sphere<>>(&solid->shape);
+  const bool moves = sphere && sphere->center_end && scene.camera.shutter_close > scene.camera.shutter_open;
+  seen.kind = traits.emits ? "lights" : traits.transmissive ? "glass" : traits.diffuse ? "matt surfaces" : "metal";
+  if (moves) seen.kind = "moving objects";
+  seen.noisy_texture = !traits.transmissive && has_noise(scene, material.colour);
+  return seen;
+}
+
+/// Numbers the objects as they are seen.
+class Labels {
+ public:
+  Labels(const Scene& scene, const RenderScene& columns) : scene_(scene), columns_(columns) {
+    objects.push_back({"the sky", "sky"});
+  }
+  int of_element(std::int32_t element) {
+    if (element < 0) return 0;
+    const std::int32_t object = columns_.elements.object[static_cast<std::size_t>(element)];
+    const auto [place, is_new] = known_.try_emplace(object, static_cast<int>(objects.size()));
+    if (is_new) objects.push_back(describe(scene_, columns_.objects.path(object)));
+    return place->second;
+  }
+  std::vector<SeenObjects::Object> objects;
+
+ private:
+  const Scene& scene_;
+  const RenderScene& columns_;
+  std::map<std::int32_t, int> known_;
+};
+
+void find_interior(SeenObjects& seen, const Lattice& lattice) {
+  const int columns = lattice.columns(), rows = lattice.rows();
+  const auto at = [&](int x, int y) {
+    return seen.of_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
+  };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      bool same = true;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          same = same && at(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1)) == at(x, y);
+      seen.interior.push_back(same ? 1 : 0);
+    }
+}
+
+struct ObjectSums {
+  int pixels = 0;
+  std::array<double, 3> image{}, expected{}, squares{}, variance{}, tolerance{};
+};
+
+ObjectDifference difference_of(int object, const ObjectSums& sums) {
+  ObjectDifference result{object, sums.pixels, {}, {}, false};
+  const double n = sums.pixels;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double off = (sums.image[c] - sums.expected[c]) / n;
+    const double scatter = std::max(0.0, sums.squares[c] - off * off * n) / (n - 1);
+    const double error = std::sqrt(std::max(scatter, sums.variance[c] / n) / n);
+    if (std::abs(off) > sums.tolerance[c] / n + object_limit * error) result.different = true;
+  }
+  result.image = {sums.image[0] / n, sums.image[1] / n, sums.image[2] / n};
+  result.expected = {sums.expected[0] / n, sums.expected[1] / n, sums.expected[2] / n};
+  return result;
+}
+
+double amount(const ObjectDifference& d) {
+  const Vec3d off = d.image - d.expected;
+  return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
+}
+
+}  // namespace
+
+SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
+                         const Lattice& lattice) {
+  SeenObjects seen;
+  Labels labels(scene, columns);
+  std::vector<FirstHit> hits(static_cast<std::size_t>(lattice.width));
+  for (int y = 0; y < lattice.height; y += lattice.step) {
+    kernels.first_hits(view, {0, y, lattice.width, y + 1}, hits.data());
+    for (int x = 0; x < lattice.width; x += lattice.step) {
+      const FirstHit& hit = hits[static_cast<std::size_t>(x)];
+      const float distance = hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth;
+      const int medium = seen_medium(view, x, y, distance);
+      seen.of_pixel.push_back(labels.of_element(medium < 0 ? hit.element : view.media[medium].first));
+    }
+  }
+  seen.objects = std::move(labels.objects);
+  find_interior(seen, lattice);
+  return seen;
+}
+
+std::vector<ObjectDifference> object_differences(const ComparedPixels& p, const SeenObjects& seen) {
+  std::vector<ObjectSums> sums(seen.objects.size());
+  for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel) {
+    if (!seen.interior[pixel]) continue;
+    ObjectSums& sum = sums[static_cast<std::size_t>(seen.of_pixel[pixel])];
+    ++sum.pixels;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t at = 3 * pixel + c;
+      const double image = static_cast<double>(p.light[at]), expected = static_cast<double>(p.expected[at]);
+      sum.image[c] += image, sum.expected[c] += expected;
+      sum.squares[c] += (image - expected) * (image - expected);
+      sum.variance[c] += static_cast<double>(p.variance[at]), sum.tolerance[c] += static_cast<double>(p.tolerance[at]);
+    }
+  }
+  std::vector<ObjectDifference> result;
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    if (sums[k].pixels >= min_object_pixels) result.push_back(difference_of(static_cast<int>(k), sums[k]));
+  std::sort(result.begin(), result.end(),
+            [](const ObjectDifference& a, const ObjectDifference& b) { return amount(a) > amount(b); });
+  return result;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,38 @@
+#pragma once
+#include "app/check/book_paths.h"
+#include "core/compile/render_scene.h"
+#include "core/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+/// Which object each pixel shows, and by how much two pictures differ there.
+namespace tyndall {
+
+/// The object that is seen first through the centre of each pixel of a lattice.
+struct SeenObjects {
+  struct Object {
+    std::string name;            ///< "the sky", `"ball" (glass)`
+    std::string kind;            ///< "sky", "glass", "metal", "matt surfaces", "lights", "smoke", "moving objects"
+    bool noisy_texture = false;  ///< it has a noise texture, whose veins lie elsewhere in Tyndall
+  };
+  std::vector<Object> objects;
+  std::vector<int> of_pixel;   ///< index into objects
+  std::vector<char> interior;  ///< 1: the pixels around it show the same object
+};
+SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
+                         const Lattice& lattice);
+
+/// Means of linear light over the pixels of an object.
+struct ObjectDifference {
+  int object = 0;  ///< index into SeenObjects::objects
+  int pixels = 0;
+  Vec3d image, expected;
+  bool different = false;  ///< by more than noise
+};
+
+struct ComparedPixels;
+/// Of objects that enough pixels show, those that differ most first.
+std::vector<ObjectDifference> object_differences(const ComparedPixels& pixels, const SeenObjects& seen);
+
+}  // namespace tyndall

@@ -1,0 +1,103 @@
+#include "app/check/reading.h"
+
+#include "core/image/tonemap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+float light_of(Curve curve, float number) {
+  switch (curve) {
+    case Curve::srgb:
+      return srgb_decode(number);
+    case Curve::power22:
+      return std::pow(number, 2.2f);
+    case Curve::gamma2:
+      return number * number;
+    case Curve::gamma2_twice:
+      return number * number * number * number;
+    case Curve::light:
+    case Curve::none:
+      break;
+  }
+  return number;
+}
+
+/// Half of the light between the numbers one step above and below, at least that of a dark grey: in black no step can
+/// be seen.
+float tolerance_of(Curve curve, float number, float step) {
+  if (curve == Curve::light) return step * std::max(std::abs(number), 0.02f);
+  const float middle = std::clamp(number, 0.02f, 1 - step);
+  return 0.5f * (light_of(curve, middle + step) - light_of(curve, middle - step));
+}
+
+}  // namespace
+
+bool is_right(const Reading& reading) {
+  const bool right_curve = reading.curve != Curve::none && reading.curve != Curve::gamma2_twice;
+  return right_curve && !reading.upside_down && !reading.mirrored && !reading.swapped;
+}
+
+std::vector<Reading> readings_of(bool coded) {
+  std::vector<Curve> curves{Curve::light};
+  if (coded) curves = {Curve::gamma2, Curve::srgb, Curve::power22, Curve::none, Curve::gamma2_twice};
+  std::vector<Reading> readings;
+  for (const bool swapped : {false, true})
+    for (const bool upside_down : {false, true})
+      for (const bool mirrored : {false, true})
+        for (const Curve curve : curves) readings.push_back({curve, upside_down, mirrored, swapped});
+  return readings;
+}
+
+std::string curve_text(Curve curve) {
+  switch (curve) {
+    case Curve::srgb:
+      return "sRGB's curve";
+    case Curve::power22:
+      return "gamma 2.2";
+    case Curve::gamma2:
+      return "gamma 2";
+    default:
+      return "";
+  }
+}
+
+PictureNumbers numbers_of(const PictureFile& picture) {
+  PictureNumbers result{picture.image.width, picture.image.height, picture.image.rgb};
+  result.coded = picture.bits < 32;
+  if (picture.kind == ImageKind::jpeg) result.step = 3 / 256.0f;
+  if (!result.coded) {
+    result.step = picture.kind == ImageKind::hdr ? 1 / 128.0f : 1 / 500.0f;
+    return result;
+  }
+  // The books' programs round down, to one of 256 steps.
+  const bool rounded_down = picture.kind == ImageKind::ppm && picture.bits == 8;
+  for (float& value : result.numbers) {
+    const float number = std::clamp(srgb_encode(value), 0.0f, 1.0f);
+    value = rounded_down ? (std::round(255 * number) + 0.5f) / 256 : number;
+  }
+  return result;
+}
+
+ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading) {
+  ReadPixels pixels;
+  pixels.light.reserve(3 * lattice.pixels()), pixels.tolerance.reserve(3 * lattice.pixels());
+  for (int y = 0; y < picture.height; y += lattice.step)
+    for (int x = 0; x < picture.width; x += lattice.step) {
+      const int column = reading.mirrored ? picture.width - 1 - x : x;
+      const int row = reading.upside_down ? picture.height - 1 - y : y;
+      const auto at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
+                           static_cast<std::size_t>(column));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float number = picture.numbers[at + (reading.swapped ? 2 - c : c)];
+        pixels.light.push_back(light_of(reading.curve, number));
+        pixels.tolerance.push_back(tolerance_of(reading.curve, number, picture.step));
+      }
+    }
+  return pixels;
+}
+
+}  // namespace tyndall

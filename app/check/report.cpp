@@ -1,0 +1,115 @@
+#include "app/check/report.h"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tyndall {
+namespace {
+
+constexpr std::size_t max_objects = 6;
+constexpr double min_light = 0.005;  // below that a relative difference says nothing
+
+/// "-12 %", or for dark objects "+0.02".
+std::string channel_text(double image, double expected) {
+  if (expected < min_light) return fmt::format("{:+.3f}", image - expected);
+  const double percent = 100 * (image / expected - 1);
+  return fmt::format("{:+.{}f} %", percent, std::abs(percent) < 9.5 ? 1 : 0);
+}
+
+const SeenObjects::Object& object_of(const Findings& v, const ObjectDifference& d) {
+  return v.seen.objects[static_cast<std::size_t>(d.object)];
+}
+
+std::string object_line(const Findings& v, const ObjectDifference& d) {
+  return fmt::format("object   {}: red {}, green {}, blue {} ({} pixels)\n", object_of(v, d).name,
+                     channel_text(d.image.x, d.expected.x), channel_text(d.image.y, d.expected.y),
+                     channel_text(d.image.z, d.expected.z), d.pixels);
+}
+
+/// What the objects that differ have in common; "": nothing.
+std::string common_kind(const Findings& v) {
+  std::set<std::string> differ, all;
+  for (const ObjectDifference& d : v.objects) differ.insert(object_of(v, d).kind);
+  for (const int object : v.seen.of_pixel) all.insert(v.seen.objects[static_cast<std::size_t>(object)].kind);
+  return differ.size() == 1 && all.size() > 1 ? *differ.begin() : "";
+}
+
+std::string how_made(const Findings& v) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  if (v.samples > 0) add(fmt::format("about {:.2g} samples a pixel, as its noise tells", v.samples));
+  if (!curve_text(v.curve).empty()) add(curve_text(v.curve));
+  for (const Explanation& choice : v.choices) add(choice.words);
+  return text.empty() ? "" : "picture  " + text + "\n";
+}
+
+std::string left_out_text(const Findings& v) {
+  const bool any = std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
+                               [](const SeenObjects::Object& object) { return object.noisy_texture; });
+  return any ? "left out objects with noise textures: their veins lie elsewhere in Tyndall\n" : "";
+}
+
+int percent(double explained) { return static_cast<int>(std::lround(100 * std::clamp(explained, 0.0, 1.0))); }
+
+std::string mistake_text(const Findings& v) {
+  if (v.mistake)
+    return fmt::format("mistake  likely: {} (that explains {} % of the difference)\n", v.mistake->words,
+                       percent(v.mistake->explained));
+  std::string text = fmt::format("mistake  none of the usual ones explains it; {} were tried", v.tried.size());
+  if (!v.tried.empty() && v.tried.front().explained > 0.3)
+    text += fmt::format(", the closest explains {} %: {}", percent(v.tried.front().explained), v.tried.front().words);
+  return text + "\n";
+}
+
+nlohmann::ordered_json json_of(const std::vector<Explanation>& list) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Explanation& e : list) json.push_back({{"name", e.name}, {"text", e.words}, {"explained", e.explained}});
+  return json;
+}
+
+}  // namespace
+
+std::string verdict_text(const Findings& v) {
+  const std::string blocks = fmt::format("of {} blocks of {}x{} pixels", v.blocks, v.block_edge, v.block_edge);
+  if (v.agrees)
+    return fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks) +
+           how_made(v) + left_out_text(v);
+  std::string text = fmt::format("check    the pictures differ by more than noise, in {} {}\n", v.different, blocks);
+  text += how_made(v) + left_out_text(v);
+  for (std::size_t k = 0; k < std::min(max_objects, v.objects.size()); ++k) text += object_line(v, v.objects[k]);
+  if (v.objects.size() > max_objects) text += fmt::format("object   and {} others\n", v.objects.size() - max_objects);
+  const std::string kind = common_kind(v);
+  if (!kind.empty()) text += fmt::format("object   only {} differ{}\n", kind, kind.back() == 's' ? "" : "s");
+  text += mistake_text(v);
+  if (v.out_of_time) text += "mistake  not all were tried before the time was up (--time)\n";
+  return text;
+}
+
+nlohmann::ordered_json verdict_json(const Findings& v) {
+  const auto channels = [](Vec3d c) { return nlohmann::ordered_json{c.x, c.y, c.z}; };
+  nlohmann::ordered_json json;
+  json["agrees"] = v.agrees;
+  json["explanation"] = nullptr;
+  if (v.mistake)
+    json["explanation"] = {{"name", v.mistake->name}, {"text", v.mistake->words}, {"explained", v.mistake->explained}};
+  json["choices"] = json_of(v.choices);
+  json["curve"] = curve_text(v.curve);
+  json["samples"] = v.samples;
+  json["blocks"] = {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}};
+  json["objects"] = nlohmann::ordered_json::array();
+  for (const ObjectDifference& d : v.objects)
+    json["objects"].push_back({{"name", object_of(v, d).name},
+                               {"kind", object_of(v, d).kind},
+                               {"pixels", d.pixels},
+                               {"mean_image", channels(d.image)},
+                               {"mean_reference", channels(d.expected)}});
+  json["tried"] = json_of(v.tried);
+  json["out_of_time"] = v.out_of_time;
+  return json;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,239 @@
+#include "app/check/rules.h"
+
+#include "core/base/math.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+/// Calls visit(object) for each object, those in groups, too.
+template <class Objects>
+void each_object(Objects& objects, const auto& visit) {
+  for (auto& object : objects) {
+    if (auto* group = std::get_if<Group>(&object.kind))
+      each_object(group->objects, visit);
+    else
+      visit(object);
+  }
+}
+
+Sphere<>* sphere_of(Object& object) {
+  auto* solid = std::get_if<Solid3d>(&object.kind);
+  return solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr;
+}
+
+/// Calls change(material's kind, material) for materials of a kind that objects have. Whether there was one.
+template <class Kind>
+bool change_materials(Scene& scene, const std::function<bool(Kind&, Material&)>& change) {
+  std::vector<char> used(scene.materials.size());
+  each_object(scene.objects, [&](Object& object) {
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) used[static_cast<std::size_t>(solid->material)] = 1;
+  });
+  bool changed = false;
+  for (std::size_t k = 0; k < scene.materials.size(); ++k)
+    if (auto* kind = std::get_if<Kind>(&scene.materials[k].kind); kind && used[k])
+      changed = change(*kind, scene.materials[k]) || changed;
+  return changed;
+}
+template <class Kind>
+bool has_material(Scene& scene) {
+  return change_materials<Kind>(scene, [](Kind&, Material&) { return true; });
+}
+bool has_fuzz(Scene& scene) {
+  return change_materials<Metal<>>(scene, [](Metal<>& metal, Material&) { return metal.fuzz > 0; });
+}
+bool has_motion(Scene& scene) {
+  bool moves = false;
+  each_object(scene.objects, [&](Object& object) {
+    const Sphere<>* sphere = sphere_of(object);
+    moves = moves || (sphere && sphere->center_end && !(*sphere->center_end == sphere->center));
+  });
+  return moves && scene.camera.shutter_close > scene.camera.shutter_open;
+}
+
+template <class T, class Rule>
+std::function<bool(BookProgram&)> rule(Rule BookRules::*member, T value, bool (*applies)(Scene&)) {
+  return [=](BookProgram& program) {
+    if (!applies(program.scene) || program.rules.*member == value) return false;
+    program.rules.*member = value;
+    return true;
+  };
+}
+
+/// The books' sky with another weight: 0.5 · y + 0.5 becomes scale · that + offset.
+std::function<bool(BookProgram&)> other_sky(double scale, double offset) {
+  return [=](BookProgram& program) {
+    auto* sky = std::get_if<Gradient>(&program.scene.background);
+    if (!sky || sky->bottom == sky->top) return false;
+    const Gradient right = *sky;
+    const auto at = [&](double weight) { return right.bottom + weight * (right.top - right.bottom); };
+    sky->bottom = at(offset), sky->top = at(scale + offset);
+    return true;
+  };
+}
+
+/// Albedo 0: what is left of a colour that scatter() did not hand on.
+template <class Kind>
+bool blacken(BookProgram& program) {
+  return change_materials<Kind>(program.scene, [](Kind&, Material& material) {
+    material.colour = Vec3d{0, 0, 0};
+    return true;
+  });
+}
+
+bool flip_radii(BookProgram& program) {
+  bool flipped = false;
+  each_object(program.scene.objects, [&](Object& object) {
+    Sphere<>* sphere = sphere_of(object);
+    if (!sphere || sphere->radius > 0) return;
+    sphere->radius = -sphere->radius;
+    flipped = true;
+  });
+  return flipped;
+}
+
+bool invert_indices(BookProgram& program) {
+  return change_materials<Dielectric<>>(program.scene, [](Dielectric<>& glass, Material&) {
+    glass.refractive_index = 1 / glass.refractive_index;
+    return glass.refractive_index != 1;
+  });
+}
+/// Only those below 1: the air in a hollow ball.
+bool invert_bubbles(BookProgram& program) {
+  return change_materials<Dielectric<>>(program.scene, [](Dielectric<>& glass, Material&) {
+    if (glass.refractive_index >= 1) return false;
+    glass.refractive_index = 1 / glass.refractive_index;
+    return true;
+  });
+}
+
+bool remove_fuzz(BookProgram& program) {
+  return change_materials<Metal<>>(program.scene, [](Metal<>& metal, Material&) {
+    const bool had = metal.fuzz > 0;
+    metal.fuzz = 0;
+    return had;
+  });
+}
+
+bool close_shutter(BookProgram& program) {
+  if (!has_motion(program.scene)) return false;
+  program.scene.camera.shutter_close = program.scene.camera.shutter_open;
+  return true;
+}
+bool sharpen(BookProgram& program) {
+  const bool blurred = program.scene.camera.defocus_angle > 0;
+  program.scene.camera.defocus_angle = 0;
+  return blurred;
+}
+bool widen_lens(BookProgram& program) {
+  Camera& camera = program.scene.camera;
+  if (camera.defocus_angle <= 0) return false;
+  camera.defocus_angle = 360 / pi * std::atan(2 * std::tan(camera.defocus_angle * pi / 360));
+  return true;
+}
+bool light_sky(BookProgram& program) {
+  const auto* colour = std::get_if<Vec3d>(&program.scene.background);
+  if (!colour || !(*colour == Vec3d{0, 0, 0})) return false;
+  program.scene.background = Gradient{};
+  return true;
+}
+bool invert_checkers(BookProgram& program) {
+  bool changed = false;
+  for (Texture& texture : program.scene.textures)
+    if (auto* checker = std::get_if<Checker<>>(&texture.kind); checker && checker->scale != 1)
+      checker->scale = 1 / checker->scale, changed = true;
+  return changed;
+}
+
+/// A cross product in one of whose components a plus stands for the minus.
+Vec3f mistyped_cross(Vec3f a, Vec3f b, int component) {
+  Vec3f c = cross(a, b);
+  if (component == 0) c.x = a.y * b.z + a.z * b.y;
+  if (component == 1) c.y = a.z * b.x + a.x * b.z;
+  if (component == 2) c.z = a.x * b.y + a.y * b.x;
+  return c;
+}
+
+/// The camera's axes as the books compute them: u from vup and w, which points backwards, v from w and u.
+std::function<bool(BookProgram&)> mistyped_camera(int component) {
+  return [=](BookProgram& program) {
+    const Vec3d up = program.scene.camera.vup;
+    program.columns = [=](RenderScene& scene) {
+      CameraColumns& c = scene.camera;
+      const Vec3f w = -c.axis, vup{static_cast<float>(up.x), static_cast<float>(up.y), static_cast<float>(up.z)};
+      const Vec3f u = normalize(mistyped_cross(vup, w, component)), v = mistyped_cross(w, u, component);
+      const float focus = dot(c.corner, c.axis), lens = length(c.lens_u);
+      c.du = length(c.du) * u, c.dv = -length(c.dv) * v;
+      c.corner = focus * c.axis - 0.5f * static_cast<float>(scene.width) * c.du -
+                 0.5f * static_cast<float>(scene.height) * c.dv;
+      c.lens_u = lens * u, c.lens_v = lens * v;
+    };
+    return true;
+  };
+}
+
+bool always(Scene&) { return true; }
+
+}  // namespace
+
+std::vector<Difference> usual_choices() {
+  return {
+      {"schlick", "glass by Schlick's rule", rule(&BookRules::schlick, true, has_material<Dielectric<>>)},
+      {"fresnel", "glass by Fresnel's equations", rule(&BookRules::schlick, false, has_material<Dielectric<>>)},
+      {"fuzz-sphere", "fuzz on the sphere, as in edition 4", rule(&BookRules::fuzz, FuzzRule::sphere, has_fuzz)},
+      {"short-frame", "pixels divided by width - 1 and height - 1, as in editions 2 and 3",
+       rule(&BookRules::short_frame, true, always)},
+      {"diffuse-ball", "matt surfaces by a point in the ball, as in edition 1",
+       rule(&BookRules::diffuse, DiffuseRule::ball, has_material<Lambertian<>>)},
+  };
+}
+
+std::vector<Difference> usual_mistakes() {
+  return {
+      {"hemisphere", "matt surfaces scatter evenly over the hemisphere, not by the cosine",
+       rule(&BookRules::diffuse, DiffuseRule::hemisphere, has_material<Lambertian<>>)},
+      {"schlick-always-1", "glass reflects everything, as if Schlick's term were always 1",
+       rule(&BookRules::glass, GlassRule::reflects_all, has_material<Dielectric<>>)},
+      {"no-schlick", "glass reflects nothing that it can refract: there is no Schlick term",
+       rule(&BookRules::glass, GlassRule::reflects_none, has_material<Dielectric<>>)},
+      {"inverted-index", "the ratio of the indices of refraction is upside down", invert_indices},
+      {"one-sided-index", "rays that leave glass are refracted by the ratio of those that enter it",
+       rule(&BookRules::glass, GlassRule::enters_only, has_material<Dielectric<>>)},
+      {"positive-radius", "the inner ball of hollow glass has lost the minus of its radius", flip_radii},
+      {"bubble-index", "the air in hollow glass has the index of glass", invert_bubbles},
+      {"long-mirror", "the mirror direction is not made a unit vector before fuzz is added",
+       rule(&BookRules::long_mirror, true, has_fuzz)},
+      {"no-fuzz", "metal has no fuzz", remove_fuzz},
+      {"sky-brackets", "the sky's weight is 0.5 * y + 1.0 where 0.5 * (y + 1.0) is meant", other_sky(1, 0.5)},
+      {"sky-half", "the sky's weight is 0.5 * y where 0.5 * (y + 1.0) is meant", other_sky(1, -0.5)},
+      {"sky-upside-down", "the sky's colours have changed places", other_sky(-1, 1)},
+      {"sky-left-in", "the blue sky shines where the background is black", light_sky},
+      {"time-lost", "scattered rays lose their time", rule(&BookRules::time, TimeRule::lost, has_motion)},
+      {"time-lost-matt", "rays that matt surfaces scatter lose their time",
+       rule(&BookRules::time, TimeRule::lost_by_matt, has_motion)},
+      {"no-motion", "camera rays have no time, so that nothing moves", close_shutter},
+      {"no-defocus", "nothing is out of focus", sharpen},
+      {"wide-lens", "the lens is twice as wide: its diameter is taken for the radius", widen_lens},
+      {"shadow-acne", "rays meet the surface that they leave: t has no lower bound such as 0.001",
+       rule(&BookRules::meets_itself, true, always)},
+      {"matt-black", "the colour of matt surfaces is lost: they are black", blacken<Lambertian<>>},
+      {"metal-black", "the colour of metal is lost: it is black", blacken<Metal<>>},
+      {"glass-black", "glass sends on nothing: it is black",
+       rule(&BookRules::glass, GlassRule::black, has_material<Dielectric<>>)},
+      {"checker-scale", "checkers are as large as their inverse scale", invert_checkers},
+      {"cross-x", "the first component of cross() has a wrong sign", mistyped_camera(0)},
+      {"cross-y", "the second component of cross() has a wrong sign", mistyped_camera(1)},
+      {"cross-z", "the third component of cross() has a wrong sign", mistyped_camera(2)},
+  };
+}
+
+std::vector<int> tried_depths(int max_depth) {
+  std::vector<int> depths;
+  for (const int depth : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 14, 19, 29})
+    if (depth < max_depth) depths.push_back(depth);
+  return depths;
+}
+
+}  // namespace tyndall

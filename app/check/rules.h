@@ -1,0 +1,40 @@
+#pragma once
+#include "app/check/book_paths.h"
+#include "core/compile/render_scene.h"
+#include "core/scene/scene.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What programs of the books do otherwise: by their edition, and by usual mistakes.
+namespace tyndall {
+
+/// A scene and the rules by which a program renders it.
+struct BookProgram {
+  Scene scene;
+  BookRules rules;
+  /// Changes the compiled scene, where no scene file can say it; empty: nothing.
+  std::function<void(RenderScene&)> columns{};
+};
+
+/// One thing that a program may do otherwise.
+struct Difference {
+  std::string name;   ///< for scripts: "schlick-always-1"
+  std::string words;  ///< a clause without subject: "glass reflects everything (…)"
+  /// Changes the program; false: it has nothing that this would change.
+  std::function<bool(BookProgram&)> apply;
+};
+
+/// What editions and compilers do otherwise: said, never counted as a mistake. The first of two that exclude each other
+/// is the more usual one.
+std::vector<Difference> usual_choices();
+
+/// Mistakes that are found by rendering the scene with each of them.
+std::vector<Difference> usual_mistakes();
+
+/// The lengths of paths that are tried for a program that stops too early, ascending, all below max_depth.
+std::vector<int> tried_depths(int max_depth);
+
+}  // namespace tyndall

@@ -1,0 +1,118 @@
+#include "app/check/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr double amount_errors = 3;  // standard errors that an amount leaves to noise
+constexpr int min_pixels = 24;       // of a block that is compared
+
+struct Sums {
+  double value = 0, square = 0, variance = 0, tolerance = 0;
+};
+
+double excess_of(const BlockDifference& b, double error, double errors) {
+  return std::max(0.0, std::abs(b.difference) - b.tolerance - errors * error);
+}
+
+/// One channel of a pixel: its mean, its variance, its excess.
+void add_channel(const BookSample* samples, int count, int group, int max_depth, float Vec3f::*channel,
+                 SampleStatistics& to) {
+  double sum = 0, squares = 0, of_group = 0, excess = 0;
+  int in_group = 0, groups = 0;
+  for (int k = 0; k < count; ++k) {
+    const bool found = max_depth < 0 || samples[k].depth <= max_depth;
+    const double value = found ? static_cast<double>(samples[k].light.*channel) : 0;
+    sum += value, squares += value * value, of_group += value;
+    if (++in_group < group) continue;
+    excess += std::max(0.0, of_group / group - 1), ++groups;
+    of_group = 0, in_group = 0;
+  }
+  const double mean = sum / count;
+  to.mean.push_back(static_cast<float>(mean));
+  to.variance.push_back(static_cast<float>(count > 1 ? std::max(0.0, squares - sum * mean) / (count - 1) : 0));
+  to.excess.push_back(static_cast<float>(groups > 0 ? excess / groups : 0));
+}
+
+}  // namespace
+
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth) {
+  SampleStatistics result;
+  const std::size_t numbers = 3 * samples.size() / static_cast<std::size_t>(count);
+  result.mean.reserve(numbers), result.variance.reserve(numbers), result.excess.reserve(numbers);
+  for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
+    for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
+      add_channel(samples.data() + first, count, group, max_depth, channel, result);
+  return result;
+}
+
+double lognormal_excess(double mean, double variance) {
+  if (mean <= 0) return 0;
+  if (variance <= 0) return std::max(0.0, mean - 1);
+  // The formula of Black and Scholes for an option with a strike of 1.
+  const double s = std::sqrt(std::log1p(variance / (mean * mean))), d = std::log(mean) / s + s / 2;
+  const auto below = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
+  return mean * below(d) - below(d - s);
+}
+
+BlockGrid grid_of(const Lattice& lattice) {
+  const double edge = std::sqrt(static_cast<double>(lattice.pixels()) / 400);
+  return {lattice.columns(), lattice.rows(), std::clamp(static_cast<int>(std::lround(edge)), 8, 32)};
+}
+
+std::vector<BlockDifference> block_differences(const ComparedPixels& p, const BlockGrid& grid) {
+  std::vector<Sums> sums(3 * grid.count());
+  std::vector<BlockDifference> result(3 * grid.count());
+  for (std::size_t pixel = 0; pixel < p.left_out.size(); ++pixel) {
+    if (p.left_out[pixel]) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t at = 3 * pixel + c, block = 3 * grid.block_of(pixel) + c;
+      const double difference = static_cast<double>(p.light[at]) - static_cast<double>(p.expected[at]);
+      if (!std::isfinite(difference)) continue;
+      Sums& sum = sums[block];
+      sum.value += difference, sum.square += difference * difference;
+      sum.variance += static_cast<double>(p.variance[at]), sum.tolerance += static_cast<double>(p.tolerance[at]);
+      ++result[block].pixels;
+    }
+  }
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    BlockDifference& block = result[k];
+    const Sums& sum = sums[k];
+    if (block.pixels < min_pixels) {
+      block = {};
+      continue;
+    }
+    const double n = block.pixels, mean = sum.value / n;
+    const double scatter = std::max(0.0, sum.square - sum.value * mean) / (n - 1);
+    block = {block.pixels, mean, std::sqrt(std::max(scatter, sum.variance / n) / n), sum.tolerance / n};
+  }
+  return result;
+}
+
+Misfit misfit_of(const std::vector<BlockDifference>& differences) {
+  Misfit misfit;
+  for (std::size_t block = 0; block < differences.size(); block += 3) {
+    if (differences[block].pixels == 0) continue;
+    bool different = false;
+    for (std::size_t c = 0; c < 3; ++c)
+      different = different || excess_of(differences[block + c], differences[block + c].error, noise_limit) > 0;
+    ++misfit.blocks;
+    misfit.different += different ? 1 : 0;
+  }
+  misfit.amount = amount_of(differences, differences);
+  return misfit;
+}
+
+double amount_of(const std::vector<BlockDifference>& differences, const std::vector<BlockDifference>& other) {
+  double amount = 0;
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    const BlockDifference& block = differences[k];
+    if (block.pixels == 0) continue;
+    amount += block.pixels * excess_of(block, std::max(block.error, other[k].error), amount_errors) / block.tolerance;
+  }
+  return amount;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,76 @@
+#pragma once
+#include "app/check/book_paths.h"
+
+#include <vector>
+
+/// What many samples of each pixel tell: the picture that a program would have shown of them, and how noisy it is; and
+/// whether two pictures differ, block by block.
+namespace tyndall {
+
+/// Of each pixel and channel, 3 floats a pixel.
+struct SampleStatistics {
+  std::vector<float> mean;
+  std::vector<float> variance;  ///< of one sample
+  /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above 1, averaged.
+  std::vector<float> excess;
+};
+
+/// count: samples a pixel; group: samples of one pixel of the picture whose excess is wanted, at most `count`.
+/// max_depth: light found after more scattering events is left out; negative: none is.
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth = -1);
+
+/// The part above 1 of a quantity of this mean and variance, averaged, if it has a log-normal distribution.
+double lognormal_excess(double mean, double variance);
+
+/// Squares of pixels of a lattice; those at the right and the lower edge may be smaller.
+struct BlockGrid {
+  int columns = 0, rows = 0;  ///< pixels of the lattice
+  int edge = 16;              ///< of a block, in pixels of the lattice
+  int across() const { return (columns + edge - 1) / edge; }
+  int down() const { return (rows + edge - 1) / edge; }
+  std::size_t count() const { return static_cast<std::size_t>(across()) * static_cast<std::size_t>(down()); }
+  std::size_t block_of(std::size_t pixel) const {
+    const auto width = static_cast<std::size_t>(columns), size = static_cast<std::size_t>(edge);
+    return pixel / width / size * static_cast<std::size_t>(across()) + pixel % width / size;
+  }
+};
+/// Some 400 blocks, with as many pixels each as statistics need.
+BlockGrid grid_of(const Lattice& lattice);
+
+/// The mean difference in one channel of a block.
+struct BlockDifference {
+  int pixels = 0;
+  double difference = 0;  ///< mean over the pixels
+  double error = 0;       ///< standard error of the mean
+  double tolerance = 0;   ///< by how much it may be off without noise
+};
+
+/// What is compared.
+struct ComparedPixels {
+  const std::vector<float>& light;      ///< of the picture, 3 floats a pixel
+  const std::vector<float>& expected;   ///< likewise
+  const std::vector<float>& tolerance;  ///< likewise
+  const std::vector<float>& variance;   ///< of each pixel's noise, as far as it is known; likewise
+  const std::vector<char>& left_out;    ///< 1: the pixel is not looked at
+};
+
+/// Three of each block. The error of a block is the greater of two: what the scatter of its pixels' differences shows,
+/// and what their known variance predicts. The first also holds the noise of the expected values. The second is right
+/// where rare bright paths have not happened to be met.
+std::vector<BlockDifference> block_differences(const ComparedPixels& pixels, const BlockGrid& grid);
+
+/// Standard errors beyond which a difference is no noise: one of 400 correct pictures has such a block, or fewer.
+inline constexpr double noise_limit = 5;
+
+/// How much two pictures differ by more than noise.
+struct Misfit {
+  int blocks = 0;     ///< that were compared
+  int different = 0;  ///< in some channel by more than their tolerance and noise_limit errors
+  double amount = 0;  ///< of the difference beyond tolerance and 3 errors, in tolerances, summed over all pixels
+};
+Misfit misfit_of(const std::vector<BlockDifference>& differences);
+/// The amount alone, where each block's error is the greater of its own and that of `other`: two amounts that are
+/// compared must not differ because one of the pictures is noisier.
+double amount_of(const std::vector<BlockDifference>& differences, const std::vector<BlockDifference>& other);
+
+}  // namespace tyndall

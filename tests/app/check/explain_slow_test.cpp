@@ -1,0 +1,106 @@
+#include "tests/app/check/verdicts.h"
+
+#include <doctest/doctest.h>
+
+/// Many right pictures, none of which may be accused, and the planted mistakes.
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr double seconds = 20;
+
+Scene scene_of(const std::string& name) {
+  const Scene scene = load_scene(name).scene;
+  const bool square = scene.width == scene.height;
+  return scene_for_book(name, square ? 150 : 200, square ? 150 : 112);
+}
+
+}  // namespace
+
+TEST_CASE("check: thirty right pictures are not accused") {
+  struct Row {
+    const char* scene;
+    int spp, edition;
+    bool srgb;
+  };
+  const Row rows[] = {
+      {"metal-spheres", 10, 4, false},
+      {"metal-spheres", 100, 1, false},
+      {"metal-spheres", 500, 3, true},
+      {"glass-spheres", 10, 3, false},
+      {"glass-spheres", 200, 4, false},
+      {"hollow-glass", 50, 4, false},
+      {"hollow-glass", 400, 3, false},
+      {"hollow-glass-index", 100, 4, true},
+      {"wide-view", 30, 2, false},
+      {"tele-view", 60, 4, false},
+      {"defocus", 100, 4, false},
+      {"defocus", 20, 3, true},
+      {"cover", 10, 4, false},
+      {"cover", 30, 3, false},
+      {"bouncing-spheres", 20, 4, false},
+      {"checkered-spheres", 50, 4, false},
+      {"quads", 100, 4, false},
+      {"quads", 20, 3, true},
+      {"cornell-box", 10, 4, false},
+      {"cornell-box", 64, 3, false},
+      {"cornell-box", 300, 4, true},
+      {"cornell-smoke", 20, 4, false},
+      {"cornell-smoke", 200, 3, false},
+      {"cornell-box", 30, 1, false},
+      {"glass-spheres", 500, 1, false},
+      {"checkered-spheres", 10, 3, true},
+      {"stress-motion", 50, 4, false},
+      {"stress-bulb", 100, 4, false},
+      {"stress-thin-fog", 50, 4, false},
+      {"bouncing-spheres", 60, 3, false},
+  };
+  int count = 0;
+  for (const Row& row : rows) {
+    const BookProgramPlan plan{row.spp, row.edition, row.srgb, Plant::none, static_cast<std::uint64_t>(++count)};
+    const Findings verdict = verdict_of(scene_of(row.scene), plan, seconds);
+    CAPTURE(row.scene);
+    CAPTURE(row.spp);
+    CAPTURE(row.edition);
+    CAPTURE(verdict.different);
+    CHECK(name_of(verdict) == "agrees");
+  }
+}
+
+TEST_CASE("check: of the planted mistakes all but one at most are named, and none gets a wrong name") {
+  struct Row {
+    Plant plant;
+    const char *scene, *name;
+  };
+  const Row rows[] = {
+      {Plant::no_gamma, "cover", "no-gamma"},
+      {Plant::upside_down, "cover", "upside-down"},
+      {Plant::mirrored, "glass-spheres", "mirrored"},
+      {Plant::red_blue, "cornell-box", "red-blue"},
+      {Plant::short_paths, "hollow-glass", "depth-2"},
+      {Plant::short_paths, "cornell-box", "depth-2"},
+      {Plant::schlick_is_one, "glass-spheres", "schlick-always-1"},
+      {Plant::hemisphere, "metal-spheres", "hemisphere"},
+      {Plant::hemisphere, "cornell-box", "hemisphere"},
+      {Plant::long_mirror, "metal-spheres", "long-mirror"},
+      {Plant::positive_radius, "hollow-glass", "positive-radius"},
+      {Plant::sky_brackets, "cover", "sky-brackets"},
+      {Plant::lost_time, "bouncing-spheres", "time-lost"},
+      {Plant::no_defocus, "defocus", "no-defocus"},
+      {Plant::acne, "metal-spheres", "shadow-acne"},
+      {Plant::inverted_index, "glass-spheres", "inverted-index"},
+      {Plant::by_value, "cover", "matt-black"},
+      {Plant::wrong_cross, "hollow-glass", "cross-z"},
+      {Plant::own_sky, "cover", "unexplained"},
+  };
+  int named = 0, count = 0;
+  for (const Row& row : rows) {
+    const BookProgramPlan plan{60, 4, false, row.plant, static_cast<std::uint64_t>(++count)};
+    const std::string name = name_of(verdict_of(scene_of(row.scene), plan, seconds));
+    MESSAGE(row.name << " in " << row.scene << ": " << name);
+    CHECK((name == row.name || name == "unexplained"));
+    named += name == row.name ? 1 : 0;
+  }
+  CHECK(named >= count - 1);
+}

@@ -1,0 +1,41 @@
+#pragma once
+#include "app/check/explain.h"
+#include "core/image/tonemap.h"
+#include "core/scene/load.h"
+#include "tests/support/book_tracer.h"
+
+#include <string>
+
+/// What the check says of pictures of a program that shares nothing with it.
+namespace tyndall::test {
+
+inline PictureNumbers numbers_of_bytes(int width, int height, const std::vector<std::uint8_t>& bytes) {
+  PictureFile file{{width, height, {}}, ImageKind::ppm, 8, false, {}};
+  for (const std::uint8_t byte : bytes) file.image.rgb.push_back(srgb_decode(static_cast<float>(byte) / 255));
+  return numbers_of(file);
+}
+
+/// A built-in scene in another size, with Schlick's rule out of the way: the books' programs have it.
+inline Scene scene_for_book(const std::string& name, int width, int height) {
+  Scene scene = load_scene(name).scene;
+  scene.width = width, scene.height = height;
+  return scene;
+}
+
+inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, double seconds) {
+  const auto always = [] { return true; };
+  LinearImage light{picture.width, picture.height, picture.numbers};
+  for (float& value : light.rgb) value *= value;
+  const Reference reference = render_reference(scene, light, seconds / 8, always);
+  return explain(picture, scene, reference, {seconds, 0}, always);
+}
+inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, double seconds) {
+  return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), seconds);
+}
+
+/// "agrees", "schlick-always-1", or "unexplained".
+inline std::string name_of(const Findings& verdict) {
+  return verdict.agrees ? "agrees" : verdict.mistake ? verdict.mistake->name : "unexplained";
+}
+
+}  // namespace tyndall::test
