@@ -6,10 +6,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace tyndall {
@@ -17,40 +18,52 @@ namespace {
 
 constexpr std::size_t longest_reason = 300;  // bytes
 
-/// Why the sample that the thread computes has no value; null: the thread computes none.
-thread_local std::optional<std::string>* reason_of_sample = nullptr;
+/// What a thread computes. Without constructor and destructor, because it is looked at for each sample.
+struct Computation {
+  bool is_sample;                   ///< the thread has computed samples
+  bool failed;                      ///< its present sample has no value
+  char reason[longest_reason + 1];  ///< why not
+};
+thread_local Computation computation;
+
+void set_reason(Computation& now, const char* reason) {
+  now.failed = true;
+  const std::size_t size = std::min(std::strlen(reason), longest_reason);
+  std::memcpy(now.reason, reason, size);
+  now.reason[size] = 0;
+}
 
 }  // namespace
 
-WatchedFunction::WatchedFunction(Function function)
-    : function_(std::move(function)),
+WatchedFunction::WatchedFunction(Function function, void* user)
+    : function_(function),
+      user_(user),
       source_(std::make_shared<const SampleSource>(
           SampleSource{[this](double x, double y, std::uint64_t index) { return sample(x, y, index); }})) {}
 
 Vec3f WatchedFunction::sample(double x, double y, std::uint64_t index) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  std::optional<std::string> reason;
+  Computation& now = computation;
+  now.is_sample = true, now.failed = false;
   double rgb[3] = {nothing, nothing, nothing};
-  const auto outer = std::exchange(reason_of_sample, &reason);
   try {
-    function_(x, y, index, rgb);
+    function_(user_, x, y, index, rgb);
   } catch (const std::exception& error) {
-    reason = error.what();
+    set_reason(now, error.what());
   } catch (...) {
-    reason = "an exception that is no std::exception";
+    set_reason(now, "an exception that is no std::exception");
   }
-  reason_of_sample = outer;
   const Vec3f radiance{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
-  if (!reason && scaled(radiance, 1 / source_quantum).fits()) return radiance;
+  if (!now.failed && scaled(radiance, 1 / source_quantum).fits()) return radiance;
   note(x, y, index,
-       reason ? *reason
-              : fmt::format("found ({}, {}, {}), expected finite numbers, at most 7e13", rgb[0], rgb[1], rgb[2]));
+       now.failed ? now.reason
+                  : fmt::format("found ({}, {}, {}), expected finite numbers, at most 7e13", rgb[0], rgb[1], rgb[2]));
   return {static_cast<float>(nothing), 0, 0};
 }
 
 bool WatchedFunction::fail(const char* reason) {
-  if (!reason_of_sample) return false;
-  *reason_of_sample = reason ? reason : "no reason was given";
+  if (!computation.is_sample) return false;
+  set_reason(computation, reason ? reason : "no reason was given");
   return true;
 }
 

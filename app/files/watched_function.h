@@ -14,8 +14,8 @@ namespace tyndall {
 class WatchedFunction {
  public:
   /// Sets the linear radiance rgb at a point of the picture, see SampleSource. rgb holds NaN before.
-  using Function = std::function<void(double x, double y, std::uint64_t sample, double rgb[3])>;
-  explicit WatchedFunction(Function function);
+  using Function = void (*)(void* user, double x, double y, std::uint64_t sample, double rgb[3]);
+  WatchedFunction(Function function, void* user);
 
   std::shared_ptr<const SampleSource> source() const { return source_; }
 
@@ -36,6 +36,7 @@ class WatchedFunction {
   void note(double x, double y, std::uint64_t index, const std::string& reason);
 
   Function function_;
+  void* user_;
   std::shared_ptr<const SampleSource> source_;
   mutable std::mutex mutex_;  ///< guards what follows
   std::string first_;

@@ -21,7 +21,8 @@ bool flushes_to_zero() {
 
 }  // namespace
 
-Host::Host() : differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
+Host::Host(Function called, void* argument)
+    : called_(called), argument_(argument), differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
   const char* name = std::setlocale(LC_CTYPE, nullptr);
   character_type_ = name ? name : "C";
   std::fegetenv(&arithmetic_);
@@ -31,6 +32,20 @@ Host::Host() : differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) 
 Host::~Host() {
   std::fesetenv(&arithmetic_);
   std::setlocale(LC_CTYPE, character_type_.c_str());
+}
+
+void* Host::user() { return differs_ ? this : argument_; }
+
+Host::Function Host::function() const {
+  if (!differs_) return called_;
+  return [](void* user, double x, double y, std::uint64_t sample, double rgb[3]) {
+    struct Back {
+      ~Back() { std::fesetenv(FE_DFL_ENV); }
+    } back;
+    const Host& host = *static_cast<const Host*>(user);
+    std::fesetenv(&host.arithmetic_);
+    host.called_(host.argument_, x, y, sample, rgb);
+  };
 }
 
 }  // namespace tyndall

@@ -1,5 +1,6 @@
 #pragma once
 #include <cfenv>
+#include <cstdint>
 #include <string>
 
 /// The program that the library is used by, and what is its own.
@@ -11,25 +12,23 @@ namespace tyndall {
 /// which the window system sets.
 class Host {
  public:
-  Host();
+  using Function = void (*)(void* user, double x, double y, std::uint64_t sample, double rgb[3]);
+
+  /// The program's function, and its first argument.
+  Host(Function called, void* argument);
   ~Host();
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// Calls the program's own code with its own arithmetic. From any thread.
-  template <class Call>
-  void call(const Call& call) const {
-    if (!differs_) return call();
-    struct Back {
-      ~Back() { std::fesetenv(FE_DFL_ENV); }
-    } back;
-    std::fesetenv(&arithmetic_);
-    call();
-  }
+  /// What calls the program's function with the program's own arithmetic, and its first argument. From any thread.
+  Function function() const;
+  void* user();
 
  private:
+  Function called_;
+  void* argument_;
+  bool differs_ = false;  ///< in arithmetic
   std::fenv_t arithmetic_{};
-  bool differs_ = false;
   std::string character_type_;
 };
 

@@ -65,13 +65,9 @@ void check(int width, int height, bool has_function, const tyndall_watch_options
   if (options.spp > max_samples) refuse(fmt::format("spp: found {}, expected at most {}", options.spp, max_samples));
 }
 
-Order order_of(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options& options,
-               const Host& host) {
+Order order_of(int width, int height, const tyndall_watch_options& options, Host& host) {
   Order order;
-  order.function = std::make_shared<WatchedFunction>(
-      [function, user, &host](double x, double y, std::uint64_t sample, double rgb[3]) {
-        host.call([&] { function(user, x, y, sample, rgb); });
-      });
+  order.function = std::make_shared<WatchedFunction>(host.function(), host.user());
   order.threads = std::max(options.threads, 1);
   order.output = text(options.output);
   order.reference = text(options.reference);
@@ -167,8 +163,8 @@ bool tell_failures(const WatchedFunction& function) {
 int run(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options* given) {
   const tyndall_watch_options options = whole(given);
   check(width, height, function != nullptr, options);
-  const Host host;
-  const Order order = order_of(width, height, function, user, options, host);
+  Host host(function, user);
+  const Order order = order_of(width, height, options, host);
   if (order.output.empty())
     show_window(order);
   else

@@ -245,6 +245,7 @@ void Session::keep_half(Half half) {
 }
 
 std::string Session::method(Half half) const {
+  if (shows_picture()) return editor_.document().origin->title;
   const RenderSettings& settings = half == Half::kept && split() ? kept_scene_->render : editor_.scene().render;
   return method_of(settings, editor_.document().origin->saved.render);
 }
