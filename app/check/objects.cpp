@@ -1,7 +1,7 @@
 #include "app/check/objects.h"
 
 #include "app/check/statistics.h"
-#include "app/report/names.h"
+#include "app/report/replay.h"
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
 

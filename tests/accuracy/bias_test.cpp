@@ -4,7 +4,7 @@
 
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::bias_test {
 
 namespace {
 
@@ -58,3 +58,5 @@ TEST_CASE("block scores: films that are equal, of other regions, with empty halv
   CHECK(block_scores(flat, flat).noise());
   CHECK_FALSE(block_scores(flat, brighter).noise());
 }
+
+}  // namespace tyndall::test::bias_test

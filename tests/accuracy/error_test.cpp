@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::error_test {
 
 TEST_CASE("film mean: by hand for two pixels that show different things") {
   Film film = make_film(2, 1, {0, 0, 2, 1}, 0, 8);
@@ -85,3 +85,5 @@ TEST_CASE("error outside [0, 1]: only of values that one of both has there, in b
   const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   CHECK(outside_error({nan, infinity, 2}, {3, infinity, 2}).values == 1);
 }
+
+}  // namespace tyndall::test::error_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::estimate_test {
 
 namespace {
 
@@ -317,3 +317,5 @@ TEST_CASE("a black film has no error, but where there are lamps it is told that 
     CHECK_FALSE(estimate_error(film).rests_on_few_pixels);
   }
 }
+
+}  // namespace tyndall::test::estimate_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::finite_test {
 
 TEST_CASE("not finite: how many pixels, and the first of them with its value") {
   const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -19,3 +19,5 @@ TEST_CASE("not finite: how many pixels, and the first of them with its value") {
   image.frame = ImageFrame{{0, 0, 9, 9}, {4, -3, 7, -1}};  // an EXR's data window: the place is the picture's
   CHECK(not_finite_text(image) == "2 of 6 pixels are not finite, the first at 5,-3 (green is nan)");
 }
+
+}  // namespace tyndall::test::finite_test

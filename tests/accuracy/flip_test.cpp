@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::flip_test {
 
 namespace {
 
@@ -177,3 +177,5 @@ TEST_CASE("FLIP works on pictures that are smaller than its filters") {
   CHECK(map[0] > 0.5f);
   CHECK(map[0] <= 1);
 }
+
+}  // namespace tyndall::test::flip_test

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <numbers>
 
-using namespace tyndall;
+namespace tyndall::test::flip_values_test {
 
 namespace {
 
@@ -182,3 +182,5 @@ TEST_CASE("FLIP of mirrored and of transposed pictures is the map mirrored and t
   CHECK(mirror_gap < 1e-6);
   CHECK(transpose_gap < 1e-6);
 }
+
+}  // namespace tyndall::test::flip_values_test

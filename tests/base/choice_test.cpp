@@ -20,7 +20,7 @@ constexpr tyndall::Label label(Fruit fruit) {
 
 }  // namespace
 
-using namespace tyndall;
+namespace tyndall::test::choice_test {
 
 TEST_CASE("choices: values and names go back and forth") {
   static_assert(count_of<Fruit>() == 3);
@@ -31,3 +31,5 @@ TEST_CASE("choices: values and names go back and forth") {
   CHECK(label(Fruit::quince).approximation);
   CHECK_FALSE(label(Fruit::apple).approximation);
 }
+
+}  // namespace tyndall::test::choice_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::error_sum_test {
 
 namespace {
 
@@ -78,3 +78,5 @@ TEST_CASE("sum of errors: what is not a number is told by the sum, and is none o
   CHECK(largest.size() == ErrorSum::max_apart);
   for (const PixelError& one : largest) CHECK(one.pixel < 1000);
 }
+
+}  // namespace tyndall::test::error_sum_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::lanes_simd_test {
 
 namespace {
 
@@ -41,3 +41,5 @@ TEST_CASE("lanes: every wide operation does what it does on float, lane by lane"
   check_lanes("neon", 4, test::lanes_report_neon);
 #endif
 }
+
+}  // namespace tyndall::test::lanes_simd_test

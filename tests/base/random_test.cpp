@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::random_test {
 
 namespace {
 
@@ -183,3 +183,5 @@ TEST_CASE("hash: an input bit moves every output bit half of the time") {
     for (const int n : moved) CHECK(std::abs(n / double{count} - 0.5) < 0.05);
   }
 }
+
+}  // namespace tyndall::test::random_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::reservoir_test {
 
 TEST_CASE("reservoir: things are taken in proportion to their weights, by one random number") {
   constexpr std::array<float, 6> weights{0, 3, 0, 1, 4, 0};
@@ -30,3 +30,5 @@ TEST_CASE("reservoir: nothing is taken where all weights are 0") {
   CHECK(reservoir.weight == 0);
   CHECK(reservoir.pick == 0.5f);
 }
+
+}  // namespace tyndall::test::reservoir_test

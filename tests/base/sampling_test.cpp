@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::sampling_test {
 
 namespace {
 
@@ -129,3 +129,5 @@ TEST_CASE("around: all turns about the axis are equally likely") {
   }
   CHECK(std::abs(chi_square_deviate(bins)) < 4);
 }
+
+}  // namespace tyndall::test::sampling_test

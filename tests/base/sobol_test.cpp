@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::sobol_test {
 
 namespace {
 
@@ -113,3 +113,5 @@ TEST_CASE("sobol: numbers are uniform over pixels for any one sample") {
     CHECK(chi2 < bins - 1 + 4 * std::sqrt(2.0 * (bins - 1)));
   }
 }
+
+}  // namespace tyndall::test::sobol_test

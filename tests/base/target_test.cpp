@@ -6,7 +6,7 @@
 
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::target_test {
 
 TEST_CASE("target: the list starts with scalar, grows in width and names each target once") {
   const std::vector<Target> list = available_targets();
@@ -33,3 +33,5 @@ TEST_CASE("target: there are kernels for each of the available targets, of the s
   }
   CHECK(std::string(choose_kernels("")->isa) == name_of(targets.back()));
 }
+
+}  // namespace tyndall::test::target_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::text_test {
 
 TEST_CASE("printable: one line of UTF-8, whatever comes in") {
   CHECK(printable("a\nb\tc\r\x1b[31m\x7f") == "a\\nb\\tc\\r\\u001b[31m\\u007f");
@@ -87,3 +87,5 @@ TEST_CASE("closest: the name that was meant, or none") {
   CHECK(one_of({"a"}) == "\"a\"");
   CHECK(one_of({"a", "b"}) == "one of \"a\", \"b\"");
 }
+
+}  // namespace tyndall::test::text_test

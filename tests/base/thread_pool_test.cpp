@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::thread_pool_test {
 
 TEST_CASE("crew: every index is called exactly once, in every round") {
   for (const int size : {1, 2, 7}) {
@@ -124,3 +124,5 @@ TEST_CASE("crew: what a job throws comes out when no job runs any more, once, an
   thread_pool.for_each(1, [&](int) { ++after; });
   CHECK(after == 1);
 }
+
+}  // namespace tyndall::test::thread_pool_test

@@ -10,7 +10,7 @@
 
 /// What the clean view chooses where the regression cannot be right: pictures whose truth is known, with something in
 /// them that no feature tells.
-using namespace tyndall;
+namespace tyndall::test::choice_test {
 
 namespace {
 
@@ -219,3 +219,5 @@ TEST_CASE("choice: the error is known where groups of pixels share their noise")
   CHECK(ratio > 0.9);
   CHECK(ratio < 1.15);
 }
+
+}  // namespace tyndall::test::choice_test

@@ -11,7 +11,7 @@
 #include <new>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::clean_test {
 
 namespace {
 
@@ -421,3 +421,5 @@ TEST_CASE("clean view: planes that memory did not suffice for are asked for anew
   CHECK(planes.plane(0)[7] == 0);
 }
 #endif
+
+}  // namespace tyndall::test::clean_test

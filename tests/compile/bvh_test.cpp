@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::bvh_test {
 
 namespace {
 
@@ -241,3 +240,5 @@ TEST_CASE("bvh: a sphere of radius 1e30 hides nothing") {
     CHECK(lost <= 1);  // the moved rays are rounded, so one at an edge may miss
   }
 }
+
+}  // namespace tyndall::test::bvh_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::compile_test {
 
 namespace {
 
@@ -244,3 +243,5 @@ TEST_CASE("compile: settings and materials arrive, the film's unit covers the br
   scene.materials.push_back({"lamp", Vec3d{7, 2, 33}, Light<>{}});
   CHECK(compile(scene).film_quantum == 64);
 }
+
+}  // namespace tyndall::test::compile_test

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::enclosing_walls_test {
 
 namespace {
 
@@ -76,3 +76,5 @@ TEST_CASE("hull: the walls of the Cornell box, not its light") {
   CHECK(walls == 5);
   CHECK(others == 3);
 }
+
+}  // namespace tyndall::test::enclosing_walls_test

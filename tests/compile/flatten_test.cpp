@@ -7,8 +7,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::flatten_test {
 
 namespace {
 
@@ -173,3 +172,5 @@ TEST_CASE("flatten: a medium whose boundary is exactly a shape's is that shape's
   scene.objects = {{"", Solid3d{Sphere<>{{1, 1, 1}, -0.5, {}}, 0}, {}}, fog(ball)};
   CHECK_FALSE(surface_of(scene));
 }
+
+}  // namespace tyndall::test::flatten_test

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::texture_test {
 
 namespace {
 
@@ -258,3 +257,5 @@ TEST_CASE("images: a compiled scene has the scene's own pixels, no copy") {
   const Scene scene = textured_wall(Image{"ramp", ramp()}, {});
   CHECK(compile(scene).textures[0].pixels == std::get<Image>(scene.textures[0].kind).pixels);
 }
+
+}  // namespace tyndall::test::texture_test

@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::visibility_test {
 
 namespace {
 
@@ -65,3 +64,5 @@ TEST_CASE("sight: chains ask less for a lamp that the ball does not see") {
   add(scene, Quad<>{{-3, 3, -3}, {6, 0, 0}, {0, 0, 6}}, lambertian(0.5));
   CHECK(worth() == doctest::Approx(before / 8));
 }
+
+}  // namespace tyndall::test::visibility_test

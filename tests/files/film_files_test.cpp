@@ -7,8 +7,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::film_files_test {
 
 namespace {
 
@@ -83,3 +82,5 @@ TEST_CASE("a film that is added from others says of which instruction sets they 
   CHECK(merged_label(avx2, old).isa == "several: avx2, unknown");
   CHECK(merged_label(old, old).isa.empty());
 }
+
+}  // namespace tyndall::test::film_files_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::layers_test {
 
 TEST_CASE("layers: the variance of pixels is what the picture's estimated error is made of") {
   const auto scene = prepare(test::small_scene("cornell-box", 16, 16, 1));
@@ -33,3 +32,5 @@ TEST_CASE("layers: without a sample in each half the variance is not known") {
   const Layer variance = layers_of(*scene, render(*scene, options).film, available_kernels().front()).back();
   for (const float v : variance.values) CHECK(std::isinf(v));
 }
+
+}  // namespace tyndall::test::layers_test

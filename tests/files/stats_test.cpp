@@ -7,7 +7,7 @@
 
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::stats_test {
 
 namespace {
 
@@ -79,3 +79,5 @@ TEST_CASE("what images carry is the same in every run") {
   CHECK(json["first_sample"] == 5);
   CHECK(json["region"] == nlohmann::json{10, 20, 14, 22});
 }
+
+}  // namespace tyndall::test::stats_test

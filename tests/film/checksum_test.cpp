@@ -5,7 +5,7 @@
 #include <cstring>
 #include <set>
 
-using namespace tyndall;
+namespace tyndall::test::checksum_test {
 
 TEST_CASE("checksum: every bit of a film and its text counts") {
   Film film = make_film(9, 8, {1, 2, 4, 5}, 7, 2, true);
@@ -30,3 +30,5 @@ TEST_CASE("checksum: every bit of a film and its text counts") {
   for (const char* text : {"", "texu", "tex", "texts", "Text"}) CHECK(seen.insert(film_checksum(film, text)).second);
   CHECK_FALSE(is_new());
 }
+
+}  // namespace tyndall::test::checksum_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::film_test {
 
 namespace {
 
@@ -222,3 +222,5 @@ TEST_CASE("image hash: FNV-1a of size and means, minus zero as zero") {
   CHECK(image_hash(2, 1, {1, 0.5f, 0.25f, -2, 3, 1e-3f}) == 0xa9b95c813ccbf70cu);
   CHECK(image_hash(1, 2, {1, 0.5f, 0.25f, -2, 3, 1e-3f}) != 0xa9b95c813ccbf70cu);
 }
+
+}  // namespace tyndall::test::film_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <random>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::merge_test {
 
 namespace {
 
@@ -152,3 +151,5 @@ TEST_CASE("merge: parts of another picture are refused") {
   quantum.quantum = 8;
   CHECK_THROWS_AS(merged({{"a", a}, {"b", quantum}}), MergeError);
 }
+
+}  // namespace tyndall::test::merge_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::film_label_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -87,3 +87,5 @@ TEST_CASE("film label: rounds of adaptive sampling that contradict the counts ar
   for (PlannedSamples& planned : film.planned) planned.to = 1u << 25u;
   refused(film);
 }
+
+}  // namespace tyndall::test::film_label_test

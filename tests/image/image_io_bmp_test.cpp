@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_bmp_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -213,3 +212,5 @@ TEST_CASE("tga: alpha, gamma and multiplied colours are told") {
   CHECK(remarks(1, 1, 3) == 1);
   CHECK(remarks(0, 0, 4) == 1);
 }
+
+}  // namespace tyndall::test::image_io_bmp_test

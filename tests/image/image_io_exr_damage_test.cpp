@@ -12,8 +12,7 @@
 #include <cstring>
 #include <random>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_exr_damage_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -112,3 +111,5 @@ TEST_CASE("EXR damage: a file that was never finished is refused, unless all of 
 }
 
 #endif
+
+}  // namespace tyndall::test::image_io_exr_damage_test

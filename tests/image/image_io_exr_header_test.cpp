@@ -11,8 +11,7 @@
 #include <OpenEXR/ImfPreviewImage.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_exr_header_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -324,3 +323,5 @@ TEST_CASE("EXR header: a version that is not known is refused") {
 }
 
 #endif
+
+}  // namespace tyndall::test::image_io_exr_header_test

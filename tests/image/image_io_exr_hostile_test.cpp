@@ -6,8 +6,7 @@
 
 #include <cstring>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_exr_hostile_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -114,3 +113,5 @@ TEST_SUITE("exr hostile" * doctest::skip(!has_openexr())) {
     check_refused(bytes, "expected at least 23775711 for the size that it says");
   }
 }
+
+}  // namespace tyndall::test::image_io_exr_hostile_test

@@ -8,8 +8,7 @@
 
 #include <OpenEXR/ImfStandardAttributes.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_exr_layers_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -198,3 +197,5 @@ TEST_CASE("picture names: a ':' in a file's own name, and in a layer's") {
 }
 
 #endif
+
+}  // namespace tyndall::test::image_io_exr_layers_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::image_io_exr_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -251,3 +251,5 @@ TEST_SUITE("exr" * doctest::skip(!has_openexr())) {
     CHECK_THROWS_AS(read_image(folder / "a.exr"), ImageFileError);
   }
 }
+
+}  // namespace tyndall::test::image_io_exr_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_hdr_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -136,3 +135,5 @@ TEST_CASE("hdr: rows lie as the line of the size says") {
   CHECK(message_for(start + std::string("\n+Z 2 +X 3\n") + pixels) ==
         "found \"+Z 2 +X 3\", expected the size of an HDR, such as -Y 480 +X 640");
 }
+
+}  // namespace tyndall::test::image_io_hdr_test

@@ -6,7 +6,7 @@
 
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::image_io_hostile_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -120,3 +120,5 @@ TEST_CASE("hostile files: what a file says of itself comes out in one line") {
   write_text(file, std::string("\x76\x2f\x31\x01\2\0\0\0a\nb\0string\0\xff\xff\xff\x7fxx", 25));
   if (has_openexr()) CHECK_FALSE(survives(file));
 }
+
+}  // namespace tyndall::test::image_io_hostile_test

@@ -8,8 +8,7 @@
 
 #include <cstdlib>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_jpeg_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -177,3 +176,5 @@ TEST_CASE("jpeg: a colour profile that is not sRGB's is told once") {
   write_text(file, good_jpeg(kind));
   CHECK(read_picture(file).remarks.size() == 1);
 }
+
+}  // namespace tyndall::test::image_io_jpeg_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_pfm_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -72,3 +71,5 @@ TEST_CASE("pfm: bytes after the last pixel are refused") {
   CHECK(message_for(whole + "abc") == "found 3 bytes after the last pixel, expected none");
   CHECK(message_for(whole + whole) == "found several pictures in one file, expected one");
 }
+
+}  // namespace tyndall::test::image_io_pfm_test

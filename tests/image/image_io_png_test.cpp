@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_png_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -207,3 +206,5 @@ TEST_CASE("png: a picture with a text of many megabytes is read") {
   write_png(file, {1, 1, {0, 0.5f, 1}}, 0, ToneMap::srgb, {std::string(20'000'000, 'x'), ""});
   CHECK(read_image(file).rgb[2] == 1);
 }
+
+}  // namespace tyndall::test::image_io_png_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::image_io_ppm_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -174,3 +173,5 @@ TEST_CASE("ppm: --gamma2 goes with exposure and tone maps") {
   const std::vector<std::uint8_t> agx = gamma2_bytes({0.18f, 0.18f, 0.18f}, 0, ToneMap::agx);
   CHECK(agx[1] == static_cast<int>(256 * std::sqrt(std::pow(0.5, 2.2))));  // 0.18 is half of a screen of gamma 2.2
 }
+
+}  // namespace tyndall::test::image_io_ppm_test

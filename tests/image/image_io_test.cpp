@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-using namespace tyndall;
+namespace tyndall::test::image_io_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -142,3 +142,5 @@ TEST_CASE("read_image: refuses what is no image") {
   CHECK_THROWS_AS(read_image(file.parent_path()), ImageFileError);
   CHECK_THROWS_AS(read_image("/dev/zero"), ImageFileError);
 }
+
+}  // namespace tyndall::test::image_io_test

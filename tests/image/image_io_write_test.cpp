@@ -12,7 +12,7 @@
 #include <csignal>
 #include <functional>
 
-using namespace tyndall;
+namespace tyndall::test::image_io_write_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -159,3 +159,5 @@ TEST_CASE("writing: an image without pixels is refused") {
   }
   CHECK(count_files(folder) == 0);
 }
+
+}  // namespace tyndall::test::image_io_write_test

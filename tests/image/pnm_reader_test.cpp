@@ -7,8 +7,7 @@
 #include <vector>
 
 /// A picture that comes in pieces is the one in the file, wherever the pieces are cut.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::pnm_reader_test {
 
 namespace {
 
@@ -120,3 +119,5 @@ TEST_CASE("pnm reader: what is damaged is told when it comes, wherever it is cut
         "pipe: cannot read: found an image of 70000 x 70000 pixels, expected 1 to 2^28 in all");
   CHECK(message_of({"P3 1 1 255 " + std::string(100, 'x')}).size() < 200);
 }
+
+}  // namespace tyndall::test::pnm_reader_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-using namespace tyndall;
+namespace tyndall::test::tonemap_test {
 
 TEST_CASE("sRGB: values of the standard") {
   CHECK(srgb_encode(0) == 0);
@@ -155,3 +155,5 @@ TEST_CASE("dithering: a sky of 512 rows has no bands, and a region is dithered l
   const auto region = tone_map_dithered(part, 0, ToneMap::srgb, width, {0, 100});
   CHECK(std::equal(region.begin(), region.end(), whole.begin() + 100 * 3 * width));
 }
+
+}  // namespace tyndall::test::tonemap_test

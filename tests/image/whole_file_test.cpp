@@ -9,7 +9,7 @@
 #include <span>
 #include <unistd.h>
 
-using namespace tyndall;
+namespace tyndall::test::whole_file_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -203,3 +203,5 @@ TEST_CASE("whole file: a file of a folder that takes no new ones is written into
   }
   CHECK(count_files(folder) == 1);
 }
+
+}  // namespace tyndall::test::whole_file_test

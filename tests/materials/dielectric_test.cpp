@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::dielectric_test {
 
 namespace {
 
@@ -120,3 +119,5 @@ TEST_CASE("dielectric: the books' rule is used where it is asked for") {
   scores.add("schlick", reflected.estimate(), schlick(std::cos(80 * degrees), 1.5));
   CHECK(std::abs(reflected.estimate().mean - fresnel(std::cos(80 * degrees), 1.5)) > 0.005);
 }
+
+}  // namespace tyndall::test::dielectric_test

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::fresnel_test {
 
 namespace {
 
@@ -177,3 +177,5 @@ TEST_CASE("schlick: errs as the books' rule does, by these amounts") {
     }
   }
 }
+
+}  // namespace tyndall::test::fresnel_test

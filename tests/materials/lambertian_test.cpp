@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::lambertian_test {
 
 namespace {
 
@@ -91,3 +90,5 @@ TEST_CASE(
   CHECK(fallbacks == 0);
   CHECK(naive > 1000);  // the plain sum is no number there, or points below the surface
 }
+
+}  // namespace tyndall::test::lambertian_test

@@ -6,8 +6,7 @@
 #include <doctest/doctest.h>
 
 /// The path loop with a list of materials of the test's own, whose last one the program does not know.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::longer_list_test {
 
 namespace {
 
@@ -119,3 +118,5 @@ TEST_CASE("path loop: shadow rays into a ball of ground glass meet its far side,
   CHECK(error < 0.02 * by_scattering.mean);
   CHECK(std::abs(by_scattering.mean - with_shadow_rays.mean) < 4 * error);
 }
+
+}  // namespace tyndall::test::longer_list_test

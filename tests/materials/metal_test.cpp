@@ -6,8 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::metal_test {
 
 namespace {
 
@@ -108,3 +107,5 @@ TEST_CASE("light: a path ends at a lamp") {
   const Sampler<float> d = sampler<float>(1);
   CHECK(sample(Light<float>{}, event(d, down_at<float>(0.3), up<float>)).flags.absorbed);
 }
+
+}  // namespace tyndall::test::metal_test

@@ -6,8 +6,7 @@
 #include <doctest/doctest.h>
 
 /// Scattered directions are drawn with the density that they are said to have; it integrates to the share that leaves.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::pdf_test {
 
 namespace {
 
@@ -46,3 +45,5 @@ TEST_CASE("density: metal, narrow and wide, straight and where part of the blur 
             metal_survival(fuzz, std::cos(angle)));
     }
 }
+
+}  // namespace tyndall::test::pdf_test

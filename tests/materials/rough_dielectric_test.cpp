@@ -6,8 +6,7 @@
 #include <doctest/doctest.h>
 
 /// The contract of core/materials/bsdf.h, held by a material whose samples have weights other than 1.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::rough_dielectric_test {
 
 namespace {
 
@@ -125,3 +124,5 @@ TEST_CASE("rough dielectric: polished it is smooth glass") {
       REQUIRE(length(rough.direction - smooth.direction) < 1e-2);
     }
 }
+
+}  // namespace tyndall::test::rough_dielectric_test

@@ -7,8 +7,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::medium_test {
 
 namespace {
 
@@ -170,3 +169,5 @@ TEST_CASE("medium: scattered directions are unit vectors about the old one, all 
     CHECK(kolmogorov_smirnov(azimuths, [](double t) { return t; }) < 2.23);
   }
 }
+
+}  // namespace tyndall::test::medium_test

@@ -3,8 +3,7 @@
 #include <doctest/doctest.h>
 
 /// Media that only absorb, whose paths carry what passes (flight.h).
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::absorption_test {
 
 namespace {
 
@@ -98,3 +97,5 @@ TEST_CASE("smoke: hides no light that comes through a ball of glass") {
   CHECK(compile(scene).specular.sphere.size() == 1);
   check_same_light(scene, 0.5);
 }
+
+}  // namespace tyndall::test::absorption_test

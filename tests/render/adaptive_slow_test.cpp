@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::adaptive_slow_test {
 
 TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.01 %, where counts differ most") {
   for (const char* name : {"showroom", "wide-view", "stress-medium-in-glass"}) {
@@ -30,3 +29,5 @@ TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.01 %,
     CHECK(std::abs(bias.mean) < 1e-4);
   }
 }
+
+}  // namespace tyndall::test::adaptive_slow_test

@@ -12,8 +12,7 @@
 #include <map>
 
 /// Adaptive sampling gives the same picture on every machine, is unbiased, and gives hard parts a smaller error.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::adaptive_test {
 
 namespace {
 
@@ -151,3 +150,5 @@ TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.1 %")
   CHECK(bias.error < 3e-4);  // or the measurement would be too rough to find a fault
   CHECK(std::abs(bias.mean) < 1e-3);
 }
+
+}  // namespace tyndall::test::adaptive_test

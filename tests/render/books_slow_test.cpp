@@ -5,8 +5,7 @@
 #include <doctest/doctest.h>
 
 /// Means of the books' scenes, known from long renders of an independent program.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::books_slow_test {
 
 namespace {
 
@@ -58,3 +57,5 @@ TEST_CASE("books: the same by light sampling") {
 }
 
 TEST_CASE("books: the same by one path at a time") { check(smoke, Integrator::path, "scalar", 16, 16); }
+
+}  // namespace tyndall::test::books_slow_test

@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::breaks_test {
 
 namespace {
 
@@ -59,3 +58,5 @@ TEST_CASE("breaks: a time limit still ends a render between passes, so that all 
   CHECK(sum.min_taken > 0);
   CHECK(sum.min_taken == sum.max_taken);
 }
+
+}  // namespace tyndall::test::breaks_test

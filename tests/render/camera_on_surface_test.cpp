@@ -10,8 +10,7 @@
 #include <cmath>
 
 /// A camera that stands on a surface, at any scale: it never meets the place on which it stands.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::camera_on_surface_test {
 
 namespace {
 
@@ -165,3 +164,5 @@ TEST_CASE("camera on a surface: a little farther away than rounding, whoever loo
       CHECK(static_cast<double>(middle.depth) == doctest::Approx(height).epsilon(0.1));
     }
 }
+
+}  // namespace tyndall::test::camera_on_surface_test

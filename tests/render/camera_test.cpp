@@ -6,8 +6,7 @@
 #include <doctest/doctest.h>
 
 /// The camera: which ray belongs to which pixel, the thin lens, focus.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::camera_test {
 
 namespace {
 
@@ -197,3 +196,5 @@ TEST_CASE("lens: without defocus the focus distance changes nothing; absent, it 
   CHECK(resolve(film_of(scene, 4)) == blurred);
   CHECK(blurred != sharp);
 }
+
+}  // namespace tyndall::test::camera_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::caustics_test {
 
 namespace {
 
@@ -109,3 +109,5 @@ TEST_CASE("caustics: specular paths find light off flat mirrors and through boxe
   const Material water{"", Vec3d{1, 1, 1}, Dielectric<>{1.33}};  // light leaves by all faces
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, water) < 0.001);
 }
+
+}  // namespace tyndall::test::caustics_test

@@ -14,8 +14,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::clean_film_test {
 
 namespace {
 
@@ -219,3 +218,5 @@ TEST_CASE("clean view: comes with frames when it is wanted, of the newest scene,
   CHECK_FALSE(renderer->latest()->clean);
   CHECK(renderer->latest()->spp == 8);
 }
+
+}  // namespace tyndall::test::clean_film_test

@@ -19,8 +19,7 @@
 
 /// The clean view against the truth: how much better it is, whether anything gets worse, and whether it knows its
 /// error.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::clean_slow_test {
 
 namespace {
 
@@ -167,3 +166,5 @@ TEST_CASE("clean view: scenes made to break filters") {
     CHECK(std::abs(row.clean.mean) < (specks ? 0.25 : row.spp < 64 ? 0.02 : 0.005));
   }
 }
+
+}  // namespace tyndall::test::clean_slow_test

@@ -3,8 +3,7 @@
 #include <doctest/doctest.h>
 
 /// Paths that end because of max_depth, and paths that roulette ends at random.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::depth_test {
 
 namespace {
 
@@ -177,3 +176,5 @@ TEST_CASE("depth: a path that carries nothing has ended and is not cut") {
   scene.materials[0] = lambertian(0.001);
   CHECK(totals_of(scene, 4).truncated == 4 * 1024);
 }
+
+}  // namespace tyndall::test::depth_test

@@ -7,8 +7,7 @@
 #include <doctest/doctest.h>
 
 /// Paths of single rays through glass spheres, stepped by the path loop itself with dice that choose the way.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::deviation_test {
 
 namespace {
 
@@ -117,3 +116,5 @@ TEST_CASE("hollow glass ball: a negative radius and a relative index turn rays a
     CHECK(deviation(follow<float>(bubble, impact, {})) == deviation(follow<float>(relative, impact, {})));
   }
 }
+
+}  // namespace tyndall::test::deviation_test

@@ -14,8 +14,7 @@
 #include <cstdio>
 
 /// How close the estimated error is to the true one, and whether pictures are flagged where it is not.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::estimate_slow_test {
 
 namespace {
 
@@ -119,3 +118,5 @@ TEST_CASE("estimated error: within a quarter of the true one in 9 of 10 random r
   print_table(cases);
   CHECK(fraction_outside(cases, 8) <= 0.1);
 }
+
+}  // namespace tyndall::test::estimate_slow_test

@@ -8,8 +8,7 @@
 
 #include <atomic>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::first_seen_test {
 
 namespace {
 
@@ -103,3 +102,5 @@ TEST_CASE("first seen: gives up") {
   FirstSeenParts made;
   CHECK_FALSE(find_first_seen({0, 0, 16, 9}, {thread_pool, *kernels, scene_view}, true, input, made));
 }
+
+}  // namespace tyndall::test::first_seen_test

@@ -4,8 +4,7 @@
 
 /// White furnaces: in a white room things that absorb nothing are invisible, and things that absorb a fifth of the
 /// light have a radiance of 0.8. This holds exactly and in every sample.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::furnace_test {
 
 namespace {
 
@@ -173,3 +172,5 @@ TEST_CASE("white furnace: fuzzy metal loses what the blur puts below its surface
         scores.add("fuzzy metal", radiance(scene, *isa ? 128 : 512, isa), expected, *isa ? 6e-3 : 3e-3);
       }
 }
+
+}  // namespace tyndall::test::furnace_test

@@ -4,8 +4,7 @@
 #include <doctest/doctest.h>
 
 /// Glass against closed forms that sum all internal reflections.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::glass_test {
 
 namespace {
 
@@ -120,3 +119,5 @@ TEST_CASE("glass of index 1 changes no mean; single samples differ, because its 
   add(sky, Box<>{{-2, -2, -2}, {2, 2, 1.5}}, glass(1), {RotateY{20}});
   CHECK(resolve(film_of(sky, 4)) == empty);
 }
+
+}  // namespace tyndall::test::glass_test

@@ -6,8 +6,7 @@
 
 /// A tiny light in media. Samples that scatter next to it have no upper bound; renderers that clamp samples lose that
 /// light.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::light_in_media_test {
 
 namespace {
 
@@ -109,3 +108,5 @@ TEST_CASE("light in media: the estimated error, from the two halves, is close to
   CHECK(ratio > 0.9);
   CHECK(ratio < 1.1);
 }
+
+}  // namespace tyndall::test::light_in_media_test

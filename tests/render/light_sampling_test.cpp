@@ -4,8 +4,7 @@
 #include <doctest/doctest.h>
 
 /// Light sampling gives the same light as paths that meet lights by chance, and as closed formulas.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::light_sampling_test {
 
 namespace {
 
@@ -195,3 +194,5 @@ TEST_CASE("light sampling without weights: no sample is out of a film's range, a
   CHECK(plain.error < 0.1 * weighted.mean);
   CHECK(std::abs(plain.mean - weighted.mean) < 4 * plain.error);
 }
+
+}  // namespace tyndall::test::light_sampling_test

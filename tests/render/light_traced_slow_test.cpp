@@ -7,8 +7,7 @@
 
 /// Every kind of specular path is compared with light tracing. In most rooms this would reveal a weight that is wrong
 /// by half a percent; with solid glass, whose caustics have bright edges, one that is wrong by a few percent.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::light_traced_slow_test {
 
 TEST_CASE("specular paths: each kind gives what light tracing gives, in the mean and block by block") {
   constexpr int seeds = 8;
@@ -35,3 +34,5 @@ TEST_CASE("specular paths: each kind gives what light tracing gives, in the mean
   CHECK(squares / count > band.low);
   CHECK(squares / count < band.high);
 }
+
+}  // namespace tyndall::test::light_traced_slow_test

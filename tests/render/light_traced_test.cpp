@@ -7,8 +7,7 @@
 #include <cmath>
 
 /// The light tracer of the tests, and specular paths held against it.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::light_traced_test {
 
 namespace {
 
@@ -76,3 +75,5 @@ TEST_CASE("specular paths: the mean of what light tracing finds") {
     check_agreement(room.scene, room.spp / 4, room.particles / 10, 0.012);
   }
 }
+
+}  // namespace tyndall::test::light_traced_test

@@ -6,8 +6,7 @@
 
 /// Small lights in media, where distances are sampled by angle. That no light is lost is tested in
 /// light_in_media_test.cpp.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::lights_in_media_test {
 
 namespace {
 
@@ -84,3 +83,5 @@ TEST_CASE("lights in media: sampled by angle only where it pays") {
   for (const char* name : {"cornell-smoke", "next-week", "showroom", "stress-dense-fog"})
     CHECK(compile(load_scene(name).scene).near.light.size() == 0);
 }
+
+}  // namespace tyndall::test::lights_in_media_test

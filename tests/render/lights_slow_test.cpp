@@ -2,8 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::lights_slow_test {
 
 TEST_CASE("light: a ball so far away that one path in ten thousand finds it") {
   Scene scene = dark_room();
@@ -13,3 +12,5 @@ TEST_CASE("light: a ball so far away that one path in ten thousand finds it") {
   ZScores scores;
   scores.add("far lamp", radiance(scene, 1 << 17), 0.8 * 0.0002720699046351327 / pi, 0.02);
 }
+
+}  // namespace tyndall::test::lights_slow_test

@@ -3,8 +3,7 @@
 #include <doctest/doctest.h>
 
 /// Irradiance of lights of radiance 1 on a matt surface: its radiance is albedo · E / π.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::lights_test {
 
 namespace {
 
@@ -109,3 +108,5 @@ TEST_CASE("light: seen directly, through glass of index 1 and from inside it sho
     CHECK(common_value(scene) == 3.5);
   }
 }
+
+}  // namespace tyndall::test::lights_test

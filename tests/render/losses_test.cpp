@@ -11,8 +11,7 @@
 #include <limits>
 
 /// What a picture lacks: rejected samples are left out, counted and located, and what cut paths carried is summed.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::losses_test {
 
 namespace {
 
@@ -191,3 +190,5 @@ TEST_CASE("cut paths: an edit starts the sum anew; frames tell its share") {
   CHECK(renderer->film() == film);
   CHECK(last->cut_throughput == doctest::Approx(totals(film).cut_throughput));
 }
+
+}  // namespace tyndall::test::losses_test

@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::measure_test {
 
 namespace {
 
@@ -97,3 +96,5 @@ TEST_CASE("z-scores: the band of their mean square") {
   CHECK(mean_square_band(1).low == 0);
   CHECK(mean_square_band(1).high > 16);
 }
+
+}  // namespace tyndall::test::measure_test

@@ -4,8 +4,7 @@
 #include <doctest/doctest.h>
 
 /// Slabs of medium against radiative transfer solved by adding and doubling; extreme densities.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::media_slow_test {
 
 namespace {
 
@@ -92,3 +91,5 @@ TEST_CASE("slab: the published cases of MCML") {
   glassy.render.seed = 2;
   scores.add("behind glass", radiance(glassy, 4096), 0.2599186, 1e-3);
 }
+
+}  // namespace tyndall::test::media_slow_test

@@ -4,8 +4,7 @@
 #include <doctest/doctest.h>
 
 /// Media against closed forms and radiative transfer solved apart from this program.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::media_test {
 
 namespace {
 
@@ -208,3 +207,5 @@ TEST_CASE("fog: without density it is not there") {
     CHECK(resolve(film_of(fog, 4)) == clear);
   }
 }
+
+}  // namespace tyndall::test::media_test

@@ -9,8 +9,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::memory_test {
 
 namespace {
 
@@ -144,3 +143,5 @@ TEST_CASE("memory: whichever request is refused while a renderer takes over a fi
   }
   CHECK(refused > 50);
 }
+
+}  // namespace tyndall::test::memory_test

@@ -2,8 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::motion_test {
 
 namespace {
 
@@ -74,3 +73,5 @@ TEST_CASE("motion: a ball whose two centres are equal is at rest") {
   add(still, sphere({0, 0, 0}, 1), lambertian(0.5));
   CHECK(resolve(film_of(moving, 4)) == resolve(film_of(still, 4)));
 }
+
+}  // namespace tyndall::test::motion_test

@@ -6,8 +6,7 @@
 
 /// Places where densities are zero or infinite, or where several lights share them: mirrors, shapes that touch, lights
 /// that overlap.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::overlap_test {
 
 namespace {
 
@@ -123,3 +122,5 @@ TEST_CASE("tree: with and without it every built-in scene's picture is the same,
     CHECK(render(compiled, options).film == film);
   }
 }
+
+}  // namespace tyndall::test::overlap_test

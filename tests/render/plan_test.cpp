@@ -6,7 +6,7 @@
 #include <bit>
 #include <functional>
 
-using namespace tyndall;
+namespace tyndall::test::plan_test {
 
 namespace {
 
@@ -163,3 +163,5 @@ TEST_CASE("plan: a picture is labelled with what all pixels have, or with their 
   for (std::size_t i = 0; i < counts.size(); ++i) film.pixels[i].taken = counts[i];
   CHECK(labelled_spp(film) == 27);
 }
+
+}  // namespace tyndall::test::plan_test

@@ -4,7 +4,7 @@
 
 #include <initializer_list>
 
-using namespace tyndall;
+namespace tyndall::test::preview_test {
 
 namespace {
 
@@ -111,3 +111,5 @@ TEST_CASE("preview: a slow screen makes first pictures coarser, a quick one does
   for (int k = 0; k < 20; ++k) pictures.note_showing(0.020);
   CHECK(pictures.step_for(full_hd, 0.016) == 4);
 }
+
+}  // namespace tyndall::test::preview_test

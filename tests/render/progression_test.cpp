@@ -10,8 +10,7 @@
 #include <doctest/doctest.h>
 
 /// The passes of a picture: in which order its samples come, when it is finished, and what is reported meanwhile.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::progression_test {
 
 namespace {
 
@@ -231,3 +230,5 @@ TEST_CASE("pass length: doubles or adds a part, within the time and the most sam
   CHECK(pass_samples(quarter, 15, full_hd, 0) == 3);
   CHECK(pass_samples(quarter, 1000, full_hd, 0) == 32);
 }
+
+}  // namespace tyndall::test::progression_test

@@ -9,8 +9,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::rare_test {
 
 namespace {
 
@@ -87,3 +86,5 @@ TEST_CASE("rare bright paths: metal of a little fuzz is told like a mirror, meta
   scene.materials[1].kind = Metal<>{0.3};
   CHECK_FALSE(is_rare(scene, 256));
 }
+
+}  // namespace tyndall::test::rare_test

@@ -12,8 +12,7 @@
 #include <thread>
 
 /// A part of the picture that gets its samples before the rest, and what is told of one pixel.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::refine_first_test {
 
 namespace {
 
@@ -138,3 +137,5 @@ TEST_CASE("the standard error of a pixel is that of its mean: it agrees with oth
   look_at_pixel(make_film(48, 48, {0, 0, 48, 48}, 0, 1), outside);
   CHECK(outside.samples == 0);
 }
+
+}  // namespace tyndall::test::refine_first_test

@@ -5,8 +5,7 @@
 
 #include <string>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::rejected_slow_test {
 
 TEST_CASE(
     "built-in scenes: of 1024 samples a pixel none is rejected, and what limits of 200 and more cut is not seen") {
@@ -29,3 +28,5 @@ TEST_CASE(
   }
   CHECK(scenes >= 40);
 }
+
+}  // namespace tyndall::test::rejected_slow_test

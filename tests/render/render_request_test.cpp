@@ -7,8 +7,7 @@
 #include <doctest/doctest.h>
 
 /// What is asked of the renderer is one value: what follows from it depends on the values alone.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::render_request_test {
 
 namespace {
 
@@ -104,3 +103,5 @@ TEST_CASE("requests: a film that is gone on from is not lost when another reques
   CHECK(renderer->request(request) == edit);
   CHECK(renderer.wait_for([](const Frame&) { return true; }, before)->spp <= 1);
 }
+
+}  // namespace tyndall::test::render_request_test

@@ -7,8 +7,7 @@
 #include <doctest/doctest.h>
 
 /// Edits: the newest wins, nothing is shown that was not asked for, nothing restarts without need.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::renderer_edits_test {
 
 namespace {
 
@@ -265,3 +264,5 @@ TEST_CASE("edits: a renderer that is destroyed while it renders ends at once") {
   CHECK(idle.film().pixels.empty());
   CHECK(idle.pick(0, 0).object.empty());
 }
+
+}  // namespace tyndall::test::renderer_edits_test

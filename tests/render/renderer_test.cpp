@@ -8,8 +8,7 @@
 #include <random>
 
 /// The finished picture is the one that a blocking render gives, whatever was done to the renderer before.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::renderer_test {
 
 namespace {
 
@@ -184,3 +183,5 @@ TEST_CASE("renderer: the first picture's time counts from a restart, not from th
   }
   CHECK(sum <= 1000 * (wall_seconds() - start));  // they ran one after the other, so not longer than the whole test
 }
+
+}  // namespace tyndall::test::renderer_test

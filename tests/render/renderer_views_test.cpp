@@ -9,8 +9,7 @@
 #include <chrono>
 
 /// Views, picking, films, and doing nothing when there is nothing to do.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::renderer_views_test {
 
 namespace {
 
@@ -162,3 +161,5 @@ TEST_CASE("idle: a renderer that is finished, paused or unused takes no processo
   CHECK(cpu_seconds() - before < 0.03);
   CHECK(unused.calls() + finished.calls() + paused.calls() == calls);
 }
+
+}  // namespace tyndall::test::renderer_views_test

@@ -10,8 +10,7 @@
 #include <random>
 
 /// The picture depends on scene, seed and samples alone: not on threads, tiles, passes, shards or interruptions.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::same_picture_test {
 
 namespace {
 
@@ -184,3 +183,5 @@ TEST_CASE("render: stops where it is told to and says so") {
   options.isa = "no such set";
   CHECK_THROWS_AS(render(scene, options), std::invalid_argument);
 }
+
+}  // namespace tyndall::test::same_picture_test

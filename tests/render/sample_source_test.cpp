@@ -13,8 +13,7 @@
 #include <vector>
 
 /// Pictures whose samples come from a caller's function: they are made like those of scenes.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::sample_source_test {
 
 namespace {
 
@@ -227,3 +226,5 @@ TEST_CASE("sample source: tiles and first steps follow the speed") {
   CHECK(is_slow_source(1 << 20, 1 << 20));
   CHECK_FALSE(is_slow_source(1 << 20, 1 << 22));
 }
+
+}  // namespace tyndall::test::sample_source_test

@@ -4,8 +4,7 @@
 
 /// All pixels of a probe show the same thing, each with random numbers of its own. So the means of 1024 pixels tell a
 /// sampler's mean and variance.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::samplers_test {
 
 namespace {
 
@@ -67,3 +66,5 @@ TEST_CASE("samplers: over a thousand randomisations neither is off, and sobol sc
       CHECK(sobol.error <= 1.05 * random.error);
     }
 }
+
+}  // namespace tyndall::test::samplers_test

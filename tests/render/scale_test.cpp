@@ -8,8 +8,7 @@
 
 /// A scene gives the same picture in any unit of length and at any distance from the origin, because the renderer has
 /// no fixed lengths, such as a least distance.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::scale_test {
 
 namespace {
 
@@ -142,3 +141,5 @@ TEST_CASE("scale: the same seen from inside glass and from inside fog") {
     CHECK(small_film(moved(scene, {131072, -65536, 262144})) == film);
   }
 }
+
+}  // namespace tyndall::test::scale_test

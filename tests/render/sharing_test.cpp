@@ -8,8 +8,7 @@
 #include <doctest/doctest.h>
 
 /// Second vertices that are shared between pixels: the light is what separate paths find, with less noise.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::sharing_test {
 
 namespace {
 
@@ -197,3 +196,5 @@ TEST_CASE("sharing: the wall of an integrating sphere, where all pixels see the 
   scores.add("wall", radiance(scene, 1024), rho * f / (1 - rho * (1 - f)), 2e-3);
   scores.add("scalar", radiance(scene, 64, "scalar"), rho * f / (1 - rho * (1 - f)), 1e-2);
 }
+
+}  // namespace tyndall::test::sharing_test

@@ -11,8 +11,7 @@
 #include <cmath>
 
 /// Levels of single pixels, from samples of their own.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::single_pixels_test {
 
 namespace {
 
@@ -123,3 +122,5 @@ TEST_CASE("levels: the error of a picture with a light that is smaller than a pi
   CHECK(alone > 5 * known);
   CHECK(estimate_error(compiled, kernels, film, 1).relative_error == known);
 }
+
+}  // namespace tyndall::test::single_pixels_test

@@ -8,8 +8,7 @@
 
 /// Whatever a slider is dragged to, the picture has no rejected samples, is not of one colour, and shows no light that
 /// comes from nowhere.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::sliders_test {
 
 namespace {
 
@@ -223,3 +222,5 @@ TEST_CASE("sliders: of shapes, textures and the sky") {
   try_sky(Hemispheres{});
   CHECK(pictures > 300);
 }
+
+}  // namespace tyndall::test::sliders_test

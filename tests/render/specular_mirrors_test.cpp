@@ -7,8 +7,7 @@
 #include <cmath>
 
 /// Lights found by exact specular paths off flat mirrors: the light is what scattering alone finds in the end.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::specular_mirrors_test {
 
 namespace {
 
@@ -161,3 +160,5 @@ TEST_CASE("specular paths: no sample of a scene with flat mirrors is rejected, a
   options.tile = 5, options.threads = 1;
   CHECK(render(compiled, options).film == film);
 }
+
+}  // namespace tyndall::test::specular_mirrors_test

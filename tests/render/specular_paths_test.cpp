@@ -8,8 +8,7 @@
 
 /// Lights found by exact specular paths through and off single spheres: the light is what scattering alone finds in the
 /// end.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::specular_paths_test {
 
 namespace {
 
@@ -151,3 +150,5 @@ TEST_CASE("specular paths: no sample of the scenes that need them is rejected, a
     CHECK(render(compiled, options).film == film);
   }
 }
+
+}  // namespace tyndall::test::specular_paths_test

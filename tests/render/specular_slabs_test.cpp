@@ -7,8 +7,7 @@
 #include <cmath>
 
 /// Lights found by exact specular paths through slabs: the light is what scattering alone finds in the end.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::specular_slabs_test {
 
 namespace {
 
@@ -158,3 +157,5 @@ TEST_CASE("specular paths: no sample of a scene with a slab is rejected, and til
   options.tile = 5, options.threads = 1;
   CHECK(render(compiled, options).film == film);
 }
+
+}  // namespace tyndall::test::specular_slabs_test

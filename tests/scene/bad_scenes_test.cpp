@@ -5,7 +5,7 @@
 
 #include <ctime>
 
-using namespace tyndall;
+namespace tyndall::test::bad_scenes_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("bad scenes: a scene of more than 256 MiB is refused") {
   text += ' ';
   CHECK(complaint(text) == "/: found more than 256 MiB of text, expected a scene of at most 256 MiB");
 }
+
+}  // namespace tyndall::test::bad_scenes_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::check_test {
 
 namespace {
 
@@ -142,3 +142,5 @@ TEST_CASE("check: values that single precision cannot hold are refused") {
   CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-12; }) == "/objects/1/g");
   CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-6; }) == "");
 }
+
+}  // namespace tyndall::test::check_test

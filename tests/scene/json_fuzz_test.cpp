@@ -6,7 +6,7 @@
 
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::json_fuzz_test {
 
 namespace {
 
@@ -36,3 +36,5 @@ TEST_CASE("read_scene: a scene file with random damage is a scene or one clear l
   CHECK(scenes_read > 300);
   CHECK(errors > 3000);
 }
+
+}  // namespace tyndall::test::json_fuzz_test

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::json_garbage_slow_test {
 
 TEST_CASE("garbage: 200,000 scene files with random damage; what is read renders, and all else is one clear line") {
   const std::filesystem::path scenes = assets_folder() / "scenes";
@@ -35,3 +35,5 @@ TEST_CASE("garbage: 200,000 scene files with random damage; what is read renders
   CHECK(read > 10'000);
   CHECK(unclear == 0);
 }
+
+}  // namespace tyndall::test::json_garbage_slow_test

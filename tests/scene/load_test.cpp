@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-using namespace tyndall;
+namespace tyndall::test::load_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -125,3 +125,5 @@ TEST_CASE("move_textures: another folder finds the same files") {
   CHECK(std::get<Image>(moved.textures[2].kind).file == "../../scenes/c.png");
   CHECK(move_textures(scene, scratch, scratch) == scene);
 }
+
+}  // namespace tyndall::test::load_test

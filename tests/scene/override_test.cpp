@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::override_test {
 
 namespace {
 
@@ -80,3 +80,5 @@ TEST_CASE("overrides: cannot build what a file may not hold") {
   }
   CHECK(complaint(text, overrides).find("nested more than 64 deep") != std::string::npos);
 }
+
+}  // namespace tyndall::test::override_test

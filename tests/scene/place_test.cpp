@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::place_test {
 
 TEST_CASE("what is expected, in words: form, range, unit, meaning") {
   CHECK(expected_text({between(0, 1)}, Form::number) == "a number in [0, 1]");
@@ -18,3 +18,5 @@ TEST_CASE("a place's JSON pointer") {
   CHECK(pointer(scene) == "/");
   CHECK(pointer({gold, std::size_t{2}}) == "/materials/a~1b~0c/2");
 }
+
+}  // namespace tyndall::test::place_test

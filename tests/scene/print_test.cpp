@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::print_test {
 
 TEST_CASE("printed members: in their order, counts with all digits, null for what is no number") {
   JsonObject json;
@@ -30,3 +30,5 @@ TEST_CASE("printed members: in their order, counts with all digits, null for wha
   CHECK(text.find("12, 12]\n}\n") != text.npos);
   CHECK(std::count(text.begin(), text.end(), '\n') == 10);  // a line for each member and each brace
 }
+
+}  // namespace tyndall::test::print_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::read_test {
 
 namespace {
 
@@ -160,3 +160,5 @@ TEST_CASE("reading: a zero byte is refused wherever it is, and what follows it i
   CHECK(message("// comment" + std::string(1, '\0') + "\n" + scene) == "a.json: line 1, column 11" + expected);
   CHECK(message(std::string(1, '\0') + scene) == "a.json: line 1, column 1" + expected);
 }
+
+}  // namespace tyndall::test::read_test

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::schema_test {
 using Json = nlohmann::json;
 
 TEST_CASE("schema: the file for editors is what the lists of fields say") {
@@ -53,3 +53,5 @@ TEST_CASE("schema: what users rely on") {
   CHECK(kind(parts["object"], "group")["required"] == Json{"type", "objects"});
   CHECK(parts["boundary"]["oneOf"].size() == 2);
 }
+
+}  // namespace tyndall::test::schema_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::write_test {
 
 namespace {
 
@@ -95,3 +95,5 @@ TEST_CASE("write_scene: random scenes come back equal") {
     CHECK(write_scene(again) == text);
   }
 }
+
+}  // namespace tyndall::test::write_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::box_test {
 
 namespace {
 
@@ -170,3 +169,5 @@ TEST_CASE("box: a component of the direction that is nearly zero counts as a zer
   CHECK(safe_reciprocal(1e-30f) == safe_reciprocal(0.0f));
   CHECK(safe_reciprocal(-1e-30f) == safe_reciprocal(-0.0f));
 }
+
+}  // namespace tyndall::test::box_test

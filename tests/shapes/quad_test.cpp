@@ -8,8 +8,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::quad_test {
 
 namespace {
 
@@ -118,3 +117,5 @@ TEST_CASE("quad: a grazing ray meets it where it should, down to a ten-thousandt
     CHECK(static_cast<double>(hit.t) == doctest::Approx(3 * std::sqrt(1 + slope * slope)).epsilon(1e-5).scale(0));
   }
 }
+
+}  // namespace tyndall::test::quad_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::sphere_test {
 
 namespace {
 
@@ -183,3 +182,5 @@ TEST_CASE("start_on: tells which shape a ray starts on, and which way it leaves"
   CHECK_FALSE(start_on<float>(from_nowhere, 0, 6).here);
   CHECK_FALSE(start_on<float>(from_nowhere, 0, 6).out);
 }
+
+}  // namespace tyndall::test::sphere_test

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::interior_test {
 
 namespace {
 
@@ -94,3 +93,5 @@ TEST_CASE("interior: the camera may be inside; what is behind it does not absorb
     CHECK(seen_through(kernels, dark, {}, 1) < 1e-3);
   }
 }
+
+}  // namespace tyndall::test::interior_test

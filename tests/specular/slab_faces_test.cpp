@@ -5,7 +5,7 @@
 #include <cmath>
 
 /// Paths through panes by their event sequences: which faces they meet, and that a closed one of these closes the way.
-using namespace tyndall;
+namespace tyndall::test::slab_faces_test {
 
 namespace {
 
@@ -58,3 +58,5 @@ TEST_CASE(
       CHECK(faces_met(above, edge, 1, 2, 2) == 63);
     }
 }
+
+}  // namespace tyndall::test::slab_faces_test

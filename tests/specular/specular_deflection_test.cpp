@@ -13,7 +13,7 @@
 
 /// Paths of light through spheres around one centre: all of them are found, and the solid angle that chains compute for
 /// a light is the one that traced rays find.
-using namespace tyndall;
+namespace tyndall::test::specular_deflection_test {
 
 namespace {
 
@@ -170,3 +170,5 @@ TEST_CASE("specular paths: each event sequence is tried as often as expected_que
     if (inner_radius == 0) CHECK(drawn.count({2, 0, 0}) == 0);  // the main event sequence is not drawn as well
   }
 }
+
+}  // namespace tyndall::test::specular_deflection_test

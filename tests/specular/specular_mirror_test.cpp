@@ -10,8 +10,7 @@
 #include <random>
 
 /// Paths off flat mirrors: they obey the law of reflection, and fill the solid angle that neighbouring rays find.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::specular_mirror_test {
 
 namespace {
 
@@ -127,3 +126,5 @@ TEST_CASE(
   }
   CHECK(seen > 200);
 }
+
+}  // namespace tyndall::test::specular_mirror_test

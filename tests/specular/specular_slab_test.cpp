@@ -12,8 +12,7 @@
 
 /// Paths through panes: a ray that starts along one is refracted and reflected to its far end, and neighbouring rays
 /// fill the area that is said. Event sequences are drawn as often as is said.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::specular_slab_test {
 
 namespace {
 
@@ -266,3 +265,5 @@ TEST_CASE("specular paths: through a slab a light sees the shading point within 
   }
   CHECK(found > 1000);
 }
+
+}  // namespace tyndall::test::specular_slab_test

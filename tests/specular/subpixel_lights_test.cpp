@@ -12,8 +12,7 @@
 
 /// Subpixel lights: samples that are drawn within boxes keep every mean, and the boxes hold what the camera sees of
 /// lights.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::subpixel_lights_test {
 
 namespace {
 
@@ -167,3 +166,5 @@ TEST_CASE("subpixel lights: they lose no light and add little noise") {
     CHECK(with.variance < without.variance);  // with eight times fewer samples
   }
 }
+
+}  // namespace tyndall::test::subpixel_lights_test

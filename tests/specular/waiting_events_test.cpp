@@ -17,8 +17,7 @@
 
 /// What an event gets from specular light paths is a function of the event and the scene alone, to the last bit: not of
 /// the events that happened to wait beside it.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::waiting_events_test {
 
 namespace {
 
@@ -100,3 +99,5 @@ TEST_CASE("waiting events: each gets the same light beside any others as alone")
     CHECK(found.lit > found.events / 20);
   }
 }
+
+}  // namespace tyndall::test::waiting_events_test

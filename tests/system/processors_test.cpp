@@ -9,7 +9,7 @@
 
 #include <thread>
 
-using namespace tyndall;
+namespace tyndall::test::processors_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -130,3 +130,5 @@ TEST_CASE("processors: a thread that is bound to one processor gets one thread, 
   CHECK(bound.from == "affinity");
   CHECK(thread_pool == 1);
 }
+
+}  // namespace tyndall::test::processors_test

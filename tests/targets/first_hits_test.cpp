@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::first_hits_test {
 
 namespace {
 
@@ -124,3 +123,5 @@ TEST_CASE("first_hits: a box names the face that is seen, whichever way it is tu
       }
     }
 }
+
+}  // namespace tyndall::test::first_hits_test

@@ -7,8 +7,7 @@
 #include <vector>
 
 /// The books' ground is a sphere so large that single precision cannot tell exactly where its surface is.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::ground_test {
 
 namespace {
 
@@ -94,3 +93,5 @@ TEST_CASE("ground: with radius 1000 it lies below a plane by its curvature, to r
     CHECK(maximum < 2 * epsilon * radius);
   }
 }
+
+}  // namespace tyndall::test::ground_test

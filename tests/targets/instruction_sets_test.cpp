@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::instruction_sets_test {
 
 namespace {
 
@@ -131,3 +130,5 @@ TEST_CASE("instruction sets: the kernel over double follows the same paths, exce
     CHECK(a != b);  // or the kernel would not compute in double
   }
 }
+
+}  // namespace tyndall::test::instruction_sets_test

@@ -11,8 +11,7 @@
 #include <vector>
 
 /// A kernel that leaves models out gives, bit for bit, the picture of the full one.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::kernel_sets_test {
 
 namespace {
 
@@ -75,3 +74,5 @@ TEST_CASE("kernel sets: a scene gets the least that holds its models") {
   CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::specular_paths_only);
   CHECK(compile(load_scene("stress-caustic-shell").scene).kernel == KernelSet::everything);
 }
+
+}  // namespace tyndall::test::kernel_sets_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::render_tile_test {
 
 namespace {
 
@@ -256,3 +255,5 @@ TEST_CASE("render_unit: what a lamp or the sky sends that is no number or out of
     }
   }
 }
+
+}  // namespace tyndall::test::render_tile_test

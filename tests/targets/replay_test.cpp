@@ -10,8 +10,7 @@
 #include <limits>
 #include <map>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::replay_test {
 
 namespace {
 
@@ -156,3 +155,5 @@ TEST_CASE("replay: says what chains add, and how much a lamp counts that they fi
   scene.render.caustics = Caustics::scatter;
   CHECK(tell(scene) == std::pair{0, 0});
 }
+
+}  // namespace tyndall::test::replay_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::trace_test {
 
 namespace {
 
@@ -257,3 +256,5 @@ TEST_CASE("kernels: the list starts with scalar, grows in width, and is searched
   CHECK_FALSE(choose_kernels("avx3"));
   CHECK_FALSE(choose_kernels("AVX2"));
 }
+
+}  // namespace tyndall::test::trace_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
-using namespace tyndall;
+namespace tyndall::test::checker_test {
 
 namespace {
 
@@ -40,3 +40,5 @@ TEST_CASE("checker: coordinates too large to tell cells apart give one of the tw
     CHECK(odd == checker_odd(cell));
   }
 }
+
+}  // namespace tyndall::test::checker_test

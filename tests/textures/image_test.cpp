@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::image_test {
 
 namespace {
 
@@ -98,3 +98,5 @@ TEST_CASE("sphere uv: v from the south pole up, u eastwards from -x") {
   sphere_uv(Vec3f{-1, 0, 0}, u, v);
   CHECK((std::abs(u) < 1e-6f || std::abs(u - 1) < 1e-6f));
 }
+
+}  // namespace tyndall::test::image_test

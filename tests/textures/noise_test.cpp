@@ -7,7 +7,7 @@
 
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::noise_test {
 using Style = Noise<double>::Style;
 
 namespace {
@@ -125,3 +125,5 @@ TEST_CASE("noise: styles are grey values; marble waves across z and stays within
   CHECK(minimum < 0.01f);
   CHECK(maximum > 0.99f);
 }
+
+}  // namespace tyndall::test::noise_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::camera_test {
 
 namespace {
 
@@ -129,3 +128,5 @@ TEST_CASE("camera: without a lens all samples start at the centre, without a shu
   CHECK(std::abs(y - 0.5) < 4 * sigma);
   CHECK((minimum > -1e-3 && minimum < 1e-3 && maximum > 0.999 && maximum < 1.001));
 }
+
+}  // namespace tyndall::test::camera_test

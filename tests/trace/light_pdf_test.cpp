@@ -7,8 +7,7 @@
 #include <doctest/doctest.h>
 
 /// Directions to lights are drawn with the density that they are said to have, which integrates to 1.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::light_pdf_test {
 
 namespace {
 
@@ -110,3 +109,5 @@ TEST_CASE("light densities: several lights, few chosen by what they are worth, m
     check(lamps, {0.3, 0.5, 4}, {0, 0, 0}, cap_width(2.2, 4.04));
   }
 }
+
+}  // namespace tyndall::test::light_pdf_test

@@ -7,8 +7,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::lights_test {
 
 namespace {
 
@@ -145,3 +144,5 @@ TEST_CASE("lights: of a thousand alike, the one beside the point is asked most o
   CHECK(probability > 0.03f);
   CHECK(probability < 0.4f);
 }
+
+}  // namespace tyndall::test::lights_test

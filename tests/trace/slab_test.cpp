@@ -8,8 +8,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::slab_test {
 
 namespace {
 
@@ -128,3 +127,5 @@ TEST_CASE("slabs: a box beyond the limit, or behind, is not entered; one around 
   CHECK(enter(node, {0, 0, 0}, {0, 0, -1}) == infinity);
   CHECK(enter(node, {0, 0, 5}, {0, 0, 1}) == 0);
 }
+
+}  // namespace tyndall::test::slab_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-using namespace tyndall;
+namespace tyndall::test::child_test {
 
 namespace {
 
@@ -129,3 +129,5 @@ TEST_CASE("a child that waits for input is ended, where the system tells") {
   CHECK(seconds_of(plan, end) < 10);
   CHECK(end.awaited_input);
 }
+
+}  // namespace tyndall::test::child_test

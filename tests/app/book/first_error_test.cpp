@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::first_error_test {
 
 namespace {
 
@@ -57,3 +57,5 @@ TEST_CASE("what the linker misses, and what nobody understands") {
   CHECK(first_error("g++: out of luck\n", layout()) == "src/main.cc: cannot be compiled: g++: out of luck");
   CHECK(first_error("", layout()) == "src/main.cc: cannot be compiled: the compiler does not say why");
 }
+
+}  // namespace tyndall::test::first_error_test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-using namespace tyndall;
+namespace tyndall::test::load_program_test {
 
 namespace fs = std::filesystem;
 
@@ -51,3 +51,5 @@ TEST_CASE("a program that nobody waits for any more is given up, also while it i
   request.go_on = [] { return false; };
   CHECK_THROWS_AS(load_program(request), ProgramInterrupted);
 }
+
+}  // namespace tyndall::test::load_program_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::source_text_test {
 
 namespace {
 
@@ -79,3 +79,5 @@ TEST_CASE("sky: the blend of two colours, black where the camera has a backgroun
 }
 
 TEST_CASE("strings of one line") { CHECK(strings_of("f(\"a.png\"); \"open\n \"b\"") == Words{"a.png", "b"}); }
+
+}  // namespace tyndall::test::source_text_test

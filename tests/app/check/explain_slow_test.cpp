@@ -3,8 +3,7 @@
 #include <doctest/doctest.h>
 
 /// Many right pictures, none of which may be accused, and the planted mistakes.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::explain_slow_test {
 
 namespace {
 
@@ -104,3 +103,5 @@ TEST_CASE("check: of the planted mistakes all but one at most are named, and non
   }
   CHECK(named >= count - 1);
 }
+
+}  // namespace tyndall::test::explain_slow_test

@@ -5,8 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::explain_test {
 
 namespace {
 
@@ -73,3 +72,5 @@ TEST_CASE("check: a mistake that nobody knows is not given another's name, and t
   CHECK(json["explanation"].is_null());
   CHECK_FALSE(json["objects"].empty());
 }
+
+}  // namespace tyndall::test::explain_test

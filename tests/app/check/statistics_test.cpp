@@ -4,7 +4,7 @@
 
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::statistics_test {
 
 namespace {
 
@@ -95,3 +95,5 @@ TEST_CASE("check: where no bright sample happened to be met, the error is that o
   for (float& value : dark.variance) value = 0;
   CHECK(dark.misfit().different == dark.misfit().blocks);
 }
+
+}  // namespace tyndall::test::statistics_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <random>
 
-using namespace tyndall;
+namespace tyndall::test::merge_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -218,3 +218,5 @@ TEST_SUITE("merge command" * doctest::skip(!has_openexr())) {
     } while (std::next_permutation(parts.begin(), parts.end()));
   }
 }
+
+}  // namespace tyndall::test::merge_test

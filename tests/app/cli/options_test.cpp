@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::options_test {
 
 namespace {
 
@@ -284,3 +284,5 @@ TEST_CASE("help fits into 100 columns") {
     }
   }
 }
+
+}  // namespace tyndall::test::options_test

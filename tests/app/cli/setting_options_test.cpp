@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::setting_options_test {
 
 namespace {
 
@@ -86,3 +86,5 @@ TEST_CASE("setting options: the help says what to give, what it means and what i
   CHECK(help.find("[from the scene, else sobol]") != std::string::npos);
   CHECK(help.find("--open") == std::string::npos);
 }
+
+}  // namespace tyndall::test::setting_options_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <set>
 
-using namespace tyndall;
+namespace tyndall::test::verify_cases_test {
 
 namespace {
 
@@ -106,3 +106,5 @@ TEST_CASE("cases: every one of the table that comes with Tyndall has a scene tha
     CHECK_NOTHROW(load_scene(entry.path().string()));
   }
 }
+
+}  // namespace tyndall::test::verify_cases_test

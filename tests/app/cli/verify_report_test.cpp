@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-using namespace tyndall;
+namespace tyndall::test::verify_report_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("json: the same for machines") {
   CHECK(json["cases"][1]["verdict"] == "skipped");
   CHECK(json["passed"] == true);
 }
+
+}  // namespace tyndall::test::verify_report_test

@@ -12,8 +12,7 @@
 
 #include <OpenEXR/ImfStandardAttributes.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::pair_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -157,3 +156,5 @@ TEST_CASE("baseline: layers of EXR files, and parts of pictures") {
 }
 
 #endif
+
+}  // namespace tyndall::test::pair_test

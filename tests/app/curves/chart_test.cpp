@@ -10,8 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::chart_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -78,3 +77,5 @@ TEST_CASE("the live chart's curves become a table and a drawing that say what wa
   CHECK(svg.find("floor 0.004") != std::string::npos);
   CHECK_THROWS_AS(write_chart(chart, folder / "no" / "a-001.svg"), ImageFileError);
 }
+
+}  // namespace tyndall::test::chart_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::convergence_test {
 
 namespace {
 
@@ -125,3 +125,5 @@ TEST_CASE("for files curves are copied under their names, those without points a
   CHECK(copies[1].method == "B: path");
   CHECK(copies[1].points.size() == curves.current().points.size());
 }
+
+}  // namespace tyndall::test::convergence_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::curve_test {
 
 TEST_CASE("a curve is read between its points on logarithmic scales, and not beyond them") {
   ErrorCurve falling{"falling", {}};
@@ -70,3 +69,5 @@ TEST_CASE("chart: speeds are compared at the smallest error that both curves rea
   CHECK_FALSE(speed_against(slow, {"empty", {}}));
   CHECK_FALSE(speed_against({"exact", {{1, 0, 1, 0}}}, {"exact", {{1, 0, 1, 0}}}));
 }
+
+}  // namespace tyndall::test::curve_test

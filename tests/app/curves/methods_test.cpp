@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::methods_test {
 
 TEST_CASE("chart: the books' method first, each improvement in turn, what a scene has no use for left out") {
   const auto names = [](const char* scene) {
@@ -18,3 +18,5 @@ TEST_CASE("chart: the books' method first, each improvement in turn, what a scen
   for (const ChartMethod& m : default_methods(load_scene("cover").scene))
     CHECK((m.settings.adaptive == (m.name == "+ adaptive") && m.clean == (m.name == "+ clean (filtered)")));
 }
+
+}  // namespace tyndall::test::methods_test

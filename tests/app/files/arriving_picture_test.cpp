@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::arriving_picture_test {
 
 namespace {
 
@@ -127,3 +127,5 @@ TEST_CASE("arriving picture: what has no size is refused in one line") {
   pipe.close_writer();
   CHECK_FALSE(first_byte_of(pipe.reader()));
 }
+
+}  // namespace tyndall::test::arriving_picture_test

@@ -10,7 +10,7 @@
 #include <chrono>
 #include <thread>
 
-using namespace tyndall;
+namespace tyndall::test::checkpoint_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -155,3 +155,5 @@ TEST_CASE("checkpoints: one that fails is told once, leaves the one before it, a
   CHECK_FALSE(checkpoints.problem());
   CHECK(read_film(file) == film_of(2));
 }
+
+}  // namespace tyndall::test::checkpoint_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::memory_test {
 namespace fs = std::filesystem;
 
 TEST_CASE("memory: what the process's own group may still take is known, not only what the topmost group may") {
@@ -29,3 +29,5 @@ TEST_CASE("memory: what the process's own group may still take is known, not onl
   write_text(old / "memory.usage_in_bytes", "1400000\n");
   CHECK(free_memory(root).bytes == 100000);
 }
+
+}  // namespace tyndall::test::memory_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::open_scene_test {
 
 TEST_CASE("options change the scene after overrides") {
   SceneRequest request;
@@ -52,3 +52,5 @@ TEST_CASE("a program is compiled only where that is allowed") {
   request.program.allowed = true;
   CHECK_THROWS_WITH(open_scene(request), "nowhere/main.cc: found no such file, expected a C++ source file");
 }
+
+}  // namespace tyndall::test::open_scene_test

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-using namespace tyndall;
+namespace tyndall::test::outputs_test {
 
 namespace {
 
@@ -156,3 +156,5 @@ TEST_CASE(
   CHECK(problem("-", count) == "-: cannot write: Broken pipe");
   CHECK(calls == 1);
 }
+
+}  // namespace tyndall::test::outputs_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::watch_test {
 namespace fs = std::filesystem;
 
 TEST_CASE("a watched file tells of writing and of renaming over it, not of its neighbours") {
@@ -144,3 +144,5 @@ TEST_CASE("where the system opens no more files, nothing is watched, and that is
   REQUIRE(setrlimit(RLIMIT_NOFILE, &before) == 0);
   CHECK(problem == "Too many open files");
 }
+
+}  // namespace tyndall::test::watch_test

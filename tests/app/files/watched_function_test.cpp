@@ -9,7 +9,7 @@
 #include <thread>
 
 /// A caller's function: what it computes, and what is told where it cannot.
-using namespace tyndall;
+namespace tyndall::test::watched_function_test {
 
 namespace {
 
@@ -67,3 +67,5 @@ TEST_CASE("watched function: each reason") {
         "no reason was given");
   std::thread([] { CHECK_FALSE(WatchedFunction::fail("no sample of a picture")); }).join();
 }
+
+}  // namespace tyndall::test::watched_function_test

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::page_test {
 
 namespace {
 
@@ -56,3 +56,5 @@ TEST_CASE("version: the compiler, all targets of this build, the libraries") {
   for (const Target target : available_targets()) CHECK(has(text, std::string(" ") + name_of(target)));
   CHECK(has(text, "\nlibraries  CLI11 "));
 }
+
+}  // namespace tyndall::test::page_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::contents_test {
 
 namespace {
 
@@ -43,3 +43,5 @@ TEST_CASE("contents: something moves only while the shutter is open") {
   CHECK(contents_of(read(moving, R"(,"background":{"type":"hemispheres","up":[1,1,1],"down":[0,0,0]})")).background ==
         "hemispheres");
 }
+
+}  // namespace tyndall::test::contents_test

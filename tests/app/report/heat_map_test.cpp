@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::heat_map_test {
 
 namespace {
 
@@ -58,3 +58,5 @@ TEST_CASE("heat: what is not a number stands out") {
   CHECK(bad[1] > 0.9f);
   CHECK(bad[0] + bad[2] < 0.1f);
 }
+
+}  // namespace tyndall::test::heat_map_test

@@ -9,8 +9,7 @@
 
 /// What users are told about the kernel that renders their scene: how much faster it is than the full kernel, or that
 /// there is only the full kernel.
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::kernel_gain_test {
 
 TEST_CASE("kernel gain: nothing is measured where the full kernel renders the scene") {
   const auto box = prepare(load_scene("cornell-box").scene);
@@ -39,3 +38,5 @@ TEST_CASE("kernel gain: a set's own kernel is compared with the full one and giv
   CHECK(gain.minimum <= gain.gain);
   CHECK(gain.gain <= gain.maximum);
 }
+
+}  // namespace tyndall::test::kernel_gain_test

@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::method_gain_test {
 
 TEST_CASE("method gain: chains take longer and leave far less error; without them nothing is measured") {
   const MethodGain shell = measure_specular_gain(small_scene("stress-bulb", 48, 36, 1), "");
@@ -25,3 +24,5 @@ TEST_CASE(
   CHECK(box.error < 0.8);
   CHECK_FALSE(measure_reuse_gain(small_scene("cover", 48, 36, 1), "").measured);
 }
+
+}  // namespace tyndall::test::method_gain_test

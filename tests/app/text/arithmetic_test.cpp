@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::arithmetic_test {
 
 TEST_CASE("sums have the usual order") {
   CHECK(*evaluate("1/4") == 0.25);
@@ -28,3 +28,5 @@ TEST_CASE("what is no sum has no value") {
   CHECK_FALSE(evaluate(std::string(100000, '(')).has_value());
   CHECK_FALSE(evaluate(std::string(100000, '-')).has_value());
 }
+
+}  // namespace tyndall::test::arithmetic_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::markup_test {
 
 TEST_CASE("markup: references for what begins or ends something") {
   CHECK(in_xml("a < b > \"c\" & 'd' ]]>") == "a &lt; b &gt; &quot;c&quot; &amp; &#39;d&#39; ]]&gt;");
@@ -13,3 +13,5 @@ TEST_CASE("markup: what XML cannot hold, not even as a reference, becomes text")
   CHECK(in_xml("a\n\x01\x1b\xff\xed\xa0\x80") == "a\\n\\u0001\\u001b\\xff\\xed\\xa0\\x80");
   CHECK(in_html("\xef\xbf\xbe Grüße") == "\\ufffe Grüße");
 }
+
+}  // namespace tyndall::test::markup_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::numbers_test {
 
 TEST_CASE("a slider's position gives a value, and the value gives the position back") {
   const Slider fuzz{0, 1}, density{0.001, 100, true};
@@ -101,3 +101,5 @@ TEST_CASE("finer drags and sliders give a digit more") {
   CHECK(slider_value({0, 1}, 0.12345, 0, 1) == 0.1235);
   CHECK(dragged({0, 1}, 0.5, 0.5, 1) == 0.5013);
 }
+
+}  // namespace tyndall::test::numbers_test

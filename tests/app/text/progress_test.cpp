@@ -4,7 +4,7 @@
 
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::progress_test {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -42,3 +42,5 @@ TEST_CASE("the line says what is known and leaves out what is not") {
   CHECK(progress_text({0, 1, 0, infinity}, {.spp = 64}) == "0/64 spp, 1.0 s");
   CHECK(progress_text({7, 3, 2, infinity}, {}) == "7 spp, 2 Mrays/s, 3.0 s");
 }
+
+}  // namespace tyndall::test::progress_test

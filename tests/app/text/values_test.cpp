@@ -4,7 +4,7 @@
 
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::values_test {
 
 namespace {
 
@@ -74,3 +74,5 @@ TEST_CASE("names: a near miss gets a suggestion") {
           read_name("zzz", {"exact", "schlick"});
         }) == R"(found "zzz", expected one of "exact", "schlick")");
 }
+
+}  // namespace tyndall::test::values_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-using namespace tyndall;
+namespace tyndall::test::palette_list_test {
 
 namespace {
 
@@ -233,3 +233,5 @@ TEST_CASE("the arrow keys go through the choices of a row that was gone to, unti
   column.press(ImGuiKey_DownArrow);
   CHECK(std::get<Solid3d>(column.state.scene.objects[0].kind).material == 1);
 }
+
+}  // namespace tyndall::test::palette_list_test

@@ -9,7 +9,7 @@
 #include <malloc.h>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::random_edits_slow_test {
 
 TEST_CASE("12,000 random edits: the picture is that of the saved scene, and memory does not grow with them") {
   // Without a screen this process has 13 MB, and holes that edits leave in its heap come and go by up to 1.3 MB. So
@@ -29,3 +29,5 @@ TEST_CASE("12,000 random edits: the picture is that of the saved scene, and memo
   MESSAGE("kB after 1,000 edits: ", median(early) / 1000, ", after 10,000: ", median(late) / 1000);
   CHECK(median(late) - median(early) < 2e6);
 }
+
+}  // namespace tyndall::test::random_edits_slow_test

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-using namespace tyndall;
+namespace tyndall::test::session_accuracy_test {
 using test::OpenedSession;
 namespace fs = std::filesystem;
 
@@ -108,3 +108,5 @@ TEST_CASE("a reference that is being rendered is given up when the scene changes
   REQUIRE(opened.comes_true([&] { return !opened.session->references().busy(); }));
   CHECK_FALSE(opened.session->accuracy().reference());
 }
+
+}  // namespace tyndall::test::session_accuracy_test

@@ -5,7 +5,7 @@
 
 #include <mutex>
 
-using namespace tyndall;
+namespace tyndall::test::session_edits_test {
 using test::OpenedSession;
 
 TEST_CASE("an edit goes to the renderer, the same value again does not") {
@@ -92,3 +92,5 @@ TEST_CASE("an edit that breaks the scene is refused with a reason, which goes aw
   opened.set_fuzz(0.75);
   CHECK(opened.session->messages().current().text.empty());
 }
+
+}  // namespace tyndall::test::session_edits_test

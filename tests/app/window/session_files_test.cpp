@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-using namespace tyndall;
+namespace tyndall::test::session_files_test {
 using test::OpenedSession;
 namespace fs = std::filesystem;
 
@@ -371,3 +371,5 @@ TEST_CASE("a damaged file of preferences that cannot be moved is not said to be 
   else
     unsetenv("XDG_CONFIG_HOME");
 }
+
+}  // namespace tyndall::test::session_files_test

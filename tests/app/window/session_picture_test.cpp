@@ -5,7 +5,7 @@
 
 #include <array>
 
-using namespace tyndall;
+namespace tyndall::test::session_picture_test {
 using test::OpenedSession;
 
 namespace {
@@ -106,3 +106,5 @@ TEST_CASE("another scene takes a picture's place, and undo brings it back") {
   CHECK(opened.session->shows_picture());
   CHECK(opened.shows({1, 0, 1, 0}));
 }
+
+}  // namespace tyndall::test::session_picture_test

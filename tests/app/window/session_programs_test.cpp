@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-using namespace tyndall;
+namespace tyndall::test::session_programs_test {
 using test::OpenedSession;
 namespace fs = std::filesystem;
 
@@ -144,3 +144,5 @@ TEST_CASE("no other program is compiled: dropped, from the list of recent files,
   opened.session->editor().open(fs::absolute("main.cc").string());  // the one that was named
   REQUIRE(opened.comes_true([&] { return MarkedCompiler::was_called(); }));
 }
+
+}  // namespace tyndall::test::session_programs_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::status_test {
 
 namespace {
 
@@ -138,3 +138,5 @@ TEST_CASE("the status line of a picture that a program writes tells how much is 
       text_of(status_cells(&frame, run, document(), {.is_true = true, .arrived = "all 30 rows"}));
   CHECK(compared.find("true error=1 %;") != std::string::npos);
 }
+
+}  // namespace tyndall::test::status_test

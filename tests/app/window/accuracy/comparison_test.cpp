@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-using namespace tyndall;
+namespace tyndall::test::comparison_test {
 
 namespace {
 
@@ -96,3 +96,5 @@ TEST_CASE("work keeps to its share of the processors") {
   fraction.renew();
   CHECK(fraction.due(0));
 }
+
+}  // namespace tyndall::test::comparison_test

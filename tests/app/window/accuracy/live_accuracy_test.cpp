@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::live_accuracy_test {
 
 namespace {
 
@@ -192,3 +192,5 @@ TEST_CASE("while it renders, a new picture is not always measured at once") {
   CHECK(show_and_measure(1.6) == 3);
   CHECK(show_and_measure(1.61) == 3);
 }
+
+}  // namespace tyndall::test::live_accuracy_test

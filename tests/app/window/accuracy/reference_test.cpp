@@ -13,7 +13,7 @@
 #include <fstream>
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::reference_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -182,3 +182,5 @@ TEST_CASE("a reference is rendered with other random numbers, and can be stopped
   CHECK(other->image.rgb != reference->image.rgb);
   CHECK_FALSE(rendered_reference(order, [](std::uint32_t) { return false; }));
 }
+
+}  // namespace tyndall::test::reference_test

@@ -6,7 +6,7 @@
 
 #include <set>
 
-using namespace tyndall;
+namespace tyndall::test::actions_test {
 
 namespace {
 
@@ -56,3 +56,5 @@ TEST_CASE("the help table tells of every action and every view") {
   for (const ActionEntry& entry : actions())
     if (entry.key.code != 0) CHECK_MESSAGE(all.find(entry.name) != std::string::npos, entry.name);
 }
+
+}  // namespace tyndall::test::actions_test

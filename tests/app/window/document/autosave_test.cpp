@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::autosave_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -302,3 +302,5 @@ TEST_CASE("edits of a scene whose file is gone: the last line promises no start 
         "the edits of scene.json are kept, and so are others; each start without a scene brings "
         "back the newest that no window has");
 }
+
+}  // namespace tyndall::test::autosave_test

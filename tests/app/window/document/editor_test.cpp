@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::editor_test {
 
 TEST_CASE("two scenes give the same picture if they differ in name and display only") {
   Scene a, b;
@@ -12,3 +12,5 @@ TEST_CASE("two scenes give the same picture if they differ in name and display o
   b.camera.vfov = 50;
   CHECK_FALSE(same_picture(a, b));
 }
+
+}  // namespace tyndall::test::editor_test

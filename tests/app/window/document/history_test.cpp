@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::history_test {
 
 namespace {
 
@@ -156,3 +156,5 @@ TEST_CASE("each step has its own selection, which undo and redo bring back, and 
   history.record(one, 0);
   CHECK(history.selection().empty());
 }
+
+}  // namespace tyndall::test::history_test

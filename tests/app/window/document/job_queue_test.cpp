@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::job_queue_test {
 
 TEST_CASE("jobs run in order elsewhere, results here, and none is lost at the end") {
   std::vector<int> order;
@@ -39,3 +39,5 @@ TEST_CASE("jobs run in order elsewhere, results here, and none is lost at the en
   }
   CHECK(ran == 6);
 }
+
+}  // namespace tyndall::test::job_queue_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <semaphore>
 
-using namespace tyndall;
+namespace tyndall::test::numbered_files_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -89,3 +89,5 @@ TEST_CASE("no file is overwritten that another window or program has written sin
   CHECK(second.next_base("a").filename() == "a-004");
   fs::current_path(before);
 }
+
+}  // namespace tyndall::test::numbered_files_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::object_path_test {
 
 namespace {
 
@@ -42,3 +42,5 @@ TEST_CASE("an object without a name that changed while its list grew is where it
   after.objects = {ball("", 9), ball("", 1), ball("", 8), ball("", 2)};
   CHECK(paths_after(before, after, {{2}, {1}}) == ObjectPaths{{3}, {1}});
 }
+
+}  // namespace tyndall::test::object_path_test

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-using namespace tyndall;
+namespace tyndall::test::open_document_test {
 namespace fs = std::filesystem;
 
 TEST_CASE("comments are found, slashes in strings are none") {
@@ -48,3 +48,5 @@ TEST_CASE("titles are one line, and names for snapshots leave room for numbers a
   for (int k = 0; k < 125; ++k) long_title += "ä", long_stem += k < 100 ? "ä" : "";
   CHECK(stem_of(long_title) == long_stem + "…");
 }
+
+}  // namespace tyndall::test::open_document_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::send_timer_test {
 
 TEST_CASE("an edit is sent when the picture before was seen, and after 0.4 s in any case") {
   SendTimer timer;
@@ -20,3 +20,5 @@ TEST_CASE("an edit is sent when the picture before was seen, and after 0.4 s in 
   CHECK_FALSE(timer.waits());
   CHECK_FALSE(timer.due(true, 9));
 }
+
+}  // namespace tyndall::test::send_timer_test

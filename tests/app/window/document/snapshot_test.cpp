@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-using namespace tyndall;
+namespace tyndall::test::snapshot_test {
 namespace fs = std::filesystem;
 
 TEST_CASE("a snapshot opens again as the scene that made it") {
@@ -48,3 +48,5 @@ TEST_CASE("a film is waited for, but not when the picture changed or the window 
   requested = 0;
   CHECK(wait_for_film(late, yes, no).pixels.empty());
 }
+
+}  // namespace tyndall::test::snapshot_test

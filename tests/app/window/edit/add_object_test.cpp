@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::add_object_test {
 
 namespace {
 
@@ -74,3 +74,5 @@ TEST_CASE("a spot is on the side of the surface that is seen, and as large as su
   const Spot in_air = spot_at(scene, {0.5, 0.5}, {}, {});
   CHECK(length(in_air.point - Vec3d{0, 1, 0}) < 1e-9);
 }
+
+}  // namespace tyndall::test::add_object_test

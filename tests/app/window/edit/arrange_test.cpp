@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::arrange_test {
 
 namespace {
 
@@ -80,3 +80,5 @@ TEST_CASE("a shape that is not in the middle of its frame turns about its own mi
   CHECK(length(middle_of(scene, {0}) - whole) < 1e-3);
   CHECK(angle_of(scene, {0}) == 130);
 }
+
+}  // namespace tyndall::test::arrange_test

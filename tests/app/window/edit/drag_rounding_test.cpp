@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::drag_rounding_test {
 
 TEST_CASE("grains are 1, 2 or 5 times a power of ten, and never larger than asked for") {
   CHECK(nice_below(0.7).size() == 0.5);
@@ -26,3 +26,5 @@ TEST_CASE("rounded numbers are those that a person would type") {
   CHECK(without_noise(1e-7 / 3) == doctest::Approx(1e-7 / 3).epsilon(1e-11).scale(0));
   CHECK(without_noise(0) == 0);
 }
+
+}  // namespace tyndall::test::drag_rounding_test

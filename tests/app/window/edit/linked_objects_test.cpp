@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::linked_objects_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("nothing adds up over the drawings of a drag: the companions follow fr
   start.finish_edit(now, next, 5);
   CHECK(next == before);
 }
+
+}  // namespace tyndall::test::linked_objects_test

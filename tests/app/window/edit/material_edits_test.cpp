@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::material_edits_test {
 
 namespace {
 
@@ -156,3 +156,5 @@ TEST_CASE("a background of another kind has the present colours, and its own whe
   set_background_kind(background, place_in<Gradient, Background>, memory);
   CHECK(background == Background(Gradient{{1, 1, 1}, {0.5, 0.7, 1}}));
 }
+
+}  // namespace tyndall::test::material_edits_test

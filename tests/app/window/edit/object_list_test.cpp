@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::object_list_test {
 
 namespace {
 
@@ -73,3 +73,5 @@ TEST_CASE("deleting takes companions along, and materials that only the window h
   CHECK(delete_objects(kept, {{1}}, kept.materials) == 2);
   CHECK(kept.materials.size() == 2);
 }
+
+}  // namespace tyndall::test::object_list_test

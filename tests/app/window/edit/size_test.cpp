@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-using namespace tyndall;
+namespace tyndall::test::size_test {
 
 namespace {
 
@@ -67,3 +67,5 @@ TEST_CASE("groups have no grips") {
   CHECK(size_grips(scene, {0}, {0, 1, 0}).empty());
   CHECK(size_grips(scene, {3}, {0, 1, 0}).empty());
 }
+
+}  // namespace tyndall::test::size_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <map>
 
-using namespace tyndall;
+namespace tyndall::test::gallery_test {
 
 namespace fs = std::filesystem;
 
@@ -121,3 +121,5 @@ TEST_CASE("recent files: the newest first, each once, only those that are there;
   CHECK_NOTHROW(add_recent_file(folder / "0.json" / "list", files[1]));
   CHECK_NOTHROW(add_recent_file({}, files[1]));
 }
+
+}  // namespace tyndall::test::gallery_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::handle_drag_test {
 
 namespace {
 
@@ -199,3 +199,5 @@ TEST_CASE("from wherever a box is seen, its grips keep off the arrows, and both 
         }
       }
 }
+
+}  // namespace tyndall::test::handle_drag_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::handle_tool_test {
 
 namespace {
 
@@ -182,3 +182,5 @@ TEST_CASE("where the middle is not in the picture, handles are where the object 
   hand.tool.clicked(hand.scene, {0}, {1, -1, 0});
   CHECK(hand.tool.origin(hand.scene, frame, hand.selected) == Vec3d{1, -1, 0});
 }
+
+}  // namespace tyndall::test::handle_tool_test

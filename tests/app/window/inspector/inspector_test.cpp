@@ -12,8 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace tyndall;
-using namespace tyndall::test;
+namespace tyndall::test::inspector_test {
 
 TEST_CASE("the noisy path of a pixel is its brightest sample, and its stops lead from the camera to the light") {
   Scene scene = load_scene("cornell-box").scene;
@@ -134,3 +133,5 @@ TEST_CASE("a rectangle is drawn from corner to corner in any direction; a click 
   CHECK(draw(250, 150, 999, 999) == Region{300, 100, 400, 200});
   CHECK(draw(150, 150, 151, 151) == Region{});
 }
+
+}  // namespace tyndall::test::inspector_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::palette_test {
 
 namespace {
 
@@ -133,3 +133,5 @@ TEST_CASE("what was typed into a palette that was closed cannot be undone in a l
   drawn.enter();
   CHECK(drawn.chosen == Request{Action::undo});
 }
+
+}  // namespace tyndall::test::palette_test

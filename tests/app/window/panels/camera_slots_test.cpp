@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::camera_slots_test {
 
 TEST_CASE("stored cameras: the next one follows the present one, round and round") {
   Camera front, side;
@@ -51,3 +51,5 @@ TEST_CASE("the small picture of a camera: means of what is shown, in the picture
   frame.beauty = frame.rgba;
   CHECK(small_picture(frame, {}, width, height) == rgb);
 }
+
+}  // namespace tyndall::test::camera_slots_test

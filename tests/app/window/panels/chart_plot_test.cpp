@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::chart_plot_test {
 
 namespace {
 
@@ -64,3 +64,5 @@ TEST_CASE("names stand side by side while there is room, then in rows beneath") 
   REQUIRE(rows.size() == std::size(expected));
   for (std::size_t i = 0; i < rows.size(); ++i) CHECK(rows[i] == expected[i]);
 }
+
+}  // namespace tyndall::test::chart_plot_test

@@ -1,6 +1,6 @@
 #include "tests/app/window/panels/column.h"
 
-using namespace tyndall;
+namespace tyndall::test::column_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("theme and text size are chosen in the column") {
   column.click("window.text.125");
   CHECK(column.state.look.text_size == 1.25);
 }
+
+}  // namespace tyndall::test::column_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::grammar_test {
 
 namespace {
 
@@ -197,3 +197,5 @@ TEST_CASE("Esc takes a drag back, of sliders and of numbers, and the mouse chang
     CHECK(column.ui.edit.id == 0);
   }
 }
+
+}  // namespace tyndall::test::grammar_test

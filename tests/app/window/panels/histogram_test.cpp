@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-using namespace tyndall;
+namespace tyndall::test::histogram_test {
 
 namespace {
 
@@ -41,3 +41,5 @@ TEST_CASE("histogram: of a large picture a part of the pixels is counted, from a
   CHECK(histogram.pixels < 20000);
   CHECK(histogram.white == doctest::Approx(0.25).epsilon(0.02).scale(0));
 }
+
+}  // namespace tyndall::test::histogram_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::meaning_test {
 
 TEST_CASE("the light that fuzz loses is metal_survival averaged over the cosine") {
   for (const double fuzz : {0.05, 0.18, 0.5, 1.0}) {
@@ -72,3 +72,5 @@ TEST_CASE("labels name fields in plain words") {
   CHECK(label_of("g") == "Asymmetry g");
   CHECK(label_of("vfov") == "Field of view");
 }
+
+}  // namespace tyndall::test::meaning_test

@@ -1,6 +1,6 @@
 #include "tests/app/window/panels/column.h"
 
-using namespace tyndall;
+namespace tyndall::test::objects_panel_test {
 
 namespace {
 
@@ -97,3 +97,5 @@ TEST_CASE("the wheel scrolls the list under the mouse; at its end, and where it 
   roll(1);  // and on with the column
   CHECK(column.rect("objects.1").y0 > before.y0);
 }
+
+}  // namespace tyndall::test::objects_panel_test

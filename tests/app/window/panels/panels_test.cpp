@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::panels_test {
 
 TEST_CASE("a new user finds fuzz, refractive index and density at once") {
   const Column column;
@@ -223,3 +223,5 @@ TEST_CASE("the column can be drawn at any size, over an empty scene too") {
     for (int k = 0; k < 2; ++k) small.frame([&] { draw_column(ui, column.state, rect); });
   CHECK(ui.problem.empty());
 }
+
+}  // namespace tyndall::test::panels_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::look_test {
 
 namespace {
 
@@ -57,3 +57,5 @@ TEST_CASE("a look: where there is no light, and where it is not a number, stops 
   CHECK(shown({0, -1, std::nanf(""), 1}, {.stops = true}) == Bytes{0, 0, 0, 255});
   CHECK(shown({infinity, infinity, infinity, 1}, {.exposure = 100, .stops = true}) == band(brightest_stop));
 }
+
+}  // namespace tyndall::test::look_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
-using namespace tyndall;
+namespace tyndall::test::zoom_test {
 
 namespace {
 
@@ -73,3 +73,5 @@ TEST_CASE("zoom: actual size is one pixel for each of the screen's, on whole pix
     CHECK(zoom.fits());
   }
 }
+
+}  // namespace tyndall::test::zoom_test

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::split_view_test {
 
 TEST_CASE("the divider is taken near its line only, within the image") {
   const Rect image{100, 50, 500, 250};
@@ -56,3 +56,5 @@ TEST_CASE("the divider follows the mouse that took it, also where its press is s
   CHECK_FALSE(divider.follow(mouse, image, false, 6));  // something else has the mouse
   CHECK(divider.x(image) == doctest::Approx(150));
 }
+
+}  // namespace tyndall::test::split_view_test

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::thread_budget_test {
 
 namespace {
 
@@ -137,3 +137,5 @@ TEST_CASE("a renderer that has finished does not keep the other one waiting") {
       CHECK(next_active(now, {1, false}, {9, true}, together) == Active::both);
     }
 }
+
+}  // namespace tyndall::test::thread_budget_test

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::fonts_test {
 
 TEST_CASE("what Latin, Greek and Cyrillic fonts do not have is asked for once; broken text is no error") {
   Characters more;
@@ -24,3 +24,5 @@ TEST_CASE("fonts are loaded with and without further characters, at any size") {
     CHECK(fonts.mono->FindGlyphNoFallback('0') != nullptr);
   }
 }
+
+}  // namespace tyndall::test::fonts_test

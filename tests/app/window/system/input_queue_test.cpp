@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-using namespace tyndall;
+namespace tyndall::test::input_queue_test {
 
 namespace {
 
@@ -265,3 +265,5 @@ TEST_CASE("the focus is lost once a frame has seen what came before") {
   queue.push(key('S', GLFW_RELEASE));
   CHECK(frames_of(queue) == "k|fk|");
 }
+
+}  // namespace tyndall::test::input_queue_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-using namespace tyndall;
+namespace tyndall::test::pacing_test {
 
 TEST_CASE("as long as nothing happens nothing is drawn") {
   Pacing pacing;
@@ -112,3 +112,5 @@ TEST_CASE("no size is too small for a layout") {
       }
     }
 }
+
+}  // namespace tyndall::test::pacing_test

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-using namespace tyndall;
+namespace tyndall::test::preferences_test {
 
 TEST_CASE("preferences: what was written is read; what is not said has its default") {
   const auto folder = scratch_folder("preferences_test");
@@ -49,3 +49,5 @@ TEST_CASE("preferences: texts grow and shrink by steps, up to the ends") {
   CHECK(stepped_text_size(2, 1) == 2);
   CHECK(stepped_text_size(0.8, -1) == 0.8);
 }
+
+}  // namespace tyndall::test::preferences_test

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-using namespace tyndall;
+namespace tyndall::test::ui_log_test {
 namespace fs = std::filesystem;
 
 TEST_CASE("the log says what changed, and at the end how long things took") {
@@ -60,3 +60,5 @@ TEST_CASE("the log says what changed, and at the end how long things took") {
         "cpu picture n 1 p50 2.0 p95 2.0 p99 2.0 max 2.0 ms\ncpu plain n 0 p50 0.0 p95 0.0 p99 0.0 max 0.0 ms\n");
   CHECK_THROWS_AS(UiLog("/no/such/folder/log"), std::exception);
 }
+
+}  // namespace tyndall::test::ui_log_test

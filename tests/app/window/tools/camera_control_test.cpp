@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-using namespace tyndall;
+namespace tyndall::test::camera_control_test {
 
 namespace {
 
@@ -137,3 +137,5 @@ TEST_CASE("cameras stay readable: six digits of the distance, also far from the 
   far.look_at = far.look_at + Vec3d{1e6, 0, 0};
   CHECK(valid(orbit(far, 0.5, 0.5)));
 }
+
+}  // namespace tyndall::test::camera_control_test

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-using namespace tyndall;
+namespace tyndall::test::flight_test {
 
 TEST_CASE("flight keys are three opposite pairs") {
   for (const auto& [plus, minus] : {std::pair{'D', 'A'}, {'E', 'Q'}, {'W', 'S'}}) {
@@ -86,3 +86,5 @@ TEST_CASE("a button that is pressed while the wheel still turns is a step of its
   gestures.update(Gesture::wheel);
   CHECK(gestures.current() != key);
 }
+
+}  // namespace tyndall::test::flight_test

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace tyndall;
+namespace tyndall::test::pointer_test {
 
 namespace {
 
@@ -174,3 +174,5 @@ TEST_CASE("clicks are at one place if the mouse and the camera have stayed") {
   camera.vfov = 50;
   CHECK_FALSE(place.again(30, 10, 1, camera));
 }
+
+}  // namespace tyndall::test::pointer_test

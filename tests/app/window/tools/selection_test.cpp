@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tyndall;
+namespace tyndall::test::selection_test {
 
 namespace {
 
@@ -170,3 +170,5 @@ TEST_CASE("what a projection shows at a point lies on the line of sight through 
   CHECK(projection.depth_of(point) == doctest::Approx(8));
   CHECK_FALSE(projection.point({0, 0, 11}).has_value());
 }
+
+}  // namespace tyndall::test::selection_test
