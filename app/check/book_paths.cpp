@@ -174,9 +174,15 @@ class BookPaths {
     const bool loses_time = rules_.time == TimeRule::lost || (rules_.time == TimeRule::lost_by_matt && matt);
     p.throughput = p.throughput * colour;
     p.ray = {at.point, out.direction, loses_time ? 0 : p.ray.time, 4 * at.element + (inside ? 1 : 0)};
+    if (loses_time && moves(at.element)) p.ray.from = from_nowhere;  // the ball has jumped, and can be met again
     p.length = out.length;
     p.at_surface = rules_.meets_itself && p.sampler.next_1d(dimension::near_pair) < 0.5f;
     return true;
+  }
+
+  bool moves(std::int32_t element) const {
+    return s_.features.moving_spheres &&
+           (s_.move_x[element] != 0 || s_.move_y[element] != 0 || s_.move_z[element] != 0);
   }
 
   BookDirection scatter(const BookPath& p, const SurfacePoint<float>& at, std::int32_t kind,

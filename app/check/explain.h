@@ -1,9 +1,5 @@
 #pragma once
-#include "app/check/objects.h"
-#include "app/check/reading.h"
-#include "app/check/reference.h"
-#include "app/check/rules.h"
-#include "app/check/statistics.h"
+#include "app/check/expectation.h"
 
 #include <functional>
 #include <optional>
@@ -20,7 +16,9 @@ struct Explanation {
 
 /// What is found about a picture.
 struct Findings {
-  bool agrees = false;               ///< the picture differs from the scene by noise and by `choices` alone
+  bool agrees = false;  ///< the picture differs from the scene by noise and by `choices` alone
+  /// It cannot be told whether they agree: programs of the books find the scene's light too seldom.
+  bool unknown = false;
   std::vector<Explanation> choices;  ///< by which the program does things otherwise, none of which is a mistake
   /// The mistake that explains the difference; nothing: none does, or the picture agrees.
   std::optional<Explanation> mistake;
@@ -33,18 +31,10 @@ struct Findings {
   bool out_of_time = false;               ///< something was not tried
 };
 
-struct CheckOptions {
-  double seconds = 20;  ///< for all of it, but for what is needed for any answer
-  int threads = 0;      ///< 0: see thread_count()
-};
-
-/// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
-/// of this scene at all.
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threads);
-
-/// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; started: for the time.
+/// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; go_on: asked now and then;
+/// after it has said false no more is tried.
 Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
-                const CheckOptions& options, const std::function<bool()>& go_on);
+                 const CheckOptions& options, const std::function<bool()>& go_on);
 
 /// Whether a mistake that explains so much of a difference may be named.
 inline constexpr double min_explained = 0.8;

@@ -1,21 +1,17 @@
 #include "app/check/objects.h"
 
-#include "app/check/statistics.h"
 #include "app/report/replay.h"
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 namespace tyndall {
 namespace {
 
-constexpr int min_object_pixels = 12;
-constexpr double object_limit = 5.5;  // standard errors: there may be hundreds of objects, of few pixels each
-constexpr float seen_depth = 0.1f;    // optical depth of a medium that is seen before what lies behind it
+constexpr float seen_depth = 0.1f;  // optical depth of a medium that is seen before what lies behind it
 
 /// The medium that most of the light through the middle of a pixel comes from; -1: none that can be seen.
 int seen_medium(const SceneView& view, int x, int y, float distance) {
@@ -71,7 +67,9 @@ class Labels {
  public:
   Labels(const Scene& scene, const RenderScene& columns) : scene_(scene), columns_(columns) {
     objects.push_back({"the sky", "sky"});
+    for (const std::vector<int>& path : media_of(scene)) objects.push_back(describe(scene, path));
   }
+  static int of_medium(int medium) { return 1 + medium; }
   int of_element(std::int32_t element) {
     if (element < 0) return 0;
     const std::int32_t object = columns_.elements.object[static_cast<std::size_t>(element)];
@@ -102,30 +100,6 @@ void find_interior(SeenObjects& seen, const Lattice& lattice) {
     }
 }
 
-struct ObjectSums {
-  int pixels = 0;
-  std::array<double, 3> image{}, expected{}, squares{}, variance{}, tolerance{};
-};
-
-ObjectDifference difference_of(int object, const ObjectSums& sums) {
-  ObjectDifference result{object, sums.pixels, {}, {}, false};
-  const double n = sums.pixels;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double off = (sums.image[c] - sums.expected[c]) / n;
-    const double scatter = std::max(0.0, sums.squares[c] - off * off * n) / (n - 1);
-    const double error = std::sqrt(std::max(scatter, sums.variance[c] / n) / n);
-    if (std::abs(off) > sums.tolerance[c] / n + object_limit * error) result.different = true;
-  }
-  result.image = {sums.image[0] / n, sums.image[1] / n, sums.image[2] / n};
-  result.expected = {sums.expected[0] / n, sums.expected[1] / n, sums.expected[2] / n};
-  return result;
-}
-
-double amount(const ObjectDifference& d) {
-  const Vec3d off = d.image - d.expected;
-  return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
-}
-
 }  // namespace
 
 SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
@@ -139,7 +113,7 @@ SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const S
       const FirstHit& hit = hits[static_cast<std::size_t>(x)];
       const float distance = hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth;
       const int medium = seen_medium(view, x, y, distance);
-      seen.of_pixel.push_back(labels.of_element(medium < 0 ? hit.element : view.media[medium].first));
+      seen.of_pixel.push_back(medium < 0 ? labels.of_element(hit.element) : Labels::of_medium(medium));
     }
   }
   seen.objects = std::move(labels.objects);
@@ -147,26 +121,12 @@ SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const S
   return seen;
 }
 
-std::vector<ObjectDifference> object_differences(const ComparedPixels& p, const SeenObjects& seen) {
-  std::vector<ObjectSums> sums(seen.objects.size());
-  for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel) {
-    if (!seen.interior[pixel]) continue;
-    ObjectSums& sum = sums[static_cast<std::size_t>(seen.of_pixel[pixel])];
-    ++sum.pixels;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = 3 * pixel + c;
-      const double image = static_cast<double>(p.light[at]), expected = static_cast<double>(p.expected[at]);
-      sum.image[c] += image, sum.expected[c] += expected;
-      sum.squares[c] += (image - expected) * (image - expected);
-      sum.variance[c] += static_cast<double>(p.variance[at]), sum.tolerance[c] += static_cast<double>(p.tolerance[at]);
-    }
-  }
-  std::vector<ObjectDifference> result;
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    if (sums[k].pixels >= min_object_pixels) result.push_back(difference_of(static_cast<int>(k), sums[k]));
-  std::sort(result.begin(), result.end(),
-            [](const ObjectDifference& a, const ObjectDifference& b) { return amount(a) > amount(b); });
-  return result;
+Regions regions_of(const SeenObjects& seen) {
+  Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
+  for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
+    if (!seen.interior[pixel] || seen.objects[static_cast<std::size_t>(seen.of_pixel[pixel])].noisy_texture)
+      regions.of_pixel[pixel] = -1;
+  return regions;
 }
 
 }  // namespace tyndall

@@ -1,12 +1,13 @@
 #pragma once
 #include "app/check/book_paths.h"
+#include "app/check/statistics.h"
 #include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
 #include <string>
 #include <vector>
 
-/// Which object each pixel shows, and by how much two pictures differ there.
+/// Which object each pixel shows.
 namespace tyndall {
 
 /// The object that is seen first through the centre of each pixel of a lattice.
@@ -28,11 +29,9 @@ struct ObjectDifference {
   int object = 0;  ///< index into SeenObjects::objects
   int pixels = 0;
   Vec3d image, expected;
-  bool different = false;  ///< by more than noise
 };
 
-struct ComparedPixels;
-/// Of objects that enough pixels show, those that differ most first.
-std::vector<ObjectDifference> object_differences(const ComparedPixels& pixels, const SeenObjects& seen);
+/// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
+Regions regions_of(const SeenObjects& seen);
 
 }  // namespace tyndall

@@ -41,7 +41,7 @@ std::string common_kind(const Findings& v) {
 std::string how_made(const Findings& v) {
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (v.samples > 0) add(fmt::format("about {:.2g} samples a pixel, as its noise tells", v.samples));
+  if (v.samples > 0) add(fmt::format("about {} samples a pixel, as its noise tells", std::lround(v.samples)));
   if (!curve_text(v.curve).empty()) add(curve_text(v.curve));
   for (const Explanation& choice : v.choices) add(choice.words);
   return text.empty() ? "" : "picture  " + text + "\n";
@@ -75,6 +75,10 @@ nlohmann::ordered_json json_of(const std::vector<Explanation>& list) {
 
 std::string verdict_text(const Findings& v) {
   const std::string blocks = fmt::format("of {} blocks of {}x{} pixels", v.blocks, v.block_edge, v.block_edge);
+  if (v.unknown)
+    return "check    it cannot be told whether they agree: programs of the books find the light of this scene so "
+           "seldom\n"
+           "         that few samples show little of it\n";
   if (v.agrees)
     return fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks) +
            how_made(v) + left_out_text(v);
@@ -92,7 +96,8 @@ std::string verdict_text(const Findings& v) {
 nlohmann::ordered_json verdict_json(const Findings& v) {
   const auto channels = [](Vec3d c) { return nlohmann::ordered_json{c.x, c.y, c.z}; };
   nlohmann::ordered_json json;
-  json["agrees"] = v.agrees;
+  json["agrees"] = nullptr;
+  if (!v.unknown) json["agrees"] = v.agrees;
   json["explanation"] = nullptr;
   if (v.mistake)
     json["explanation"] = {{"name", v.mistake->name}, {"text", v.mistake->words}, {"explained", v.mistake->explained}};

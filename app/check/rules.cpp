@@ -229,11 +229,4 @@ std::vector<Difference> usual_mistakes() {
   };
 }
 
-std::vector<int> tried_depths(int max_depth) {
-  std::vector<int> depths;
-  for (const int depth : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 14, 19, 29})
-    if (depth < max_depth) depths.push_back(depth);
-  return depths;
-}
-
 }  // namespace tyndall

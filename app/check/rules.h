@@ -34,7 +34,4 @@ std::vector<Difference> usual_choices();
 /// Mistakes that are found by rendering the scene with each of them.
 std::vector<Difference> usual_mistakes();
 
-/// The lengths of paths that are tried for a program that stops too early, ascending, all below max_depth.
-std::vector<int> tried_depths(int max_depth);
-
 }  // namespace tyndall

@@ -10,7 +10,7 @@ constexpr double amount_errors = 3;  // standard errors that an amount leaves to
 constexpr int min_pixels = 24;       // of a block that is compared
 
 struct Sums {
-  double value = 0, square = 0, variance = 0, tolerance = 0;
+  double expected = 0, value = 0, square = 0, variance = 0, tolerance = 0;
 };
 
 double excess_of(const BlockDifference& b, double error, double errors) {
@@ -48,13 +48,31 @@ SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count
   return result;
 }
 
-double lognormal_excess(double mean, double variance) {
-  if (mean <= 0) return 0;
-  if (variance <= 0) return std::max(0.0, mean - 1);
-  // The formula of Black and Scholes for an option with a strike of 1.
-  const double s = std::sqrt(std::log1p(variance / (mean * mean))), d = std::log(mean) / s + s / 2;
-  const auto below = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
-  return mean * below(d) - below(d - s);
+std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int count, double many,
+                                  const Regions& regions) {
+  const auto n = static_cast<std::size_t>(count), pixels = samples.size() / n;
+  const std::size_t together = std::min(pixels, static_cast<std::size_t>(std::ceil(many / count)));
+  std::vector<double> of_many(3 * static_cast<std::size_t>(regions.count)), of_few(of_many.size());
+  std::vector<double> sums(together);  // of groups of about `count` samples, each with samples of all pixels
+  for (std::size_t first = 0; first + together <= pixels; first += together) {
+    if (regions.of_pixel[first] < 0) continue;
+    const std::size_t region = 3 * static_cast<std::size_t>(regions.of_pixel[first]);
+    std::size_t c = 0;
+    for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+      std::fill(sums.begin(), sums.end(), 0);
+      for (std::size_t k = 0; k < together * n; ++k)
+        sums[(k / n + k % n) % together] += static_cast<double>(samples[first * n + k].light.*channel);
+      double all = 0;
+      for (const double sum : sums) {
+        of_few[region + c] += std::max(0.0, sum / count - 1);
+        all += sum;
+      }
+      of_many[region + c] += static_cast<double>(together) * std::max(0.0, all / static_cast<double>(together * n) - 1);
+      ++c;
+    }
+  }
+  for (std::size_t k = 0; k < of_many.size(); ++k) of_many[k] = of_few[k] > 0 ? of_many[k] / of_few[k] : 1;
+  return of_many;
 }
 
 BlockGrid grid_of(const Lattice& lattice) {
@@ -62,16 +80,25 @@ BlockGrid grid_of(const Lattice& lattice) {
   return {lattice.columns(), lattice.rows(), std::clamp(static_cast<int>(std::lround(edge)), 8, 32)};
 }
 
-std::vector<BlockDifference> block_differences(const ComparedPixels& p, const BlockGrid& grid) {
-  std::vector<Sums> sums(3 * grid.count());
-  std::vector<BlockDifference> result(3 * grid.count());
-  for (std::size_t pixel = 0; pixel < p.left_out.size(); ++pixel) {
-    if (p.left_out[pixel]) continue;
+Regions regions_of(const BlockGrid& grid) {
+  Regions regions{{}, static_cast<int>(grid.count())};
+  const std::size_t pixels = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    regions.of_pixel.push_back(static_cast<int>(grid.block_of(pixel)));
+  return regions;
+}
+
+std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Regions& regions) {
+  std::vector<Sums> sums(3 * static_cast<std::size_t>(regions.count));
+  std::vector<BlockDifference> result(sums.size());
+  for (std::size_t pixel = 0; pixel < regions.of_pixel.size(); ++pixel) {
+    if (regions.of_pixel[pixel] < 0) continue;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = 3 * pixel + c, block = 3 * grid.block_of(pixel) + c;
+      const std::size_t at = 3 * pixel + c, block = 3 * static_cast<std::size_t>(regions.of_pixel[pixel]) + c;
       const double difference = static_cast<double>(p.light[at]) - static_cast<double>(p.expected[at]);
       if (!std::isfinite(difference)) continue;
       Sums& sum = sums[block];
+      sum.expected += static_cast<double>(p.expected[at]);
       sum.value += difference, sum.square += difference * difference;
       sum.variance += static_cast<double>(p.variance[at]), sum.tolerance += static_cast<double>(p.tolerance[at]);
       ++result[block].pixels;
@@ -86,12 +113,13 @@ std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Bl
     }
     const double n = block.pixels, mean = sum.value / n;
     const double scatter = std::max(0.0, sum.square - sum.value * mean) / (n - 1);
-    block = {block.pixels, mean, std::sqrt(std::max(scatter, sum.variance / n) / n), sum.tolerance / n};
+    block = {block.pixels, sum.expected / n, mean, std::sqrt(std::max(scatter, sum.variance / n) / n),
+             sum.tolerance / n};
   }
   return result;
 }
 
-Misfit misfit_of(const std::vector<BlockDifference>& differences) {
+Misfit misfit_of(std::span<const BlockDifference> differences) {
   Misfit misfit;
   for (std::size_t block = 0; block < differences.size(); block += 3) {
     if (differences[block].pixels == 0) continue;
@@ -105,7 +133,7 @@ Misfit misfit_of(const std::vector<BlockDifference>& differences) {
   return misfit;
 }
 
-double amount_of(const std::vector<BlockDifference>& differences, const std::vector<BlockDifference>& other) {
+double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other) {
   double amount = 0;
   for (std::size_t k = 0; k < differences.size(); ++k) {
     const BlockDifference& block = differences[k];

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/check/book_paths.h"
 
+#include <span>
 #include <vector>
 
 /// What many samples of each pixel tell: the picture that a program would have shown of them, and how noisy it is; and
@@ -19,8 +20,17 @@ struct SampleStatistics {
 /// max_depth: light found after more scattering events is left out; negative: none is.
 SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth = -1);
 
-/// The part above 1 of a quantity of this mean and variance, averaged, if it has a log-normal distribution.
-double lognormal_excess(double mean, double variance);
+/// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each region and channel.
+/// many: more samples than there are of a pixel, so that those of neighbours are taken together; in the same way for
+/// both. 1 where nothing is cut off.
+std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int count, double many,
+                                  const struct Regions& regions);
+
+/// Sets of pixels whose mean differences are looked at.
+struct Regions {
+  std::vector<int> of_pixel;  ///< -1: the pixel is in none
+  int count = 0;
+};
 
 /// Squares of pixels of a lattice; those at the right and the lower edge may be smaller.
 struct BlockGrid {
@@ -34,13 +44,15 @@ struct BlockGrid {
     return pixel / width / size * static_cast<std::size_t>(across()) + pixel % width / size;
   }
 };
+Regions regions_of(const BlockGrid& grid);
 /// Some 400 blocks, with as many pixels each as statistics need.
 BlockGrid grid_of(const Lattice& lattice);
 
-/// The mean difference in one channel of a block.
+/// The mean difference in one channel of a region.
 struct BlockDifference {
   int pixels = 0;
-  double difference = 0;  ///< mean over the pixels
+  double expected = 0;    ///< mean over the pixels
+  double difference = 0;  ///< mean of the picture minus that
   double error = 0;       ///< standard error of the mean
   double tolerance = 0;   ///< by how much it may be off without noise
 };
@@ -51,15 +63,15 @@ struct ComparedPixels {
   const std::vector<float>& expected;   ///< likewise
   const std::vector<float>& tolerance;  ///< likewise
   const std::vector<float>& variance;   ///< of each pixel's noise, as far as it is known; likewise
-  const std::vector<char>& left_out;    ///< 1: the pixel is not looked at
 };
 
-/// Three of each block. The error of a block is the greater of two: what the scatter of its pixels' differences shows,
-/// and what their known variance predicts. The first also holds the noise of the expected values. The second is right
-/// where rare bright paths have not happened to be met.
-std::vector<BlockDifference> block_differences(const ComparedPixels& pixels, const BlockGrid& grid);
+/// Three of each region. The error of a region is the greater of two: what the scatter of its pixels' differences
+/// shows, and what their known variance predicts. The first also holds the noise of the expected values. The second is
+/// right where rare bright paths have not happened to be met.
+std::vector<BlockDifference> block_differences(const ComparedPixels& pixels, const Regions& regions);
 
-/// Standard errors beyond which a difference is no noise: one of 400 correct pictures has such a block, or fewer.
+/// Standard errors beyond which a difference is no noise. Errors are estimated, and the noise of few samples is no
+/// normal distribution, so that now and then a block of a right picture is beyond, too.
 inline constexpr double noise_limit = 5;
 
 /// How much two pictures differ by more than noise.
@@ -68,9 +80,9 @@ struct Misfit {
   int different = 0;  ///< in some channel by more than their tolerance and noise_limit errors
   double amount = 0;  ///< of the difference beyond tolerance and 3 errors, in tolerances, summed over all pixels
 };
-Misfit misfit_of(const std::vector<BlockDifference>& differences);
+Misfit misfit_of(std::span<const BlockDifference> differences);
 /// The amount alone, where each block's error is the greater of its own and that of `other`: two amounts that are
 /// compared must not differ because one of the pictures is noisier.
-double amount_of(const std::vector<BlockDifference>& differences, const std::vector<BlockDifference>& other);
+double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other);
 
 }  // namespace tyndall

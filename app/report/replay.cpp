@@ -31,7 +31,6 @@ Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
-/// The paths of all media with a density, in the order in which they are compiled.
 void list_media(const std::vector<Object>& objects, std::vector<int> path, std::vector<std::vector<int>>& out) {
   path.push_back(0);
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -43,9 +42,7 @@ void list_media(const std::vector<Object>& objects, std::vector<int> path, std::
 }
 
 std::string medium_text(const Scene& scene, int medium) {
-  std::vector<std::vector<int>> media;
-  list_media(scene.objects, {}, media);
-  return object_text(scene, media[static_cast<std::size_t>(medium)]);
+  return object_text(scene, media_of(scene)[static_cast<std::size_t>(medium)]);
 }
 
 const char* fate_text(Fate fate) {
@@ -95,6 +92,12 @@ std::string vertex_text(const Scene& scene, const RenderScene& compiled, const P
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> media_of(const Scene& scene) {
+  std::vector<std::vector<int>> media;
+  list_media(scene.objects, {}, media);
+  return media;
+}
 
 std::string object_text(const Scene& scene, const std::vector<int>& path) {
   const Named named = object_at(scene, path);

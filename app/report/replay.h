@@ -16,6 +16,9 @@ namespace tyndall {
 /// Elements::object.
 std::string object_text(const Scene& scene, const std::vector<int>& path);
 
+/// The paths of all media with a density, in the order of RenderScene::media.
+std::vector<std::vector<int>> media_of(const Scene& scene);
+
 /// One path as text, a paragraph a vertex: what it met (by its name in the scene, else by its place in the file) and
 /// what became of it there; which part of the light gathered there came by exact chains, and what a light counts that
 /// chance found but chains find too. Positions are the scene's own. The last line is the sample's value, to the last

@@ -151,8 +151,11 @@ class Progression {
   void set_first(const Region& first);
   /// Whether there is a picture to show.
   bool has_picture() const { return taken() > 0 || schedule_.coarse_done() > 0; }
-  /// 1, or larger after a coarse pass: then only every step-th pixel in x and y has samples.
-  int step() const { return taken() == 0 && schedule_.coarse_done() > 0 ? schedule_.coarse_done() : 1; }
+  /// 1, or larger after a coarse pass and before the first one: only every step-th pixel in x and y has samples then.
+  int step() const {
+    if (taken() > 0) return 1;
+    return schedule_.coarse_done() > 0 ? schedule_.coarse_done() : options_.coarse_step;
+  }
   /// Whether a pass was interrupted that gives the pixels beside those of a coarse pass their first samples, in a film
   /// that was cleared before: pixels without samples have none yet.
   bool is_filling() const { return options_.clear && taken() == 0 && within_pass() && schedule_.coarse() == 0; }

@@ -137,7 +137,8 @@ TEST_CASE("sample source: shows what a long pass has so far, and gives it as a f
   scene.width = scene.height = 12;
   WatchedRenderer renderer(1);
   const std::uint64_t edit = show(renderer, scene, [&](double, double, std::uint64_t index) {
-    if (index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(12));  // 1.7 s in all
+    // 1.7 s for the second samples. The first ones are slow, too: then tile jobs are small, and some are done in time.
+    std::this_thread::sleep_for(std::chrono::milliseconds(index > 0 ? 12 : 1));
     return Vec3f{static_cast<float>(index), 0, 0};
   });
   const auto has_some = [&](const Frame& frame) { return frame.spp == 1 && frame.rgba[0] == 0.5f; };
@@ -166,7 +167,8 @@ TEST_CASE("sample source: shows the first samples of pixels as they come") {
   CHECK(within->rgba[4] == 2);                         // has its own sample
   CHECK(within->rgba[within->rgba.size() - 60] == 1);  // shows its neighbour's
   CHECK(renderer.wait_finished(edit)->rgba[within->rgba.size() - 60] == 2);
-  CHECK(calls == 256);
+  CHECK(calls >= 256);
+  CHECK(calls < 320);  // unfinished tile jobs are dropped, and done again
 }
 
 TEST_CASE("sample source: is left after the present sample, and unfinished tiles are not added") {

@@ -1,3 +1,4 @@
+#include "app/check/report.h"
 #include "tests/app/check/verdicts.h"
 
 #include <doctest/doctest.h>
@@ -62,8 +63,10 @@ TEST_CASE("check: thirty right pictures are not accused") {
     CAPTURE(row.scene);
     CAPTURE(row.spp);
     CAPTURE(row.edition);
-    CAPTURE(verdict.different);
-    CHECK(name_of(verdict) == "agrees");
+    const std::string told = verdict_text(verdict);
+    CAPTURE(told);
+    // Only one scene's light is too rare for any answer.
+    CHECK(name_of(verdict) == (std::string(row.scene) == "stress-bulb" ? "unknown" : "agrees"));
   }
 }
 
@@ -96,8 +99,9 @@ TEST_CASE("check: of the planted mistakes all but one at most are named, and non
   int named = 0, count = 0;
   for (const Row& row : rows) {
     const BookProgramPlan plan{60, 4, false, row.plant, static_cast<std::uint64_t>(++count)};
-    const std::string name = name_of(verdict_of(scene_of(row.scene), plan, seconds));
-    MESSAGE(row.name << " in " << row.scene << ": " << name);
+    const Findings verdict = verdict_of(scene_of(row.scene), plan, seconds);
+    const std::string name = name_of(verdict);
+    MESSAGE(row.name << " in " << row.scene << ": " << name << "\n" << verdict_text(verdict));
     CHECK((name == row.name || name == "unexplained"));
     named += name == row.name ? 1 : 0;
   }

@@ -19,8 +19,8 @@ std::vector<BookSample> grey(const std::vector<float>& values, int depth = 0) {
 struct NoisyPicture {
   Lattice lattice{64, 64, 1};
   BlockGrid grid = grid_of(lattice);
+  Regions regions = regions_of(grid);
   std::vector<float> light, expected, tolerance, variance;
-  std::vector<char> left_out;
   NoisyPicture(unsigned seed, double noise) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0.3, noise);
@@ -28,9 +28,8 @@ struct NoisyPicture {
       light.push_back(static_cast<float>(normal(random)));
       expected.push_back(0.3f), tolerance.push_back(0.004f), variance.push_back(0);
     }
-    left_out.assign(lattice.pixels(), 0);
   }
-  Misfit misfit() const { return misfit_of(block_differences({light, expected, tolerance, variance, left_out}, grid)); }
+  Misfit misfit() const { return misfit_of(block_differences({light, expected, tolerance, variance}, regions)); }
 };
 
 }  // namespace
@@ -52,30 +51,32 @@ TEST_CASE("check: light that was found later than max_depth is left out") {
   CHECK(statistics_of(samples, 2, 1, 1).mean[0] == 0.0f);
 }
 
-TEST_CASE("check: what is above white of a log-normal quantity agrees with a simulation") {
+TEST_CASE("check: what white cuts off of many samples is found from the samples of neighbours") {
   std::mt19937 random(5);
-  for (const auto& [mean, variance] : {std::pair{0.5, 0.2}, std::pair{0.9, 0.01}, std::pair{1.5, 1.0}}) {
-    const double s2 = std::log1p(variance / (mean * mean));
-    std::lognormal_distribution<double> drawn(std::log(mean) - s2 / 2, std::sqrt(s2));
-    double sum = 0;
-    constexpr int count = 1'000'000;
-    for (int k = 0; k < count; ++k) sum += std::max(0.0, drawn(random) - 1);
-    CHECK(lognormal_excess(mean, variance) == doctest::Approx(sum / count).epsilon(0.02));
+  std::bernoulli_distribution hit(0.05);
+  constexpr int count = 16, pixels = 4000;
+  std::vector<BookSample> samples;
+  for (int k = 0; k < count * pixels; ++k) samples.push_back({hit(random) ? Vec3f{10, 10, 10} : Vec3f{}, 0});
+  const Regions one{std::vector<int>(pixels, 0), 1};
+  double few = 0, many = 0;
+  constexpr int trials = 100000, of_many = 128;
+  std::binomial_distribution<int> hits_of_few(count, 0.05), hits_of_many(of_many, 0.05);
+  for (int k = 0; k < trials; ++k) {
+    few += std::max(0.0, hits_of_few(random) * 10.0 / count - 1);
+    many += std::max(0.0, hits_of_many(random) * 10.0 / of_many - 1);
   }
-  CHECK(lognormal_excess(0, 0) == 0);
-  CHECK(lognormal_excess(1.25, 0) == doctest::Approx(0.25));
-  CHECK(lognormal_excess(0.5, 0) == 0);
+  CHECK(excess_ratios(samples, count, of_many, one)[0] == doctest::Approx(many / few).epsilon(0.15));
 }
 
 TEST_CASE("check: noise makes no difference, a shift of one block does") {
   for (unsigned seed = 0; seed < 200; ++seed) CHECK(NoisyPicture(seed, 0.1).misfit().different == 0);
   NoisyPicture shifted(1, 0.02);
-  for (std::size_t pixel = 0; pixel < shifted.left_out.size(); ++pixel)
+  for (std::size_t pixel = 0; pixel < shifted.lattice.pixels(); ++pixel)
     if (shifted.grid.block_of(pixel) == 10) shifted.light[3 * pixel + 1] += 0.03f;
   CHECK(shifted.misfit().different == 1);
   CHECK(shifted.misfit().amount > 0);
-  for (std::size_t pixel = 0; pixel < shifted.left_out.size(); ++pixel)
-    if (shifted.grid.block_of(pixel) == 10) shifted.left_out[pixel] = 1;
+  for (int& region : shifted.regions.of_pixel)
+    if (region == 10) region = -1;
   CHECK(shifted.misfit().different == 0);
   CHECK(shifted.misfit().blocks == static_cast<int>(shifted.grid.count()) - 1);
 }

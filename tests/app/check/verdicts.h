@@ -33,9 +33,12 @@ inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, doub
   return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), seconds);
 }
 
-/// "agrees", "schlick-always-1", or "unexplained".
+/// "agrees", "unknown", "schlick-always-1", or "unexplained".
 inline std::string name_of(const Findings& verdict) {
-  return verdict.agrees ? "agrees" : verdict.mistake ? verdict.mistake->name : "unexplained";
+  return verdict.unknown   ? "unknown"
+         : verdict.agrees  ? "agrees"
+         : verdict.mistake ? verdict.mistake->name
+                           : "unexplained";
 }
 
 }  // namespace tyndall::test

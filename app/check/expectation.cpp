@@ -1,0 +1,284 @@
+#include "app/check/expectation.h"
+
+#include "core/base/seconds.h"
+#include "core/compile/compile.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr std::size_t max_lattice_pixels = 100'000;
+constexpr int min_samples = 4, max_samples_of_pixel = 24;
+constexpr double part_for_samples = 1 / 24.0;     // of the time, for the samples of one program
+constexpr int large_edge = 4;                     // of a large block, in small ones
+constexpr std::size_t min_ratios = 8;             // blocks that tell how many samples a picture has
+constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
+constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
+
+/// A scene as kernels read it.
+struct Compiled {
+  explicit Compiled(const BookProgram& program) : columns(compile(program.scene)) {
+    if (program.columns) program.columns(columns);
+    textures = texture_views(columns);
+    view = view_of(columns, textures);
+  }
+  Compiled(const Compiled&) = delete;
+  Compiled& operator=(const Compiled&) = delete;
+  RenderScene columns;
+  std::vector<TextureView> textures;
+  SceneView view;
+};
+
+BookProgram plain_program(const Scene& scene) {
+  BookProgram program{scene, {}};
+  program.rules.schlick = scene.render.fresnel == FresnelKind::schlick;
+  return program;
+}
+
+Lattice lattice_of(int width, int height) {
+  Lattice lattice{width, height, 1};
+  while (lattice.pixels() > max_lattice_pixels) ++lattice.step;
+  return lattice;
+}
+
+/// Three numbers of each pixel of the lattice.
+std::vector<float> on_lattice(const std::vector<float>& whole, const Lattice& lattice) {
+  std::vector<float> part;
+  part.reserve(3 * lattice.pixels());
+  for (int y = 0; y < lattice.height; y += lattice.step)
+    for (int x = 0; x < lattice.width; x += lattice.step) {
+      const auto at =
+          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(lattice.width) + static_cast<std::size_t>(x));
+      part.insert(part.end(), {whole[at], whole[at + 1], whole[at + 2]});
+    }
+  return part;
+}
+
+/// The regions without pixels that show a noise texture.
+Regions without_noise(Regions regions, const SeenObjects& seen) {
+  for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
+    if (seen.objects[static_cast<std::size_t>(seen.of_pixel[pixel])].noisy_texture) regions.of_pixel[pixel] = -1;
+  return regions;
+}
+
+/// The value below which a fraction of the values lies.
+double quantile_of(std::vector<double> values, double fraction) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Means over the pixels of each region and channel.
+std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions) {
+  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
+  for (std::size_t at = 0; at < numbers.size(); ++at) {
+    const int region = regions.of_pixel[at / 3];
+    if (region < 0) continue;
+    sums[3 * static_cast<std::size_t>(region) + at % 3] += static_cast<double>(numbers[at]);
+    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= std::max(counts[k], 1.0);
+  return sums;
+}
+
+/// The variance of the noise of the pixels in each region and channel, from neighbours in a row, so that what changes
+/// slowly from pixel to pixel counts little. 0 where there are few pixels.
+std::vector<double> noise_of(const std::vector<float>& light, const std::vector<float>& expected,
+                             const Regions& regions) {
+  constexpr double min_pairs = 20;
+  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
+  for (std::size_t at = 3; at < light.size(); ++at) {
+    const int region = regions.of_pixel[at / 3];
+    if (region < 0 || regions.of_pixel[at / 3 - 1] != region) continue;
+    const double step =
+        static_cast<double>(light[at] - expected[at]) - static_cast<double>(light[at - 3] - expected[at - 3]);
+    sums[3 * static_cast<std::size_t>(region) + at % 3] += step * step / 2;
+    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = counts[k] < min_pairs ? 0 : sums[k] / counts[k];
+  return sums;
+}
+
+}  // namespace
+
+Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
+                         const CheckOptions& options, const std::function<bool()>& go_on)
+    : picture_(picture),
+      start_(plain_program(scene)),
+      lattice_(lattice_of(picture.width, picture.height)),
+      grid_(grid_of(lattice_)),
+      reference_(on_lattice(reference.image.rgb, lattice_)),
+      reference_variance_(on_lattice(reference.variance, lattice_)),
+      kernels_(*choose_kernels("")),
+      threads_(options.threads),
+      go_on_(go_on) {
+  const Compiled compiled(start_);
+  seen_ = seen_objects(scene, compiled.columns, compiled.view, kernels_, lattice_);
+  BlockGrid large = grid_;
+  large.edge *= large_edge;
+  small_ = without_noise(regions_of(grid_), seen_), large_ = without_noise(regions_of(large), seen_);
+  objects_ = regions_of(seen_);
+  take_samples(options.seconds * part_for_samples);
+  const Regions small = without_rare_light(small_);
+  const auto left_out = [](const Regions& regions) {
+    return static_cast<double>(std::count(regions.of_pixel.begin(), regions.of_pixel.end(), -1));
+  };
+  const double pixels = static_cast<double>(small_.of_pixel.size()) - left_out(small_);
+  comparable_ = pixels > 0 ? 1 - (left_out(small) - left_out(small_)) / pixels : 1;
+  small_ = small, large_ = without_rare_light(large_), objects_ = without_rare_light(objects_);
+}
+
+/// The regions without those in which the samples show quite another amount of light than there is: it comes on few
+/// paths, so that nobody knows how often white cuts it off.
+Regions Expectation::without_rare_light(Regions regions) const {
+  const std::vector<double> sampled = means_of(base_.mean, regions), right = means_of(reference_, regions);
+  for (int& region : regions.of_pixel) {
+    if (region < 0) continue;
+    const auto first = 3 * static_cast<std::size_t>(region);
+    const double light = right[first] + right[first + 1] + right[first + 2];
+    const double off = sampled[first] + sampled[first + 1] + sampled[first + 2] - light;
+    if (std::abs(off) > rare_light * light + dark) region = -1;
+  }
+  return regions;
+}
+
+/// Takes the samples of the scene as it is: as many as the time allows.
+void Expectation::take_samples(double seconds) {
+  const Compiled compiled(start_);
+  const auto take = [&](int count) {
+    return book_samples(compiled.view, kernels_, start_.rules, lattice_, count, threads_, [] { return true; });
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  take(min_samples);
+  const double per_sample = std::max(seconds_since(begin), 1e-6) / min_samples;
+  count_ = static_cast<int>(std::clamp(seconds / per_sample, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
+  samples_ = take(count_);
+  group_ = count_;
+  base_ = statistics_of(samples_, count_, group_);
+  variance_.assign(base_.variance.size(), 0);
+}
+
+void Expectation::find_samples(const Reading& reading) {
+  const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
+  const std::vector<double> noise = noise_of(pixels.light, reference_, small_), excess = means_of(base_.excess, small_),
+                            of_sample = means_of(base_.variance, small_), steps = means_of(pixels.tolerance, small_),
+                            of_reference = means_of(reference_variance_, small_);
+  const double median = quantile_of(of_sample, 0.5);
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    if (noise[k] <= 0 || of_sample[k] < median || excess[k] > 1e-3) continue;
+    const double rounding = steps[k] * steps[k] / 12, of_picture = noise[k] - of_reference[k] - rounding;
+    if (of_picture > rounding) ratios.push_back(of_sample[k] / of_picture);
+  }
+  // Edges that lie elsewhere in the picture make blocks look noisier than they are: so more than the median.
+  if (ratios.size() >= min_ratios) set_samples(std::max(1.0, quantile_of(ratios, 0.6)));
+}
+
+std::vector<double> Expectation::light_by_depth() const {
+  std::vector<double> light;
+  for (const BookSample& sample : samples_) {
+    if (light.size() <= static_cast<std::size_t>(sample.depth))
+      light.resize(static_cast<std::size_t>(sample.depth) + 1);
+    light[static_cast<std::size_t>(sample.depth)] +=
+        static_cast<double>(sample.light.x + sample.light.y + sample.light.z);
+  }
+  for (std::size_t k = 1; k < light.size(); ++k) light[k] += light[k - 1];
+  for (double& value : light) value /= std::max(light.back(), 1e-30);
+  return light;
+}
+
+void Expectation::set_samples(double samples) {
+  samples_of_picture_ = samples;
+  known_.clear();
+  group_ = std::clamp(static_cast<int>(std::lround(samples)), 1, count_);
+  base_ = statistics_of(samples_, count_, group_);
+  for (std::size_t at = 0; at < variance_.size(); ++at)
+    variance_[at] = base_.variance[at] / static_cast<float>(samples);
+}
+
+bool Expectation::white_matters() const {
+  const SampleStatistics single = statistics_of(samples_, count_, 1);
+  double cut = 0, all = 0;
+  for (std::size_t at = 0; at < single.mean.size(); ++at)
+    cut += static_cast<double>(single.excess[at]), all += static_cast<double>(single.mean[at]);
+  return picture_.coded && cut > min_cut * all;
+}
+
+BookModel Expectation::start_model(int max_depth) const { return model_of(samples_, max_depth); }
+
+const BookModel* Expectation::model_of(const BookProgram& program) {
+  const bool by_rules = program.scene == start_.scene && !program.columns;
+  for (const auto& [rules, model] : known_)
+    if (by_rules && rules == program.rules) return model.get();
+  const auto samples =
+      book_samples(Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_, go_on_);
+  if (samples.empty()) return nullptr;
+  auto model = std::make_unique<BookModel>(model_of(samples, -1));
+  if (!by_rules) return (newest_ = std::move(model)).get();
+  known_.emplace_back(program.rules, std::move(model));
+  return known_.back().second.get();
+}
+
+BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_depth) const {
+  SampleStatistics statistics = statistics_of(samples, count_, group_, max_depth);
+  BookModel model{std::move(statistics.mean), std::move(statistics.excess)};
+  if (!picture_.coded || samples_of_picture_ <= count_ * 1.2) return model;
+  const std::vector<double> ratios = excess_ratios(samples, count_, samples_of_picture_, large_);
+  for (std::size_t at = 0; at < model.mean.size(); ++at) {
+    const int region = large_.of_pixel[at / 3];
+    if (region >= 0) model.excess[at] *= static_cast<float>(ratios[3 * static_cast<std::size_t>(region) + at % 3]);
+  }
+  return model;
+}
+
+std::vector<float> Expectation::expected_of(const BookModel& model) const {
+  std::vector<float> expected(reference_.size());
+  for (std::size_t at = 0; at < expected.size(); ++at) {
+    const float cut = picture_.coded ? model.excess[at] : 0;
+    expected[at] = reference_[at] + (model.mean[at] - base_.mean[at]) - cut;
+  }
+  return expected;
+}
+
+RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
+  if (!(reading == read_as_)) pixels_ = read_pixels(picture_, lattice_, reading), read_as_ = reading;
+  const ReadPixels& pixels = *pixels_;
+  const std::vector<float> expected = expected_of(model);
+  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, variance_};
+  RegionDifferences result{block_differences(compared, small_), 0, 0};
+  result.small = result.all.size();
+  const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);
+  result.large = large.size();
+  result.all.insert(result.all.end(), large.begin(), large.end());
+  result.all.insert(result.all.end(), objects.begin(), objects.end());
+  return result;
+}
+
+Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threads) {
+  constexpr int count = 4;
+  const Lattice lattice = lattice_of(picture.width, picture.height);
+  const BookProgram program = plain_program(scene);
+  const Compiled compiled(program);
+  ThreadPool pool(threads);
+  const auto samples =
+      book_samples(compiled.view, *choose_kernels(""), program.rules, lattice, count, pool, [] { return true; });
+  const SampleStatistics statistics = statistics_of(samples, count, count);
+  std::vector<float> expected = statistics.mean;
+  const std::vector<float> none(expected.size());
+  for (std::size_t at = 0; at < expected.size() && picture.coded; ++at) expected[at] -= statistics.excess[at];
+  const Regions regions = regions_of(grid_of(lattice));
+  std::optional<Misfit> best;
+  for (const Reading& reading : readings_of(picture.coded)) {
+    if (!is_right(reading)) continue;
+    const ReadPixels pixels = read_pixels(picture, lattice, reading);
+    const Misfit misfit = misfit_of(block_differences({pixels.light, expected, pixels.tolerance, none}, regions));
+    if (!best || misfit.amount < best->amount) best = misfit;
+  }
+  return *best;
+}
+
+}  // namespace tyndall
