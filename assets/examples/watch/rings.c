@@ -1,6 +1,6 @@
 /* Rings that become finer outwards, in Tyndall's window: rings [OUTPUT.png]. */
-#include <math.h>
 #include <tyndall/watch.h>
+#include <math.h>
 
 struct picture {
   double centre_x, centre_y;
