@@ -1,6 +1,9 @@
 #include "app/book/compile_program.h"
 
 #include "app/book/child.h"
+#include "app/book/own_names.h"
+#include "app/book/scratch_folder.h"
+#include "app/book/source_text.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -41,28 +44,15 @@ std::string reader_place(const std::string& line, const ProgramLayout& layout) {
   return "";
 }
 
-/// The name between the first quotes of a message of GCC's or Clang's.
-std::string quoted_name(const std::string& message) {
-  const std::size_t begin = message.find('\'');
-  const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
-  return end == std::string::npos ? "" : message.substr(begin + 1, end - begin - 1);
-}
-
 /// "triangle: Tyndall has no such shape (triangle.h)"; empty: the class is none of those that Tyndall would have to
 /// know.
 std::string no_such_class(const std::string& name, const ProgramLayout& layout) {
   const auto own = layout.own_classes.find(name);
   if (own == layout.own_classes.end()) return "";
-  const std::string base = own->second.base;
-  const bool shape = base == "hittable" || base == "hitable" || base == "Hittable" || base == "hittable_list";
-  const bool material = base == "material" || base == "Material";
-  const bool texture = base == "texture" || base == "Texture";
-  if (!shape && !material && !texture) return "";
-  return name + ": Tyndall has no such " +
-         (shape      ? "shape"
-          : material ? "material"
-                     : "texture") +
-         " (a class of your own in " + own->second.file + ")";
+  const char* ours = kind_of_base(own->second.base);
+  if (!ours) return "";
+  const std::string kind = std::string(ours) == "hittable" ? "shape" : ours;
+  return name + ": Tyndall has no such " + kind + " (a class of your own in " + own->second.file + ")";
 }
 
 /// The class of the reader's own that the file defines, if it is a shape, a material or a texture: what a message from
@@ -74,6 +64,21 @@ std::string own_class_in(const std::string& place, const ProgramLayout& layout) 
       if (!sentence.empty()) return sentence;
     }
   return "";
+}
+
+/// Whether a message is about something that the reader's own headers may have and ours have not.
+bool is_about_ours(const std::string& message) {
+  for (const char* words : {"no member named", "not declared", "no matching", "does not name a type", "not a member of",
+                            "undeclared identifier", "unknown type name", "type-specifier", "cannot convert"})
+    if (message.find(words) != std::string::npos) return true;
+  return false;
+}
+
+/// Whether an error is at a place in the reader's files.
+bool has_reader_place(const std::string& output, const ProgramLayout& layout) {
+  for (const std::string& line : lines_of(output))
+    if (line.find("error: ") != std::string::npos && !reader_place(line, layout).empty()) return true;
+  return output.find("undefined reference") != std::string::npos;
 }
 
 std::string undefined_reference(const std::vector<std::string>& lines) {
@@ -142,9 +147,22 @@ ChildEnd compile(const ProgramTask& task, const std::vector<std::string>& argume
 
 }  // namespace
 
+const char* kind_of_base(const std::string& base) {
+  const std::string key = key_of(base);
+  if (key == "hittable" || key == "hitable" || key == "hittablelist" || key == "hitablelist") return "hittable";
+  return key == "material" ? "material" : key == "texture" ? "texture" : nullptr;
+}
+
+std::string quoted_name(const std::string& message) {
+  const std::size_t begin = message.find('\'');
+  const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
+  return end == std::string::npos ? "" : message.substr(begin + 1, end - begin - 1);
+}
+
 std::string first_error(const std::string& output, const ProgramLayout& layout) {
   const std::vector<std::string> lines = lines_of(output);
   const std::string required = "required from", requested = "requested here";
+  const std::string remark = layout.replaced.empty() ? "" : "; Tyndall's headers stand in the place of yours";
   std::string caller;  // the reader's line that a template was needed for
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::string place = reader_place(lines[k], layout);
@@ -157,10 +175,9 @@ std::string first_error(const std::string& output, const ProgramLayout& layout) 
     std::string sentence = place.empty() ? caller : place;
     if (sentence.empty()) continue;
     const std::string own = no_such_class(quoted_name(text), layout), about = own_class_in(sentence, layout);
-    sentence += ": ";
-    if (!own.empty()) return sentence.append(own);
-    sentence += shortened(text, longest_error);
-    return about.empty() ? sentence : sentence.append("; ").append(about);
+    if (!own.empty()) return sentence + ": " + own;
+    if (!about.empty()) return layout.shown_names.front() + ": " + about;
+    return sentence + ": " + shortened(text, longest_error) + (is_about_ours(text) ? remark : "");
   }
   const std::string undefined = undefined_reference(lines);
   if (!undefined.empty()) return layout.shown_names.front() + ": " + shortened(undefined, longest_error);
@@ -168,19 +185,43 @@ std::string first_error(const std::string& output, const ProgramLayout& layout) 
          shortened(lines.empty() ? "the compiler does not say why" : lines.front(), longest_error);
 }
 
+namespace {
+
+/// Compiles, and again with what is missing of the reader's own, until nothing of that is. Returns the error that
+/// remains, or "".
+std::string compile_with_own_names(const ProgramTask& task, const ProgramLayout& layout,
+                                   const std::vector<std::string>& arguments) {
+  constexpr int most = 8;
+  OwnNames own(layout);
+  std::string remaining;
+  for (int round = 0; round < most; ++round) {
+    for (const auto& [name, text] : layout.texts) write_text(task.folder / "code" / name, text);
+    for (const auto& [name, text] : own.texts()) write_text(task.folder / "code" / name, text);
+    const ChildEnd end = compile(task, arguments);
+    if (end.succeeded()) return "";
+    const std::string error = first_error(end.errors, layout);
+    const bool is_missing_file = remaining.ends_with("No such file or directory");
+    if (round == 0 || (!is_missing_file && has_reader_place(end.errors, layout))) remaining = error;
+    if (!own.mend(end.errors)) break;
+  }
+  return remaining;
+}
+
+}  // namespace
+
 void compile_program(const ProgramTask& task, const ProgramLayout& layout, const std::vector<fs::path>& include_folders,
                      const fs::path& program) {
   std::vector<std::string> errors;
   for (const char* standard : {"-std=c++17", "-std=c++20"}) {
     std::vector<std::string> arguments{
-        standard, "-O0", "-w", "-pthread", "-fmax-errors=1", "-fdiagnostics-color=never"};
+        standard, "-O0", "-w", "-pthread", "-fmax-errors=20", "-fdiagnostics-color=never"};
     arguments.insert(arguments.end(), layout.options.begin(), layout.options.end());
     for (const fs::path& folder : include_folders) arguments.insert(arguments.end(), {"-I", folder.string()});
     arguments.insert(arguments.end(), layout.compiled_files.begin(), layout.compiled_files.end());
     arguments.insert(arguments.end(), {"-o", program.string()});
-    const ChildEnd end = compile(task, arguments);
-    if (end.succeeded()) return;
-    errors.push_back(all_printable(first_error(end.errors, layout)));
+    const std::string error = compile_with_own_names(task, layout, arguments);
+    if (error.empty()) return;
+    errors.push_back(all_printable(error));
   }
   // What is wrong at the same place for both is told in the words of the older one, which are plainer. Else the code is
   // C++20, and the older one's error means nothing.

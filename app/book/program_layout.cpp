@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -22,60 +23,67 @@ constexpr std::string_view other_headers[] = {"bvhnode",      "checkertexture", 
                                               "lambertian",   "metal",          "noisetexture", "rect",
                                               "rotatey",      "solidcolor",     "translate",    "xyrect"};
 
-/// The books' classes, as key_of() calls them. A header that defines one takes the place of ours.
+/// The books' classes. A header that defines one takes the place of ours.
 constexpr std::string_view book_classes[] = {"aabb",
                                              "box",
-                                             "bvhnode",
+                                             "bvh_node",
                                              "camera",
-                                             "checkertexture",
+                                             "checker_texture",
                                              "color",
-                                             "constantmedium",
-                                             "constanttexture",
-                                             "cosinepdf",
+                                             "constant_medium",
+                                             "constant_texture",
+                                             "cosine_pdf",
                                              "dielectric",
-                                             "diffuselight",
-                                             "flipface",
-                                             "flipnormals",
+                                             "diffuse_light",
+                                             "flip_face",
+                                             "flip_normals",
                                              "hitable",
-                                             "hitablelist",
-                                             "hitrecord",
+                                             "hitable_list",
+                                             "hit_record",
                                              "hittable",
-                                             "hittablelist",
-                                             "hittablepdf",
-                                             "imagetexture",
+                                             "hittable_list",
+                                             "hittable_pdf",
+                                             "image_texture",
                                              "interval",
                                              "isotropic",
                                              "lambertian",
                                              "material",
                                              "metal",
-                                             "mixturepdf",
-                                             "movingsphere",
-                                             "noisetexture",
+                                             "mixture_pdf",
+                                             "moving_sphere",
+                                             "noise_texture",
                                              "onb",
                                              "pdf",
                                              "perlin",
                                              "point3",
                                              "quad",
                                              "ray",
-                                             "rotatey",
-                                             "rtwimage",
-                                             "scatterrecord",
-                                             "solidcolor",
+                                             "rotate_y",
+                                             "rtw_image",
+                                             "scatter_record",
+                                             "solid_color",
                                              "sphere",
-                                             "spherepdf",
+                                             "sphere_pdf",
                                              "texture",
                                              "translate",
                                              "vec3",
-                                             "xyrect",
-                                             "xzrect",
-                                             "yzrect"};
+                                             "xy_rect",
+                                             "xz_rect",
+                                             "yz_rect"};
 
 template <std::size_t count>
 bool contains(const std::string_view (&list)[count], const std::string& name) {
   return std::find(std::begin(list), std::end(list), name) != std::end(list);
 }
 
-bool is_book_class(const std::string& name) { return contains(book_classes, key_of(name)); }
+bool is_book_class(const std::string& name) { return !book_class(name).empty(); }
+
+bool is_of_the_books(const Definition& one) {
+  if (!one.is_namespace) return is_book_class(one.name);
+  for (const auto& [name, base] : classes_of(one.text))
+    if (is_book_class(name)) return true;
+  return false;
+}
 
 /// Whether a header with another name does what one of the books' does.
 bool replaces_ours(const std::string& code) {
@@ -85,13 +93,6 @@ bool replaces_ours(const std::string& code) {
   const bool endless = std::find(constants.begin(), constants.end(), "infinity") != constants.end();
   const bool degrees = has_name(code, "degrees_to_radians") && has_name(code, "return");
   return endless || degrees || code.find("double random_double") != std::string::npos;
-}
-
-/// For #line: a string of C++.
-std::string escaped(const std::string& name) {
-  std::string out;
-  for (const char c : name) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return out;
 }
 
 class Layouter {
@@ -109,6 +110,8 @@ class Layouter {
       if (name == "pi") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_PI");
       if (name == "infinity") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_INFINITY");
     }
+    layout_.texts[our_headers] = "#pragma once\n#include <rtweekend.h>\n#include \"" + std::string(own_names) + "\"\n";
+    layout_.texts[own_names] = "";
     return std::move(layout_);
   }
 
@@ -135,6 +138,7 @@ class Layouter {
     std::string text;
     const std::string code = read(file, text);
     for (std::string& constant : constants_of(code)) constants_.insert(std::move(constant));
+    if (ending == std::string(".h")) layout_.own_headers[name] = {shown, definitions_of(code)};
     for (const auto& [own, base] : classes_of(code))
       if (!base.empty()) layout_.own_classes[own] = {base, shown};
     std::string out = "#line 1 \"" + escaped(shown) + "\"\n";
@@ -167,7 +171,7 @@ class Layouter {
   std::string ours(const fs::path& replaced, const std::string& shown) {
     uses_books_ = true;
     if (!replaced.empty()) see(replaced, shown);
-    return "<rtweekend.h>";
+    return "\"" + std::string(our_headers) + "\"";
   }
 
   /// Looks at a header that ours take the place of, and at those that it includes.
@@ -190,6 +194,22 @@ class Layouter {
       const fs::path found = find(include, file, shown, found_as);
       if (!found.empty() && include.quoted) see(found, found_as);
     }
+    std::vector<Definition> definitions = definitions_of(code);
+    std::erase_if(definitions, [](const Definition& one) { return is_of_the_books(one); });
+    layout_.replaced.push_back({shown, std::move(definitions)});
+    see_source_of(file, shown);
+  }
+
+  /// The source file that belongs to a header: where that has prototypes, it has the functions.
+  void see_source_of(const fs::path& header, const std::string& shown) {
+    if (header.extension() == ".cc" || header.extension() == ".cpp" || header.extension() == ".cxx") return;
+    std::error_code error;
+    const fs::path own = header.parent_path(), main = sources_.files.front().parent_path();
+    for (const fs::path& folder : {own, own / ".." / "src", main})
+      for (const char* ending : {".cc", ".cpp", ".cxx"}) {
+        const fs::path file = (folder / header.stem()).replace_extension(ending).lexically_normal();
+        if (fs::is_regular_file(file, error)) return see(file, fs::path(shown).replace_extension(ending).string());
+      }
   }
 
   bool is_ours(const std::string& key) const {
@@ -201,7 +221,7 @@ class Layouter {
   }
 
   /// The reader's file; empty: there is none. found_as: what messages call it.
-  fs::path find(const Include& include, const fs::path& from, const std::string& shown, std::string& found_as) const {
+  fs::path find(const Include& include, const fs::path& from, const std::string& shown, std::string& found_as) {
     std::vector<fs::path> folders;
     const fs::path own = from.parent_path();
     if (include.quoted) folders.push_back(own);
@@ -215,7 +235,50 @@ class Layouter {
       found_as = (folder == own ? beside : file).string();
       return file;
     }
+    // Not for the books' headers: one that lies elsewhere may be another program's, and would tell of another sky.
+    if (!include.quoted || is_ours(key_of(include.name))) return {};
+    const fs::path elsewhere = find_below(include.name);
+    found_as = elsewhere.string();
+    return elsewhere;
+  }
+
+  /// A header in any folder of the project, whatever its capitals: build files name folders, and not all systems tell
+  /// capitals from small letters.
+  fs::path find_below(const std::string& name) {
+    const std::string wanted = "/" + lower(fs::path(name).lexically_normal().string());
+    const std::string ending = wanted.substr(wanted.rfind("../") == std::string::npos ? 0 : wanted.rfind("../") + 2);
+    for (const fs::path& file : project_headers())
+      if (("/" + lower(file.string())).ends_with(ending)) return file;
     return {};
+  }
+
+  /// Headers in the folder of main() and below, also beside it if that is called src or the like; nearest first.
+  const std::vector<fs::path>& project_headers() {
+    constexpr int deepest = 4, most = 5000;
+    if (listed_) return headers_below_;
+    listed_ = true;
+    fs::path folder = sources_.files.front().parent_path();
+    const std::string name = lower(fs::weakly_canonical(folder / ".").filename().string());
+    if (name == "src" || name == "source" || name == "app" || name == "apps" || name == "bin") folder /= "..";
+    std::error_code error;
+    int seen = 0;
+    for (fs::recursive_directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
+         at.increment(error)) {
+      if (++seen > most) break;
+      if (at.depth() >= deepest || at->path().filename().string().starts_with(".")) at.disable_recursion_pending();
+      const std::string ending = lower(at->path().extension().string());
+      if (ending == ".h" || ending == ".hpp" || ending == ".hh")
+        headers_below_.push_back(at->path().lexically_normal());
+    }
+    const auto depth = [](const fs::path& file) { return std::distance(file.begin(), file.end()); };
+    std::sort(headers_below_.begin(), headers_below_.end(),
+              [&](const fs::path& a, const fs::path& b) { return depth(a) != depth(b) ? depth(a) < depth(b) : a < b; });
+    return headers_below_;
+  }
+
+  static std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
   }
 
   static fs::path identity(const fs::path& file) {
@@ -247,10 +310,25 @@ class Layouter {
   std::map<fs::path, std::string> copies_;
   std::set<fs::path> seen_;
   std::set<std::string> constants_;
+  std::vector<fs::path> headers_below_;
+  bool listed_ = false;                 ///< the headers below
   std::string all_text_, random_text_;  ///< of all files, and of replaced headers that draw random numbers
 };
 
 }  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return out;
+}
+
+std::string book_class(const std::string& name) {
+  const std::string key = key_of(name);
+  for (const std::string_view one : book_classes)
+    if (key_of(one) == key) return std::string(one);
+  return "";
+}
 
 ProgramLayout lay_out(const ProgramSources& sources, const fs::path& headers) {
   return Layouter(sources, headers).lay_out();

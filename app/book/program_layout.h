@@ -1,4 +1,6 @@
 #pragma once
+#include "app/book/definitions.h"
+
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -25,20 +27,38 @@ struct OwnClass {
   std::string base, file;
 };
 
+/// A header of the reader's, or a source file that belongs to one.
+struct OwnHeader {
+  std::string shown;  ///< what messages call it
+  std::vector<Definition> definitions;
+};
+
 /// A program as it is compiled: its files with other includes. Those of the books' headers lead to ours, those of the
 /// reader's other headers to copies, so that a sphere.h beside main.cc is never found. Each begins with a #line, so
 /// that the compiler's messages name the reader's file.
 struct ProgramLayout {
-  std::map<std::string, std::string> texts;     ///< by the file's name in the folder where it is compiled
-  std::vector<std::string> compiled_files;      ///< those of the texts that are compiled
-  std::vector<std::string> shown_names;         ///< what messages call the files
-  std::vector<std::filesystem::path> files;     ///< all of the reader's that were read
-  std::map<std::string, OwnClass> own_classes;  ///< by name
-  std::vector<std::filesystem::path> data;      ///< files beside the program that its strings name, relative to it
-  std::vector<std::string> options;             ///< for the compiler: see tyndall/book/parts/random.h
-  std::string sky;                              ///< of a camera that sets no background, JSON; empty: the book's
-  bool unknown_sky = false;                     ///< the reader's camera.h has another one, which cannot be told
+  std::map<std::string, std::string> texts;      ///< by the file's name in the folder where it is compiled
+  std::vector<std::string> compiled_files;       ///< those of the texts that are compiled
+  std::vector<std::string> shown_names;          ///< what messages call the files
+  std::vector<std::filesystem::path> files;      ///< all of the reader's that were read
+  std::map<std::string, OwnClass> own_classes;   ///< by name
+  std::vector<OwnHeader> replaced;               ///< in whose place ours stand; what one includes comes before it
+  std::map<std::string, OwnHeader> own_headers;  ///< the others, by their names among the texts
+  std::vector<std::filesystem::path> data;       ///< files beside the program that its strings name, relative to it
+  std::vector<std::string> options;              ///< for the compiler: see tyndall/book/parts/random.h
+  std::string sky;                               ///< of a camera that sets no background, JSON; empty: the book's
+  bool unknown_sky = false;                      ///< the reader's camera.h has another one, which cannot be told
 };
+
+/// The name that the books give a class, by a reader's name in another style (XZRect: xz_rect); "": it is none of
+/// theirs.
+std::string book_class(const std::string& name);
+
+/// Texts of a layout: what includes of the books' headers lead to, and what OwnNames fills.
+constexpr const char *our_headers = "our_headers.h", *own_names = "own_names.h";
+
+/// A string of C++, without its quotes.
+std::string escaped(const std::string& text);
 
 /// Reads the program. headers: the folder of ours. Throws IoError for a file that cannot be read, UsageError if the
 /// program includes none of the books' headers.

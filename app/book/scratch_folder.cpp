@@ -41,15 +41,16 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, error);
 }
 
-void ScratchFolder::write(const fs::path& name, const std::string& text) const {
-  const fs::path file = path_ / name;
+void ScratchFolder::write(const fs::path& name, const std::string& text) const { write_text(path_ / name, text); }
+
+void write_text(const fs::path& file, const std::string& text) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << text << std::flush;
   if (!out || error)
-    throw IoError(printable(path_.string()) +
+    throw IoError(printable(file.parent_path().string()) +
                   ": cannot write temporary files: " + reason(error ? error.value() : errno));
 }
 

@@ -21,6 +21,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+/// Writes a text file, and the folders above it. Throws IoError.
+void write_text(const std::filesystem::path& file, const std::string& text);
 /// A text file. Throws IoError if it cannot be read, or is no ordinary file.
 std::string read_text(const std::filesystem::path& file);
 

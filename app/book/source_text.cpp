@@ -12,26 +12,6 @@ namespace {
 bool is_name_char(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// Words, numbers and single signs of text without comments; strings are left out.
-std::vector<std::string> tokens_of(std::string_view text) {
-  std::vector<std::string> tokens;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t begin = at;
-    if (is_name_char(text[at])) {
-      while (at < text.size() && (is_name_char(text[at]) || text[at] == '.')) ++at;
-      tokens.emplace_back(text.substr(begin, at - begin));
-    } else if (text[at] == '"') {
-      for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at)
-        if (text[at] == '\\') ++at;
-      ++at;
-    } else {
-      if (std::isspace(static_cast<unsigned char>(text[at])) == 0) tokens.emplace_back(1, text[at]);
-      ++at;
-    }
-  }
-  return tokens;
-}
-
 bool is_access(const std::string& name) {
   return name == "public" || name == "protected" || name == "private" || name == "virtual";
 }
@@ -115,6 +95,25 @@ std::string key_of(std::string_view name) {
     if (std::isalnum(static_cast<unsigned char>(c)))
       key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return key;
+}
+
+std::vector<std::string> tokens_of(std::string_view text) {
+  std::vector<std::string> tokens;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = at;
+    if (is_name_char(text[at])) {
+      while (at < text.size() && (is_name_char(text[at]) || text[at] == '.')) ++at;
+      tokens.emplace_back(text.substr(begin, at - begin));
+    } else if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at)
+        if (text[at] == '\\') ++at;
+      ++at;
+    } else {
+      if (std::isspace(static_cast<unsigned char>(text[at])) == 0) tokens.emplace_back(1, text[at]);
+      ++at;
+    }
+  }
+  return tokens;
 }
 
 std::map<std::string, std::string> classes_of(std::string_view text) {

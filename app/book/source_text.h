@@ -19,6 +19,9 @@ std::vector<Include> includes_of(std::string_view text);
 /// The text with comments as blanks; lines stay lines.
 std::string without_comments(std::string_view text);
 
+/// Words, numbers and single signs of text without comments; strings are left out.
+std::vector<std::string> tokens_of(std::string_view text);
+
 /// What both "Hittable_List.hpp" and "../src/hittable-list.h" are called: "hittablelist".
 std::string key_of(std::string_view name);
 

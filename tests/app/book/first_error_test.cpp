@@ -43,10 +43,17 @@ TEST_CASE("classes of the reader's own are named, those that are none of the sce
         "src/main.cc:4:9: frosted: Tyndall has no such material (a class of your own in src/material.h)");
   CHECK(first_error("src/main.cc:4:9: error: unknown type name 'helper'\n", layout()) ==
         "src/main.cc:4:9: unknown type name 'helper'");
-  CHECK(
-      first_error("src/triangle.h:8:9: error: 'edge' was not declared in this scope\n", layout()) ==
-      "src/triangle.h:8:9: 'edge' was not declared in this scope; triangle: Tyndall has no such shape (a class of your "
-      "own in src/triangle.h)");
+  CHECK(first_error("src/triangle.h:8:9: error: 'edge' was not declared in this scope\n", layout()) ==
+        "src/main.cc: triangle: Tyndall has no such shape (a class of your own in src/triangle.h)");
+}
+
+TEST_CASE("what ours may lack is told so, where they stand in the place of the reader's") {
+  ProgramLayout of = layout();
+  of.replaced = {{"src/vec3.h", {}}};
+  CHECK(first_error("src/main.cc:4:9: error: 'struct vec3' has no member named 'w'\n", of) ==
+        "src/main.cc:4:9: 'struct vec3' has no member named 'w'; Tyndall's headers stand in the place of yours");
+  CHECK(first_error("src/main.cc:4:9: error: expected ';' before 'x'\n", of) ==
+        "src/main.cc:4:9: expected ';' before 'x'");
 }
 
 TEST_CASE("what the linker misses, and what nobody understands") {

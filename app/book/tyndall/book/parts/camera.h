@@ -62,11 +62,14 @@ constexpr bool is_list_of_lights() {
 
 struct camera : tyndall_book::camera_values {
   // The names that readers give the same members.
-  double &aspectRatio = aspect_ratio, &vFov = vfov, &vertical_fov = vfov, &fov = vfov;
+  double &aspectRatio = aspect_ratio, &aspect = aspect_ratio;
+  double &vFov = vfov, &vertical_fov = vfov, &verticalFov = vfov, &fov = vfov, &field_of_view = vfov;
   double &defocusAngle = defocus_angle, &focusDist = focus_dist, &focus_distance = focus_dist,
          &focusDistance = focus_dist;
-  int &imageWidth = image_width, &imageHeight = image_height, &samplesPerPixel = samples_per_pixel,
-      &no_samples = samples_per_pixel, &maxDepth = max_depth, &depth = max_depth;
+  int &imageWidth = image_width, &width = image_width, &imageHeight = image_height, &height = image_height;
+  int &samplesPerPixel = samples_per_pixel, &no_samples = samples_per_pixel, &num_samples = samples_per_pixel,
+      &samples = samples_per_pixel, &spp = samples_per_pixel;
+  int &maxDepth = max_depth, &depth = max_depth, &max_bounces = max_depth, &maxBounces = max_depth;
   point3 &lookFrom = lookfrom, &lookAt = lookat, &look_from = lookfrom, &look_at = lookat;
   vec3 &vUp = vup, &view_up = vup, &viewUp = vup;
   tyndall_book::given_color &backgroundColor = background, &background_color = background;
@@ -125,6 +128,23 @@ struct camera : tyndall_book::camera_values {
   }
   template <class... Arguments>
   bool Render(const Arguments&... arguments) const {
+    return render(arguments...);
+  }
+  // Readers' renders in several threads.
+  template <class... Arguments>
+  bool parallel_render(const Arguments&... arguments) const {
+    return render(arguments...);
+  }
+  template <class... Arguments>
+  bool render_parallel(const Arguments&... arguments) const {
+    return render(arguments...);
+  }
+  template <class... Arguments>
+  bool render_threaded(const Arguments&... arguments) const {
+    return render(arguments...);
+  }
+  template <class... Arguments>
+  bool render_multithreaded(const Arguments&... arguments) const {
     return render(arguments...);
   }
 };

@@ -130,7 +130,8 @@ inline bool LoopProbe::take_hit(const hittable& world, hit_record& record) {
   record = hit_record();
   record.normal = vec3(0, -1, 0);
   record.t = 1;
-  record.mat = record.mat_ptr = &seen;
+  record.mat = record.mat_ptr = record.matPtr = record.mat_pointer = &seen;
+  record.material = record.material_ptr = record.materialPtr = &seen;
   return true;
 }
 

@@ -116,9 +116,9 @@ struct isotropic : material {
 };
 
 struct hit_record {
-  point3 p;
+  point3 p, point, position;  // and other names of readers' for the same
   vec3 normal;
-  tyndall_book::ref<material> mat, mat_ptr;
+  tyndall_book::ref<::material> mat, mat_ptr, matPtr, mat_pointer, material, material_ptr, materialPtr;
   double t = 0, u = 0, v = 0;
   bool front_face = true;
 

@@ -12,18 +12,37 @@ using std::make_shared;
 using std::shared_ptr;
 using std::sqrt;
 
+namespace tyndall_book {
+
+/// A coordinate that serves readers who write v.x() and those who write v.x.
+struct coordinate {
+  double value;
+
+  double operator()() const { return value; }
+  operator double() const { return value; }
+  coordinate& operator=(double to) { return value = to, *this; }
+  coordinate& operator+=(double add) { return *this = value + add; }
+  coordinate& operator-=(double subtract) { return *this = value - subtract; }
+  coordinate& operator*=(double factor) { return *this = value * factor; }
+  coordinate& operator/=(double divisor) { return *this = value / divisor; }
+};
+
+}  // namespace tyndall_book
+
 struct vec3 {
-  double e[3] = {0, 0, 0};
+  __extension__ union {
+    double e[3] = {0, 0, 0};
+    struct {
+      tyndall_book::coordinate x, y, z;
+    };
+    struct {
+      tyndall_book::coordinate r, g, b;
+    };
+  };
 
   vec3() = default;
-  vec3(double x, double y, double z) : e{x, y, z} {}
+  vec3(double on_x, double on_y, double on_z) : e{on_x, on_y, on_z} {}
 
-  double x() const { return e[0]; }
-  double y() const { return e[1]; }
-  double z() const { return e[2]; }
-  double r() const { return e[0]; }
-  double g() const { return e[1]; }
-  double b() const { return e[2]; }
   double operator[](int axis) const { return e[axis]; }
   double& operator[](int axis) { return e[axis]; }
 
@@ -47,10 +66,16 @@ struct vec3 {
 
   double length_squared() const { return e[0] * e[0] + e[1] * e[1] + e[2] * e[2]; }
   double squared_length() const { return length_squared(); }
+  double lengthSquared() const { return length_squared(); }
   double length() const { return std::sqrt(length_squared()); }
+  double magnitude() const { return length(); }
   void make_unit_vector() { *this /= length(); }
   bool near_zero() const { return std::fabs(e[0]) < 1e-8 && std::fabs(e[1]) < 1e-8 && std::fabs(e[2]) < 1e-8; }
   void write_color(std::ostream& out, int samples) const;
+  double dot(const vec3& other) const;
+  vec3 cross(const vec3& other) const;
+  vec3 unit_vector() const;
+  vec3 normalized() const;
 
   /// With parentheses, as readers write it: in braces the order of the three draws would be from left to right, with
   /// any compiler.
@@ -85,6 +110,10 @@ inline vec3 cross(const vec3& a, const vec3& b) {
   return vec3(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 inline vec3 unit_vector(const vec3& v) { return v / v.length(); }
+inline double vec3::dot(const vec3& other) const { return ::dot(*this, other); }
+inline vec3 vec3::cross(const vec3& other) const { return ::cross(*this, other); }
+inline vec3 vec3::unit_vector() const { return ::unit_vector(*this); }
+inline vec3 vec3::normalized() const { return ::unit_vector(*this); }
 
 TYNDALL_BOOK_HELPER vec3 random_in_unit_sphere() {
   vec3 point = vec3::random(-1, 1);
@@ -116,16 +145,26 @@ TYNDALL_BOOK_HELPER vec3 refract(const vec3& unit, const vec3& normal, double ra
   return across - std::sqrt(std::fabs(1 - across.length_squared())) * normal;
 }
 
+namespace tyndall_book {
+
+/// A vector that serves readers who write r.direction() and those who write r.direction.
+struct vector_member : vec3 {
+  vector_member() = default;
+  vector_member(const vec3& v) : vec3(v) {}
+  const vec3& operator()() const { return *this; }
+};
+
+}  // namespace tyndall_book
+
 struct ray {
-  point3 orig, A;  ///< both the origin; A in the first edition
-  vec3 dir, B;     ///< both the direction
+  tyndall_book::vector_member origin, direction;
+  point3 orig, A;  ///< the origin, too; A in the first edition
+  vec3 dir, B;     ///< the direction, too
   double tm = 0;
 
   ray() = default;
-  ray(const point3& origin, const vec3& direction, double time = 0)
-      : orig(origin), A(origin), dir(direction), B(direction), tm(time) {}
-  const point3& origin() const { return orig; }
-  const vec3& direction() const { return dir; }
+  ray(const point3& from, const vec3& along, double at_time = 0)
+      : origin(from), direction(along), orig(from), A(from), dir(along), B(along), tm(at_time) {}
   double time() const { return tm; }
   point3 at(double t) const { return orig + t * dir; }
   point3 point_at_parameter(double t) const { return at(t); }

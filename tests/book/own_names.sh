@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# What a program's own headers have beyond the books' names, where ours take their place.
+. "$(dirname "$0")/_program.sh"
+
+# Constants, helper functions, namespaces, macros, prototypes whose functions stand in a source file, and classes that
+# only put shapes together.
+mkdir -p own/src
+cat >own/src/vec3.h <<'END'
+#define BIG 7
+class vec3 { public: double x, y, z; };
+vec3 halfway(const vec3& a, const vec3& b);
+const vec3 origin_of_all(0, 0, -4);
+namespace tools { inline double width() { return 2 * BIG; } }
+END
+echo 'vec3 halfway(const vec3& a, const vec3& b) { return 0.5 * (a + b); }' >own/src/vec3.cpp
+echo 'class twins : public hittable_list { public: twins(double r) { add(make_shared<sphere>(vec3(r, 0, 0), r, make_shared<metal>(vec3(1, 1, 1), 0.0))); } };' >own/src/sphere.h
+program own/src/main <<'END'
+#include "vec3.h"
+int main() { hittable_list w; w.add(make_shared<twins>(0.25)); vec3 p = halfway(origin_of_all, vec3(2, 0, 0)); p.y += 0.5;
+  w.add(make_shared<SPHERE>(p, p.y(), make_shared<metal>(vec3(1, 1, 1), 0.0))); camera c; c.image_width = tools::width(); c.parallel_render(w); }
+END
+expect 0 "$tyndall" convert own/src/main.cc -o own.json
+same 'size' "$(json own.json image)" '{"width": 14, "height": 14}'
+same 'centres' "$(python3 -c 'import json; print([o["center"] for o in json.load(open("own.json"))["objects"]])')" '[[0.25, 0, 0], [1, 0.5, -2]]'
+
+# A shape or a material of its own does no harm unless the scene has one, whether its header can be compiled or not.
+echo 'class frosted : public material { };' >own/src/material.h
+echo 'class torus : public hittable { my_box box; bool hit(no_such_type) const; };' >own/src/torus.h
+program own/src/spare <<<"#include \"torus.h\"
+$ball void other() { hittable_list w; w.add(make_shared<torus>(1, make_shared<frosted>(0.5))); } int main() { camera c; c.render(ball()); }"
+expect 0 "$tyndall" convert own/src/spare.cc -o spare.json
+sed 's/int main() {/& hittable_list w; w.add(make_shared<torus>(1, nullptr)); camera().render(w);/' own/src/spare.cc >own/src/used.cc
+expect 2 "$tyndall" convert own/src/used.cc -o used.json
+complains 'own/src/used.cc: torus: Tyndall has no such shape'
+
+# Headers are found in other folders of the project, and whatever their capitals.
+mkdir -p own/lib/Parts
+echo 'inline double radius_of_ball() { return 0.75; }' >own/lib/Parts/Sizes.h
+program own/src/far <<<'#include "parts/sizes.h"
+int main() { hittable_list w; w.add(make_shared<sphere>(vec3(0, 0, -1), radius_of_ball(), make_shared<metal>(vec3(1, 1, 1), 0.0))); camera c; c.render(w); }'
+expect 0 "$tyndall" convert own/src/far.cc -o far.json
+grep -qF '"radius": 0.75' far.json || fail "$(cat far.json)"
+
+# What is missing in ours and cannot be taken over.
+refused own/src/member "has no member named 'w'; Tyndall's headers stand in the place of yours" <<<'int main() { return vec3(1, 2, 3).w; }'
+
+finish
