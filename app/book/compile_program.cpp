@@ -191,10 +191,10 @@ namespace {
 /// remains, or "".
 std::string compile_with_own_names(const ProgramTask& task, const ProgramLayout& layout,
                                    const std::vector<std::string>& arguments) {
-  constexpr int most = 8;
+  constexpr int max_rounds = 8;
   OwnNames own(layout);
   std::string remaining;
-  for (int round = 0; round < most; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     for (const auto& [name, text] : layout.texts) write_text(task.folder / "code" / name, text);
     for (const auto& [name, text] : own.texts()) write_text(task.folder / "code" / name, text);
     const ChildEnd end = compile(task, arguments);

@@ -45,7 +45,7 @@ BookDirection scatter_matt(DiffuseRule rule, const Incident<float>& in) {
   switch (rule) {
     case DiffuseRule::cosine:
       break;
-    case DiffuseRule::ball:
+    case DiffuseRule::filled_sphere:
       return unit_of(point_at(in.facing, std::cbrt(in.sampler.next_1d(dimension::radius)), in.unit_vector), in);
     case DiffuseRule::hemisphere:
       return {dot(in.unit_vector, in.facing) < 0 ? -in.unit_vector : in.unit_vector};

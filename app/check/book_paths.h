@@ -15,15 +15,15 @@
 /// books' way show how often a sum of few samples is clipped at white.
 namespace tyndall {
 
-enum class DiffuseRule { cosine, ball, hemisphere };
-enum class FuzzRule { ball, sphere };
+enum class DiffuseRule { cosine, filled_sphere, hemisphere };
+enum class FuzzRule { filled_sphere, sphere };
 enum class GlassRule { right, reflects_all, reflects_none, black, enters_only };
 enum class TimeRule { kept, lost_by_matt, lost };
 
 /// The rules by which a program of the books scatters light. The default is what Tyndall renders.
 struct BookRules {
-  DiffuseRule diffuse = DiffuseRule::cosine;  ///< ball: as edition 1; hemisphere: uniform, with weight 1
-  FuzzRule fuzz = FuzzRule::ball;             ///< sphere: as edition 4
+  DiffuseRule diffuse = DiffuseRule::cosine;  ///< filled_sphere: as edition 1; hemisphere: uniform, with weight 1
+  FuzzRule fuzz = FuzzRule::filled_sphere;    ///< sphere: as edition 4
   GlassRule glass = GlassRule::right;         ///< enters_only: the index is used as if every ray came from outside
   TimeRule time = TimeRule::kept;             ///< lost: scattered rays are at time 0
   bool schlick = false;                       ///< instead of Fresnel's equations

@@ -95,8 +95,8 @@ class Search {
       if (only_right && !is_right(reading)) continue;
       const double found = expectation_.differences(model, reading).amount();
       std::optional<Reading>& best = is_right(reading) ? right : wrong;
-      double& least = is_right(reading) ? of_right : of_wrong;
-      if (!best || found < least) best = reading, least = found;
+      double& min_found = is_right(reading) ? of_right : of_wrong;
+      if (!best || found < min_found) best = reading, min_found = found;
     }
     if (amount) *amount = of_right;
     return wrong && of_wrong < clear_improvement * of_right ? *wrong : *right;
@@ -104,8 +104,8 @@ class Search {
 
   /// Where white cuts off much, the noise tells the number of samples only roughly: takes the one that fits best.
   void fit_samples() {
-    double least = 0;
-    const Reading first = best_reading(expectation_.start_model(), true, &least);
+    double min_found = 0;
+    const Reading first = best_reading(expectation_.start_model(), true, &min_found);
     if (agrees(expectation_.differences(expectation_.start_model(), first)) || !expectation_.white_matters()) return;
     const double told = expectation_.samples();
     double best = told;
@@ -113,7 +113,7 @@ class Search {
       expectation_.set_samples(std::max(1.0, samples));
       double amount = 0;
       best_reading(expectation_.start_model(), true, &amount);
-      if (amount < clear_improvement * least) best = std::max(1.0, samples), least = amount;
+      if (amount < clear_improvement * min_found) best = std::max(1.0, samples), min_found = amount;
     }
     if (best > 0) expectation_.set_samples(best);
   }
@@ -207,13 +207,13 @@ class Search {
   /// Which right curve the picture has may only be seen together with the mistake: the best one counts.
   void judge(const Fit& right, const BookModel& model, const std::string& name, const std::string& words) {
     Reading best = right.reading;
-    double most = gone_with(right, model, best);
+    double max_gone = gone_with(right, model, best);
     for (const Reading& reading : readings_of(picture_.coded)) {
       if (!is_right(reading) || reading == right.reading) continue;
       const double gone = gone_with(right, model, reading);
-      if (gone > most) most = gone, best = reading;
+      if (gone > max_gone) max_gone = gone, best = reading;
     }
-    add_tried(most, best, name, words);
+    add_tried(max_gone, best, name, words);
   }
 
   void try_reading(const Fit& right, const Reading& best) {

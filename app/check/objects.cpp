@@ -20,13 +20,13 @@ int seen_medium(const SceneView& view, int x, int y, float distance) {
   const Ray<float> ray =
       camera_ray(view.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, Pair<float>{0, 0}, time);
   int seen = -1;
-  float most = seen_depth;
+  float max_depth = seen_depth;
   for (int k = 0; k < view.medium_count; ++k) {
     const MediumColumns& medium = view.media[k];
     const Interval<float> inside = medium_interval(medium, ray.origin, ray.direction, ray.from);
     if (!inside.hit) continue;
     const float depth = (std::min(inside.far, distance) - std::max(inside.near, 0.0f)) * medium.density;
-    if (depth > most) most = depth, seen = k;
+    if (depth > max_depth) max_depth = depth, seen = k;
   }
   return seen;
 }

@@ -186,7 +186,7 @@ std::vector<Difference> usual_choices() {
       {"short-frame", "pixels divided by width - 1 and height - 1, as in editions 2 and 3",
        rule(&BookRules::short_frame, true, always)},
       {"diffuse-ball", "matt surfaces by a point in the ball, as in edition 1",
-       rule(&BookRules::diffuse, DiffuseRule::ball, has_material<Lambertian<>>)},
+       rule(&BookRules::diffuse, DiffuseRule::filled_sphere, has_material<Lambertian<>>)},
   };
 }
 

@@ -68,8 +68,8 @@ Command read_compare(const std::vector<std::string>& arguments) {
       "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
       "whether the difference is more than noise.\n\n"
       "With a scene in place of REFERENCE (its name, its file, or MAIN.cc) the scene is rendered in the\n"
-      "image's size, and the answer says whether they agree within the noise; else which objects differ, and\n"
-      "which usual mistake in a program of \"Ray Tracing in One Weekend\" explains that: each one is\n"
+      "image's size, and the answer says whether they agree within the noise; else which objects differ,\n"
+      "and which usual mistake in a program of \"Ray Tracing in One Weekend\" explains that: each one is\n"
       "rendered. What editions do otherwise (gamma, Schlick's rule, fuzz on the sphere, frame) is said, and\n"
       "is no mistake. PNG and EXR are images here, even if they carry a scene.\n\n"
       "EXR files of one display window and different data windows (a region, overscan) are compared by\n"
@@ -80,8 +80,7 @@ Command read_compare(const std::vector<std::string>& arguments) {
       "Examples:\n"
       "  tyndall compare out.png snapshot.png\n"
       "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
-      "  tyndall compare image.ppm main.cc\n"
-      "  ./mine | tyndall compare - cornell-box\n"
+      "  ./mine | tyndall compare - main.cc\n"
       "  tyndall compare a.exr --baseline kept --report report.html");
   std::vector<std::string> images;
   add_arguments(*app, "IMAGE REFERENCE",

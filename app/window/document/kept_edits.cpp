@@ -37,7 +37,7 @@ constexpr std::string_view first_line = "// Edits that were not saved, of ";
 constexpr std::string_view second_line = "// The FNV-1a hash of that file's text when they were made: ";
 
 /// On one line, as a comment needs it: what would end the line is written as %0A and the like.
-std::string escaped(const std::string& text) {
+std::string in_a_comment(const std::string& text) {
   constexpr const char* digits = "0123456789ABCDEF";
   std::string out;
   for (const char c : text) {
@@ -166,7 +166,7 @@ void for_free_files(const KeepingPlace& place, const std::function<void(KeptSlot
 
 std::string kept_text(const Scene& scene, const Origin& origin, const fs::path& folder) {
   const Scene moved = move_textures(scene, fs::absolute(origin.folder), fs::absolute(folder));
-  std::string text = std::string(first_line) + escaped(origin.what) + "\n";
+  std::string text = std::string(first_line) + in_a_comment(origin.what) + "\n";
   if (origin.text_hash != 0) text += fmt::format("{}{:016x}\n", second_line, origin.text_hash);
   return text + write_scene(moved);
 }
