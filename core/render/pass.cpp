@@ -125,21 +125,21 @@ bool Pass::run(const RenderEngine& engine, Film& film, const std::atomic<bool>& 
   const auto job = [&](int index) {
     auto& done = done_[static_cast<std::size_t>(index)];
     if (done || give_up.load(std::memory_order_relaxed)) return;
-    done = wanted_.empty() ? run_tile(index, engine, film, give_up) : fill_tile(index, engine, film, give_up);
+    done = wanted_.empty() ? run_tile(index, engine, film) : fill_tile(index, engine, film, give_up);
   };
   engine.thread_pool.for_each(columns_ * rows_, job, poll);
   film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
   return std::all_of(done_.begin(), done_.end(), [](std::uint8_t d) { return d != 0; });
 }
 
-/// False if a source of samples left the tile job unfinished, because `give_up` was set.
-bool Pass::run_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up) {
+/// False if a source of samples has left the tile job.
+bool Pass::run_tile(int index, const RenderEngine& engine, Film& film) {
   const Region where = tile(index);
   TileBuffer& tile_film = buffer();
   tile_film.clear(where, step_, !film.emission.empty());
   TileCounts counts;
   if (!engine.render_tile({where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
-                          tile_film.emission_or_null(), give_up))
+                          tile_film.emission_or_null()))
     return false;
   add_tile(where, step_, first_ == film.first_sample, film);
   add_counts(counts);
@@ -156,8 +156,7 @@ bool Pass::fill_tile(int index, const RenderEngine& engine, Film& film, const st
     tile_film.clear(where, 1, !film.emission.empty());
     TileCounts counts;
     const TileJob lacking{where, 1, 0, 0, 0, tile_film.first.data(), tile_film.last.data()};
-    if (!engine.render_tile(lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null(),
-                            give_up))
+    if (!engine.render_tile(lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null()))
       return false;
     add_tile(where, 1, false, film);
     add_counts(counts);

@@ -18,12 +18,14 @@ struct RenderEngine {
   const Kernels& kernels;
   const SceneView& scene;
   const SampleSource* samples = nullptr;  ///< null: the kernels take them
+  /// As soon as it is set, a source of samples leaves its tile job, whose samples are lost. Null: it never does. Where
+  /// a pass is only interrupted, it must not be set, or a slow source might never finish a tile job.
+  const std::atomic<bool>* leave = nullptr;
 
-  /// See Kernels::render_tile. Returns whether the tile job is whole: a source of samples leaves it where `give_up` is
-  /// set.
+  /// See Kernels::render_tile. Returns whether the tile job is whole.
   bool render_tile(const TileJob& job, double film_quantum, FilmPixel* pixels, TileCounts& counts,
-                   EmissionSums* emission, const std::atomic<bool>& give_up) const {
-    if (samples) return sample_tile(*samples, scene, job, film_quantum, pixels, give_up);
+                   EmissionSums* emission) const {
+    if (samples) return sample_tile(*samples, scene, job, film_quantum, pixels, leave);
     kernels.render_tile(scene, job, film_quantum, pixels, counts, emission);
     return true;
   }
@@ -67,7 +69,7 @@ class Pass {
  private:
   void cut(Tiling tiling, std::uint32_t samples);
   Region tile(int index) const;
-  bool run_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
+  bool run_tile(int index, const RenderEngine& engine, Film& film);
   bool fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
   void add_tile(const Region& where, int step, bool replace, Film& film);
   void add_counts(const TileCounts& counts);

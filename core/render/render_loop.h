@@ -47,7 +47,9 @@ class RenderLoop {
   void make_coarse_clean();
   bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(request_.limit())); }
   bool unfinished(std::uint32_t limit) const { return shown_.prepared && picture_.taken() < limit; }
-  RenderEngine engine() const { return {*thread_pool_, kernels_, shown_.prepared->view(), shown_.samples.get()}; }
+  RenderEngine engine() const {
+    return {*thread_pool_, kernels_, shown_.prepared->view(), shown_.samples.get(), &mail_.give_up()};
+  }
 
   Mailbox& mail_;
   Kernels kernels_;

@@ -48,7 +48,7 @@ void add(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_quantu
 }  // namespace
 
 bool sample_tile(const SampleSource& source, const SceneView& scene, const TileJob& job, double film_quantum,
-                 FilmPixel* pixels, const std::atomic<bool>& give_up) {
+                 FilmPixel* pixels, const std::atomic<bool>* leave) {
   const double per_quantum = 1 / film_quantum;
   for (int y = job.tile.y0; y < job.tile.y1; ++y)
     for (int x = job.tile.x0; x < job.tile.x1; ++x) {
@@ -60,7 +60,7 @@ bool sample_tile(const SampleSource& source, const SceneView& scene, const TileJ
       const std::uint32_t last = job.last_of ? job.last_of[place] : job.last;
       const PixelPoints points(scene, x, y);
       for (std::uint32_t index = first; index < last; ++index, ++pixel.taken) {
-        if (give_up.load(std::memory_order_relaxed)) return false;
+        if (leave && leave->load(std::memory_order_relaxed)) return false;
         const Pair<float> at = points.of(index);
         add(pixel, index & 1u, source.sample(x + static_cast<double>(at.x), y + static_cast<double>(at.y), index),
             per_quantum);

@@ -24,9 +24,10 @@ inline constexpr double source_quantum = 0x1p16;
 
 /// Takes the samples of a tile job from the source, as Kernels::render_tile does from a scene, and adds them to
 /// `pixels`. The points are those through which kernels send their rays; scene: whose seed and sampler choose them.
-/// Looks at `give_up` before each sample. Returns whether all samples were taken; if not, `pixels` are of no use.
+/// Looks at `leave` before each sample, unless it is null. Returns whether all samples were taken; if not, `pixels` are
+/// of no use.
 bool sample_tile(const SampleSource& source, const SceneView& scene, const TileJob& job, double film_quantum,
-                 FilmPixel* pixels, const std::atomic<bool>& give_up);
+                 FilmPixel* pixels, const std::atomic<bool>* leave);
 
 /// Paths of a tile job so that it takes about 2 ms, at least 1. paths_per_second: of all threads; 0: not known yet.
 double source_paths_per_tile(double paths_per_second, int threads);
