@@ -67,10 +67,12 @@ std::string own_class_in(const std::string& place, const ProgramLayout& layout) 
 }
 
 /// Whether a message is about something that the reader's own headers may have and ours have not.
-bool is_about_ours(const std::string& message) {
-  for (const char* words : {"no member named", "not declared", "no matching", "does not name a type", "not a member of",
-                            "undeclared identifier", "unknown type name", "type-specifier", "cannot convert"})
-    if (message.find(words) != std::string::npos) return true;
+bool is_about_ours(const std::string& message, const ProgramLayout& layout) {
+  for (const OwnHeader& header : layout.replaced)
+    for (const Definition& one : header.definitions)
+      if (one.name == quoted_name(message)) return true;
+  for (const char* words : {"no member named", "no matching"})
+    if (!layout.replaced.empty() && message.find(words) != std::string::npos) return true;
   return false;
 }
 
@@ -162,7 +164,7 @@ std::string quoted_name(const std::string& message) {
 std::string first_error(const std::string& output, const ProgramLayout& layout) {
   const std::vector<std::string> lines = lines_of(output);
   const std::string required = "required from", requested = "requested here";
-  const std::string remark = layout.replaced.empty() ? "" : "; Tyndall's headers stand in the place of yours";
+  const std::string remark = "; Tyndall's headers stand in the place of yours";
   std::string caller;  // the reader's line that a template was needed for
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const std::string place = reader_place(lines[k], layout);
@@ -177,7 +179,7 @@ std::string first_error(const std::string& output, const ProgramLayout& layout) 
     const std::string own = no_such_class(quoted_name(text), layout), about = own_class_in(sentence, layout);
     if (!own.empty()) return sentence + ": " + own;
     if (!about.empty()) return layout.shown_names.front() + ": " + about;
-    return sentence + ": " + shortened(text, longest_error) + (is_about_ours(text) ? remark : "");
+    return sentence + ": " + shortened(text, longest_error) + (is_about_ours(text, layout) ? remark : "");
   }
   const std::string undefined = undefined_reference(lines);
   if (!undefined.empty()) return layout.shown_names.front() + ": " + shortened(undefined, longest_error);

@@ -55,9 +55,14 @@ bool describe(Definition& item) {
   if (begin + 1 >= tokens.size()) return false;
   const std::string& first = tokens[begin];
   if (is_one_of(first, {"extern", "friend", "static_assert"})) return false;
+  if (first == "using" && tokens[begin + 1] == "namespace") {
+    item.name = using_namespace;
+    return true;
+  }
   if (first == "using") {
-    item.name = tokens[begin + 1];
-    return begin + 2 < tokens.size() && tokens[begin + 2] == "=";
+    const bool is_alias = begin + 2 < tokens.size() && tokens[begin + 2] == "=";
+    item.name = is_alias ? tokens[begin + 1] : tokens[tokens.size() - 2];
+    return is_name(item.name);
   }
   if (first == "typedef") {
     item.name = tokens[tokens.size() - 2];

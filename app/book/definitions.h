@@ -14,8 +14,11 @@ struct Definition {
   bool is_namespace = false;  ///< all of it
 };
 
+/// The name of a using-directive in this sense.
+constexpr const char* using_namespace = "using namespace";
+
 /// What the text, which is free of comments, declares or defines at its top level: functions, types, aliases,
-/// variables, macros, namespaces. Left out: using-declarations, operators, members defined outside of classes.
+/// variables, macros, namespaces, names that `using` brings. Left out: operators, members defined outside of classes.
 std::vector<Definition> definitions_of(std::string_view text);
 
 }  // namespace tyndall

@@ -52,6 +52,7 @@ bool OwnNames::add(const std::string& name) {
   };
   bool known = std::any_of(layout_.replaced.begin(), layout_.replaced.end(), has);
   for (const std::string& dropped : dropped_) known = known || has(layout_.own_headers.at(dropped));
+  if (!known && name != using_namespace) return add(using_namespace);
   return known && names_.insert(name).second;
 }
 

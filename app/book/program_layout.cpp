@@ -1,5 +1,6 @@
 #include "app/book/program_layout.h"
 
+#include "app/book/camera_constructor.h"
 #include "app/book/scratch_folder.h"
 #include "app/book/source_text.h"
 #include "app/text/values.h"
@@ -110,7 +111,8 @@ class Layouter {
       if (name == "pi") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_PI");
       if (name == "infinity") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_INFINITY");
     }
-    layout_.texts[our_headers] = "#pragma once\n#include <rtweekend.h>\n#include \"" + std::string(own_names) + "\"\n";
+    layout_.texts[our_headers] = "#pragma once\n" + camera_constructor_ + "#include <rtweekend.h>\n#include \"" +
+                                 std::string(own_names) + "\"\n";
     layout_.texts[own_names] = "";
     return std::move(layout_);
   }
@@ -184,6 +186,7 @@ class Layouter {
     const std::map<std::string, std::string> classes = classes_of(code);
     for (const auto& [name, base] : classes)
       if (!is_book_class(name)) layout_.own_classes[name] = {base, shown};
+    if (camera_constructor_.empty()) camera_constructor_ = camera_constructor(code);
     if (has_name(code, "ray_color") && (classes.contains("camera") || classes.contains("Camera"))) {
       const auto sky = sky_of(code);
       layout_.sky = sky.value_or("");
@@ -310,6 +313,7 @@ class Layouter {
   std::map<fs::path, std::string> copies_;
   std::set<fs::path> seen_;
   std::set<std::string> constants_;
+  std::string camera_constructor_;
   std::vector<fs::path> headers_below_;
   bool listed_ = false;                 ///< the headers below
   std::string all_text_, random_text_;  ///< of all files, and of replaced headers that draw random numbers

@@ -7,6 +7,7 @@
 mkdir -p own/src
 cat >own/src/vec3.h <<'END'
 #define BIG 7
+using namespace std;
 class vec3 { public: double x, y, z; };
 vec3 halfway(const vec3& a, const vec3& b);
 const vec3 origin_of_all(0, 0, -4);
@@ -17,7 +18,7 @@ echo 'class twins : public hittable_list { public: twins(double r) { add(make_sh
 program own/src/main <<'END'
 #include "vec3.h"
 int main() { hittable_list w; w.add(make_shared<twins>(0.25)); vec3 p = halfway(origin_of_all, vec3(2, 0, 0)); p.y += 0.5;
-  w.add(make_shared<SPHERE>(p, p.y(), make_shared<metal>(vec3(1, 1, 1), 0.0))); camera c; c.image_width = tools::width(); c.parallel_render(w); }
+  w.add(make_shared<SPHERE>(p, p.y(), make_shared<metal>(vec3(1, 1, 1), 0.0))); camera c; c.image_width = tools::width() + string("").size(); c.parallel_render(w); }
 END
 expect 0 "$tyndall" convert own/src/main.cc -o own.json
 same 'size' "$(json own.json image)" '{"width": 14, "height": 14}'
@@ -40,6 +41,18 @@ program own/src/far <<<'#include "parts/sizes.h"
 int main() { hittable_list w; w.add(make_shared<sphere>(vec3(0, 0, -1), radius_of_ball(), make_shared<metal>(vec3(1, 1, 1), 0.0))); camera c; c.render(w); }'
 expect 0 "$tyndall" convert own/src/far.cc -o far.json
 grep -qF '"radius": 0.75' far.json || fail "$(cat far.json)"
+
+# A camera whose constructor takes what the fourth edition's members hold.
+mkdir made
+cat >made/camera.h <<'END'
+class Camera { public: Camera(double aspectRatio, int imageWidth, int samplesPerPixel = 10, vec3 lookfrom = {0, 0, 0}, const Vec3& up = vec3(0, 1, 0)); };
+END
+program made/main <<<"$ball int main() { Camera c{2, 30, 7, {0, 1, 5}, {1, 0, 0}}; c.render(ball()); }"
+expect 0 "$tyndall" convert made/main.cc -o made.json
+same 'size and camera' "$(json made.json image) $(json made.json camera)" '{"width": 30, "height": 15} {"look_from": [0, 1, 5], "vup": [1, 0, 0], "focus_distance": 10, "shutter": [0, 1]}'
+sed -i 's/, const Vec3& up/, int antialiasing/' made/camera.h
+expect 2 "$tyndall" convert made/main.cc -o made.json
+complains "made/main.cc:8:" "no matching" "; Tyndall's headers stand in the place of yours"
 
 # What is missing in ours and cannot be taken over.
 refused own/src/member "has no member named 'w'; Tyndall's headers stand in the place of yours" <<<'int main() { return vec3(1, 2, 3).w; }'

@@ -82,6 +82,10 @@ struct camera : tyndall_book::camera_values {
   }
   explicit camera(const std::string&) {}  // a reader's, with the name of the picture's file
 
+#ifdef TYNDALL_BOOK_CAMERA_PARAMETERS  // a constructor of the reader's own: `tyndall main.cc` looks it up
+  camera(TYNDALL_BOOK_CAMERA_PARAMETERS) { TYNDALL_BOOK_CAMERA_BODY }
+#endif
+
   /// Editions 1 to 3. aperture: the lens's diameter; begin, end: when the shutter opens and closes.
   camera(const point3& from, const point3& at, const vec3& up, double field, double ratio, double aperture = 0,
          double focus = 0, double begin = 0, double end = 0)
