@@ -94,6 +94,7 @@ class Commands:
         self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
         shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
         shutil.copy(self.root / "tests/book/third/main.cc", self.fixtures / "main.cc")
+        self.output(["render", "cornell-box", "--spp", "4", *small, "-o", "image.ppm"])
         try:
             for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4"), ("fog", "0:4")):
                 self.output(["render", "cornell-smoke", "--samples", samples, *small, "-o", name + ".exr"])
@@ -148,6 +149,8 @@ class Commands:
         small = SMALL["render"] if renders else SMALL.get(name, [])
         if renders and not LIMITS & set(words):
             small = small + ["--spp", "1"]
+        if name == "compare" and "image.ppm" in words:
+            small = ["--time", "1"]
         checks = name == "verify" or any(word.startswith("--max-") for word in words)
         opens_window = not through_run and (not words or name == "view" or (not name and words[0] != "help" and words[0][0] != "-"))
         if opens_window or name == "inspect":

@@ -1,6 +1,5 @@
 #include "app/book/own_names.h"
 
-#include "app/book/compile_program.h"
 #include "app/book/source_text.h"
 
 #include <algorithm>
