@@ -54,7 +54,7 @@ class Build:
         self.of_library = self.command(commands["core/targets/scalar.cpp"])
         self.of_tests = self.command(commands["tests/main.cpp"])
         line = must(["ninja", "-t", "commands", "core_tests"], build).strip().splitlines()[-1]
-        left_out = ("_test.cpp", "libtyndall_app")
+        left_out = ("_test.cpp", "/Unity/", "libtyndall_app")
         self.link = [word for word in shlex.split(line.split("&&")[1]) if not any(part in word for part in left_out)]
 
     def command(self, text):

@@ -2,12 +2,20 @@
 #include "core/image/image_io.h"
 #include "tests/support/scratch.h"
 
+#include <unistd.h>
+
+#include <string>
+
 /// Picture files that tests write byte by byte, and what comes of reading them.
 namespace tyndall::test {
 
-/// The file that holds these bytes, until the next one is written.
+/// The file that holds these bytes, until the next one is written. Tests that run at the same time have one each.
 inline std::filesystem::path picture_file(const std::string& bytes) {
-  const std::filesystem::path file = scratch_folder("picture") / "a.picture";
+  static const struct Folder {
+    std::filesystem::path path = scratch_folder("picture-" + std::to_string(getpid()));
+    ~Folder() { std::filesystem::remove_all(path); }
+  } folder;
+  const std::filesystem::path file = folder.path / "a.picture";
   write_text(file, bytes);
   return file;
 }
