@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_lattice_pixels = 100'000;
 constexpr int min_samples = 4, max_samples_of_pixel = 24;
-constexpr double part_for_samples = 1 / 24.0;     // of the time, for the samples of one program
+constexpr double part_for_samples = 1 / 60.0;     // of the time, for the samples of one program
 constexpr int large_edge = 4;                     // of a large block, in small ones
 constexpr std::size_t min_ratios = 8;             // blocks that tell how many samples a picture has
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
@@ -210,12 +210,13 @@ bool Expectation::white_matters() const {
 
 BookModel Expectation::start_model(int max_depth) const { return model_of(samples_, max_depth); }
 
-const BookModel* Expectation::model_of(const BookProgram& program) {
+const BookModel* Expectation::model_of(const BookProgram& program, bool in_time) {
   const bool by_rules = program.scene == start_.scene && !program.columns;
   for (const auto& [rules, model] : known_)
     if (by_rules && rules == program.rules) return model.get();
-  const auto samples =
-      book_samples(Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_, go_on_);
+  const auto samples = book_samples(
+      Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_,
+      in_time ? go_on_ : [] { return true; });
   if (samples.empty()) return nullptr;
   auto model = std::make_unique<BookModel>(model_of(samples, -1));
   if (!by_rules) return (newest_ = std::move(model)).get();
@@ -244,9 +245,18 @@ std::vector<float> Expectation::expected_of(const BookModel& model) const {
   return expected;
 }
 
+/// The picture, read in a way that is tried often: right ones are kept.
+const ReadPixels& Expectation::read(const Reading& reading) {
+  for (const auto& [known, pixels] : read_)
+    if (known == reading) return *pixels;
+  auto pixels = std::make_unique<ReadPixels>(read_pixels(picture_, lattice_, reading));
+  if (!is_right(reading)) return *(newest_read_ = std::move(pixels));
+  read_.emplace_back(reading, std::move(pixels));
+  return *read_.back().second;
+}
+
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
-  if (!(reading == read_as_)) pixels_ = read_pixels(picture_, lattice_, reading), read_as_ = reading;
-  const ReadPixels& pixels = *pixels_;
+  const ReadPixels& pixels = read(reading);
   const std::vector<float> expected = expected_of(model);
   const ComparedPixels compared{pixels.light, expected, pixels.tolerance, variance_};
   RegionDifferences result{block_differences(compared, small_), 0, 0};

@@ -66,12 +66,13 @@ class Expectation {
   std::vector<double> light_by_depth() const;
   /// Of the scene as it is; max_depth: light found after more scattering events is left out; negative: none is.
   BookModel start_model(int max_depth = -1) const;
-  /// Renders a program; null: there is no time left. Valid until the next call.
-  const BookModel* model_of(const BookProgram& program);
+  /// Renders a program; null: there is no time left; in_time: whether that matters. Valid until the next call.
+  const BookModel* model_of(const BookProgram& program, bool in_time);
   RegionDifferences differences(const BookModel& model, const Reading& reading);
 
  private:
   void take_samples(double seconds);
+  const ReadPixels& read(const Reading& reading);
   Regions without_rare_light(Regions regions) const;
   BookModel model_of(const std::vector<BookSample>& samples, int max_depth) const;
   std::vector<float> expected_of(const BookModel& model) const;
@@ -94,8 +95,8 @@ class Expectation {
   std::vector<float> variance_;                                          ///< of a pixel of the picture
   std::vector<std::pair<BookRules, std::unique_ptr<BookModel>>> known_;  ///< of programs that only differ by rules
   std::unique_ptr<BookModel> newest_;                                    ///< of another one
-  std::optional<Reading> read_as_;                                       ///< how pixels_ were read
-  std::optional<ReadPixels> pixels_;
+  std::vector<std::pair<Reading, std::unique_ptr<ReadPixels>>> read_;
+  std::unique_ptr<ReadPixels> newest_read_;
 };
 
 /// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double max_different = 1 / 150.0;  // of the small blocks of a picture that agrees
 constexpr double min_seen = 0.25;            // of a difference must be seen beside the noise of a mistake's picture
+constexpr double promising = 0.2;            // of a difference is explained where it is worth looking closer
 constexpr double min_comparable = 0.5;       // of the blocks must be comparable for an answer
 constexpr double clear_improvement = 0.7;    // of a difference is left where a choice is taken for the program's
 
@@ -92,13 +93,14 @@ class Search {
     std::optional<Reading> right, wrong;
     double of_right = 0, of_wrong = 0;
     for (const Reading& reading : readings_of(picture_.coded)) {
-      if (only_right && !is_right(reading)) continue;
+      if (!is_right(reading) && (only_right || (wrong_ && !(reading == *wrong_)))) continue;
       const double found = expectation_.differences(model, reading).amount();
       std::optional<Reading>& best = is_right(reading) ? right : wrong;
       double& min_found = is_right(reading) ? of_right : of_wrong;
       if (!best || found < min_found) best = reading, min_found = found;
     }
     if (amount) *amount = of_right;
+    if (wrong) wrong_ = wrong;
     return wrong && of_wrong < clear_improvement * of_right ? *wrong : *right;
   }
 
@@ -130,7 +132,6 @@ class Search {
       Fit found = choose(fit(expectation_.start(), reading, start), choices);
       if (best && found.regions.amount() >= best->regions.amount()) continue;
       best = std::move(found), findings_.choices = std::move(choices);
-      if (agrees(best->regions)) break;
     }
     const Reading reading = is_right(best->reading) ? best->reading : best_reading(best->model, true);
     return fit(best->program, reading, best->model);
@@ -142,21 +143,13 @@ class Search {
       if (agrees(best.regions)) break;
       BookProgram program = best.program;
       if (!choice.apply(program)) continue;
-      const BookModel* model = model_of(program);
-      if (!model) break;
-      Fit other = fit(program, best.reading, *model);
+      Fit other = fit(program, best.reading, *expectation_.model_of(program, false));
       const double left = left_by(best.regions, other.regions);
       if (left > clear_improvement) continue;
       best = std::move(other);
       choices.push_back({choice.name, choice.words, 1 - left});
     }
     return best;
-  }
-
-  const BookModel* model_of(const BookProgram& program) {
-    const BookModel* model = expectation_.model_of(program);
-    if (!model) findings_.out_of_time = true;
-    return model;
   }
 
   static bool agrees(const RegionDifferences& regions) {
@@ -209,7 +202,7 @@ class Search {
     Reading best = right.reading;
     double max_gone = gone_with(right, model, best);
     for (const Reading& reading : readings_of(picture_.coded)) {
-      if (!is_right(reading) || reading == right.reading) continue;
+      if (most < promising || !is_right(reading) || reading == right.reading) continue;
       const double gone = gone_with(right, model, reading);
       if (gone > max_gone) max_gone = gone, best = reading;
     }
@@ -246,7 +239,9 @@ class Search {
   void try_mistake(const Fit& right, const Difference& mistake) {
     BookProgram program = right.program;
     if (!mistake.apply(program)) return;
-    if (const BookModel* model = model_of(program)) judge(right, *model, mistake.name, mistake.words);
+    const BookModel* model = expectation_.model_of(program, true);
+    findings_.out_of_time = findings_.out_of_time || !model;
+    if (model) judge(right, *model, mistake.name, mistake.words);
   }
 
   void name_mistake() {
@@ -259,6 +254,7 @@ class Search {
   const PictureNumbers& picture_;
   Expectation expectation_;
   Findings findings_;
+  std::optional<Reading> wrong_;       ///< the best wrong reading, once all were tried
   std::optional<Reading> best_curve_;  ///< of the mistake that explains most
   double best_explained_ = 0;
 };

@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-constexpr std::uint32_t first_spp = 4, max_spp = 8192;
+constexpr std::uint32_t first_spp = 16, max_spp = 8192;
 constexpr double part_of_difference = 0.05, min_error = 0.002;
 
 }  // namespace
@@ -24,7 +24,7 @@ Reference render_reference(Scene scene, const LinearImage& picture, double secon
   const auto progress = [&](const RenderProgress&) { return go_on(); };
   RenderOptions options;
   options.spp = first_spp;
-  RenderResult rendered = render(*prepared, options, progress);
+  RenderResult rendered = render(*prepared, options);
   const double difference = std::sqrt(relative_mse(picture.rgb, resolve(rendered.film)));
   options.spp = max_spp;
   options.time_limit = std::max(0.0, seconds - rendered.seconds);

@@ -97,7 +97,9 @@ Command read_compare(const std::vector<std::string>& arguments) {
             [&](Text t) { command.heatmap = read_file_name(t, ".png"); });
   app->add_flag("--json", command.json, "print JSON");
   app->option_defaults()->group("With a scene");
-  add_value(*app, "--time", "SECONDS", "wall time for all of it, but for what any answer needs [20]",
+  add_value(*app, "--time", "SECONDS",
+            "wall time, once the scene is loaded; what any answer needs is done in\n"
+            "any case [20]",
             [&](Text t) { command.seconds = read_number(t, above(0), "a number of seconds > 0"); });
   add_scene_options(*app, command.scene);
   app->option_defaults()->group("Checks");

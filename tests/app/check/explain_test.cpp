@@ -9,7 +9,7 @@ namespace tyndall::test::explain_test {
 
 namespace {
 
-constexpr double seconds = 4;  // of which a picture that agrees takes a part
+constexpr double seconds = 4;
 
 BookProgramPlan planted(Plant plant, int spp = 40) {
   BookProgramPlan plan;
@@ -34,7 +34,6 @@ TEST_CASE("check: right pictures of programs of all editions are never accused")
     const Findings of_box = verdict_of(box, plan, seconds), of_balls = verdict_of(balls, plan, seconds);
     CHECK(name_of(of_box) == "agrees");
     CHECK(name_of(of_balls) == "agrees");
-    CHECK(of_box.samples == doctest::Approx(plan.spp).epsilon(0.3));
   }
 }
 
