@@ -122,7 +122,7 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   large.edge *= large_edge;
   small_ = without_noise(regions_of(grid_), seen_), large_ = without_noise(regions_of(large), seen_);
   objects_ = regions_of(seen_);
-  take_samples(options.seconds * part_for_samples);
+  take_samples(options);
   const Regions small = without_rare_light(small_);
   const auto left_out = [](const Regions& regions) {
     return static_cast<double>(std::count(regions.of_pixel.begin(), regions.of_pixel.end(), -1));
@@ -147,15 +147,18 @@ Regions Expectation::without_rare_light(Regions regions) const {
 }
 
 /// Takes the samples of the scene as it is: as many as the time allows.
-void Expectation::take_samples(double seconds) {
+void Expectation::take_samples(const CheckOptions& options) {
   const Compiled compiled(start_);
   const auto take = [&](int count) {
     return book_samples(compiled.view, kernels_, start_.rules, lattice_, count, threads_, [] { return true; });
   };
   const auto begin = std::chrono::steady_clock::now();
-  take(min_samples);
-  const double per_sample = std::max(seconds_since(begin), 1e-6) / min_samples;
-  count_ = static_cast<int>(std::clamp(seconds / per_sample, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
+  count_ = options.samples;
+  if (count_ == 0) {
+    take(min_samples);
+    const double fit = options.seconds * part_for_samples * min_samples / std::max(seconds_since(begin), 1e-6);
+    count_ = static_cast<int>(std::clamp(fit, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
+  }
   samples_ = take(count_);
   group_ = count_;
   base_ = statistics_of(samples_, count_, group_);

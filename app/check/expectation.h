@@ -19,6 +19,7 @@ namespace tyndall {
 struct CheckOptions {
   double seconds = 20;  ///< for all of it, but for what is needed for any answer
   int threads = 0;      ///< 0: see thread_count()
+  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
 };
 
 /// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
@@ -71,7 +72,7 @@ class Expectation {
   RegionDifferences differences(const BookModel& model, const Reading& reading);
 
  private:
-  void take_samples(double seconds);
+  void take_samples(const CheckOptions& options);
   const ReadPixels& read(const Reading& reading);
   Regions without_rare_light(Regions regions) const;
   BookModel model_of(const std::vector<BookSample>& samples, int max_depth) const;

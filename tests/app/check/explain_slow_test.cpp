@@ -8,7 +8,7 @@ namespace tyndall::test::explain_slow_test {
 
 namespace {
 
-constexpr double seconds = 20;
+constexpr double seconds = 3;
 
 Scene scene_of(const std::string& name) {
   const Scene scene = load_scene(name).scene;

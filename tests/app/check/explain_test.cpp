@@ -9,7 +9,7 @@ namespace tyndall::test::explain_test {
 
 namespace {
 
-constexpr double seconds = 4;
+constexpr double seconds = 0.5;
 
 BookProgramPlan planted(Plant plant, int spp = 40) {
   BookProgramPlan plan;
@@ -34,6 +34,8 @@ TEST_CASE("check: right pictures of programs of all editions are never accused")
     const Findings of_box = verdict_of(box, plan, seconds), of_balls = verdict_of(balls, plan, seconds);
     CHECK(name_of(of_box) == "agrees");
     CHECK(name_of(of_balls) == "agrees");
+    CHECK(of_box.samples > 0.6 * plan.spp);
+    CHECK(of_box.samples < 1.6 * plan.spp);
   }
 }
 

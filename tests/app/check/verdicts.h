@@ -22,12 +22,14 @@ inline Scene scene_for_book(const std::string& name, int width, int height) {
   return scene;
 }
 
+/// By a fixed number of samples, so that the answer does not depend on the speed of the machine. seconds: of the
+/// reference.
 inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, double seconds) {
   const auto always = [] { return true; };
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
-  const Reference reference = render_reference(scene, light, seconds / 8, always);
-  return explain(picture, scene, reference, {seconds, 0}, always);
+  const Reference reference = render_reference(scene, light, seconds, always);
+  return explain(picture, scene, reference, {seconds, 0, 24}, always);
 }
 inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, double seconds) {
   return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), seconds);
