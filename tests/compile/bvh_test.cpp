@@ -171,7 +171,7 @@ TEST_CASE("bvh: primitives whose boxes are flat, or a single point, are found") 
   for (const auto& input : {flat, points, one_plane}) CHECK(checked(input).depth <= 13);
 }
 
-TEST_CASE("bvh: of a twenty thousand equal spheres the first one is met, on every instruction set") {
+TEST_CASE("bvh: of twenty thousand equal spheres the first one is met, on every instruction set") {
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
   for (int i = 0; i < 20000; ++i)  // not exact copies, which would be left out, but equal in single precision
