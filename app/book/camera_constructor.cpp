@@ -63,6 +63,36 @@ std::vector<std::string> parameters_at(const std::vector<std::string>& tokens, s
   return names;
 }
 
+/// The token behind the body of the constructor whose parameters begin at `open`; the end of all for one that has no
+/// body here.
+std::size_t end_of_constructor(const std::vector<std::string>& tokens, std::size_t open) {
+  int depth = 0;
+  for (std::size_t at = open; at < tokens.size(); ++at) {
+    if (tokens[at] == ";" && depth == 0) break;
+    if (tokens[at] == "(" || tokens[at] == "{") ++depth;
+    const bool closes = (tokens[at] == ")" || tokens[at] == "}") && --depth == 0;
+    const bool ends = at + 1 >= tokens.size() || (tokens[at + 1] != "," && tokens[at + 1] != "{");
+    if (closes && tokens[at] == "}" && ends) return at + 1;
+  }
+  return tokens.size();
+}
+
+/// Whether the constructor copies the parameter, as it is, to a member that means the same: "vfov_(fov)", "this->vfov =
+/// fov;". One that converts it, such as "vfov(radians(fov))", means something else by it.
+bool is_copied(const std::vector<std::string>& tokens, std::size_t begin, std::size_t end, const std::string& name,
+               const Member& member) {
+  for (std::size_t at = begin + 3; at + 1 < end; ++at) {
+    if (tokens[at] != name) continue;
+    const std::string &before = tokens[at - 1], &to = tokens[at - 2], &lead = tokens[at - 3], &behind = tokens[at + 1];
+    const bool initialises =
+        (before == "(" || before == "{") && (lead == ":" || lead == ",") && (behind == ")" || behind == "}");
+    const bool assigns = before == "=" && behind == ";";
+    const Member* meant = member_of(to.starts_with("m_") ? to.substr(2) : to);
+    if ((initialises || assigns) && meant && meant->name == member.name) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string camera_constructor(const std::string& code) {
@@ -71,10 +101,11 @@ std::string camera_constructor(const std::string& code) {
     if (key_of(tokens[at]) != "camera" || tokens[at + 1] != "(" || tokens[at - 1] == "~") continue;
     std::string parameters, body;
     bool has_width = false, is_known = true;
+    const std::size_t end = end_of_constructor(tokens, at + 1);
     for (const std::string& name : parameters_at(tokens, at + 1)) {
       const Member* member = member_of(name);
-      if (!member) is_known = false;
-      if (!member) break;
+      is_known = member && is_copied(tokens, at + 1, end, name, *member);
+      if (!is_known) break;
       const std::string value = "value_" + std::to_string(body.size());
       has_width = has_width || member->name == "image_width";
       parameters += (parameters.empty() ? "" : ", ") + std::string(member->type) + " " + value;

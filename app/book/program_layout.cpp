@@ -1,13 +1,13 @@
 #include "app/book/program_layout.h"
 
 #include "app/book/camera_constructor.h"
+#include "app/book/project_headers.h"
 #include "app/book/scratch_folder.h"
 #include "app/book/source_text.h"
 #include "app/text/values.h"
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -98,7 +98,8 @@ bool replaces_ours(const std::string& code) {
 
 class Layouter {
  public:
-  Layouter(const ProgramSources& sources, const fs::path& headers) : sources_(sources), headers_(headers) {}
+  Layouter(const ProgramSources& sources, const fs::path& headers)
+      : sources_(sources), headers_(headers), project_headers_(sources.files.front().parent_path()) {}
 
   ProgramLayout lay_out() {
     for (const fs::path& file : sources_.files) layout_.compiled_files.push_back(add(file, file.string(), ".cpp"));
@@ -240,48 +241,9 @@ class Layouter {
     }
     // Not for the books' headers: one that lies elsewhere may be another program's, and would tell of another sky.
     if (!include.quoted || is_ours(key_of(include.name))) return {};
-    const fs::path elsewhere = find_below(include.name);
+    const fs::path elsewhere = project_headers_.find(include.name);
     found_as = elsewhere.string();
     return elsewhere;
-  }
-
-  /// A header in any folder of the project, whatever its capitals: build files name folders, and not all systems tell
-  /// capitals from small letters.
-  fs::path find_below(const std::string& name) {
-    const std::string wanted = "/" + lower(fs::path(name).lexically_normal().string());
-    const std::string ending = wanted.substr(wanted.rfind("../") == std::string::npos ? 0 : wanted.rfind("../") + 2);
-    for (const fs::path& file : project_headers())
-      if (("/" + lower(file.string())).ends_with(ending)) return file;
-    return {};
-  }
-
-  /// Headers in the folder of main() and below, also beside it if that is called src or the like; nearest first.
-  const std::vector<fs::path>& project_headers() {
-    constexpr int deepest = 4, most = 5000;
-    if (listed_) return headers_below_;
-    listed_ = true;
-    fs::path folder = sources_.files.front().parent_path();
-    const std::string name = lower(fs::weakly_canonical(folder / ".").filename().string());
-    if (name == "src" || name == "source" || name == "app" || name == "apps" || name == "bin") folder /= "..";
-    std::error_code error;
-    int seen = 0;
-    for (fs::recursive_directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
-         at.increment(error)) {
-      if (++seen > most) break;
-      if (at.depth() >= deepest || at->path().filename().string().starts_with(".")) at.disable_recursion_pending();
-      const std::string ending = lower(at->path().extension().string());
-      if (ending == ".h" || ending == ".hpp" || ending == ".hh")
-        headers_below_.push_back(at->path().lexically_normal());
-    }
-    const auto depth = [](const fs::path& file) { return std::distance(file.begin(), file.end()); };
-    std::sort(headers_below_.begin(), headers_below_.end(),
-              [&](const fs::path& a, const fs::path& b) { return depth(a) != depth(b) ? depth(a) < depth(b) : a < b; });
-    return headers_below_;
-  }
-
-  static std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
   }
 
   static fs::path identity(const fs::path& file) {
@@ -308,14 +270,13 @@ class Layouter {
 
   const ProgramSources& sources_;
   fs::path headers_;
+  ProjectHeaders project_headers_;
   ProgramLayout layout_;
   bool uses_books_ = false;
   std::map<fs::path, std::string> copies_;
   std::set<fs::path> seen_;
   std::set<std::string> constants_;
   std::string camera_constructor_;
-  std::vector<fs::path> headers_below_;
-  bool listed_ = false;                 ///< the headers below
   std::string all_text_, random_text_;  ///< of all files, and of replaced headers that draw random numbers
 };
 

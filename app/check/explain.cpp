@@ -202,7 +202,7 @@ class Search {
     Reading best = right.reading;
     double max_gone = gone_with(right, model, best);
     for (const Reading& reading : readings_of(picture_.coded)) {
-      if (most < promising || !is_right(reading) || reading == right.reading) continue;
+      if (max_gone < promising || !is_right(reading) || reading == right.reading) continue;
       const double gone = gone_with(right, model, reading);
       if (gone > max_gone) max_gone = gone, best = reading;
     }
