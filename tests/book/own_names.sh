@@ -45,11 +45,17 @@ grep -qF '"radius": 0.75' far.json || fail "$(cat far.json)"
 # A camera whose constructor takes what the fourth edition's members hold.
 mkdir made
 cat >made/camera.h <<'END'
-class Camera { public: Camera(double aspectRatio, int imageWidth, int samplesPerPixel = 10, vec3 lookfrom = {0, 0, 0}, const Vec3& up = vec3(0, 1, 0)); };
+class Camera { public: Camera(double aspectRatio, int imageWidth, int samplesPerPixel = 10, vec3 lookfrom = {0, 0, 0}, const Vec3& up = vec3(0, 1, 0))
+  : aspect_ratio(aspectRatio), image_width{imageWidth}, m_lookfrom(lookfrom) { this->samples_per_pixel = samplesPerPixel; vup = up; } };
 END
 program made/main <<<"$ball int main() { Camera c{2, 30, 7, {0, 1, 5}, {1, 0, 0}}; c.render(ball()); }"
 expect 0 "$tyndall" convert made/main.cc -o made.json
 same 'size and camera' "$(json made.json image) $(json made.json camera)" '{"width": 30, "height": 15} {"look_from": [0, 1, 5], "vup": [1, 0, 0], "focus_distance": 10, "shutter": [0, 1]}'
+# One that makes something else of what it is given is not guessed at.
+cp made/camera.h made/whole
+sed -i 's/vup = up/vup = unit_vector(up + vec3(0, 0, 1))/' made/camera.h
+expect 2 "$tyndall" convert made/main.cc -o made.json
+cp made/whole made/camera.h
 sed -i 's/, const Vec3& up/, int antialiasing/' made/camera.h
 expect 2 "$tyndall" convert made/main.cc -o made.json
 complains "made/main.cc:8:" "no matching" "; Tyndall's headers stand in the place of yours"

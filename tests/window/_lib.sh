@@ -9,7 +9,8 @@ root=$(realpath "$3")
 mkdir -p "$scratch"
 cd "$scratch"
 
-# The screen repeats no key that is held down (-r): on a busy machine it would be held for long.
+# The screen repeats no key that is held down (-r): on a busy machine it would be held for long. It begins nothing anew
+# when its last window goes (-noreset): meanwhile the next one could not be opened.
 if [ -z "${IN_XVFB:-}" ]; then
   for tool in xvfb-run xdotool python3; do
     command -v "$tool" >/dev/null && continue
@@ -20,7 +21,7 @@ if [ -z "${IN_XVFB:-}" ]; then
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
   screen=$scratch/screen.$$
   rm -rf "${scratch:?}"/* && mkdir -p "$screen"
-  IN_XVFB=$screen exec xvfb-run -a -s "-r -screen 0 1280x2700x24 -nolisten tcp -fbdir $screen" \
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -noreset -screen 0 1280x2700x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
