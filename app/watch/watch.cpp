@@ -9,7 +9,7 @@
 #include "app/watch/host.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
-#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/base/thread_pool.h"
 #include "core/image/image.h"
 #include "core/image/image_io_file.h"
@@ -83,6 +83,9 @@ Order order_of(int width, int height, const tyndall_watch_options& options, Host
 
 void write_picture(const Order& order) {
   const Scene& scene = order.loaded.scene;
+  if (!order.reference.empty())
+    throw UsageError("watch: reference: found " + in_quotes(order.reference.string()) +
+                     ", expected none beside output: only the window compares");
   const std::vector<std::filesystem::path> files{order.output};
   check_image_names(files);
   check_can_write(order.output);

@@ -101,6 +101,8 @@ expect 2 ./probe wrong-size
 complains 'size of the options: found 0'
 expect 2 ./probe wrong-threads x.png
 complains 'threads: found -1'
+expect 2 ./probe wrong-reference x.png
+complains 'reference: found "cover", expected none beside output'
 expect 2 ./probe place x.jpg
 complains "found \"x.jpg\", expected a name that ends in .png"
 expect 3 ./probe place nowhere/x.png

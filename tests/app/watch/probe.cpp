@@ -166,8 +166,11 @@ int main(int count, char** arguments) {
     return tyndall_watch(
         4, 4, [](void*, double, double, std::uint64_t, double*) {}, nullptr, &plain);
   }
-  if (what == "wrong-threads") {
-    options.threads = -1;
+  if (what == "wrong-threads" || what == "wrong-reference") {
+    if (what == "wrong-threads")
+      options.threads = -1;
+    else
+      options.reference = "cover";
     return tyndall::watch(4, 4, place, options);
   }
   return fails(options, what);
