@@ -56,18 +56,32 @@ struct AloneSamples {
     store(r, sample.x), store(g, sample.y), store(b, sample.z), store(slot, p.slot);
     store(carried, s.has_specular_paths() ? p.weight * left : left);
     const std::uint32_t straight = film.emission ? p.straight : 0;
+    const std::uint32_t unusual = ~bits(fits_film(sample, film.per_quantum)) | straight | cut;
     for (; ended; ended &= ended - 1) {
       const int lane = __builtin_ctz(ended);
       FilmPixel& pixel = film.pixels[slot[lane] >> 1];
       const std::uint32_t half = static_cast<std::uint32_t>(slot[lane]) & 1u;
       const Vec3f radiance{r[lane], g[lane], b[lane]};
+      ++pixel.taken;
+      if (!(unusual >> lane & 1u)) {
+        const ScaledSample add = scaled(radiance, film.per_quantum);
+        add_each(pixel.sum[half], add.x, add.y, add.z);
+        continue;
+      }
       add_sample(pixel, half, radiance, film.per_quantum);
       if (straight >> lane & 1u) add_emission(film.emission[slot[lane] >> 1], half, radiance, film.per_quantum);
-      ++pixel.taken;
       if (!(cut >> lane & 1u)) continue;
       ++pixel.truncated;
       film.counts.cut_throughput.add(static_cast<double>(carried[lane]));
     }
+  }
+
+  /// The lanes whose samples a film accepts: ScaledSample::fits(), in lanes. A quantum is a power of two, so that the
+  /// limit is a float without rounding, or infinite where every finite number is below it.
+  template <class F>
+  TYNDALL_INLINE static MaskOf<F> fits_film(const Vec3<F>& sample, double per_quantum) {
+    const F limit = splat<F>(static_cast<float>(sample_limit / per_quantum));
+    return mask_and(less(abs(sample.x), limit), mask_and(less(abs(sample.y), limit), less(abs(sample.z), limit)));
   }
   TYNDALL_INLINE void add(std::int32_t slot, Vec3f light) {
     add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_quantum);
