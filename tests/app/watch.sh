@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The library for programs with samples of their own: installed, found by CMake and by pkg-config, used from C++17, C99
-# and Python, without a window. tests/window/watch.sh opens its window.
+# and Python, without a window. tests/window/watch_slow.sh opens its window.
 . "$(dirname "$0")/_common.sh"
 build=$(dirname "$tyndall")
 [ -f "$build/cmake_install.cmake" ] || { echo "skipped: $build is no build folder"; exit 77; }
