@@ -18,13 +18,11 @@
 namespace tyndall {
 namespace {
 
-/// If both are EXR files with films: scores that tell whether they differ by more than their noise.
-std::optional<BlockScores> compare_films(const CompareCommand& command) {
-  if (!is_exr(command.image) || !is_exr(command.reference)) return std::nullopt;
+/// If both are EXR files with films: scores that tell whether they differ by more than their noise; else no blocks.
+BlockScores compare_films(const CompareCommand& command) {
+  if (!is_exr(command.image) || !is_exr(command.reference)) return {};
   const auto image = read_film(command.image), reference = read_film(command.reference);
-  if (!image || !reference) return std::nullopt;
-  const BlockScores scores = block_scores(*image, *reference);
-  return scores.blocks > 0 ? std::optional(scores) : std::nullopt;
+  return image && reference ? block_scores(*image, *reference) : BlockScores{};
 }
 
 /// The picture against a scene; nothing if the reference is a picture.
@@ -35,6 +33,10 @@ std::optional<Check> check_against_scene(const CompareCommand& command) {
     if (of_scene) throw UsageError("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};
   }
+  if (command.limits.z)
+    throw UsageError(
+        "--max-z needs two pictures that know their noise; a scene in place of REFERENCE is compared within "
+        "the noise without it");
   CheckRequest request{command.image, command.baseline.ppm, command.scene, {}, {}};
   request.options.seconds = command.seconds.value_or(request.options.seconds);
   ProgressReport report(isatty(STDERR_FILENO) != 0 ? ProgressStyle::automatic : ProgressStyle::none);
@@ -45,7 +47,20 @@ std::optional<Check> check_against_scene(const CompareCommand& command) {
   return check_picture(request);
 }
 
-std::string json_text(const Comparison& c, const std::optional<BlockScores>& blocks, const Findings* verdict) {
+nlohmann::ordered_json noise_json(const NoiseScores& s) {
+  return {{"z", s.z},
+          {"mean_z", s.mean_z},
+          {"difference", s.difference},
+          {"error", s.error},
+          {"block_z", s.block_z},
+          {"outlier_z", s.outlier_z},
+          {"blocks", s.blocks},
+          {"cannot_tell", s.unclear_blocks},
+          {"outliers", s.outliers},
+          {"explained_outliers", s.explained_outliers}};
+}
+
+std::string json_text(const Comparison& c, const BlockScores& blocks, const Findings* verdict) {
   const auto channels = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
   nlohmann::ordered_json json;
   json["width"] = c.width;
@@ -58,12 +73,13 @@ std::string json_text(const Comparison& c, const std::optional<BlockScores>& blo
   json["mean_image"] = channels(c.error.mean_image);
   json["mean_reference"] = channels(c.error.mean_reference);
   json["pixels"] = {{"compared", c.flip_map.size()}, {"image", c.image_pixels}, {"reference", c.reference_pixels}};
-  if (blocks)
-    json["blocks"] = {{"count", blocks->blocks},
-                      {"mean_square_z", blocks->mean_square},
-                      {"worst_z", blocks->worst},
-                      {"limit", blocks->maximum},
-                      {"only_noise", blocks->noise()}};
+  if (blocks.blocks > 0)
+    json["blocks"] = {{"count", blocks.blocks},
+                      {"mean_square_z", blocks.mean_square},
+                      {"worst_z", blocks.worst},
+                      {"limit", blocks.maximum},
+                      {"only_noise", blocks.noise()}};
+  if (c.noise) json["noise"] = noise_json(*c.noise);
   json["not_finite"] = c.not_finite;
   if (verdict) json["verdict"] = verdict_json(*verdict);
   return json.dump(2) + "\n";
@@ -79,7 +95,7 @@ std::string row(const char* name, double value, const char* note) {
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
-std::string table(const Comparison& c, const std::optional<BlockScores>& blocks) {
+std::string table(const Comparison& c, const BlockScores& blocks) {
   const Vec3d a = c.error.mean_image, b = c.error.mean_reference;
   const std::string means = fmt::format(
       "mean     image         reference\n"
@@ -91,7 +107,8 @@ std::string table(const Comparison& c, const std::optional<BlockScores>& blocks)
   return (overlap.empty() ? "" : "pixels   " + overlap + "\n") + row("MSE", c.error.mse, "") +
          row("RMSE", c.error.rmse, "") + row("relMSE", c.error.rel_mse, "depends on the unit of radiance") +
          row("PSNR", c.error.psnr, "dB, sRGB") + row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") +
-         (blocks ? blocks_text(*blocks) : "") + means;
+         (blocks.blocks > 0 ? blocks_text(blocks) : "") + (c.noise ? "noise    " + noise_text(*c.noise) + "\n" : "") +
+         means;
 }
 
 /// A line for each picture, and the reports. Returns the exit code.
@@ -118,6 +135,7 @@ int compare_with_baseline(const CompareCommand& command) {
     const auto& c = picture.comparison;
     text += fmt::format("{:<6} {}", picture.failures.empty() ? "ok" : "FAILED", all_printable(picture.name));
     if (c) text += fmt::format("  FLIP {:.4g}  relMSE {:.4g}  RMSE {:.4g}", c->flip, c->error.rel_mse, c->error.rmse);
+    if (c && c->noise) text += "  noise: " + noise_text(*c->noise);
     const std::string overlap = c ? overlap_text(*c) : "";
     text += (overlap.empty() ? "" : "  pixels: " + overlap) + "\n";
     if (c)
@@ -143,10 +161,11 @@ int run(const CompareCommand& command) {
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
   const std::optional<Check> check = check_against_scene(command);
   const Comparison comparison =
-      check ? check->comparison : compare_images(command.image, command.reference, command.baseline.ppm);
+      check ? check->comparison
+            : compare_images(command.image, command.reference, {command.baseline.ppm, command.limits.z.has_value()});
   check_gamma2(command.baseline.ppm, comparison.has_ppm);
   for (const std::string& remark : comparison.remarks) complain(remark);
-  const std::optional<BlockScores> blocks = check ? std::nullopt : compare_films(command);
+  const BlockScores blocks = check ? BlockScores{} : compare_films(command);
   const auto write_heat_map = [&comparison](const std::filesystem::path& file) {
     write_png(file, heat_map(comparison.flip_map, comparison.width, comparison.height), 0, ToneMap::srgb, {});
   };

@@ -66,7 +66,8 @@ Command read_compare(const std::vector<std::string>& arguments) {
       "What a file says of its pixels (exposure, curve, orientation) is honoured or refused; what is read\n"
       "in another way than the file says, such as other primaries than sRGB's, is told in a line.\n\n"
       "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
-      "whether the difference is more than noise.\n\n"
+      "whether the difference is more than noise. --max-z makes that a test without a tolerance: with Z = 4\n"
+      "two pictures of the same scene fail once in 16,000 times at most, whatever their seeds.\n\n"
       "With a scene in place of REFERENCE (its name, its file, or MAIN.cc) the scene is rendered in the\n"
       "image's size, and the answer says whether they agree within the noise; else which objects differ,\n"
       "and which usual mistake in a program of \"Ray Tracing in One Weekend\" explains that: each one is\n"
@@ -81,6 +82,7 @@ Command read_compare(const std::vector<std::string>& arguments) {
       "  tyndall compare out.png snapshot.png\n"
       "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
       "  ./mine | tyndall compare - main.cc\n"
+      "  tyndall compare A.exr B.exr --max-z 4\n"
       "  tyndall compare a.exr --baseline kept --report report.html");
   std::vector<std::string> images;
   add_arguments(*app, "IMAGE REFERENCE",
@@ -109,6 +111,12 @@ Command read_compare(const std::vector<std::string>& arguments) {
   limit("--max-rmse", "fail if RMSE is above X", command.limits.rmse);
   limit("--max-relmse", "fail if relMSE is above X", command.limits.rel_mse);
   limit("--max-flip", "fail if FLIP is above X", command.limits.flip);
+  add_value(*app, "--max-z", "Z",
+            "fail if the mean of a channel, a block of 16x16 pixels, or the\n"
+            "number of outliers differs by more than Z standard errors of the\n"
+            "noise that both pictures carry, corrected for the number of tests;\n"
+            "EXR as render writes them, or a.pfm with a.error.pfm",
+            [&](Text t) { command.limits.z = read_number(t, above(0), "a number > 0"); });
   add_baseline_options(*app, command);
   if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   finish_compare(*app, images, command);

@@ -1,5 +1,6 @@
 #include "app/comparison/baseline.h"
 
+#include "app/comparison/noise.h"
 #include "app/comparison/picture_folder.h"
 #include "app/files/outputs.h"
 #include "app/text/values.h"
@@ -21,8 +22,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr char tolerances_name[] = "tolerances.json";
-constexpr std::pair<const char*, std::optional<double> Tolerance::*> keys[] = {
-    {"max_rmse", &Tolerance::rmse}, {"max_relmse", &Tolerance::rel_mse}, {"max_flip", &Tolerance::flip}};
+constexpr std::pair<const char*, std::optional<double> Tolerance::*> keys[] = {{"max_rmse", &Tolerance::rmse},
+                                                                               {"max_relmse", &Tolerance::rel_mse},
+                                                                               {"max_flip", &Tolerance::flip},
+                                                                               {"max_z", &Tolerance::z}};
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& found, const std::string& expected) {
   throw UsageError(file.string() + ": found " + found + ", expected " + expected);
@@ -34,7 +37,7 @@ Tolerance read_limits(const fs::path& file, const std::string& picture, const Js
   for (const auto& [key, value] : json.items()) {
     const auto* known =
         std::find_if(std::begin(keys), std::end(keys), [&k = key](const auto& e) { return k == e.first; });
-    if (known == std::end(keys)) refuse(file, in_quotes(key), "max_rmse, max_relmse or max_flip");
+    if (known == std::end(keys)) refuse(file, in_quotes(key), "max_rmse, max_relmse, max_flip or max_z");
     if (!value.is_number() || !(value.get<double>() >= 0)) refuse(file, value.dump() + " for " + key, "a number >= 0");
     limits.*known->second = value.get<double>();
   }
@@ -140,7 +143,7 @@ void check(CheckedPicture& picture, PpmCurve ppm) {
   const auto start = std::chrono::steady_clock::now();
   try {
     check_ordinary(picture.image);
-    picture.comparison = compare_images(picture.image, picture.reference, ppm);
+    picture.comparison = compare_images(picture.image, picture.reference, {ppm, picture.limits.z.has_value()});
     picture.failures = too_large(*picture.comparison, picture.limits);
     const OutsideError& outside = picture.comparison->outside;
     if (picture.limits == usual_tolerance && !(outside.rel_mse <= usual_outside))
@@ -232,6 +235,7 @@ BaselineUpdate update_baseline(const BaselineRequest& request) {
     check_ordinary(image);
     const PictureFile picture = read_picture(image, request.ppm);  // throws for what is no picture
     check_finite(image, picture.image);
+    if (request.limits.z) read_noisy_image(image, {0, 0, picture.image.width, picture.image.height});
     has_ppm = has_ppm || picture.kind == ImageKind::ppm;
     tolerances[key_of(name)] = chosen(request.limits, tolerances, name);
     update.names.push_back(name);

@@ -48,8 +48,8 @@ struct BaselineUpdate {
 };
 
 /// Copies the pictures into the folder and keeps the limits as their tolerances; where none are given, those that are
-/// kept stay. Looks at all pictures first: where one cannot be read, or has values that are not finite, or there is
-/// none, nothing is changed. Throws UsageError, IoError, ImageFileError.
+/// kept stay. Looks at all pictures first: where one cannot be read, or has values that are not finite, or no noise
+/// though a limit asks for it, or there is none, nothing is changed. Throws UsageError, IoError, ImageFileError.
 BaselineUpdate update_baseline(const BaselineRequest& request);
 
 /// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP. ppm: how PPM files are

@@ -1,11 +1,14 @@
 #include "app/comparison/comparison.h"
 
+#include "app/comparison/noise.h"
 #include "app/comparison/pair.h"
 #include "app/text/values.h"
 #include "core/accuracy/flip.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>
+
+#include <algorithm>
 
 namespace tyndall {
 namespace {
@@ -25,10 +28,48 @@ void find_not_finite(const Picture& image, const Picture& reference, Comparison&
     if (!is_finite(image.image, i) || !is_finite(reference.image, i)) result.flip_map[i] = 1;
 }
 
+/// What differs by more than `limit` standard errors, a line for means, blocks and outliers.
+void find_more_than_noise(const NoiseScores& s, double limit, std::vector<std::string>& lines) {
+  constexpr const char* channels[] = {"red", "green", "blue"};
+  for (std::size_t c = 0; c < 3; ++c)
+    if (!(s.mean_z[c] <= limit))
+      lines.push_back(
+          fmt::format("the mean of {} differs by {:.3g} +- {:.2g}: {:.3g} standard errors, expected at most {:g}",
+                      channels[c], s.difference[c], s.error[c], s.mean_z[c], limit));
+  if (const int blocks = s.blocks_above(limit); blocks > 0)
+    lines.push_back(
+        fmt::format("{} of {} blocks of 16x16 pixels differ by more than {:g} standard errors; the most, by {:.3g}, "
+                    "the one at {},{}",
+                    blocks, s.blocks, limit, s.block_z, s.worst_block.x0, s.worst_block.y0));
+  if (!(s.outlier_z <= limit))
+    lines.push_back(
+        fmt::format("{} pixels differ by more than 5 times the noise around them, which explains {:g}: {:.3g} "
+                    "standard errors, expected at most {:g}",
+                    s.outliers, s.explained_outliers, s.outlier_z, limit));
+  if (!s.tells())
+    lines.emplace_back("nothing can be told: all blocks, and the whole, have 60 effective samples or fewer");
+}
+
 }  // namespace
 
-Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference, PpmCurve ppm) {
-  return compare_pair(read_pair(image, reference, ppm), image, reference);
+Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
+                          const ComparisonOptions& options) {
+  PicturePair pair = read_pair(image, reference, options.ppm);
+  const Region place = pair.image_place, reference_place = pair.reference_place;
+  Comparison result = compare_pair(std::move(pair), image, reference);
+  if (options.noise && result.not_finite.empty())
+    result.noise = noise_scores(read_noisy_image(image, place), read_noisy_image(reference, reference_place));
+  return result;
+}
+
+std::string noise_text(const NoiseScores& s) {
+  std::string text =
+      fmt::format("means {:.3g}, blocks {:.3g}", *std::max_element(s.mean_z.begin(), s.mean_z.end()), s.block_z);
+  if (s.compares_outliers) text += fmt::format(", outliers {:.3g}", s.outlier_z);
+  text += fmt::format(" standard errors, corrected for {} blocks", s.blocks);
+  if (s.unclear_blocks > 0)
+    text += fmt::format("; cannot tell in {} of them, which have 60 effective samples or fewer", s.unclear_blocks);
+  return text;
 }
 
 Comparison compare_pair(PicturePair pair, const std::filesystem::path& image_file,
@@ -66,6 +107,7 @@ std::vector<std::string> too_large(const Comparison& c, const Tolerance& limits)
   check("RMSE", c.error.rmse, limits.rmse);
   check("relMSE", c.error.rel_mse, limits.rel_mse);
   check("FLIP", c.flip, limits.flip);
+  if (limits.z && c.noise) find_more_than_noise(*c.noise, *limits.z, lines);
   return lines;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/accuracy/error.h"
+#include "core/accuracy/noise_test.h"
 #include "core/image/image.h"
 
 #include <filesystem>
@@ -13,7 +14,8 @@ namespace tyndall {
 /// The largest errors that pass; absent: not looked at.
 struct Tolerance {
   std::optional<double> rmse, rel_mse, flip;
-  bool none() const { return !rmse && !rel_mse && !flip; }
+  std::optional<double> z{};  ///< standard errors, see NoiseScores
+  bool none() const { return !rmse && !rel_mse && !flip && !z; }
   bool operator==(const Tolerance&) const = default;
 };
 
@@ -29,11 +31,18 @@ struct Comparison {
   OutsideError outside{};  ///< of the values that FLIP clips
   /// "FILE: 3 of 256 pixels are not finite, the first at 5,0 (red is nan)" of each of both that has such pixels.
   std::vector<std::string> not_finite{};
+  std::optional<NoiseScores> noise{};  ///< where it was asked for, and all values are finite
 };
 
-/// Reads and compares two images, and throws as read_pair() (pair.h) does. ppm: how PPM files are read.
+/// How two files are compared.
+struct ComparisonOptions {
+  PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are read
+  bool noise = false;             ///< also by the noise that both carry (noise.h)
+};
+
+/// Reads and compares two images, and throws as read_pair() (pair.h) and read_noisy_image() (noise.h) do.
 Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
-                          PpmCurve ppm = PpmCurve::srgb);
+                          const ComparisonOptions& options = {});
 
 struct PicturePair;
 /// Compares two pictures of a pair that was read from files of these names.
@@ -44,6 +53,9 @@ void check_gamma2(PpmCurve ppm, bool has_ppm);
 
 /// "600 that both have, of 2048 in the image and 600 in the reference"; "" where all pixels were compared.
 std::string overlap_text(const Comparison& comparison);
+
+/// What the noise says in a line, without its end: "means 0.4, blocks 1.9, outliers 0 standard errors, …".
+std::string noise_text(const NoiseScores& scores);
 
 /// Why the pictures do not pass: values that are not finite, which are equal to nothing, whatever the limits are; and
 /// what is too large, each like "RMSE is 0.2, expected at most 0.1". An error that is not a number always is.

@@ -109,6 +109,7 @@ PicturePair read_pair(const Path& image_name, const Path& reference_name, PpmCur
   const Region both = common(a, b);
   if (both.x0 >= both.x1 || both.y0 >= both.y1)
     refuse(image, reference, "pixels in the data window " + text_of(a) + " alone", "some in " + text_of(b));
+  pair.image_place = a, pair.reference_place = b;
   cut(pair.image, a, both);
   cut(pair.reference, b, both);
   return pair;

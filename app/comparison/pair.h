@@ -11,6 +11,7 @@ namespace tyndall {
 /// The pixels that two pictures both have.
 struct PicturePair {
   LinearImage image, reference;                        ///< of the same size
+  Region image_place{}, reference_place{};             ///< where the pixels of the files lie, before they were cut
   std::size_t image_pixels = 0, reference_pixels = 0;  ///< that the files have; more than those compared where cut
   bool has_ppm = false;                                ///< one of the two is a PPM
   std::vector<std::string> remarks{};                  ///< what a user should know of how they were read, a line each

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"
+#include "core/accuracy/noise_test.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"

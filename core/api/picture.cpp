@@ -282,6 +282,10 @@ Comparison compare(const Picture& image, const Picture& reference) {
     out.blocks = blocks.blocks, out.block_score = blocks.mean_square, out.block_limit = blocks.maximum;
     out.worst_z = blocks.worst;
     out.only_noise = blocks.blocks > 0 && blocks.noise();
+    if (blocks.blocks == 0) return out;
+    const auto a = noisy_image(*Access::of(image.film())->film), b = noisy_image(*Access::of(reference.film())->film);
+    const NoiseScores noise = noise_scores(*a, *b);
+    out.z = noise.z, out.unclear_blocks = noise.unclear_blocks;
     return out;
   });
 }

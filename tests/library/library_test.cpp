@@ -280,8 +280,13 @@ TEST_CASE("library: comparisons are the command's, and know noise") {
   CHECK(noise.relmse > 0);
   CHECK(noise.blocks > 0);
   CHECK(noise.only_noise);
+  CHECK(noise.z < 4);
+  CHECK(noise.unclear_blocks < noise.blocks);
+  scene.set("/camera/vfov", 44);
+  CHECK(tyndall::compare(a, render(scene, samples(32))).z > 4);
   const tyndall::Comparison same = tyndall::compare(a, a);
   CHECK(same.mse == 0);
+  CHECK(same.z == 0);
   CHECK(std::isinf(same.psnr));
   CHECK(tyndall::compare(a.rgb(), b.rgb(), 48, 32).relmse == noise.relmse);
   CHECK(error_of([&] { tyndall::compare(a.rgb(), {}, 48, 32); }).place == "pixels");

@@ -501,6 +501,8 @@ class Comparison(NamedTuple):
     block_limit: float  # up to which noise explains it
     worst_z: float
     only_noise: bool
+    z: float  # largest difference of a mean, a block or the number of outliers, in standard errors, corrected
+    unclear_blocks: int  # too noisy for a difference to show: of 60 effective samples or fewer
 
 
 def compare(image: Any, reference: Any) -> Comparison:

@@ -91,6 +91,8 @@ class Comparison:
     block_limit: float
     worst_z: float
     only_noise: bool
+    z: float
+    unclear_blocks: int
     mean_image: tuple
     mean_reference: tuple
 

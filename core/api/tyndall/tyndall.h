@@ -216,6 +216,11 @@ struct Comparison {
   double block_score = 0, block_limit = 0;
   double worst_z = 0;       ///< largest difference of a block, in standard errors
   bool only_noise = false;  ///< with blocks: the pictures differ by no more than their noise
+  /// With blocks: the largest difference of a mean, a block or the number of outliers, in standard errors, corrected
+  /// for the number of tests: noise makes it larger than 4 at most once in 16,000 comparisons ("tyndall compare
+  /// --max-z").
+  double z = 0;
+  int unclear_blocks = 0;  ///< too noisy for a difference to show: of 60 effective samples or fewer
 };
 TYNDALL_API Comparison compare(const Picture& image, const Picture& reference);
 /// The same of linear pixels, height x width x 3 of both.

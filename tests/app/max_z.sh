@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# compare --max-z: another seed is the same picture, a small change is not; baselines, reports, pictures without noise.
+. "$(dirname "$0")/_common.sh"
+. "$source_root/tests/app/_pfm.sh"
+pfm a.pfm 32 16 0.5 0.5 0.5
+pfm b.pfm 32 16 0.5 0.51 0.5
+pfm a.error.pfm 32 16 0.05 0.05 0.05
+expect 2 "$tyndall" compare a.pfm b.pfm --max-z 4
+complains '--max-z: b.pfm: found no b.error.pfm beside it, expected an EXR'
+pfm b.error.pfm 32 15 0.05 0.05 0.05
+expect 2 "$tyndall" compare a.pfm b.pfm --max-z 4
+complains 'b.error.pfm: found 32x15 pixels, expected 32x16 as in b.pfm'
+# The difference of 0.01 has an error of 0.05 sqrt(2 / 512) = 0.0031: 3.2 of them, and more with less noise.
+pfm b.error.pfm 32 16 0.05 0.05 0.05
+expect 0 "$tyndall" compare a.pfm b.pfm --max-z 4
+for file in a b; do pfm $file.error.pfm 32 16 0.02 0.02 0.02; done
+expect 1 "$tyndall" compare a.pfm b.pfm --max-z 4
+grep -q '^tyndall: check failed: the mean of green differs by -0.01 +- 0.0012: ' err || fail "the mean: $(cat err)"
+for value in 0 -1 x; do
+  expect 2 "$tyndall" compare a.pfm b.pfm --max-z "$value"
+  complains '--max-z: found'
+done
+expect 2 "$tyndall" compare a.pfm cornell-box --max-z 4
+complains '--max-z needs two pictures'
+has_exr || finish
+
+mkdir new other
+render() { "$tyndall" render cover --size 96x64 --spp 64 -q "$@" || fail "rendering $*"; }
+render --seed 1 -o new/cover.exr -o new/cover.png
+render --seed 2 -o other/cover.exr
+expect 0 "$tyndall" compare other/cover.exr new/cover.exr --max-z 4 --json
+cp out noise.json
+[ ! -s err ] || fail "standard error: $(cat err)"
+python3 - <<'PY' || fail "the figures: $(cat noise.json)"
+import json
+noise = json.load(open("noise.json"))["noise"]
+assert noise["z"] == max(*noise["mean_z"], noise["block_z"], noise["outlier_z"]) < 4 and noise["blocks"] == 24
+assert noise["cannot_tell"] == 0 and all(0 < e < 0.01 for e in noise["error"])
+PY
+expect 0 "$tyndall" compare new/cover.exr new/cover.exr --max-z 0.001
+expect 2 "$tyndall" compare new/cover.png new/cover.exr --max-z 4
+complains '--max-z: new/cover.png: found a picture that does not say its noise' 'tyndall render writes'
+expect 2 "$tyndall" compare new/cover.exr:Albedo new/cover.exr --max-z 4
+render --seed 3 --spp 1 -o one.exr
+expect 2 "$tyndall" compare one.exr new/cover.exr --max-z 4
+complains 'one.exr: found pixels with fewer than 2 samples'
+
+# A change; also against more samples, a part, and a picture without its film.
+render --seed 4 --set /camera/vfov=21 -o changed.exr
+render --seed 5 --spp 256 -o better.exr
+render --seed 6 --exr-film no -o bare.exr
+render --seed 7 --region 20,10,70,50 -o part.exr
+for file in better bare part; do expect 0 "$tyndall" compare "$file.exr" new/cover.exr --max-z 4; done
+for file in better bare part; do
+  expect 1 "$tyndall" compare "$file.exr" changed.exr --max-z 4
+  grep -q '^tyndall: check failed: .* standard errors' err || fail "$file: $(cat err)"
+done
+
+# Baselines: what FLIP calls a failure is noise.
+rm new/cover.png
+expect 0 "$tyndall" compare new --baseline kept --update --max-z 4
+grep -q '"max_z": 4.0' kept/tolerances.json || fail "tolerances: $(cat kept/tolerances.json)"
+expect 1 "$tyndall" compare other/cover.exr --baseline kept --max-flip 0.02
+expect 0 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
+grep -q '^ok .*noise: means ' out || fail "the line: $(cat out)"
+cp changed.exr other/cover.exr
+expect 1 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
+grep -q 'standard errors' report.html && grep -q 'failures="1"' junit.xml || fail 'the reports do not say it'
+cp one.exr other/cover.exr
+expect 2 "$tyndall" compare other --baseline kept --update --max-z 4
+complains 'fewer than 2 samples'
+finish
