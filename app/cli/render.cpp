@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/live_view.h"
 #include "app/cli/render_setup.h"
 #include "app/cli/signals.h"
 #include "app/files/checkpoint.h"
@@ -19,7 +20,9 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <memory>
 #include <new>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -36,6 +39,7 @@ struct Job {
   Kernels kernels{};
   RenderStart begin{};
   std::shared_ptr<const PreparedScene> prepared{};
+  std::unique_ptr<LiveView> view{};  ///< in a viewer; null: none
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
 };
@@ -180,6 +184,37 @@ void write_so_far(const Job& job, const RenderResult& result) {
   }
 }
 
+std::string viewer_text(const std::string& problem) {
+  return "--watch-at: " + problem + "; the render goes on without it";
+}
+
+/// Shows the picture in the viewer whenever that is due, beside what else is done with the film.
+void add_view(LiveView& view, ProgressReport& report, RenderBreaks& breaks) {
+  const auto others_due = std::make_shared<bool>(false);
+  breaks.film_due = [&view, &report, others = std::move(breaks.film_due), others_due] {
+    if (const auto problem = view.problem()) report.say(viewer_text(*problem));
+    *others_due = *others_due || (others && others());
+    return *others_due || view.due();
+  };
+  breaks.take_film = [&view, others = std::move(breaks.take_film), others_due](const Film& film, ThreadPool& pool) {
+    if (std::exchange(*others_due, false)) others(film, pool);
+    if (view.due()) view.take(film, pool);
+  };
+}
+
+/// Shows the finished picture in the viewer. Files are written by then, and nothing that fails here is an error.
+void show_last(const Job& job, const Outcome& outcome) {
+  if (!job.view) return;
+  try {
+    const auto& clean = outcome.result.clean;
+    if (!outcome.result.interrupted)
+      job.view->finish(outcome.result.film, outcome.picture.image.rgb, clean ? &*clean : nullptr);
+    if (const auto problem = job.view->problem()) complain(viewer_text(*problem));
+  } catch (const std::exception& error) {
+    complain(std::string("--watch-at: ") + error.what());
+  }
+}
+
 /// What is done while the render goes on: checkpoints, or saying that there are none, and SIGUSR1.
 RenderBreaks breaks_of(const Job& job, const SignalWatch& signals, ProgressReport& report, Checkpoints& checkpoints) {
   RenderBreaks breaks;
@@ -220,7 +255,11 @@ RenderResult render(Job& job, const SignalWatch& signals, ProgressReport& report
   const std::filesystem::path& kept = job.begin.place.unfinished;
   Checkpoints checkpoints(kept, job.command.checkpoint,
                           [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
+  if (job.command.viewer)
+    job.view = std::make_unique<LiveView>(*job.command.viewer, job.loaded.name, *job.prepared, job.kernels.isa,
+                                          job.threads.count);
   job.options.breaks = breaks_of(job, signals, report, checkpoints);
+  if (job.view) add_view(*job.view, report, job.options.breaks);
   try {
     RenderResult result = render(*job.prepared, job.options, progress, std::move(job.begin.film));
     checkpoints.finish();
@@ -284,7 +323,9 @@ int run(const RenderCommand& command) {
     return code;
   }
   warn(job, outcome);
-  return write(job, outcome) ? code : output_failed;
+  const bool written = write(job, outcome);
+  show_last(job, outcome);
+  return written ? code : output_failed;
 }
 
 }  // namespace tyndall

@@ -2,6 +2,7 @@
 #include "app/comparison/baseline.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
+#include "app/files/viewer_stream.h"
 #include "app/manual/page.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
@@ -45,6 +46,7 @@ struct RenderCommand {
   bool fresh = false, resume = false;
   bool denoise = false;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::optional<ViewerAddress> viewer;  ///< that is shown the picture
 };
 
 struct CompareCommand {

@@ -1,0 +1,81 @@
+#include "app/cli/live_view.h"
+
+#include "core/accuracy/estimate.h"
+#include "core/base/seconds.h"
+#include "core/render/clean_film.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr double shortest_interval = 0.25;        // seconds
+constexpr double interval_over_cost = 200;        // of frames, and of clean views: together 1 %
+constexpr double clean_seconds_per_pixel = 2e-6;  // of one thread, before the first one is measured
+constexpr double patience_over_elapsed = 0.005, shortest_patience = 0.02;
+
+/// Means of the region, row by row.
+std::vector<float> means_of(const Film& film, ThreadPool& thread_pool) {
+  std::vector<float> rgb(3 * film.pixels.size());
+  const auto width = static_cast<std::size_t>(film.region.width());
+  thread_pool.for_each(film.region.height(), [&](int row) {
+    for (std::size_t i = static_cast<std::size_t>(row) * width; i < (static_cast<std::size_t>(row) + 1) * width; ++i) {
+      const Vec3f value = mean(film, film.pixels[i]);
+      rgb[3 * i] = value.x, rgb[3 * i + 1] = value.y, rgb[3 * i + 2] = value.z;
+    }
+  });
+  return rgb;
+}
+
+}  // namespace
+
+LiveView::LiveView(const ViewerAddress& address, const std::string& name, const PreparedScene& prepared,
+                   std::string isa, int threads)
+    : prepared_(prepared),
+      isa_(std::move(isa)),
+      threads_(threads),
+      stream_(address, name, prepared.columns().width, prepared.columns().height),
+      clean_cost_(clean_seconds_per_pixel * prepared.columns().width * prepared.columns().height / threads) {}
+
+bool LiveView::due() const {
+  return seconds_since(last_) >= std::max(shortest_interval, interval_over_cost * cost_) && stream_.ready();
+}
+
+void LiveView::take(const Film& film, ThreadPool& thread_pool) {
+  const auto begin = Clock::now();
+  if (totals(film).min_taken >= min_clean_spp && seconds_since(last_clean_) >= interval_over_cost * clean_cost_) {
+    clean_ = clean_film(film, prepared_, threads_, isa_).rgb;
+    clean_cost_ = seconds_since(begin), last_clean_ = Clock::now();
+  }
+  const auto after_clean = Clock::now();
+  send(film, means_of(film, thread_pool), pixel_relative_error(film, &thread_pool));
+  cost_ = seconds_since(after_clean), last_ = Clock::now();
+}
+
+void LiveView::send(const Film& film, const std::vector<float>& rgb, const std::vector<float>& errors) {
+  ViewerFrame frame{film.region, {}};
+  frame.values.reserve(viewer_channel_count * film.pixels.size());
+  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+    frame.values.insert(frame.values.end(), {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], errors[i]});
+    for (std::size_t c = 0; c < 3; ++c) frame.values.push_back(clean_.empty() ? 0.0f : clean_[3 * i + c]);
+  }
+  stream_.send(std::move(frame));
+}
+
+void LiveView::finish(const Film& film, const std::vector<float>& rgb, const CleanPicture* clean) {
+  const double patience = std::max(shortest_patience, patience_over_elapsed * seconds_since(start_));
+  stream_.finish(patience);
+  if (!stream_.ready()) return;
+  if (clean)
+    clean_ = clean->rgb;
+  else if (totals(film).min_taken >= min_clean_spp)
+    clean_ = clean_film(film, prepared_, threads_, isa_).rgb;
+  ThreadPool thread_pool(threads_);
+  send(film, rgb, pixel_relative_error(film, &thread_pool));
+  stream_.finish(patience);
+}
+
+std::optional<std::string> LiveView::problem() { return stream_.problem(); }
+
+}  // namespace tyndall
