@@ -31,7 +31,7 @@ LEVELS = [
     ["app/book", "app/manual", "app/python"],
     ["app/files"],
     ["app/curves"],
-    ["app/report"],
+    ["app/report", "app/export"],
     ["app/comparison"],
     ["app/check"],
     ["app/window/system"],

@@ -1,13 +1,16 @@
 #include "app/book/book_folder.h"
 #include "app/cli/commands.h"
+#include "app/export/foreign_scene.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/image/image_io.h"
 #include "core/scene/load.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace tyndall {
 namespace {
@@ -19,6 +22,16 @@ std::string about(const BuiltIn& scene) {
   std::string sentence = scene.about.substr(0, scene.about.find(". "));
   if (sentence.back() == '.') sentence.pop_back();
   return printable(shortened(sentence, longest));
+}
+
+/// For other renderers; nothing for Tyndall's own format.
+std::optional<ForeignFile> foreign_file(const Scene& scene, const std::string& name,
+                                        const std::filesystem::path& output) {
+  const std::string ending = lower_case(output.extension().string());
+  if (ending == ".pbrt") return pbrt_file(scene, name, output.string());
+  if (ending == ".xml") return mitsuba_file(scene, name, output.string());
+  if (ending == ".py") return blender_file(scene, name);
+  return {};
 }
 
 }  // namespace
@@ -39,12 +52,18 @@ int run(const ConvertCommand& command) {
   const LoadedScene loaded = open_scene(command.scene);
   const bool to_standard_output = command.output == "-";
   const std::filesystem::path folder = to_standard_output ? "" : command.output.parent_path();
-  const std::string text = write_scene(move_textures(loaded.scene, loaded.folder, folder));
+  const Scene scene = move_textures(loaded.scene, loaded.folder, folder);
+  const std::optional<ForeignFile> foreign = foreign_file(scene, loaded.name, command.output);
+  const std::string text = foreign ? foreign->text : write_scene(scene);
   if (to_standard_output) {
     write_standard_output(text);
   } else {
-    check_outputs({{"--output", command.output}}, loaded.files);
-    check_can_write(command.output);
+    std::vector<Output> outputs{{"--output", command.output}};
+    const bool has_sky = foreign && !foreign->sky_name.empty();
+    if (has_sky) outputs.push_back({"--output", folder / foreign->sky_name});
+    check_outputs(outputs, loaded.files);
+    check_can_write(outputs);
+    if (has_sky) write_pfm(folder / foreign->sky_name, {foreign->sky_width, foreign->sky_height, foreign->sky});
     write_text_or_rescue(command.output, text);
   }
   return 0;

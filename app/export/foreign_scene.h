@@ -1,0 +1,77 @@
+#pragma once
+#include "core/compile/flatten.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+/// Writes scenes for other renderers. What a renderer has no equal of is refused; nothing is approximated.
+///
+/// First step: a scene as shapes in world space with one material and at most one medium each.
+namespace tyndall {
+
+/// A parallelogram; the normal is along u × v, out of a box.
+struct ForeignFlat {
+  Vec3d corner, u, v;
+};
+
+struct ForeignSphere {
+  Vec3d center, center_end;  ///< while time runs from 0 to 1; equal: at rest
+  double radius = 1;         ///< > 0
+  bool inward = false;       ///< the normal points inward
+  double degrees = 0;        ///< turn about y, for image textures
+  bool moves() const { return !(center == center_end); }
+};
+
+struct ForeignShape {
+  std::variant<ForeignSphere, std::vector<ForeignFlat>> shape;
+  int material = -1;  ///< index into Scene::materials; -1: the boundary of a medium alone, which is not seen
+  int medium = -1;    ///< index into ForeignScene::media, behind the surface; -1: none
+};
+
+struct ForeignMedium {
+  double density = 1, g = 0;
+  Vec3d albedo;
+};
+
+/// What a renderer has an equal of.
+struct ForeignRenderer {
+  const char* name;           ///< in messages: "pbrt-v4"
+  bool even_mirrors = false;  ///< mirrors that reflect the same share at every angle
+  bool solid_checkers = false;
+  bool images = false;  ///< as textures
+  bool moving_spheres = false;
+  bool overlapping_media = false;
+  bool depth_zero = false;  ///< pictures of lights and background alone
+};
+
+struct ForeignScene {
+  std::vector<ForeignShape> shapes;
+  std::vector<ForeignMedium> media;
+  int camera_medium = -1;    ///< that the eye is in; -1: none
+  Vec3d forward, up, right;  ///< unit, of the camera
+};
+
+/// name: what messages call the scene. Throws SceneError with the first thing that the renderer has no equal of.
+ForeignScene foreign_scene(const Scene& scene, const std::string& name, const ForeignRenderer& renderer);
+
+/// The equal of a scene for a renderer, as the text of a file.
+struct ForeignFile {
+  std::string text;
+  std::string sky_name;    ///< of a picture of the background beside the file (PFM); empty: none is needed
+  std::vector<float> sky;  ///< linear RGB, top row first
+  int sky_width = 0, sky_height = 0;
+};
+/// file: where the text is to lie. Throw SceneError as foreign_scene() does.
+ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file);
+ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std::string& file);
+ForeignFile blender_file(const Scene& scene, const std::string& name);
+
+/// "1 2 3", with `between` between the numbers.
+std::string numbers_of(Vec3d v, const char* between = " ");
+/// Distance of the plane in focus, along the axis.
+double focus_of(const Camera& camera);
+/// The first name without folder and ending, with another ending: "a/box.pbrt" gives "box.exr".
+std::string beside(const std::string& file, const std::string& ending);
+
+}  // namespace tyndall

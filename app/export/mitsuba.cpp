@@ -1,0 +1,169 @@
+#include "app/export/foreign_scene.h"
+#include "app/text/markup.h"
+#include "core/base/kinds.h"
+#include "core/base/text.h"
+#include "core/compile/columns.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+/// Scenes for Mitsuba 3 (W. Jakob et al., https://mitsuba.readthedocs.io), for its variants of RGB.
+///
+/// Its conventions: max_depth counts segments, one more than our events; a sphere's normal that points inward is
+/// flip_normals; surfaces have one side unless they are "twosided"; lights shine on the side of their normal, so a flat
+/// light becomes two rectangles, a millionth of its size apart; a surface without "bsdf" is grey, so lights get a black
+/// one.
+namespace tyndall {
+namespace mitsuba {
+namespace {
+
+std::string number(const char* name, double value) {
+  return fmt::format("<float name=\"{}\" value=\"{}\"/>", name, number_text(value));
+}
+std::string whole(const char* name, int value) {
+  return fmt::format("<integer name=\"{}\" value=\"{}\"/>", name, value);
+}
+std::string rgb(const char* name, Vec3d c) {
+  return fmt::format("<rgb name=\"{}\" value=\"{}\"/>", name, numbers_of(c, ", "));
+}
+std::string point(const char* name, Vec3d p) {
+  return fmt::format("<point name=\"{}\" x=\"{}\" y=\"{}\" z=\"{}\"/>", name, number_text(p.x), number_text(p.y),
+                     number_text(p.z));
+}
+
+/// Rows of a sky that depends on the height alone: from straight above to straight below.
+void fill_sky(const Scene& scene, ForeignFile& out) {
+  constexpr int rows = 2048, columns = 4;
+  out.sky_width = columns, out.sky_height = rows;
+  for (int y = 0; y < rows; ++y) {
+    const double height = std::cos((y + 0.5) / rows * std::numbers::pi);
+    const Vec3d colour =
+        std::visit(Overloaded{[](const Vec3d& c) { return c; },
+                              [&](const Gradient& g) { return g.bottom + (height + 1) / 2 * (g.top - g.bottom); },
+                              [&](const Hemispheres& h) { return height > 0 ? h.up : h.down; }},
+                   scene.background);
+    for (int x = 0; x < columns; ++x)
+      for (const double c : {colour.x, colour.y, colour.z}) out.sky.push_back(static_cast<float>(c));
+  }
+}
+
+std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
+  if (const auto* colour = std::get_if<Vec3d>(&scene.background))
+    return *colour == Vec3d{} ? "" : "  <emitter type=\"constant\">" + rgb("radiance", *colour) + "</emitter>\n";
+  out.sky_name = beside(file, ".sky.pfm");
+  fill_sky(scene, out);
+  return "  <emitter type=\"envmap\"><string name=\"filename\" value=\"" + in_xml(out.sky_name) + "\"/></emitter>\n";
+}
+
+std::string medium(const ForeignScene& foreign, int index, const char* name) {
+  const ForeignMedium& m = foreign.media[static_cast<std::size_t>(index)];
+  return fmt::format("<medium name=\"{}\" type=\"homogeneous\">{}{}<phase type=\"hg\">{}</phase></medium>", name,
+                     rgb("albedo", m.albedo), number("sigma_t", m.density), number("g", m.g));
+}
+
+std::string camera(const Scene& scene, const ForeignScene& foreign) {
+  const Camera& c = scene.camera;
+  const bool thin = c.defocus_angle > 0;
+  std::string text = fmt::format(
+      "  <sensor type=\"{}\">\n    <transform name=\"to_world\"><lookat origin=\"{}\" target=\"{}\" "
+      "up=\"{}\"/></transform>\n"
+      "    <string name=\"fov_axis\" value=\"y\"/>{}{}{}\n",
+      thin ? "thinlens" : "perspective", numbers_of(c.look_from, ", "), numbers_of(c.look_at, ", "),
+      numbers_of(c.vup, ", "), number("fov", c.vfov), number("near_clip", 1e-4 * focus_of(c)),
+      number("far_clip", 1e8 * focus_of(c)));
+  if (thin) text += "    " + number("aperture_radius", lens_radius(c)) + number("focus_distance", focus_of(c)) + "\n";
+  if (foreign.camera_medium >= 0) text += "    " + medium(foreign, foreign.camera_medium, "medium") + "\n";
+  text += fmt::format(
+      "    <film type=\"hdrfilm\">{}{}<rfilter type=\"box\"/><string name=\"pixel_format\" value=\"rgb\"/><string "
+      "name=\"component_format\" value=\"float32\"/></film>\n",
+      whole("width", scene.width), whole("height", scene.height));
+  return text + fmt::format("    <sampler type=\"independent\">{}{}</sampler>\n  </sensor>\n",
+                            whole("sample_count", scene.render.spp.value_or(64)),
+                            whole("seed", static_cast<int>(scene.render.seed & 0x7fffffffu)));
+}
+
+std::string diffuse(Vec3d colour) {
+  return "<bsdf type=\"twosided\"><bsdf type=\"diffuse\">" + rgb("reflectance", colour) + "</bsdf></bsdf>";
+}
+
+Vec3d colour_of(const Material& material, const Scene& scene) {
+  if (const auto* colour = std::get_if<Vec3d>(&material.colour)) return *colour;
+  const auto* solid = std::get_if<Solid<>>(
+      &scene.textures[static_cast<std::size_t>(std::get<TextureIndex>(material.colour).index)].kind);
+  return solid ? solid->color : Vec3d{};
+}
+
+std::string surface(const Material& material, const Scene& scene) {
+  return std::visit(
+      Overloaded{
+          [&](const Dielectric<double>& glass) {
+            return "<bsdf type=\"dielectric\">" + number("int_ior", glass.refractive_index) + number("ext_ior", 1) +
+                   "</bsdf>";
+          },
+          [&](const Metal<double>&) {
+            return "<bsdf type=\"twosided\"><bsdf type=\"conductor\"><string name=\"material\" value=\"none\"/>" +
+                   rgb("specular_reflectance", colour_of(material, scene)) + "</bsdf></bsdf>";
+          },
+          [&](const Light<double>&) {
+            return "<emitter type=\"area\">" + rgb("radiance", colour_of(material, scene)) + "</emitter>" + diffuse({});
+          },
+          [&](const auto&) { return diffuse(colour_of(material, scene)); }},
+      material.kind);
+}
+
+std::string sphere(const ForeignSphere& s, const std::string& inner) {
+  return "  <shape type=\"sphere\">" + point("center", s.center) + number("radius", s.radius) +
+         (s.inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "") + inner + "</shape>\n";
+}
+
+/// Their rectangle is [-1, 1]² in x and y; its normal is z.
+std::string rectangle(const ForeignFlat& f, const std::string& inner) {
+  const Vec3d x = 0.5 * f.u, y = 0.5 * f.v, z = normalize(cross(f.u, f.v)), middle = f.corner + x + y;
+  std::string matrix;
+  for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
+    for (const Vec3d& column : {x, y, z, middle}) matrix += number_text(column.*axis) + " ";
+  return "  <shape type=\"rectangle\"><transform name=\"to_world\"><matrix value=\"" + matrix +
+         "0 0 0 1\"/></transform>" + inner + "</shape>\n";
+}
+
+/// A flat light, which shines on both sides: two of one side each.
+std::string flat_light(const ForeignFlat& f, const std::string& inner) {
+  const Vec3d apart = (5e-7 * std::max(length(f.u), length(f.v))) * normalize(cross(f.u, f.v));
+  return rectangle({f.corner + apart, f.u, f.v}, inner) + rectangle({f.corner + f.u - apart, -f.u, f.v}, inner);
+}
+
+std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene& foreign) {
+  const Material* material = s.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(s.material)];
+  const std::string inner = (material ? surface(*material, scene) : "<bsdf type=\"null\"/>") +
+                            (s.medium < 0 ? "" : medium(foreign, s.medium, "interior"));
+  if (const auto* own = std::get_if<ForeignSphere>(&s.shape)) return sphere(*own, inner);
+  std::string text;
+  const bool light = material && std::holds_alternative<Light<double>>(material->kind);
+  for (const ForeignFlat& flat : std::get<std::vector<ForeignFlat>>(s.shape))
+    text += light ? flat_light(flat, inner) : rectangle(flat, inner);
+  return text;
+}
+
+}  // namespace
+}  // namespace mitsuba
+
+ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std::string& file) {
+  using namespace mitsuba;
+  const ForeignRenderer renderer{"Mitsuba 3", true, false, false, false, false, true};
+  const ForeignScene foreign = foreign_scene(scene, name, renderer);
+  ForeignFile out;
+  out.text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- by tyndall convert, for Mitsuba 3 -->\n<scene "
+      "version=\"3.0.0\">\n";
+  out.text += fmt::format("  <integrator type=\"{}\">{}{}</integrator>\n", foreign.media.empty() ? "path" : "volpath",
+                          whole("max_depth", scene.render.max_depth + 1), whole("rr_depth", 16));
+  out.text += camera(scene, foreign) + background(scene, file, out);
+  for (const ForeignShape& s : foreign.shapes) out.text += shape(s, scene, foreign);
+  out.text += "</scene>\n";
+  return out;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,189 @@
+#include "app/export/foreign_scene.h"
+#include "core/base/kinds.h"
+#include "core/base/text.h"
+#include "core/compile/columns.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+/// Scenes for pbrt-v4 (M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition; its file format:
+/// https://pbrt.org/fileformat-v4).
+///
+/// Its conventions: the camera is left-handed, so x is mirrored before LookAt; fov is that of the shorter side; a
+/// normal that points inward is ReverseOrientation; depth counts scattering events as ours does; RGB of lights and
+/// surfaces are linear Rec.709; the film's sensor multiplies by exposure time times ISO / 100, which is made 1.
+namespace tyndall {
+namespace pbrt {
+namespace {
+
+/// A string of the file: in quotes, with what would end it escaped.
+std::string in_pbrt(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : all_printable(text)) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  return out + "\"";
+}
+
+std::string rgb(const char* name, Vec3d colour) { return fmt::format("\"rgb {}\" [ {} ]", name, numbers_of(colour)); }
+std::string number(const char* name, double value) { return fmt::format("\"float {}\" {}", name, number_text(value)); }
+
+std::string medium_name(int medium) { return medium < 0 ? "\"\"" : fmt::format("\"medium {}\"", medium); }
+
+/// The direction of a point of the square [0, 1]², which is covered evenly; z is up. P. Clarberg, Fast Equal-Area
+/// Mapping of the (Hemi)Sphere using SIMD, Journal of Graphics Tools 13 (2008).
+Vec3d direction_of(double x, double y) {
+  const double u = 2 * x - 1, v = 2 * y - 1, rest = 1 - std::abs(u) - std::abs(v), r = 1 - std::abs(rest);
+  const double phi = (r == 0 ? 1 : (std::abs(v) - std::abs(u)) / r + 1) * std::numbers::pi / 4;
+  const double out = r * std::sqrt(2 - r * r);
+  return {std::copysign(std::cos(phi), u) * out, std::copysign(std::sin(phi), v) * out, std::copysign(1 - r * r, rest)};
+}
+
+Vec3d seen(const Gradient& g, Vec3d direction) { return g.bottom + (direction.y + 1) / 2 * (g.top - g.bottom); }
+Vec3d seen(const Hemispheres& h, Vec3d direction) { return direction.y > 0 ? h.up : h.down; }
+
+std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
+  if (const auto* colour = std::get_if<Vec3d>(&scene.background))
+    return *colour == Vec3d{} ? "" : "LightSource \"infinite\" " + rgb("L", *colour) + "\n";
+  constexpr int edge = 512;
+  out.sky_name = beside(file, ".sky.pfm"), out.sky_width = out.sky_height = edge;
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x) {
+      const Vec3d direction = direction_of((x + 0.5) / edge, (y + 0.5) / edge);
+      const Vec3d colour = std::visit(
+          Overloaded{[](const Vec3d& c) { return c; }, [&](const auto& sky) { return seen(sky, direction); }},
+          scene.background);
+      for (const double c : {colour.x, colour.y, colour.z}) out.sky.push_back(static_cast<float>(c));
+    }
+  return "LightSource \"infinite\" \"string filename\" " + in_pbrt(out.sky_name) + "\n";
+}
+
+std::string camera(const Scene& scene, const ForeignScene& foreign, const std::string& file) {
+  const Camera& c = scene.camera;
+  const double aspect = static_cast<double>(scene.width) / scene.height,
+               half = std::tan(c.vfov * std::numbers::pi / 360);
+  const double fov = aspect >= 1 ? c.vfov : 360 / std::numbers::pi * std::atan(half * aspect);
+  const bool opens = c.shutter_close > c.shutter_open;
+  const double open = opens ? c.shutter_open : 0, close = opens ? c.shutter_close : 1;
+  std::string text = fmt::format("Scale -1 1 1\nLookAt {}\n       {}\n       {}\n", numbers_of(c.look_from),
+                                 numbers_of(c.look_at), numbers_of(c.vup));
+  if (foreign.camera_medium >= 0) text += "MediumInterface \"\" " + medium_name(foreign.camera_medium) + "\n";
+  text += "Camera \"perspective\" " + number("fov", fov);
+  if (c.defocus_angle > 0)
+    text += " " + number("lensradius", lens_radius(c)) + " " + number("focaldistance", focus_of(c));
+  text += " " + number("shutteropen", open) + " " + number("shutterclose", close) + "\n";
+  text += fmt::format("Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {} \"string filename\" {} {}\n",
+                      scene.width, scene.height, in_pbrt(beside(file, ".exr")), number("iso", 100 / (close - open)));
+  text += "PixelFilter \"box\" \"float xradius\" 0.5 \"float yradius\" 0.5\n";
+  text += fmt::format("Sampler \"independent\" \"integer pixelsamples\" {} \"integer seed\" {}\n",
+                      scene.render.spp.value_or(64), scene.render.seed);
+  return text + fmt::format("Integrator \"volpath\" \"integer maxdepth\" {}\n", scene.render.max_depth);
+}
+
+std::string texture(const Texture& texture, std::size_t index) {
+  const std::string head = fmt::format("Texture \"texture {}\" \"spectrum\" ", index);
+  return std::visit(Overloaded{[](const Checker<>& c) {
+                                 return std::string("\"checkerboard\" \"integer dimension\" 3 ") + rgb("tex1", c.even) +
+                                        " " + rgb("tex2", c.odd);
+                               },
+                               [](const Image& image) {
+                                 return "\"imagemap\" \"string filter\" \"bilinear\" \"string filename\" " +
+                                        in_pbrt(image.file);
+                               },
+                               [](const auto&) { return std::string(); }},
+                    texture.kind)
+             .insert(0, head) +
+         "\n";
+}
+
+std::string textures(const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const auto& kind = scene.textures[i].kind;
+    const auto* checker = std::get_if<Checker<>>(&kind);
+    if (!checker && !std::holds_alternative<Image>(kind)) continue;
+    text += "AttributeBegin\n";
+    if (checker) text += fmt::format("  Scale {0} {0} {0}\n", number_text(checker->scale));
+    text += "  " + texture(scene.textures[i], i) + "AttributeEnd\n";
+  }
+  return text;
+}
+
+std::string reflectance(const Material& material, const Scene& scene) {
+  const auto* index = std::get_if<TextureIndex>(&material.colour);
+  if (!index) return rgb("reflectance", std::get<Vec3d>(material.colour));
+  const auto at = static_cast<std::size_t>(index->index);
+  if (const auto* solid = std::get_if<Solid<>>(&scene.textures[at].kind)) return rgb("reflectance", solid->color);
+  return fmt::format("\"texture reflectance\" \"texture {}\"", at);
+}
+
+/// The material of a surface, and its light.
+std::string surface(const Material& material, const Scene& scene) {
+  return std::visit(
+      Overloaded{[&](const Dielectric<double>& glass) {
+                   return "  Material \"dielectric\" " + number("eta", glass.refractive_index) + "\n";
+                 },
+                 [&](const Light<double>&) {
+                   const auto* colour = std::get_if<Vec3d>(&material.colour);
+                   return "  Material \"diffuse\" " + rgb("reflectance", {}) + "\n  AreaLightSource \"diffuse\" " +
+                          rgb("L", colour ? *colour : Vec3d{}) + " \"bool twosided\" true\n";
+                 },
+                 [&](const auto&) { return "  Material \"diffuse\" " + reflectance(material, scene) + "\n"; }},
+      material.kind);
+}
+
+std::string shape(const ForeignSphere& s) {
+  std::string text;
+  if (s.moves())
+    text = fmt::format(
+        "  ActiveTransform StartTime\n  Translate {}\n  ActiveTransform EndTime\n  Translate {}\n  ActiveTransform "
+        "All\n",
+        numbers_of(s.center), numbers_of(s.center_end));
+  else
+    text = "  Translate " + numbers_of(s.center) + "\n";
+  if (s.degrees != 0) text += "  Rotate " + number_text(s.degrees) + " 0 1 0\n";
+  text +=
+      "  ConcatTransform [ -1 0 0 0  0 0 1 0  0 1 0 0  0 0 0 1 ]\n";  // their z is our y; u of images begins at our -x
+  if (s.inward) text += "  ReverseOrientation\n";
+  return text + "  Shape \"sphere\" " + number("radius", s.radius) + "\n";
+}
+
+std::string shape(const std::vector<ForeignFlat>& flats) {
+  std::string text;
+  for (const ForeignFlat& f : flats)
+    text += fmt::format(
+        "  Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point3 P\" [ {}  {}  {}  {} ]\n    \"point2 "
+        "uv\" [ 0 0 1 0 1 1 0 1 ]\n",
+        numbers_of(f.corner), numbers_of(f.corner + f.u), numbers_of(f.corner + f.u + f.v), numbers_of(f.corner + f.v));
+  return text;
+}
+
+std::string medium(const ForeignMedium& m, std::size_t index) {
+  const Vec3d scattering = m.density * m.albedo, absorption = Vec3d{m.density, m.density, m.density} - scattering;
+  return fmt::format("MakeNamedMedium \"medium {}\" \"string type\" \"homogeneous\" {} {} {}\n", index,
+                     rgb("sigma_a", absorption), rgb("sigma_s", scattering), number("g", m.g));
+}
+
+}  // namespace
+}  // namespace pbrt
+
+ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file) {
+  using namespace pbrt;
+  const ForeignRenderer renderer{"pbrt-v4", false, true, true, true, false, true};
+  const ForeignScene foreign = foreign_scene(scene, name, renderer);
+  ForeignFile out;
+  out.text = "# " + all_printable(scene.name.empty() ? name : scene.name) + ", by tyndall convert, for pbrt-v4\n";
+  for (std::size_t i = 0; i < foreign.media.size(); ++i) out.text += medium(foreign.media[i], i);
+  out.text += camera(scene, foreign, file) + "TransformTimes 0 1\nWorldBegin\n" + background(scene, file, out) +
+              textures(scene);
+  for (const ForeignShape& s : foreign.shapes) {
+    out.text += "AttributeBegin\n";
+    out.text += s.material < 0 ? "  Material \"interface\"\n"
+                               : surface(scene.materials[static_cast<std::size_t>(s.material)], scene);
+    if (s.medium >= 0) out.text += "  MediumInterface " + medium_name(s.medium) + " \"\"\n";
+    out.text += std::visit([](const auto& own) { return shape(own); }, s.shape) + "AttributeEnd\n";
+  }
+  return out;
+}
+
+}  // namespace tyndall

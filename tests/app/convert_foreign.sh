@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# convert for other renderers: the conventions, by following rays through what was written as those renderers read it; what
+# has no equal; names that would like to be statements.
+. "$(dirname "$0")/_common.sh"
+foreign=$source_root/tests/app/_foreign.py
+cat >scene.json <<'JSON'
+{ "tyndall": 1, "name": "a test", "image": { "width": 40, "height": 24 },
+  "camera": { "look_from": [1, 2, 7], "look_at": [0.2, 0.8, 0], "vup": [0.1, 1, 0], "vfov": 50, "defocus_angle": 0.3 },
+  "background": { "type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1.0] },
+  "materials": { "grey": { "type": "lambertian", "albedo": [0.5, 0.5, 0.5] }, "glass": { "type": "dielectric", "refractive_index": 1.5 },
+                 "lamp": { "type": "light", "radiance": [4, 4, 4] } },
+  "objects": [
+    { "type": "sphere", "center": [0, 0, 0], "radius": 30, "material": "grey" },
+    { "type": "quad", "corner": [-9, 0, -9], "u": [0, 0, 18], "v": [18, 0, 0], "material": "grey" },
+    { "type": "sphere", "center": [1.5, 1, 1], "radius": 1, "material": "glass" },
+    { "type": "sphere", "center": [1.5, 1, 1], "radius": -0.9, "material": "glass" },
+    { "type": "quad", "corner": [-2, 3, -3], "u": [1, 0, 0], "v": [0, 1, 1], "material": "lamp" },
+    { "type": "group", "transform": [{ "translate": [-1.5, 0, 0] }], "objects": [
+      { "type": "box", "min": [-1, 0, -1], "max": [1, 1.5, 0.5], "material": "grey", "transform": [{ "rotate_y": 30 }, { "translate": [0, 0, 0.5] }] } ] },
+    { "type": "medium", "boundary": { "type": "sphere", "center": [-1, 3, 1], "radius": 0.7 }, "density": 2, "albedo": [0.9, 0.8, 0.7], "g": 0.3 } ] }
+JSON
+expect 0 "$tyndall" render scene.json --spp 16 -q -o scene.exr
+for ending in pbrt xml py; do
+  expect 0 "$tyndall" convert scene.json -o "scene.$ending"
+  [ ! -s err ] || fail "$ending: $(cat err)"
+  lights=1
+  [ "$ending" = xml ] && lights=2 # of one side each
+  python3 "$foreign" "scene.$ending" 40x24 "$ending.pfm" >log 2>&1 || fail "$ending: $(cat log)"
+  grep -q " shapes, 1 inward, $lights lights" log || fail "$ending: $(cat log)"
+  if has_exr; then
+    expect 0 "$tyndall" compare "$ending.pfm" scene.exr:Depth.Z --json
+    cp out "$ending.json"
+    python3 -c '
+import json, sys
+found = json.load(open(sys.argv[1]))
+sys.exit(not found["relmse"] < 0.03)' "$ending.json" || fail "$ending: the first surfaces lie elsewhere: $(cat "$ending.json")"
+  fi
+done
+for ending in pbrt xml; do # the sky: bright and white below, blue above
+  [ -s scene.sky.pfm ] || fail "no sky of $ending"
+done
+expect 0 "$tyndall" convert cornell-smoke -o smoke.pbrt
+same 'media of pbrt' 2 "$(grep -c '^MakeNamedMedium' smoke.pbrt)"
+
+# What has no equal ends in one sentence that names it.
+refused() { # FILE TEXT... CONVERT-ARGUMENTS are in $arguments
+  expect 2 "$tyndall" convert "${arguments[@]}" -o "$1"
+  complains "${@:2}" 'has no equal'
+  [ ! -e "$1" ] || fail "$1 was written"
+}
+for ending in pbrt xml py; do
+  arguments=(metal-spheres)
+  refused "no.$ending" /fuzz 'expected 0'
+  arguments=(cornell-box --set /render/fresnel=schlick)
+  refused "no.$ending" /render/fresnel
+  arguments=(perlin-spheres)
+  refused "no.$ending" /textures '"noise"'
+done
+arguments=(checkered-spheres)
+refused no.xml /textures checker
+sed 's/"grey": { "type": "lambertian", "albedo": \[0.5, 0.5, 0.5\]/"grey": { "type": "metal", "albedo": [1, 1, 1]/' scene.json >mirror.json
+arguments=(mirror.json)
+refused no.pbrt /materials/grey/type mirror
+expect 0 "$tyndall" convert mirror.json -o mirror.xml
+expect 2 "$tyndall" convert cornell-box -o no.obj
+complains no.obj
+
+# Names are data, whatever they hold.
+python3 - <<'PY'
+import json
+scene = json.load(open("scene.json"))
+evil = ["\"\"\"\nimport os\nos.system('touch owned')\n\"\"\"", "'''\nraise SystemExit(3)\n'''", "\\\"\nWorldBegin\n# ",
+        "--><scene/><!--", "]]>&amp;\"'<x>", "\\", "\u2028\u0000\u001b[31m\ud83d\ude00"]
+scene["name"] = evil[0] + evil[3]
+for k, name in enumerate(list(scene["materials"])):
+    scene["materials"][evil[k] + name] = scene["materials"].pop(name)
+    for thing in [*scene["objects"], *scene["objects"][5]["objects"]]:
+        if thing.get("material") == name:
+            thing["material"] = evil[k] + name
+for k, thing in enumerate(scene["objects"]):
+    thing["name"] = evil[k % len(evil)]
+json.dump(scene, open("evil.json", "w"))
+PY
+name=$'x"""\'\'\'\nWorldBegin'
+for ending in pbrt xml py; do
+  expect 0 "$tyndall" convert evil.json -o "evil.$ending"
+  expect 0 "$tyndall" convert evil.json -o "$name.$ending"
+  for file in "evil.$ending" "$name.$ending"; do
+    python3 "$foreign" "$file" 40x24 evil.pfm >log 2>&1 || fail "$ending: $(cat log)"
+    cmp -s evil.pfm "$ending.pfm" || fail "$ending: names have changed the scene"
+  done
+done
+[ ! -e owned ] || fail 'a name became a statement'
+PYTHONPATH=$source_root/tests/app python3 -B - <<'PY' || fail 'the scripts differ by more than their data'
+import _foreign
+(evil, a), (plain, b) = (_foreign.data_of(open(f).read()) for f in ("evil.py", "scene.py"))
+assert a == b and evil["shapes"] == plain["shapes"] and evil["name"] != plain["name"]
+PY
+same 'lines of pbrt' "$(wc -l <scene.pbrt)" "$(wc -l <evil.pbrt)"
+same 'lines of Mitsuba' "$(wc -l <scene.xml)" "$(wc -l <evil.xml)"
+finish
