@@ -6,8 +6,13 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
+#include "core/image/tonemap.h"
 
 #include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace tyndall {
 namespace {
@@ -37,72 +42,173 @@ std::string row(const char* name, double value, const std::optional<double>& lim
   return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value, limit_text(limit));
 }
 
-std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
-  const Comparison& c = *picture.comparison;
-  const LinearImage flip = heat_map(c.flip_map, c.width, c.height);
-  const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
-  return fmt::format(
-      "<div class=\"pair\"><figure><div class=\"slide\" style=\"max-width:{0}px\">"
-      "<img alt=\"baseline\" src=\"{1}\"><img alt=\"rendered\" class=\"top\" src=\"{2}\">"
-      "<span class=\"bar\"></span></div>"
-      "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"divider\" "
-      "style=\"max-width:max({0}px,8rem)\">"
-      "<figcaption>left of the divider: rendered; right: baseline</figcaption></figure>\n"
-      "<figure><img alt=\"FLIP\" src=\"{3}\"><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
-      c.width, data_of(pair.reference), data_of(pair.image), data_of(flip));
+/// A word of a command line as a shell reads it.
+std::string in_shell(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
-std::string section(const CheckedPicture& picture, PpmCurve ppm) {
-  const bool good = picture.failures.empty();
-  std::string text = fmt::format("<section class=\"{}\"><h2>{} <em>{}</em></h2>\n", good ? "good" : "failed",
-                                 in_html(picture.name), good ? "passed" : "failed");
-  for (const std::string& failure : picture.failures) text += "<p class=\"bad\">" + in_html(failure) + "</p>\n";
-  if (!picture.comparison) return text + "</section>\n";
+/// A line to copy.
+std::string command_line(const char* what, const std::string& command) {
+  return fmt::format("<p class=\"command\">{} <code>{}</code> <button type=\"button\">copy</button></p>\n", what,
+                     in_html(command));
+}
+
+/// How the pictures are made again and compared; those that Tyndall did not make carry no scene.
+std::string commands_of(const CheckedPicture& picture) {
+  std::string text;
+  const auto made = [&text](const char* what, const std::filesystem::path& name) {
+    const std::filesystem::path file = picture_name(name).file;
+    if (!read_embedded_scene(file)) return;
+    const std::string again = file.stem().string() + "-again" + file.extension().string();
+    text += command_line(what, "tyndall render " + in_shell(file.string()) + " -o " + in_shell(again));
+  };
+  made("The rendered picture again:", picture.image);
+  made("The baseline again:", picture.reference);
+  std::string compare =
+      "tyndall compare " + in_shell(picture.image.string()) + " " + in_shell(picture.reference.string());
+  if (picture.limits.z) compare += fmt::format(" --max-z {:g}", *picture.limits.z);
+  if (picture.limits.flip) compare += fmt::format(" --max-flip {:g}", *picture.limits.flip);
+  if (picture.limits.rel_mse) compare += fmt::format(" --max-relmse {:g}", *picture.limits.rel_mse);
+  if (picture.limits.rmse) compare += fmt::format(" --max-rmse {:g}", *picture.limits.rmse);
+  return text + command_line("Compared:", compare);
+}
+
+std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
-  text += "<table><tr><th></th><th>measured</th><th>at most</th></tr>\n" + row("FLIP", c.flip, picture.limits.flip) +
-          row("relMSE", c.error.rel_mse, picture.limits.rel_mse) + row("RMSE", c.error.rmse, picture.limits.rmse) +
-          row("PSNR (dB)", c.error.psnr, {});
+  const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
+  const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
+  return fmt::format(
+      "<div class=\"pair\"><figure><div class=\"slide\" tabindex=\"0\" role=\"slider\" aria-label=\"divider\" "
+      "aria-valuemin=\"0\" aria-valuemax=\"100\" aria-valuenow=\"50\">"
+      "<img alt=\"baseline\" src=\"{}\"><img alt=\"rendered\" class=\"top\" src=\"{}\"><span "
+      "class=\"bar\"></span></div>"
+      "<figcaption>left of the divider: rendered; right: baseline (pointer, or ← → Home End)</figcaption></figure>\n"
+      "<figure><img alt=\"FLIP\" src=\"{}\"><div class=\"scale\"></div><div class=\"marks\"><span>0</span>"
+      "<span>0.5</span><span>1</span></div><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
+      data_of(pair.reference), data_of(pair.image), data_of(flip));
+}
+
+/// The rows of the noise, of what was tested.
+std::string noise_rows(const NoiseScores& s, const std::optional<double>& limit) {
+  std::string text = row("z of the means", *std::max_element(s.mean_z.begin(), s.mean_z.end()), limit) +
+                     row("z of the blocks", s.block_z, limit);
+  if (s.compares_outliers) text += row("z of outliers", s.outlier_z, limit);
+  return text +
+         fmt::format("<tr><th>blocks: cannot tell</th><td>{} of {}</td><td>–</td></tr>\n", s.unclear_blocks, s.blocks);
+}
+
+std::string table_of(const CheckedPicture& picture) {
+  const Comparison& c = *picture.comparison;
+  std::string text = "<table><tr><th></th><th>measured</th><th>at most</th></tr>\n";
+  if (c.noise) text += noise_rows(*c.noise, picture.limits.z);
+  text += row("FLIP", c.flip, picture.limits.flip) + row("relMSE", c.error.rel_mse, picture.limits.rel_mse) +
+          row("RMSE", c.error.rmse, picture.limits.rmse) + row("PSNR (dB)", c.error.psnr, {});
   if (c.outside.values > 0) {
     const bool looked_at = picture.limits == usual_tolerance;
     text += row("relMSE outside [0, 1]", c.outside.rel_mse, looked_at ? std::optional(usual_outside) : std::nullopt);
   }
-  text += "</table>\n";
-  const std::string overlap = overlap_text(c);
+  return text + "</table>\n";
+}
+
+std::string section(const CheckedPicture& picture, std::size_t number, PpmCurve ppm) {
+  const bool good = picture.failures.empty();
+  std::string text = fmt::format("<section id=\"p{}\" class=\"{}\"><h2>{} <em>{}</em></h2>\n", number,
+                                 good ? "good" : "failed", in_html(picture.name), good ? "passed" : "failed");
+  for (const std::string& failure : picture.failures) text += "<p class=\"bad\">" + in_html(failure) + "</p>\n";
+  if (!picture.comparison) return text + "</section>\n";
+  const std::string overlap = overlap_text(*picture.comparison);
+  text += pictures_of(picture, ppm) + table_of(picture);
   if (!overlap.empty()) text += "<p>Pixels: " + overlap + ".</p>\n";
-  return text + pictures_of(picture, ppm) + "</section>\n";
+  return text + commands_of(picture) + "</section>\n";
+}
+
+/// A row of the table at the top.
+std::string summary_row(const CheckedPicture& picture, std::size_t number) {
+  const bool good = picture.failures.empty();
+  const auto& c = picture.comparison;
+  const auto cell = [](double value) { return fmt::format("<td>{:.4g}</td>", value); };
+  const std::string none = "<td>–</td>";
+  return fmt::format("<tr class=\"{}\"><th><a href=\"#p{}\">{}</a></th><td>{}</td>", good ? "good" : "bad", number,
+                     in_html(picture.name), good ? "passed" : "failed") +
+         (c && c->noise ? cell(c->noise->z) : none) + (c ? cell(c->flip) + cell(c->error.rel_mse) : none + none) +
+         "<td class=\"why\">" + (good ? "" : in_html(picture.failures.front())) + "</td></tr>\n";
+}
+
+/// The colours of a heat map as stops of a CSS gradient.
+std::string css_stops() {
+  std::string text;
+  for (int i = 0; i <= 16; ++i) {
+    const std::array<float, 3> colour = heat(static_cast<float>(i) / 16);
+    const auto byte = [](float v) { return static_cast<int>(std::lround(255 * static_cast<double>(srgb_encode(v)))); };
+    text += fmt::format("{}rgb({} {} {})", i == 0 ? "" : ", ", byte(colour[0]), byte(colour[1]), byte(colour[2]));
+  }
+  return text;
 }
 
 constexpr char page_start[] = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Pictures against their baseline</title>
-<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">
 <style>
-body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem; color: #1d2b3a; background: #f4f6f8 }
-section { background: #fff; border-left: 6px solid #2e8b57; padding: 1rem 1.5rem; margin: 1.2rem 0; border-radius: 4px }
-section.failed { border-color: #c0392b }
-h2 em { font-size: 80%; font-style: normal; color: #66788a }
-.bad, .bad th { color: #c0392b }
-table { border-collapse: collapse; margin: .5rem 0 1rem }
-th, td { text-align: right; padding: .15rem 1rem .15rem 0; font-variant-numeric: tabular-nums }
-tr th:first-child { text-align: left }
-.pair { display: flex; flex-wrap: wrap; gap: 1.5rem }
-figure { margin: 0 }
-.slide { position: relative; --at: 50%; line-height: 0 }
+:root { --text: #1d2b3a; --quiet: #5a6b7c; --page: #f4f6f8; --card: #fff; --line: #d5dce3; --good: #1f7a4a; --bad: #b3261e }
+@media (prefers-color-scheme: dark) {
+  :root { --text: #e3e8ee; --quiet: #9aa8b7; --page: #14181d; --card: #1e242b; --line: #35404c; --good: #5fcf95; --bad: #ff8a80 }
+}
+body { font: 15px/1.45 system-ui, sans-serif; margin: 1.5rem; color: var(--text); background: var(--page) }
+section { background: var(--card); border-left: 6px solid var(--good); padding: 1rem 1.25rem; margin: 1.2rem 0; border-radius: 4px }
+section.failed { border-color: var(--bad) }
+h2 em { font-size: 80%; font-style: normal; color: var(--quiet) }
+.bad, .bad th, .bad a { color: var(--bad) }
+a { color: inherit }
+table { border-collapse: collapse; margin: 1rem 0 }
+th, td { text-align: right; padding: .2rem 1rem .2rem 0; font-variant-numeric: tabular-nums }
+tr th:first-child, td.why { text-align: left; overflow-wrap: anywhere }
+.summary { width: 100% }
+.summary tr { border-bottom: 1px solid var(--line) }
+.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1.25rem }
+figure { margin: 0; min-width: 0 }
+.slide { position: relative; --at: 50%; line-height: 0; cursor: ew-resize; touch-action: pan-y }
+.slide:focus-visible, button:focus-visible { outline: 3px solid var(--good); outline-offset: 2px }
 .slide .top { position: absolute; inset: 0; clip-path: inset(0 calc(100% - var(--at)) 0 0) }
-.bar { position: absolute; top: 0; bottom: 0; left: var(--at); width: 2px; margin-left: -1px; background: #fff }
-img { max-width: 100% }
-input { width: 100%; margin: .4rem 0 0 }
-figcaption { color: #66788a; font-size: 90% }
+.bar { position: absolute; top: 0; bottom: 0; left: var(--at); width: 2px; margin-left: -1px; background: #fff; box-shadow: 0 0 0 1px #0008 }
+img { width: 100%; height: auto; image-rendering: pixelated }
+.marks { display: flex; justify-content: space-between; font-size: 13px }
+figcaption { color: var(--quiet); font-size: 90% }
+.command { margin: .3rem 0; overflow-wrap: anywhere }
+code { font-size: 90% }
+.scale { height: 12px; border: 1px solid var(--line); background: linear-gradient(to right, )";
+constexpr char page_style_end[] = R"() }
 </style></head><body>
 )";
 constexpr char page_end[] = R"(<script>
-document.querySelectorAll('input[type=range]').forEach(function (input) {
-  const slide = input.parentElement.querySelector('.slide');
-  const move = function () { slide.style.setProperty('--at', input.value + '%'); };
-  input.addEventListener('input', move);
+document.querySelectorAll('.slide').forEach(function (slide) {
+  let at = 50;
+  const move = function (to) {
+    at = Math.min(100, Math.max(0, to));
+    slide.style.setProperty('--at', at + '%');
+    slide.setAttribute('aria-valuenow', Math.round(at));
+  };
   slide.addEventListener('pointermove', function (event) {
     const box = slide.getBoundingClientRect();
-    input.value = 100 * (event.clientX - box.left) / box.width;
-    move();
+    move(100 * (event.clientX - box.left) / box.width);
+  });
+  slide.addEventListener('keydown', function (event) {
+    const to = { ArrowLeft: at - 2, ArrowRight: at + 2, Home: 0, End: 100 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    move(to);
+  });
+});
+document.querySelectorAll('.command button').forEach(function (button) {
+  button.addEventListener('click', function () {
+    const code = button.parentElement.querySelector('code');
+    const done = function () { button.textContent = 'copied'; };
+    const select = function () {  // where a page has no clipboard
+      getSelection().selectAllChildren(code);
+      if (document.execCommand('copy')) done();
+    };
+    if (navigator.clipboard) navigator.clipboard.writeText(code.textContent).then(done, select); else select();
   });
 });
 </script>
@@ -114,12 +220,20 @@ document.querySelectorAll('input[type=range]').forEach(function (input) {
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
   std::size_t failed = 0;
   for (const CheckedPicture& picture : pictures) failed += !picture.failures.empty();
-  std::string text = page_start + fmt::format("<h1>{} of {} pictures look like their baseline</h1>\n",
-                                              pictures.size() - failed, pictures.size());
+  std::string rows, sections;
+  std::size_t number = 0;
   for (const bool good : {false, true})  // failures first
-    for (const CheckedPicture& picture : pictures)
-      if (picture.failures.empty() == good) text += section(picture, ppm);
-  write_text_or_rescue(file, text + page_end);
+    for (const CheckedPicture& picture : pictures) {
+      if (picture.failures.empty() != good) continue;
+      rows += summary_row(picture, ++number);
+      sections += section(picture, number, ppm);
+    }
+  write_text_or_rescue(file, page_start + css_stops() + page_style_end +
+                                 fmt::format("<h1>{} of {} pictures look like their baseline</h1>\n",
+                                             pictures.size() - failed, pictures.size()) +
+                                 "<table class=\"summary\"><tr><th>picture</th><th></th><th>z</th><th>FLIP</th>"
+                                 "<th>relMSE</th><th></th></tr>\n" +
+                                 rows + "</table>\n" + sections + page_end);
 }
 
 std::string junit_report(const std::vector<CheckedPicture>& pictures) {

@@ -46,8 +46,9 @@ assert all(case.find("failure").get("message") for case in suite)
 text = open("report.html").read()
 images = re.findall(r'src="data:image/png;base64,([^"]+)"', text)
 assert len(images) == 3 and all(base64.b64decode(i, validate=True).startswith(b"\x89PNG") for i in images)
-assert not re.search(r'(src|href)="(?!data:)', text), "the page needs other files"
+assert not re.search(r'(src|href)="(?!data:|#p)', text), "the page needs other files"
 assert "a &amp; &lt;b>.pfm" in text and "0 of 5 pictures" in text
+assert text.count("<tr class=\"bad\"><th><a href") == 5 and "<code>tyndall render &#39;new/box.png&#39; -o &#39;box-again.png&#39;</code>" in text
 MSG
 [ -z "$(find . -name '*.part*')" ] || fail 'scraps are left'
 # Some pictures only: the others of the baseline are not missed.

@@ -63,6 +63,7 @@ grep -q '"max_z": 4.0' kept/tolerances.json || fail "tolerances: $(cat kept/tole
 expect 1 "$tyndall" compare other/cover.exr --baseline kept --max-flip 0.02
 expect 0 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
 grep -q '^ok .*noise: means ' out || fail "the line: $(cat out)"
+grep -q 'z of the blocks' report.html || fail 'no noise in the report'
 cp changed.exr other/cover.exr
 expect 1 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
 grep -q 'standard errors' report.html && grep -q 'failures="1"' junit.xml || fail 'the reports do not say it'
