@@ -23,6 +23,8 @@ from check_links import CODE, FENCE, list_pages
 
 SMALL = {
     "render": ["--size", "32x18", "-q"],
+    "sweep": ["--size", "32x18", "--spp", "1", "-q"],
+    "animate": ["--size", "32x18", "--spp", "1", "-q", "--fresh"],
     "chart": ["--size", "16x9", "--budget", "0.5", "-q"],
     "verify": ["-q"],
 }
@@ -31,6 +33,7 @@ PLACEHOLDERS = {
     "SCENE": "cornell-box", "IMAGE": "a.exr", "REFERENCE": "b.exr", "PART": "a.exr b.exr", "PART...": "a.exr b.exr",
     "FILM.exr": "fog.exr", "DIR": "kept",
     "FILE": "made.png", "FILE.png": "made.png", "FILE.svg": "made.svg", "FILE.json": "made.json", "NAME.png": "out.png",
+    "SHEET.png": "sheet.png", "POINTER=FROM:TO:STEPS": "/camera/vfov=30:40:3", "N": "2",
     "MAIN.cc": "main.cc", "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
     "fog-ball/": "fog-ball/depth1-albedo0.5-b0",
 }
@@ -90,6 +93,9 @@ class Commands:
             shutil.copytree(self.root / "assets" / part, self.fixtures / "assets" / part)
         self.folder = self.fixtures
         self.output(["convert", "cornell-smoke", "-o", "fog.json"])
+        keys = '{"frames": 60, "keys": {"/camera/vfov": {"0": 30, "59": 40}}}'
+        self.output(["convert", "showroom", "--set", "/animation=" + keys, "-o", "film.json"])
+        (self.fixtures / "f").mkdir()
         small = ["--size", "32x18", "-q"]
         self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
         shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
@@ -123,6 +129,7 @@ class Commands:
         except ValueError as error:
             yield f"the shell cannot read this: {error}"
             return
+        words = words[:words.index("|")] if "|" in words[1:] else words
         while words and re.match(r"[A-Z_]+=", words[0]):
             words.pop(0)
         program, words = words[0], words[1:]

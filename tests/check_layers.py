@@ -40,7 +40,7 @@ LEVELS = [
     ["app/window/edit", "app/window/accuracy", "app/window/gallery"],
     ["app/window/actions", "app/window/handles"],
     ["app/window/panels"],
-    ["app/window/menus", "app/window/rendering"],
+    ["app/window/menus", "app/window/rendering", "app/window/variations", "app/window/timeline"],
     ["app/window/inspector"],
     ["app/window"],
     ["app/cli", "app/watch"],
@@ -55,7 +55,8 @@ RESERVED = [
     (r"fmt/", r"app/"),
     (r"hwy/", r"core/base/lanes_simd_arithmetic\.h$"),
     (r"nlohmann/", r"app/|core/scene/json[a-z_]*\.cpp$"),
-    (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_|jpeglib|jerror|png\.h", r"core/image/(image_io[a-z_]*\.cpp|image_io_exr_open\.h)$"),
+    (r"(stb/)?stb_(truetype|easy_font)", r"app/report/lettering\.cpp$"),
+    (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_image|jpeglib|jerror|png\.h", r"core/image/(image_io[a-z_]*\.cpp|image_io_exr_open\.h)$"),
     (r"iostream$", r"app/"),
 ]
 GENERATED = {"shaders.h"}

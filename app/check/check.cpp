@@ -84,7 +84,7 @@ Check check_picture(const CheckRequest& request) {
   if (!arrangement.words.empty())
     check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, 1});
   const bool ppm = picture.kind == ImageKind::ppm;
-  check.gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == Curve::gamma2;
+  check.gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
   if (ppm && (check.gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
   PicturePair pair{std::move(picture.image), std::move(reference.image)};
   pair.image.frame.reset();

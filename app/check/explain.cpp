@@ -32,8 +32,8 @@ std::string name_of_reading(const Reading& r) {
   return joined({{r.upside_down, "upside-down"},
                  {r.mirrored, "mirrored"},
                  {r.swapped, "red-blue"},
-                 {r.curve == Curve::none, "no-gamma"},
-                 {r.curve == Curve::gamma2_twice, "gamma-twice"}},
+                 {r.curve == TransferCurve::none, "no-gamma"},
+                 {r.curve == TransferCurve::gamma2_twice, "gamma-twice"}},
                 "+");
 }
 
@@ -42,8 +42,8 @@ std::string words_of_reading(const Reading& r) {
                  {r.upside_down && !r.mirrored, "the picture is upside down"},
                  {!r.upside_down && r.mirrored, "the picture is mirrored, left and right"},
                  {r.swapped, "red and blue have changed places"},
-                 {r.curve == Curve::none, "light is written without gamma"},
-                 {r.curve == Curve::gamma2_twice, "gamma is applied twice"}},
+                 {r.curve == TransferCurve::none, "light is written without gamma"},
+                 {r.curve == TransferCurve::gamma2_twice, "gamma is applied twice"}},
                 ", and ");
 }
 

@@ -23,7 +23,7 @@ struct Findings {
   /// The mistake that explains the difference; nothing: none does, or the picture agrees.
   std::optional<Explanation> mistake;
   std::vector<Explanation> tried;  ///< all mistakes that were tried, the best first
-  Curve curve = Curve::light;
+  TransferCurve curve = TransferCurve::light;
   double samples = 0;  ///< a pixel, as the noise tells; 0: it does not tell
   int blocks = 0, different = 0, block_edge = 0;
   SeenObjects seen;

@@ -9,18 +9,18 @@
 namespace tyndall {
 namespace {
 
-float light_of(Curve curve, float number) {
+float light_of(TransferCurve curve, float number) {
   switch (curve) {
-    case Curve::srgb:
+    case TransferCurve::srgb:
       return srgb_decode(number);
-    case Curve::power22:
+    case TransferCurve::power22:
       return std::pow(number, 2.2f);
-    case Curve::gamma2:
+    case TransferCurve::gamma2:
       return number * number;
-    case Curve::gamma2_twice:
+    case TransferCurve::gamma2_twice:
       return number * number * number * number;
-    case Curve::light:
-    case Curve::none:
+    case TransferCurve::light:
+    case TransferCurve::none:
       break;
   }
   return number;
@@ -28,8 +28,8 @@ float light_of(Curve curve, float number) {
 
 /// Half of the light between the numbers one step above and below, at least that of a dark grey: in black no step can
 /// be seen.
-float tolerance_of(Curve curve, float number, float step) {
-  if (curve == Curve::light) return step * std::max(std::abs(number), 0.02f);
+float tolerance_of(TransferCurve curve, float number, float step) {
+  if (curve == TransferCurve::light) return step * std::max(std::abs(number), 0.02f);
   const float middle = std::clamp(number, 0.02f, 1 - step);
   return 0.5f * (light_of(curve, middle + step) - light_of(curve, middle - step));
 }
@@ -37,28 +37,30 @@ float tolerance_of(Curve curve, float number, float step) {
 }  // namespace
 
 bool is_right(const Reading& reading) {
-  const bool right_curve = reading.curve != Curve::none && reading.curve != Curve::gamma2_twice;
+  const bool right_curve = reading.curve != TransferCurve::none && reading.curve != TransferCurve::gamma2_twice;
   return right_curve && !reading.upside_down && !reading.mirrored && !reading.swapped;
 }
 
 std::vector<Reading> readings_of(bool coded) {
-  std::vector<Curve> curves{Curve::light};
-  if (coded) curves = {Curve::gamma2, Curve::srgb, Curve::power22, Curve::none, Curve::gamma2_twice};
+  std::vector<TransferCurve> curves{TransferCurve::light};
+  if (coded)
+    curves = {TransferCurve::gamma2, TransferCurve::srgb, TransferCurve::power22, TransferCurve::none,
+              TransferCurve::gamma2_twice};
   std::vector<Reading> readings;
   for (const bool swapped : {false, true})
     for (const bool upside_down : {false, true})
       for (const bool mirrored : {false, true})
-        for (const Curve curve : curves) readings.push_back({curve, upside_down, mirrored, swapped});
+        for (const TransferCurve curve : curves) readings.push_back({curve, upside_down, mirrored, swapped});
   return readings;
 }
 
-std::string curve_text(Curve curve) {
+std::string curve_text(TransferCurve curve) {
   switch (curve) {
-    case Curve::srgb:
+    case TransferCurve::srgb:
       return "sRGB's curve";
-    case Curve::power22:
+    case TransferCurve::power22:
       return "gamma 2.2";
-    case Curve::gamma2:
+    case TransferCurve::gamma2:
       return "gamma 2";
     default:
       return "";

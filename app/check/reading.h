@@ -9,11 +9,11 @@
 namespace tyndall {
 
 /// How numbers of a file stand for light. light: they are light, without limits (floating-point files).
-enum class Curve { light, srgb, power22, gamma2, none, gamma2_twice };
+enum class TransferCurve { light, srgb, power22, gamma2, none, gamma2_twice };
 
 /// One way to read a picture. The first members are what programs choose, the others mistakes.
 struct Reading {
-  Curve curve = Curve::srgb;
+  TransferCurve curve = TransferCurve::srgb;
   bool upside_down = false, mirrored = false;  ///< the first row is at the bottom; the first column at the right
   bool swapped = false;                        ///< red and blue have changed places
   bool operator==(const Reading&) const = default;
@@ -24,7 +24,7 @@ bool is_right(const Reading& reading);
 /// The readings that are tried for a picture, the right ones first.
 std::vector<Reading> readings_of(bool coded);
 /// "gamma 2", "sRGB's curve", ... of a right curve; "": nothing has to be said of it.
-std::string curve_text(Curve curve);
+std::string curve_text(TransferCurve curve);
 
 /// The pixels of a file before they are read as light.
 struct PictureNumbers {

@@ -11,6 +11,8 @@ inline constexpr int output_failed = 3;
 
 int run(const ViewCommand& command);
 int run(const RenderCommand& command);
+int run(const SweepCommand& command);
+int run(const AnimateCommand& command);
 int run(const CompareCommand& command);
 int run(const ChartCommand& command);
 int run(const VerifyCommand& command);

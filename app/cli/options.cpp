@@ -144,6 +144,8 @@ struct Entry {
 constexpr Entry entries[] = {
     {"view", "open a scene in the window (also without this word; default: the showroom)", read_view},
     {"render", "render without a window and write images", read_render},
+    {"sweep", "render one or two values of a scene in steps, and say which differences are real", read_sweep},
+    {"animate", "render the frames of a film, from keys or on a turntable", read_animate},
     {"compare", "measure how far an image is from a reference", read_compare},
     {"chart", "chart speed against accuracy: error over time of several methods", read_chart},
     {"verify", "check the renderer against known answers", read_verify},

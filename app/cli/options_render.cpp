@@ -12,29 +12,12 @@ namespace {
 
 using Text = const std::string&;
 
-void add_image_options(CLI::App& app, SceneRequest& scene) {
-  app.option_defaults()->group("Image");
-  add_value(app, "--size", "WxH", "image size in pixels [from the scene]", [&](Text t) { scene.size = read_size(t); });
-  add_settings(app, scene.display);
-}
-
 void add_time_and_error(CLI::App& app, double& time_limit, double& target_error, const char* of_error) {
   add_value(app, "--time", "SECONDS", "wall time of rendering; looked at between passes, after the first",
             [&](Text t) { time_limit = read_number(t, above(0), "a number of seconds > 0"); });
   add_value(app, "--target-error", "E",
             std::string("estimated relative error") + of_error + "; its square estimates relMSE",
             [&](Text t) { target_error = read_number(t, above(0), "a number > 0"); });
-}
-
-void add_limits(CLI::App& app, RenderCommand& command) {
-  app.option_defaults()->group("Limits (the first one reached ends the render)");
-  add_value(app, "--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
-            [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, max_samples)); });
-  add_value(app, "--samples", "A:B",
-            "exactly the samples A <= i < B of each pixel, for shards that\n"
-            "'tyndall merge' adds; not with --spp, --time or --target-error",
-            [&](Text t) { command.samples = read_samples(t); });
-  add_time_and_error(app, command.time_limit, command.target_error, ", with --denoise that of the filtered\npicture");
 }
 
 /// The window's limits: rendering pauses there, and goes on with the next edit, or with Space.
@@ -53,28 +36,17 @@ void add_output(CLI::App& app, RenderCommand& command) {
               "itself; .pfm, .hdr: float, linear; .ppm: 8-bit sRGB, as PNG; - for\n"
               "standard output; repeatable; required",
               command.outputs, command.form);
-  add_value(app, "--region", "X0,Y0,X1,Y1",
-            "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
-            "EXR gets a data window, other files the region's size",
-            [&](Text t) { command.region = read_region(t); });
-  app.add_flag("--denoise", command.denoise,
-               "files hold the filtered picture: noise is taken away where the\n"
-               "samples show that it is noise, and the error that is left is\n"
-               "estimated; EXR files get both in denoised.R/G/B and\n"
-               "denoised.error beside the raw picture; not with --samples");
+  add_picture_options(app, command);
   add_value(app, "--stats", "FILE.json", "write figures of the run", [&](Text t) { command.stats = t; });
+  add_value(app, "--frame", "N", "the frame N of the scene's animation; its seed is the scene's and N",
+            [&](Text t) { command.frame = static_cast<int>(read_whole(t, 0, max_frames - 1)); });
   add_value(app, "--replay", "X,Y,SAMPLE",
             "write no image; print the path of this sample of this pixel,\n"
             "vertex by vertex, as --isa scalar follows it",
             [&](Text t) { command.replay = read_sample_key(t); });
-  add_value(app, "--checkpoint", "SECONDS",
-            "how often the film of an .exr output is written meanwhile, so that\n"
-            "a render that was killed can go on; 0: never\n"
-            "[the longer of 30 s and 100 times what the last one took]",
-            [&](Text t) { command.checkpoint = read_number(t, at_least(0), "a number of seconds >= 0"); });
-  app.add_flag("--fresh", command.fresh,
-               "start over; without it the same command goes on from the\n"
-               "unfinished film in its .exr output");
+  add_keeping_options(app, command,
+                      "start over; without it the same command goes on from the\n"
+                      "unfinished film in its .exr output");
   app.add_flag("--resume", command.resume,
                "insist on going on: fail where the .exr output holds no film, also\n"
                "a finished one, of this scene and these settings");
@@ -84,6 +56,42 @@ void add_output(CLI::App& app, RenderCommand& command) {
             "line and costs less than 1 % of the time [port 14158]",
             [&](Text t) { command.viewer = read_viewer_address(t); });
   add_progress(app, command.progress);
+}
+
+}  // namespace
+
+void add_image_options(CLI::App& app, SceneRequest& scene) {
+  app.option_defaults()->group("Image");
+  add_value(app, "--size", "WxH", "image size in pixels [from the scene]", [&](Text t) { scene.size = read_size(t); });
+  add_settings(app, scene.display);
+}
+
+void add_limits(CLI::App& app, RenderCommand& command, const std::string& of) {
+  app.option_defaults()->group("Limits (the first one reached ends the " + of + ")");
+  add_value(app, "--spp", "N", "samples per pixel [without another limit: from the scene, else 64]",
+            [&](Text t) { command.spp = static_cast<std::uint32_t>(read_whole(t, 1, max_samples)); });
+  add_time_and_error(app, command.time_limit, command.target_error, ", with --denoise that of the filtered\npicture");
+}
+
+void add_picture_options(CLI::App& app, RenderCommand& command) {
+  add_value(app, "--region", "X0,Y0,X1,Y1",
+            "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"
+            "EXR gets a data window, other files the region's size",
+            [&](Text t) { command.region = read_region(t); });
+  app.add_flag("--denoise", command.denoise,
+               "files hold the filtered picture: noise is taken away where the\n"
+               "samples show that it is noise, and the error that is left is\n"
+               "estimated; EXR files get both in denoised.R/G/B and\n"
+               "denoised.error beside the raw picture; not with --samples");
+}
+
+void add_keeping_options(CLI::App& app, RenderCommand& command, const std::string& fresh) {
+  add_value(app, "--checkpoint", "SECONDS",
+            "how often the film of an .exr output is written meanwhile, so that\n"
+            "a render that was killed can go on; 0: never\n"
+            "[the longer of 30 s and 100 times what the last one took]",
+            [&](Text t) { command.checkpoint = read_number(t, at_least(0), "a number of seconds >= 0"); });
+  app.add_flag("--fresh", command.fresh, fresh);
 }
 
 void refuse_conflicts(const RenderCommand& c) {
@@ -107,8 +115,6 @@ void refuse_conflicts(const RenderCommand& c) {
     throw UsageError("--samples and " + std::string(other) +
                      " exclude each other: --samples says which samples to take");
 }
-
-}  // namespace
 
 void add_method_options(CLI::App& app, SceneRequest& scene) {
   app.option_defaults()->group("Method");
@@ -143,6 +149,10 @@ void add_outputs(CLI::App& app, const std::string& help, std::vector<std::filesy
   add_value(
       app, "--format", "NAME", "png, exr, pfm, hdr or ppm: the format of what goes to standard output",
       [&form, formats](Text t) { form.format = formats[read_name(t, formats)]; }, formats);
+  add_forms(app, form);
+}
+
+void add_forms(CLI::App& app, ImageForm& form) {
   add_gamma2(app,
              "write PPM files as the books' programs do: by the square root in\nplace of sRGB's curve, rounded down, "
              "not dithered",
@@ -245,7 +255,11 @@ Command read_render(const std::vector<std::string>& arguments) {
                   "  tyndall render next-week -o week.exr --watch-at localhost    # seen in tev meanwhile");
   add_scene(*app, command.scene);
   add_output(*app, command);
-  add_limits(*app, command);
+  add_limits(*app, command, "render");
+  add_value(*app, "--samples", "A:B",
+            "exactly the samples A <= i < B of each pixel, for shards that\n"
+            "'tyndall merge' adds; not with --spp, --time or --target-error",
+            [&](Text t) { command.samples = read_samples(t); });
   add_image_options(*app, command.scene);
   add_method_options(*app, command.scene);
   add_machine_options(*app, command.threads, command.isa);

@@ -8,11 +8,24 @@ namespace tyndall {
 /// Read the words after "view", "render", "verify", "chart" or "compare".
 Command read_view(const std::vector<std::string>& arguments);
 Command read_render(const std::vector<std::string>& arguments);
+Command read_sweep(const std::vector<std::string>& arguments);
+Command read_animate(const std::vector<std::string>& arguments);
 Command read_verify(const std::vector<std::string>& arguments);
 Command read_chart(const std::vector<std::string>& arguments);
 Command read_compare(const std::vector<std::string>& arguments);
 
 /// Groups of options that commands share.
+void add_image_options(CLI::App& app, SceneRequest& scene);
+/// --spp, --time and --target-error. of: whose they are, in the group's name.
+void add_limits(CLI::App& app, RenderCommand& command, const std::string& of);
+/// --region and --denoise.
+void add_picture_options(CLI::App& app, RenderCommand& command);
+/// --checkpoint and --fresh. fresh: help of the latter.
+void add_keeping_options(CLI::App& app, RenderCommand& command, const std::string& fresh);
+/// --gamma2 and --exr-film.
+void add_forms(CLI::App& app, ImageForm& form);
+/// Refuses options that exclude each other.
+void refuse_conflicts(const RenderCommand& command);
 void add_method_options(CLI::App& app, SceneRequest& scene);
 void add_machine_options(CLI::App& app, int& threads, std::string& isa);
 void add_isa(CLI::App& app, std::string& isa);

@@ -52,27 +52,6 @@ std::string region_text(const Region& r) {
   return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," + std::to_string(r.y1);
 }
 
-/// What keeps the render from going on with the film, as "found X, expected Y" without "found"; "": nothing does.
-std::string difference(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
-                       const RenderOptions& options, const Kernels& kernels) {
-  const Film& film = stored.part.film;
-  std::string text = differing_scene(stored.scene, move_textures(loaded.scene, loaded.folder, "."));
-  const auto look = [&text](const std::string& found) {
-    if (text.empty()) text = found;
-  };
-  if (!stored.label.version.empty()) look(differing("a film of version", stored.label.version, TYNDALL_VERSION));
-  if (!stored.label.isa.empty()) look(differing("a film of instruction set", stored.label.isa, kernels.isa));
-  look(differing("a film of another region,", region_text(film.region), region_text(*options.region)));
-  look(differing("samples from", std::to_string(film.first_sample), std::to_string(options.first_sample)));
-  const std::uint32_t maximum = totals(film).max_taken;
-  if (command.samples && maximum > *options.spp)
-    look(
-        differing("samples up to", std::to_string(film.first_sample + maximum), std::to_string(command.samples->last)));
-  if (options.adaptive && film.planned.empty() && maximum > warm_up)
-    look("an adaptive film that does not say how many samples each pixel was to get, expected one that does");
-  return text;
-}
-
 std::string text_of_samples(std::uint32_t count) {
   return std::to_string(count) + (count == 1 ? " sample" : " samples") + " a pixel";
 }
@@ -154,7 +133,7 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
       std::string("; --fresh") + (command.resume ? " in place of --resume" : "") + " starts over";
   if (!command.resume && !invites(file, options, advice)) return {};
   StoredFilm stored = read_kept([&file] { return read_stored_film(file); }, advice);
-  const std::string found = difference(stored, command, loaded, options, kernels);
+  const std::string found = differing_film(stored, command, loaded, options, kernels);
   if (!found.empty() && !command.resume && !stored.label.unfinished) return {};
   if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);
   return stored;
@@ -168,6 +147,38 @@ Kernels find_kernels(const std::string& isa) {
   for (const Kernels& kernels : available_kernels()) names.emplace_back(kernels.isa);
   throw UsageError("--isa: found " + in_quotes(isa) + ", expected " + one_of(names) +
                    ", which this build has and this CPU can run");
+}
+
+std::string differing_film(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
+                           const RenderOptions& options, const Kernels& kernels) {
+  const Film& film = stored.part.film;
+  std::string text = differing_scene(stored.scene, move_textures(loaded.scene, loaded.folder, "."));
+  const auto look = [&text](const std::string& found) {
+    if (text.empty()) text = found;
+  };
+  if (!stored.label.version.empty()) look(differing("a film of version", stored.label.version, TYNDALL_VERSION));
+  if (!stored.label.isa.empty()) look(differing("a film of instruction set", stored.label.isa, kernels.isa));
+  look(differing("a film of another region,", region_text(film.region), region_text(*options.region)));
+  look(differing("samples from", std::to_string(film.first_sample), std::to_string(options.first_sample)));
+  const std::uint32_t maximum = totals(film).max_taken;
+  if (command.samples && maximum > *options.spp)
+    look(
+        differing("samples up to", std::to_string(film.first_sample + maximum), std::to_string(command.samples->last)));
+  if (options.adaptive && film.planned.empty() && maximum > warm_up)
+    look("an adaptive film that does not say how many samples each pixel was to get, expected one that does");
+  return text;
+}
+
+LoadedScene open_frame(const RenderCommand& command) {
+  LoadedScene loaded = open_scene(command.scene);
+  if (!command.frame) return loaded;
+  if (!loaded.scene.animation)
+    throw UsageError("--frame: found no \"animation\" in " + printable(loaded.name) + ", expected a scene with keys");
+  const int frames = loaded.scene.animation->frames;
+  if (*command.frame >= frames)
+    throw UsageError("--frame: found " + std::to_string(*command.frame) + ", expected at most " +
+                     std::to_string(frames - 1) + ", the last frame of the scene's animation");
+  return at_frame(std::move(loaded), {.frames = frames, .seed_per_frame = command.seed_per_frame}, *command.frame);
 }
 
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded) {

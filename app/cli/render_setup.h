@@ -14,6 +14,9 @@ namespace tyndall {
 /// The kernels of an instruction set ("": the best). Throws UsageError if this build or CPU has none of that name.
 Kernels find_kernels(const std::string& isa);
 
+/// The scene of a command, with --frame the one of that frame.
+LoadedScene open_frame(const RenderCommand& command);
+
 /// Limits and region of a render. spp is always set; where only time or error end the render, to max_samples.
 /// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
 RenderOptions render_options(const RenderCommand& command, const LoadedScene& loaded);
@@ -41,6 +44,10 @@ void tell_alpha(const LoadedScene& loaded);
 /// What to tell of outputs that nothing can take the place of, where that costs something: checkpoints go to another
 /// file or nowhere, and where the folder takes no new files, what cannot be written into an output goes far from it.
 std::vector<std::string> remarks_on_outputs(const RenderCommand& command, const FilmPlace& film);
+
+/// What keeps a render from going on with a film, as "found X, expected Y" without "found"; "": nothing does.
+std::string differing_film(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
+                           const RenderOptions& options, const Kernels& kernels);
 
 /// How a film's scene differs from the one that is asked for if their samples do, as "found X, expected Y" without
 /// "found"; "": they are the same.

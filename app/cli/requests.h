@@ -2,6 +2,7 @@
 #include "app/comparison/baseline.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
+#include "app/files/sweep_values.h"
 #include "app/files/viewer_stream.h"
 #include "app/manual/page.h"
 #include "app/text/progress.h"
@@ -38,6 +39,8 @@ struct RenderCommand {
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
+  std::optional<int> frame;          ///< of the scene's animation; absent: the scene without keys
+  bool seed_per_frame = true;        ///< with a frame: see FramePlan
   std::optional<SampleKey> replay;   ///< print this sample's path instead of rendering
   int threads = 0;                   ///< 0: see thread_count()
   std::string isa;                   ///< "": the best
@@ -47,6 +50,22 @@ struct RenderCommand {
   bool denoise = false;
   ProgressStyle progress = ProgressStyle::automatic;
   std::optional<ViewerAddress> viewer;  ///< that is shown the picture
+};
+
+struct SweepCommand {
+  RenderCommand render;                                         ///< of each picture; outputs: names with %v in them
+  std::vector<SweepAxis> axes;                                  ///< one or two
+  std::filesystem::path sheet, csv;                             ///< empty: none
+  double total_time = std::numeric_limits<double>::infinity();  ///< seconds for all pictures
+};
+
+struct AnimateCommand {
+  RenderCommand render;                           ///< of each frame; outputs: names with %d in them
+  std::filesystem::path video;                    ///< .y4m, "-": standard output; empty: none
+  std::optional<int> frames;                      ///< absent: as many as the scene says
+  std::optional<FrameRange> range;                ///< absent: all
+  bool turntable = false, seed_per_frame = true;  ///< see FramePlan
+  int rate = 24, rate_divisor = 1;                ///< frames of the video per rate_divisor seconds
 };
 
 struct CompareCommand {
@@ -126,8 +145,9 @@ struct PrintCommand {
   CommandPage page;  ///< of the help of a command: what it says
 };
 
-using Command = std::variant<ViewCommand, RenderCommand, CompareCommand, ChartCommand, VerifyCommand, MergeCommand,
-                             DenoiseCommand, InspectCommand, ScenesCommand, BookCommand, ConvertCommand, PrintCommand>;
+using Command = std::variant<ViewCommand, RenderCommand, SweepCommand, AnimateCommand, CompareCommand, ChartCommand,
+                             VerifyCommand, MergeCommand, DenoiseCommand, InspectCommand, ScenesCommand, BookCommand,
+                             ConvertCommand, PrintCommand>;
 
 /// The command line as a whole: which command, and its request. arguments[0] is what follows the program's name. Throws
 /// UsageError. Of files only the existence is looked at, to tell a misspelt command from a scene's file.

@@ -51,18 +51,45 @@ LoadedScene load_program_scene(const SceneRequest& request) {
   return loaded;
 }
 
-}  // namespace
-
-LoadedScene open_scene(const SceneRequest& request) {
-  LoadedScene loaded =
-      is_program(request.what) ? load_program_scene(request) : load_scene(request.what, request.overrides);
+/// Applies the options to a scene, and checks it again.
+void apply_options(const SceneRequest& request, LoadedScene& loaded) {
   if (request.size) loaded.scene.width = request.size->width, loaded.scene.height = request.size->height;
   apply(request.render, loaded.scene.render);
   apply(request.display, loaded.scene.display);
   if (const auto error = check(loaded.scene))
     throw SceneError(loaded.name, error->where, error->found, error->expected);
+}
+
+}  // namespace
+
+LoadedScene open_scene(const SceneRequest& request) {
+  LoadedScene loaded =
+      is_program(request.what) ? load_program_scene(request) : load_scene(request.what, request.overrides);
+  apply_options(request, loaded);
   for (const std::string& remark : texture_remarks(loaded.scene))
     if (!request.program.told) complain(remark);
+  return loaded;
+}
+
+LoadedScene open_variant(const LoadedScene& opened, const SceneRequest& request, const std::vector<Override>& more,
+                         const std::string& name) {
+  std::vector<Override> overrides = request.overrides;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  LoadedScene loaded = opened;
+  loaded.scene = load_scene_text(opened.text, name, opened.folder, overrides).scene;
+  if (!opened.sources.empty()) loaded.scene = name_textures_from(opened.folder, std::move(loaded.scene));
+  loaded.name = name;
+  apply_options(request, loaded);
+  loaded.name = opened.name;
+  return loaded;
+}
+
+LoadedScene at_frame(LoadedScene loaded, const FramePlan& plan, int frame) {
+  try {
+    loaded.scene = frame_scene(loaded.scene, plan, frame);
+  } catch (const ParseError& error) {
+    throw SceneError(loaded.name + ": frame " + std::to_string(frame), error.where, error.found, error.expected);
+  }
   return loaded;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/book/program_layout.h"
 #include "app/text/values.h"
+#include "core/scene/frames.h"
 #include "core/scene/load.h"
 #include "core/scene/place.h"
 #include "core/scene/scene.h"
@@ -65,5 +66,12 @@ struct SceneRequest {
 /// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
 /// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError.
 LoadedScene open_scene(const SceneRequest& request);
+
+/// The scene that a request has opened, with further overrides after the request's own. name: what messages call it.
+LoadedScene open_variant(const LoadedScene& opened, const SceneRequest& request, const std::vector<Override>& more,
+                         const std::string& name);
+
+/// The scene of a frame. Throws SceneError, which names the frame.
+LoadedScene at_frame(LoadedScene loaded, const FramePlan& plan, int frame);
 
 }  // namespace tyndall

@@ -64,6 +64,13 @@ SampleRange read_samples(const std::string& text) {
   return range;
 }
 
+FrameRange read_frames(const std::string& text) {
+  FrameRange range;
+  if (!read_numbers(text, ':', range.first, range.last) || range.first < 0 || range.first >= range.last)
+    refuse(text, "A:B with whole numbers 0 <= A < B, such as 0:48");
+  return range;
+}
+
 Region read_region(const std::string& text) {
   Region r;
   if (!read_numbers(text, ',', r.x0, r.y0, r.x1, r.y1) || r.x0 < 0 || r.y0 < 0 || r.x0 >= r.x1 || r.y0 >= r.y1)

@@ -39,6 +39,12 @@ double read_number(const std::string& text, Valid valid, const std::string& expe
 Size read_size(const std::string& text);
 /// A:B, A < B, at most max_samples of them.
 SampleRange read_samples(const std::string& text);
+/// Frames first <= n < last.
+struct FrameRange {
+  int first = 0, last = 0;
+};
+/// A:B, A < B.
+FrameRange read_frames(const std::string& text);
 /// X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1.
 Region read_region(const std::string& text);
 /// X,Y,SAMPLE, none below 0.

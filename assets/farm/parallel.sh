@@ -7,16 +7,31 @@
 # share nothing but tyndall itself (scenes with textures: in one folder with them, which all machines have). A shard that
 # fails, or whose machine goes away, is tried again on another one, three times. Started again, it goes on with what is there.
 # Names of files may hold anything.
+#
+#   MACHINES=one,two,: FRAMES=240 SHARDS=16 ./parallel.sh SCENE 'f/%04d.exr' [options of "tyndall animate"]
+#
+# renders the frames 0 to 239 of a film, in a folder that all machines share. Nothing is merged.
 set -euo pipefail
 tyndall=${TYNDALL:-tyndall}
-[ $# -ge 2 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,14s/^# \{0,1\}//p' "$0"; exit 2; }
 SHARDS=${SHARDS:-16} SAMPLES=${SAMPLES:-1024} scene=$1 output=$2
 shift 2
-[ "$SHARDS" -le "$SAMPLES" ] || { echo "found SHARDS=$SHARDS, expected at most SAMPLES=$SAMPLES" >&2; exit 2; }
+[ -n "${FRAMES:-}" ] || [ "$SHARDS" -le "$SAMPLES" ] || { echo "found SHARDS=$SHARDS, expected at most SAMPLES=$SAMPLES" >&2; exit 2; }
 [ "$scene" != - ] || { echo 'found the scene -, standard input, expected one that every shard can read' >&2; exit 2; }
 # In front of these names a dash would begin an option, and what stands before a colon would be a machine's name for rsync.
 [[ $scene != -* && ($scene != *:* || $scene == /* || ! -f $scene) ]] || scene=./$scene
 [[ $output == /* ]] || output=./$output
+if [ -n "${FRAMES:-}" ]; then
+  [ "$SHARDS" -le "$FRAMES" ] || { echo "found SHARDS=$SHARDS, expected at most FRAMES=$FRAMES" >&2; exit 2; }
+  fixed=("$scene" "$output" "$tyndall" "$FRAMES" "$@")
+  options=()
+  for ((i = 5; i <= ${#fixed[@]}; ++i)); do options+=("{$i}"); done
+  for ((shard = 0; shard < SHARDS; ++shard)); do
+    printf '%s\0' "${fixed[@]}" "$((shard * FRAMES / SHARDS)):$(((shard + 1) * FRAMES / SHARDS))"
+  done | parallel --null -N "$((${#fixed[@]} + 1))" --sshlogin "${MACHINES:-:}" --jobs "${JOBS:-1}" --retries 3 --workdir . \
+    '{3}' animate '{1}' --frames '{4}' --frame-range "{$((${#fixed[@]} + 1))}" -o '{2}' -q "${options[@]}"
+  exit
+fi
 mkdir -p "$output.parts"
 send=()
 [ ! -f "$scene" ] || send=(--transferfile '{1}')

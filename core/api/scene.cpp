@@ -19,66 +19,6 @@ std::shared_ptr<const Scene::Data> data_of(LoadedScene loaded, std::shared_ptr<c
   return data;
 }
 
-/// The value of a field of that name in `owner`; nothing if there is no such field.
-template <class Owner>
-std::optional<JsonValue> value_of(const Owner& owner, std::string_view key) {
-  std::optional<JsonValue> found;
-  for_each_field(fields_of<Owner>(), [&](const auto& field) {
-    if (key == field.name) found = to_json(owner.*field.value);
-  });
-  return found;
-}
-
-/// What a field is where a thing of that type does not say it.
-template <class... Kinds>
-std::optional<JsonValue> default_of(std::string_view type, std::string_view key, const std::variant<Kinds...>*) {
-  std::optional<JsonValue> found;
-  const auto look = [&]<class Kind>(const Kind*) {
-    if constexpr (requires { fields(static_cast<const Kind*>(nullptr)); })
-      if (type == Kind::type && !found) found = value_of(Kind(), key);
-  };
-  (look(static_cast<const Kinds*>(nullptr)), ...);
-  return found;
-}
-
-/// The value at the steps of a pointer; null: there is none.
-const JsonValue* value_at(const JsonValue& root, const std::vector<std::string>& steps) {
-  const JsonValue* at = &root;
-  for (const std::string& step : steps) {
-    const auto* array = at ? std::get_if<JsonArray>(&at->value) : nullptr;
-    std::size_t index = 0;
-    if (array && !step.empty() && std::all_of(step.begin(), step.end(), [](char c) { return c >= '0' && c <= '9'; }))
-      index = static_cast<std::size_t>(std::strtoull(step.c_str(), nullptr, 10));
-    else
-      index = std::string::npos;
-    at = array ? (index < array->size() ? &(*array)[index] : nullptr) : find(at, step);
-  }
-  return at;
-}
-
-/// A setting that is not written because it is at its default.
-std::optional<JsonValue> unwritten(const inner::CoreScene& scene, const JsonValue& root,
-                                   std::vector<std::string> steps) {
-  if (steps.empty()) return std::nullopt;
-  const std::string key = steps.back();
-  steps.pop_back();
-  if (steps == std::vector<std::string>{"camera"}) return value_of(scene.camera, key);
-  if (steps == std::vector<std::string>{"render"}) return value_of(scene.render, key);
-  if (steps == std::vector<std::string>{"display"}) return value_of(scene.display, key);
-  const std::string type = text_of(find(value_at(root, steps), "type"));
-  if (const auto found = default_of(type, key, static_cast<const decltype(Material::kind)*>(nullptr))) return found;
-  if (const auto found = default_of(type, key, static_cast<const decltype(Texture::kind)*>(nullptr))) return found;
-  if (const auto found = default_of(type, key, static_cast<const decltype(Solid3d::shape)*>(nullptr))) return found;
-  return default_of(type, key, static_cast<const std::variant<inner::CoreMedium>*>(nullptr));
-}
-
-/// Adds the part of a scene that a pointer goes into, if the scene does not write it because it is at its defaults.
-void add_part(JsonValue& root, const std::vector<std::string>& steps) {
-  if (steps.size() != 2 || find(&root, steps[0])) return;
-  for (const char* part : {"camera", "render", "display", "textures", "materials"})
-    if (steps[0] == part) put(std::get<JsonObject>(root.value), part, JsonValue{JsonObject()});
-}
-
 /// The object that a text describes, as one of the scene's.
 std::vector<Object> read_object(const Scene::Data& data, const std::string& text) {
   const JsonDocument document = parse_json(text);
@@ -149,7 +89,7 @@ void Scene::set_json(const std::string& pointer, const std::string& json) {
     JsonValue root = scene_json(data_->scene);
     const auto steps = pointer_steps(pointer);
     if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
-    add_part(root, *steps);
+    add_sections(root);
     try {
       apply_override(root, {pointer, json});
     } catch (const ParseError& fault) {
@@ -181,9 +121,9 @@ void Scene::remove(const std::string& pointer) {
   data_ = guarded([&] {
     JsonValue root = scene_json(data_->scene);
     const auto steps = pointer_steps(pointer);
-    if (!steps || steps->empty() || !value_at(root, *steps))
+    if (!steps || steps->empty() || !find_value(root, *steps))
       throw SceneError(data_->name, pointer, "nothing", "a value that the scene file writes");
-    auto* holder = const_cast<JsonValue*>(value_at(root, {steps->begin(), steps->end() - 1}));
+    JsonValue* holder = find_value(root, {steps->begin(), steps->end() - 1});
     if (auto* object = std::get_if<JsonObject>(&holder->value))
       std::erase_if(*object, [&](const JsonMember& member) { return member.key == steps->back(); });
     if (auto* array = std::get_if<JsonArray>(&holder->value))
@@ -194,11 +134,11 @@ void Scene::remove(const std::string& pointer) {
 
 std::string Scene::get_json(const std::string& pointer) const {
   return guarded([&] {
-    const JsonValue root = scene_json(data_->scene);
+    JsonValue root = scene_json(data_->scene);
     const auto steps = pointer_steps(pointer);
     if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
-    const JsonValue* written = value_at(root, *steps);
-    const std::optional<JsonValue> value = written ? *written : unwritten(data_->scene, root, *steps);
+    const JsonValue* written = find_value(root, *steps);
+    const std::optional<JsonValue> value = written ? *written : unwritten_value(data_->scene, root, *steps);
     if (!value) throw SceneError(data_->name, pointer, "nothing", "a value of the scene");
     std::string text = print_json(*value);
     while (text.ends_with('\n')) text.pop_back();

@@ -23,6 +23,7 @@ namespace {
 void strip(Scene& scene) {
   scene.name.clear();
   scene.display = {};
+  scene.animation.reset();
   scene.render.spp.reset();
   for (Texture& texture : scene.textures)
     if (Image* image = std::get_if<Image>(&texture.kind)) image->file.clear();  // its pixels are compared

@@ -86,6 +86,15 @@ std::optional<std::string> read_embedded_scene(const std::filesystem::path& file
   return {};
 }
 
+std::optional<std::string> read_embedded_stats(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};
+  const ImageKind kind = image_kind(read_bytes(file, kind_size));
+  if (kind == ImageKind::png) return png_text(file, read_bytes(file), "tyndall:stats");
+  if (kind == ImageKind::exr) return exr_text(file, "tyndall:stats");
+  return {};
+}
+
 bool is_image_output(const std::filesystem::path& file) {
   const std::string ending = lower_case(file.extension().string());
   return ending == ".png" || ending == ".exr" || ending == ".pfm" || ending == ".hdr" || ending == ".ppm";

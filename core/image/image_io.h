@@ -57,7 +57,7 @@ std::optional<Film> read_film(const std::filesystem::path& file);
 std::optional<Film> read_film_frame(const std::filesystem::path& file);
 /// How the film in an EXR was made; nothing if it holds none.
 std::optional<FilmLabel> read_film_label(const std::filesystem::path& file);
-/// The figures (JSON) in an EXR that Tyndall wrote; nothing if it holds none.
+/// The figures (JSON) in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
 std::optional<std::string> read_embedded_stats(const std::filesystem::path& file);
 /// The scene text in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file);

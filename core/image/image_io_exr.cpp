@@ -245,8 +245,6 @@ std::optional<Film> read_film_frame(const std::filesystem::path& file) { return 
 
 std::optional<FilmLabel> read_film_label(const std::filesystem::path&) { return {}; }
 
-std::optional<std::string> read_embedded_stats(const std::filesystem::path&) { return {}; }
-
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string&) {
   cannot_read(file, without_openexr);
 }

@@ -168,10 +168,6 @@ std::optional<FilmLabel> read_film_label(const std::filesystem::path& file) {
   });
 }
 
-std::optional<std::string> read_embedded_stats(const std::filesystem::path& file) {
-  return exr_text(file, exr_name::stats);
-}
-
 std::optional<std::string> exr_text(const std::filesystem::path& file, const std::string& name) {
   return with_exr(file, [&](Imf::MultiPartInputFile& exr) {
     const auto* text = exr.header(0).findTypedAttribute<Imf::StringAttribute>(name);

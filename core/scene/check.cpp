@@ -183,6 +183,29 @@ void check_objects(const Place& at, const std::vector<Object>& objects, const Sc
   }
 }
 
+void check_key(const Place& at, const KeyFrame& key, const KeyedValue& keyed, const Animation& animation) {
+  const std::string place = pointer(at) + "/" + std::to_string(key.frame);
+  if (key.frame < 0 || key.frame >= animation.frames)
+    throw ParseError{place, "frame " + std::to_string(key.frame),
+                     "a frame from 0 to " + std::to_string(animation.frames - 1)};
+  if (key.value.empty() || key.value.size() != keyed.keys[0].value.size())
+    throw ParseError{place, std::to_string(key.value.size()) + " values",
+                     "as many as at the first key, " + std::to_string(keyed.keys[0].value.size())};
+  for (const double value : key.value)
+    if (!std::isfinite(value)) throw ParseError{place, number_text(value), "a finite number"};
+}
+
+/// Looks at the keys alone: whether each has its place in the scene is found by check_keys().
+void check_animation(const Place& at, const Animation& animation) {
+  check_fields(at, animation);
+  const Place keys{at, "keys"};
+  for (const KeyedValue& keyed : animation.keyed) {
+    const Place here{keys, keyed.pointer};
+    if (keyed.keys.empty()) fail(here, "no keys", "at least one, such as \"0\": 1");
+    for (const KeyFrame& key : keyed.keys) check_key(here, key, keyed, animation);
+  }
+}
+
 void check_all(const Scene& scene) {
   const Place at;
   check_fields({at, "image"}, image_fields(), scene);
@@ -190,6 +213,7 @@ void check_all(const Scene& scene) {
   check_background({at, "background"}, scene.background);
   check_fields({at, "render"}, scene.render);
   check_fields({at, "display"}, scene.display);
+  if (scene.animation) check_animation({at, "animation"}, *scene.animation);
   const Place textures{at, "textures"}, materials{at, "materials"};
   check_names(textures, scene.textures);
   check_names(materials, scene.materials);

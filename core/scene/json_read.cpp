@@ -61,6 +61,11 @@ void read_background(const JsonValue& json, const Place& at, Background& backgro
 class PictureShelf {
  public:
   explicit PictureShelf(const std::filesystem::path& folder) : folder_(folder) {}
+  /// Has the pictures of a scene.
+  explicit PictureShelf(const Scene& scene) {
+    for (const Texture& texture : scene.textures)
+      if (const auto* image = std::get_if<Image>(&texture.kind)) shelf_[image->file] = image->pixels;
+  }
 
   std::shared_ptr<const Image::Pixels> get(const std::string& file, const Place& at) {
     const std::filesystem::path path = folder_ / file;
@@ -144,13 +149,13 @@ NameTable read_named(const JsonObject& root, const Place& at, const char* key, c
   return table;
 }
 
-Scene scene_from(const JsonValue& json, const std::filesystem::path& folder) {
+Scene scene_from(const JsonValue& json, PictureShelf shelf) {
   const Place at;
   const JsonObject& root = object_at(json, at, "a scene: { \"tyndall\": 1, … }");
   read_version(root, at);
-  allow_keys(
-      root, at,
-      {"tyndall", "name", "image", "camera", "background", "render", "display", "textures", "materials", "objects"});
+  allow_keys(root, at,
+             {"tyndall", "name", "image", "camera", "background", "render", "display", "animation", "textures",
+              "materials", "objects"});
   Scene scene;
   const auto section = [&](const char* key, const auto& read, auto& out) {
     if (const JsonValue* value = find(root, key)) read(*value, Place{at, key}, out);
@@ -166,8 +171,9 @@ Scene scene_from(const JsonValue& json, const std::filesystem::path& folder) {
   section("background", read_background, scene.background);
   part("render", "an object with the render settings", fields_of<RenderSettings>(), scene.render);
   part("display", "an object with the display settings", fields_of<Display>(), scene.display);
+  if (const JsonValue* animation = find(root, "animation"))
+    scene.animation = read_animation(*animation, {at, "animation"});
   References references;
-  PictureShelf shelf(folder);
   references.textures = read_named(
       root, at, "textures", "an object of textures by name", scene.textures,
       [&](const auto& value, const Place& here, Texture& texture) { read_texture(value, here, shelf, texture); });
@@ -182,13 +188,17 @@ Scene scene_from(const JsonValue& json, const std::filesystem::path& folder) {
 
 }  // namespace
 
+Scene scene_with_pictures(const JsonValue& root, const Scene& pictures) {
+  return scene_from(root, PictureShelf(pictures));
+}
+
 Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                  const std::vector<Override>& overrides) {
   try {
     JsonDocument document = parse_json(text);
     JsonValue& root = document.root;
-    for (const Override& one : overrides) apply_override(root, one);
-    Scene scene = scene_from(root, folder);
+    for (const Override& one : overrides) apply_override(root, one), fit_to_type(root, one);
+    Scene scene = scene_from(root, PictureShelf(folder));
     if (const auto error = check(scene)) throw *error;
     return scene;
   } catch (const ParseError& error) {

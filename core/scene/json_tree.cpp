@@ -190,24 +190,34 @@ std::string describe(const JsonValue& json) {
   return array->size() == 1 ? "an array of 1 value" : "an array of " + std::to_string(array->size()) + " values";
 }
 
+JsonValue* find_value(JsonValue& root, const std::vector<std::string>& steps) {
+  JsonValue* value = &root;
+  for (const std::string& step : steps) value = value ? child(*value, step) : nullptr;
+  return value;
+}
+
+void put_value(JsonValue& root, const std::vector<std::string>& steps, JsonValue value, const std::string& where) {
+  JsonValue* holder = &root;
+  std::string path;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    JsonValue* next = child(*holder, steps[i]);
+    path += "/" + pointer_step(steps[i]);
+    if (!next) throw ParseError{where, "no " + path, "an existing parent" + hint(*holder, steps[i])};
+    holder = next;
+  }
+  make_child(*holder, steps.back(), where) = std::move(value);
+}
+
 void apply_override(JsonValue& root, const Override& override_) {
   const std::string where = "--set " + override_.pointer;
   const auto steps = pointer_steps(override_.pointer);
   if (!steps)
     throw ParseError{where, "no JSON pointer",
                      "a pointer such as /camera/vfov (in keys, ~1 stands for / and ~0 for ~)"};
-  JsonValue* holder = &root;
-  std::string path;
-  for (std::size_t i = 0; i + 1 < steps->size(); ++i) {
-    JsonValue* next = child(*holder, (*steps)[i]);
-    path += "/" + pointer_step((*steps)[i]);
-    if (!next) throw ParseError{where, "no " + path, "an existing parent" + hint(*holder, (*steps)[i])};
-    holder = next;
-  }
   JsonValue value = override_value(override_.value, where);
   if (steps->size() + depth_of(value) > max_nesting)
     throw ParseError{where, "brackets nested more than " + std::to_string(max_nesting) + " deep", "a flatter value"};
-  make_child(*holder, steps->back(), where) = std::move(value);
+  put_value(root, *steps, std::move(value), where);
 }
 
 std::string print_json(const JsonValue& root) {

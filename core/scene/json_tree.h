@@ -90,6 +90,11 @@ JsonDocument parse_json(std::string_view text);
 /// The steps of a JSON pointer (RFC 6901), with ~0 and ~1 replaced by what they stand for; nothing if the text is none.
 std::optional<std::vector<std::string>> pointer_steps(std::string_view pointer);
 
+/// The value at the end of these steps; null: there is none.
+JsonValue* find_value(JsonValue& root, const std::vector<std::string>& steps);
+/// Replaces or adds the value at the end of these steps. Throws ParseError at `where` if there is nothing to hold it.
+void put_value(JsonValue& root, const std::vector<std::string>& steps, JsonValue value, const std::string& where);
+
 /// Replaces or adds one value. Throws ParseError at "--set POINTER".
 void apply_override(JsonValue& root, const Override& override_);
 

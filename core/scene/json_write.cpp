@@ -47,6 +47,19 @@ JsonValue background_json(const Background& background) {
                     background);
 }
 
+JsonObject animation_json(const Animation& animation) {
+  JsonObject out, keyed;
+  put_fields(out, animation);
+  for (const KeyedValue& value : animation.keyed) {
+    JsonObject keys;
+    for (const KeyFrame& key : value.keys)
+      put(keys, std::to_string(key.frame), key.value.size() == 1 ? to_json(key.value[0]) : to_json(key.value));
+    put(keyed, value.pointer, JsonValue{std::move(keys)});
+  }
+  put_part(out, "keys", std::move(keyed));
+  return out;
+}
+
 template <class Owner>
 JsonObject fields_json(const Owner& owner) {
   JsonObject out;
@@ -147,6 +160,7 @@ JsonValue scene_json(const Scene& scene) {
   if (!(scene.background == Scene().background)) put(root, "background", background_json(scene.background));
   put_part(root, "render", fields_json(scene.render));
   put_part(root, "display", fields_json(scene.display));
+  if (scene.animation) put(root, "animation", JsonValue{animation_json(*scene.animation)});
   for (const Texture& texture : scene.textures) textures.push_back({texture.name, texture_json(texture)});
   put_part(root, "textures", std::move(textures));
   for (const Material& material : scene.materials) materials.push_back({material.name, material_json(material, scene)});

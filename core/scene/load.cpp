@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
+#include "core/scene/frames.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 
@@ -119,6 +120,11 @@ std::string name_of(const std::string& text) {
 /// Reads the scene from the text, which is there.
 void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
   loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
+  try {
+    check_keys(loaded.scene);
+  } catch (const ParseError& error) {
+    throw SceneError(loaded.name, error.where, error.found, error.expected);
+  }
   for (const Texture& texture : loaded.scene.textures)
     if (const auto* image = std::get_if<Image>(&texture.kind)) loaded.files.push_back(loaded.folder / image->file);
 }

@@ -14,10 +14,10 @@ bool same_view(const Camera& a, Camera b) {
 SceneChange change_between(const Scene& before, const Scene& after) {
   // By name and one by one, because a copy of a large scene costs more than the comparison. A member that is added to
   // Scene does not compile here until it was decided whether samples depend on it.
-  const auto& [name_a, width_a, height_a, camera_a, background_a, render_a, display_a, textures_a, materials_a,
-               objects_a] = before;
-  const auto& [name_b, width_b, height_b, camera_b, background_b, render_b, display_b, textures_b, materials_b,
-               objects_b] = after;
+  const auto& [name_a, width_a, height_a, camera_a, background_a, render_a, display_a, animation_a, textures_a,
+               materials_a, objects_a] = before;
+  const auto& [name_b, width_b, height_b, camera_b, background_b, render_b, display_b, animation_b, textures_b,
+               materials_b, objects_b] = after;
   RenderSettings render = render_b;
   render.spp = render_a.spp;
   const bool same = width_a == width_b && height_a == height_b && background_a == background_b && render_a == render &&

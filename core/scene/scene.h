@@ -1,6 +1,7 @@
 #pragma once
 #include "core/materials/materials.h"
 #include "core/media/medium.h"
+#include "core/scene/animation.h"
 #include "core/scene/settings.h"
 #include "core/shapes/shapes.h"
 #include "core/textures/textures.h"
@@ -117,6 +118,7 @@ struct Scene {
   Background background = Vec3d{0, 0, 0};
   RenderSettings render;
   Display display;
+  std::optional<Animation> animation;  ///< of films; pictures are of the scene without it
   std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Object> objects;
@@ -130,7 +132,7 @@ inline constexpr auto image_fields() {
 }
 
 /// Which parts of a scene an edit has changed, among those on which samples depend. The scene's name, its display
-/// settings and the number of samples at which to stop are not among them.
+/// settings, its animation and the number of samples at which to stop are not among them.
 struct SceneChange {
   bool camera = false;
   bool others = false;  ///< anything but the camera

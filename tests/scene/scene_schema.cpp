@@ -215,6 +215,26 @@ JsonValue named_things(const std::string& about, const std::string& definition) 
                  {"additionalProperties", object({{"$ref", reference(definition)}})}});
 }
 
+JsonValue animation() {
+  JsonValue out =
+      with_fields("A film: what tyndall animate renders. Other commands ignore it.", fields_of<Animation>());
+  JsonObject& properties = std::get<JsonObject>(std::get<JsonObject>(out.value).back().value.value);
+  const JsonValue number = object({{"type", text("number")}});
+  const JsonValue numbers = object({{"type", text("array")}, {"items", number}, {"minItems", {2.0}}});
+  const JsonValue keys = object({{"type", text("object")},
+                                 {"minProperties", {1.0}},
+                                 {"propertyNames", object({{"pattern", text("^(0|[1-9][0-9]*)$")}})},
+                                 {"additionalProperties", object({{"oneOf", list({number, numbers})}})}});
+  properties.push_back(
+      {"keys",
+       object({{"type", text("object")},
+               {"description", text("Values at frames, which count from 0, by JSON pointer: \"/camera/vfov\": { \"0\": "
+                                    "40, \"119\": 30 }.")},
+               {"propertyNames", object({{"pattern", text("^/")}})},
+               {"additionalProperties", keys}})});
+  return out;
+}
+
 JsonValue definitions() {
   const char* size = "Size of the picture in pixels. Pixel (0, 0) is top left.";
   return object({{"vector", three_numbers("Three numbers: x, y, z.", any_number())},
@@ -229,6 +249,7 @@ JsonValue definitions() {
                                         fields_of<RenderSettings>())},
                  {"display", with_fields("How radiance becomes 8-bit colours in the window and in PNG and PPM files.",
                                          fields_of<Display>())},
+                 {"animation", animation()},
                  {"texture", textures(static_cast<const TextureKinds<double>*>(nullptr))},
                  {"material", materials(static_cast<const MaterialKinds<double>*>(nullptr))},
                  {"transform", transform(static_cast<const Transform::value_type*>(nullptr))},
@@ -248,7 +269,7 @@ std::string scene_schema() {
   JsonObject properties{
       {"tyndall", object({{"const", {1.0}}, {"description", text("Version of the format.")}})},
       {"name", object({{"type", text("string")}, {"description", text("What the scene is called.")}})}};
-  for (const char* part : {"image", "camera", "background", "render", "display"})
+  for (const char* part : {"image", "camera", "background", "render", "display", "animation"})
     properties.push_back({part, object({{"$ref", reference(part)}})});
   properties.push_back(
       {"textures", named_things("Textures by name; materials and media use them as albedo.", "texture")});

@@ -1,5 +1,7 @@
 #include "app/window/system/style.h"
 
+#include "app/text/fonts.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -17,21 +19,6 @@ ImVec4 faded(Tone tone, float alpha) {
 }
 
 namespace fs = std::filesystem;
-
-/// A font file's path in the first folder that has it, of those of Debian, Arch, Fedora and the user; "" if none has.
-std::string find_font(const char* file) {
-  static constexpr const char* folders[] = {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/",
-                                            "/usr/share/fonts/truetype/jetbrains-mono/",
-                                            "/usr/share/fonts/TTF/",
-                                            "/usr/share/fonts/google-roboto/",
-                                            "/usr/share/fonts/jetbrains-mono-fonts/",
-                                            "/usr/local/share/fonts/",
-                                            "/Library/Fonts/"};
-  std::error_code ignored;
-  for (const std::string folder : folders)
-    if (std::filesystem::is_regular_file(folder + file, ignored)) return folder + file;
-  return "";
-}
 
 /// Latin, Greek, Cyrillic and the signs that the panels use.
 const ImWchar* glyphs() {
@@ -127,20 +114,6 @@ ImFont* add_font(const std::string& file, float size, const Further& further) {
     ImGui::GetIO().Fonts->AddFontFromFileTTF(more.c_str(), size, &config, further.ranges.data());
   }
   return font;
-}
-
-/// The code of the character at a byte of a UTF-8 text, and the place of the next one; 0xfffd for what is broken.
-unsigned next_character(const std::string& text, std::size_t& at) {
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-  const unsigned first = byte(at++);
-  if (first < 0x80) return first;
-  const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-  unsigned code = more == 3 ? first & 0x07 : more == 2 ? first & 0x0f : first & 0x1f;
-  for (int k = 0; k < more; ++k) {
-    if ((byte(at) & 0xc0) != 0x80) return 0xfffd;
-    code = (code << 6) | (byte(at++) & 0x3f);
-  }
-  return more == 0 ? 0xfffd : code;
 }
 
 }  // namespace

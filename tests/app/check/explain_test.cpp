@@ -44,7 +44,7 @@ TEST_CASE("check: what editions do otherwise is said, and is no mistake") {
   const Findings verdict = verdict_of(glass, planted(Plant::none, 100), seconds);
   CHECK(name_of(verdict) == "agrees");
   CHECK(has_choice(verdict, "schlick"));
-  CHECK(verdict.curve == Curve::gamma2);
+  CHECK(verdict.curve == TransferCurve::gamma2);
   const std::string text = verdict_text(verdict);
   CHECK(text.find("agree within the noise") != std::string::npos);
   CHECK(text.find("Schlick's rule") != std::string::npos);

@@ -1,0 +1,293 @@
+#include "app/cli/commands.h"
+#include "app/cli/kept_pictures.h"
+#include "app/cli/series.h"
+#include "app/files/open_scene.h"
+#include "app/report/contact_sheet.h"
+#include "app/report/film_difference.h"
+#include "app/text/name_pattern.h"
+#include "app/text/standard_streams.h"
+#include "core/accuracy/error.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/scene/json_tree.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tyndall {
+namespace {
+
+/// One picture of a sweep.
+struct SweepStep {
+  std::vector<std::string> values;             ///< one of each axis
+  std::vector<std::filesystem::path> outputs;  ///< files of this picture alone
+};
+
+/// What a sweep finds out about a picture.
+struct SweepFigures {
+  FilmMean mean{};
+  FilmDifference difference{};  ///< to the picture in the middle
+  double relative_error = 0, seconds = 0;
+  std::uint32_t spp = 0;
+  std::uint64_t hash = 0;
+  ScreenPicture shown{};
+};
+
+struct Sweeping {
+  const SweepCommand& command;
+  LoadedScene base;
+  std::vector<SweepStep> steps{};
+  std::size_t middle = 0;  ///< its picture is what the others are compared with
+  int columns = 1;
+  std::vector<SweepFigures> figures{};  ///< of each step
+  Film reference{};                     ///< the film in the middle
+};
+
+std::string values_text(const SweepStep& step, const std::string& between) { return joined(step.values, between); }
+
+std::vector<SweepStep> steps_of(const SweepCommand& command) {
+  const std::vector<std::string> once{""};
+  const auto& first = command.axes[0].values;
+  const auto& second = command.axes.size() > 1 ? command.axes[1].values : once;
+  if (first.size() * second.size() > max_sweep_steps)
+    throw UsageError("--vary: found " + std::to_string(first.size() * second.size()) + " pictures, expected at most " +
+                     std::to_string(max_sweep_steps));
+  std::vector<SweepStep> steps;
+  for (const std::string& b : second)
+    for (const std::string& a : first) {
+      SweepStep step{{a}, {}};
+      if (command.axes.size() > 1) step.values.push_back(b);
+      for (const auto& name : command.render.outputs)
+        step.outputs.emplace_back(name_for(read_valued_name(name.string()), values_text(step, "_")));
+      steps.push_back(std::move(step));
+    }
+  return steps;
+}
+
+/// The scene of a step. Throws SceneError, which names it.
+LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
+  std::vector<Override> overrides;
+  std::string settings;
+  for (std::size_t k = 0; k < step.values.size(); ++k) {
+    overrides.push_back({sweep.command.axes[k].pointer, step.values[k]});
+    settings += (k > 0 ? ", " : "") + overrides[k].pointer + "=" + step.values[k];
+  }
+  const auto number = std::to_string(&step - sweep.steps.data() + 1);
+  return open_variant(sweep.base, sweep.command.render.scene, overrides,
+                      sweep.base.name + ": step " + number + " (" + settings + ")");
+}
+
+RenderCommand command_of(const Sweeping& sweep, const SweepStep& step) {
+  RenderCommand command = sweep.command.render;
+  command.outputs = step.outputs;
+  command.time_limit = std::min(command.time_limit, sweep.command.total_time);
+  return command;
+}
+
+void check_axes(const SweepCommand& command) {
+  for (const SweepAxis& axis : command.axes) {
+    const auto steps = pointer_steps(axis.pointer);
+    if (steps && steps->front() == "image")
+      throw UsageError("--vary: found " + in_quotes(axis.pointer) +
+                       ", expected a value that leaves all pictures one size");
+  }
+  if (command.axes.size() > 1 && command.axes[0].pointer == command.axes[1].pointer)
+    throw UsageError("--vary: found " + in_quotes(command.axes[0].pointer) + " twice, expected two values");
+}
+
+/// The film of a step that an earlier run has finished; nothing: there is none.
+std::optional<Film> kept_film_of(const RenderJob& job) {
+  if (job.command.fresh) return {};
+  for (const auto& file : job.command.outputs)
+    if (is_exr(file) && look_at_picture(file, job) == PictureState::whole && read_film_label(file))
+      return read_film_alone(file);
+  return {};
+}
+
+/// Finds everything that can be wrong before the first sample.
+void check_steps(Sweeping& sweep) {
+  std::vector<Output> outputs{{"--output", sweep.command.sheet}, {"--csv", sweep.command.csv}};
+  for (const SweepStep& step : sweep.steps)
+    for (const auto& file : step.outputs) outputs.push_back({"--each", file});
+  check_outputs(outputs, sweep.base.files);
+  check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
+  for (const SweepStep& step : sweep.steps) {
+    const RenderCommand command = command_of(sweep, step);
+    check_names(command);
+    RenderJob job{command};
+    job.kernels = find_kernels(command.isa);
+    job.loaded = scene_of(sweep, step);
+    job.options = render_options(command, job.loaded);
+    if (command.fresh) continue;
+    for (const auto& file : step.outputs)
+      if (is_exr(file)) look_at_picture(file, job);
+  }
+}
+
+/// Seconds that the next picture may take.
+double time_limit(const Sweeping& sweep, const Series& series) {
+  const double each = sweep.command.render.time_limit;
+  if (!std::isfinite(sweep.command.total_time)) return each;
+  const double left = std::max(1e-3, sweep.command.total_time - series.seconds());
+  return std::min(each, left / static_cast<double>(series.left()));
+}
+
+void add_figures(Sweeping& sweep, std::size_t k, const RenderOutcome& outcome, const Display& display) {
+  SweepFigures& figures = sweep.figures[k];
+  const RenderResult& result = outcome.result;
+  figures.mean = film_mean(result.film);
+  figures.relative_error = outcome.picture.estimate.relative_error;
+  figures.seconds = result.seconds;
+  figures.spp = outcome.picture.spp;
+  figures.hash = outcome.picture.hash;
+  const LinearImage& image = outcome.picture.image;
+  figures.shown = on_sheet(result.clean ? LinearImage{image.width, image.height, result.clean->rgb} : image, display,
+                           sheet_cell(image.width, image.height, sweep.columns));
+  if (k == sweep.middle) sweep.reference = result.film;
+  figures.difference = film_difference(result.film, sweep.reference);
+}
+
+/// Renders a picture and takes what is needed of it; false if something could not be written.
+bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
+  const SweepStep& step = sweep.steps[k];
+  RenderCommand command = command_of(sweep, step);
+  command.time_limit = time_limit(sweep, series);
+  RenderJob job{command};
+  job.loaded = scene_of(sweep, step);
+  job.whole_only = true;
+  prepare(job);
+  const std::string name = values_text(step, ", ");
+  if (k == sweep.middle) tell_remarks(job);
+  auto kept = kept_film_of(job);
+  if (kept) take_film(job, std::move(*kept));
+  const bool whole = job.begin.as_requested || kept;
+  const RenderResult result = series.render(job, name);
+  if (result.interrupted && totals(result.film).max_taken == 0) return true;
+  const RenderOutcome outcome = outcome_of(job, result, result.interrupted);
+  series.warn(job, outcome, name);
+  const bool written = whole || write(job, outcome);
+  if (!result.interrupted) add_figures(sweep, k, outcome, job.loaded.scene.display);
+  return written;
+}
+
+std::string percent(double part, double error) {
+  const double size = std::max(std::abs(100 * error), 1e-9);
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
+  return fmt::format("{:+.{}f} % ± {:.{}f} %", 100 * part, digits, 100 * error, digits);
+}
+
+std::string csv_text(const Sweeping& sweep) {
+  const auto quoted = [](const std::string& text) {
+    if (text.find_first_of(",\"\n") == text.npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + "\"";
+  };
+  std::string text = sweep.command.axes.size() > 1 ? "value,value_2" : "value";
+  text += ",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n";
+  const double mean = sweep.figures[sweep.middle].mean.mean;
+  for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
+    const SweepFigures& f = sweep.figures[k];
+    for (const std::string& value : sweep.steps[k].values) text += quoted(value) + ",";
+    text += fmt::format("{:.8g},{:.4g},{:.4g},{:.8g},{:.4g},{:.8g},{:.4g},{},{:.4g},{}\n", f.mean.mean, f.mean.error,
+                        f.relative_error, f.difference.mean / mean, f.difference.mean_error / std::abs(mean),
+                        f.difference.rms, f.difference.rms_error, f.spp, f.seconds, hash_text(f.hash));
+  }
+  return text;
+}
+
+/// What a value is called beneath pictures: the last step of its pointer, of two such names the last two.
+std::string short_name(const std::string& pointer, bool longer) {
+  const auto steps = pointer_steps(pointer);
+  const std::string& last = steps->back();
+  return longer && steps->size() > 1 ? (*steps)[steps->size() - 2] + " " + last : last;
+}
+
+ScreenPicture sheet_of(const Sweeping& sweep) {
+  const auto& axes = sweep.command.axes;
+  const bool longer = axes.size() > 1 && short_name(axes[0].pointer, false) == short_name(axes[1].pointer, false);
+  std::vector<SheetPicture> pictures;
+  const double mean = sweep.figures[sweep.middle].mean.mean;
+  for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
+    const SweepFigures& figures = sweep.figures[k];
+    SheetPicture picture{figures.shown, "", "", k == sweep.middle};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      picture.title += (i > 0 ? ", " : "") + short_name(axes[i].pointer, longer) + " " + sweep.steps[k].values[i];
+    if (k != sweep.middle && mean != 0 && std::isfinite(figures.difference.mean_error))
+      picture.detail = percent(figures.difference.mean / mean, figures.difference.mean_error / std::abs(mean));
+    if (k == sweep.middle) picture.detail = "the others are compared with this one";
+    pictures.push_back(std::move(picture));
+  }
+  std::string pointers = axes[0].pointer;
+  if (axes.size() > 1) pointers += " and " + axes[1].pointer;
+  return contact_sheet(pictures, sweep.columns, printable(sweep.base.name) + ": " + printable(pointers),
+                       fmt::format("beneath each value: the mean's change, and its standard error; {} samples a pixel, "
+                                   "one seed for all",
+                                   sweep.figures[sweep.middle].spp));
+}
+
+void write_sheet(const Sweeping& sweep) {
+  const LinearImage image = light_of(sheet_of(sweep));
+  const LoadedScene middle = scene_of(sweep, sweep.steps[sweep.middle]);
+  const std::filesystem::path& file = sweep.command.sheet;
+  const Scene scene = move_textures(middle.scene, middle.folder, file.parent_path());
+  const bool png = image_ending(file, {}) == ".png";
+  write_or_rescue(file, [&](const std::filesystem::path& to) {
+    png ? write_png(to, image, 0, ToneMap::srgb, {write_scene(scene), ""}) : write_ppm(to, image, 0, ToneMap::srgb);
+  });
+}
+
+/// Writes the sheet and the table; false if something could not be written, which is told.
+bool write_all(const Sweeping& sweep) {
+  bool whole = true;
+  const SweepCommand& command = sweep.command;
+  if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
+  if (command.csv == "-")
+    whole = written_or_told([&] { write_standard_output(csv_text(sweep)); }) && whole;
+  else if (!command.csv.empty())
+    whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
+  return whole;
+}
+
+void check_sheet_name(const std::filesystem::path& sheet) {
+  const std::string ending = image_ending(sheet, {});
+  if (!sheet.empty() && ending != ".png" && ending != ".ppm")
+    throw UsageError("--output: found " + in_quotes(sheet.string()) + ", expected a name that ends in .png or .ppm");
+}
+
+}  // namespace
+
+int run(const SweepCommand& command) {
+  check_axes(command);
+  check_sheet_name(command.sheet);
+  Sweeping sweep{command, open_scene(command.render.scene)};
+  sweep.steps = steps_of(command);
+  sweep.figures.resize(sweep.steps.size());
+  const int count = static_cast<int>(sweep.steps.size()), first = static_cast<int>(command.axes[0].values.size());
+  const auto middle_of = [](std::size_t steps) { return (steps - 1) / 2; };
+  sweep.middle = middle_of(static_cast<std::size_t>(first)) +
+                 static_cast<std::size_t>(first) * middle_of(static_cast<std::size_t>(count / first));
+  sweep.columns =
+      command.axes.size() > 1 ? first : sheet_columns(sweep.base.scene.width, sweep.base.scene.height, count);
+  check_steps(sweep);
+  Series series(command.render.progress, sweep.steps.size());
+  std::vector<std::size_t> order{sweep.middle};
+  for (std::size_t k = 0; k < sweep.steps.size(); ++k)
+    if (k != sweep.middle) order.push_back(k);
+  bool whole = true;
+  for (const std::size_t k : order) {
+    whole = make_picture(sweep, k, series) && whole;
+    if (series.signal() != 0) {
+      complain("interrupted: no sheet and no table are written" +
+               std::string(command.render.outputs.empty() ? "" : "; the same command goes on"));
+      return 128 + series.signal();
+    }
+  }
+  series.finish("done: ", std::to_string(count) + " pictures");
+  return write_all(sweep) && whole ? 0 : output_failed;
+}
+
+}  // namespace tyndall
