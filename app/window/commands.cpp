@@ -25,6 +25,10 @@ void Commands::take(const InputEvents& events) {
     }
     if (!press.typing && !has_question() && objects_.has_keys() && objects_.take_press(press)) continue;
     if (objects_.active() && !answers) continue;
+    if (!press.typing && !has_question() && !panels_.row_has_keys && strip_.take_key(press.key)) {
+      pacing_.on_event();
+      continue;
+    }
     if (!request || (press.typing && !has_question()) || (has_question() && !answers)) continue;
     panels_.leave_row = true;
     act(*request);
@@ -106,6 +110,8 @@ void Commands::act_on_document(const Request& request) {
   static constexpr Handler handlers[] = {
       {Action::frame, [](Commands& c, auto&) { c.frame_selection(); }},
       {Action::reset_camera, [](Commands& c, auto&) { c.reset_camera(); }},
+      {Action::play, [](Commands& c, auto&) { c.play(); }},
+      {Action::key_cameras, [](Commands& c, auto&) { c.key_cameras(); }},
       {Action::undo, [](Commands& c, auto&) { c.session_.editor().undo(); }},
       {Action::redo, [](Commands& c, auto&) { c.session_.editor().redo(); }},
       {Action::open, [](Commands& c, auto&) { c.dialog_ = open_dialog(); }},
@@ -139,6 +145,20 @@ std::vector<std::string> Commands::listed_scenes() const {
   for (const BuiltIn& scene : panels_.model.scenes) all.push_back(scene.name);
   for (const std::filesystem::path& file : panels_.model.recent) all.push_back(file.string());
   return all;
+}
+
+void Commands::play() {
+  if (!session_.editor().scene().animation)
+    return session_.messages().say("no value has keys: right click on a row, or store cameras and film through them");
+  timeline_.play_or_stop(clock_seconds());
+}
+
+void Commands::key_cameras() {
+  const CameraSlots& slots = panels_.cameras[panels_.model.title];
+  if (slots.size() < 2) return session_.messages().say("store two cameras or more first: see Camera");
+  Scene scene = session_.editor().scene();
+  tyndall::key_cameras(scene, slots);
+  session_.editor().edit(std::move(scene), gestures_.begin());
 }
 
 void Commands::reset_camera() {
@@ -219,6 +239,8 @@ void Commands::escape() {
     return;
   }
   if (objects_.escape()) return;
+  if (strip_.is_open() && !has_question() && !shows_help_ && !session_.messages().current().error)
+    return strip_.close();
   const bool covered = has_question() || shows_help_ || session_.messages().current().error;
   if (!covered && picture_.escape()) return;
   if (has_question())

@@ -10,7 +10,9 @@
 #include "app/window/session.h"
 #include "app/window/system/pacing.h"
 #include "app/window/system/platform.h"
+#include "app/window/timeline/timeline.h"
 #include "app/window/tools/pointer.h"
+#include "app/window/variations/strip.h"
 
 #include <span>
 #include <vector>
@@ -24,7 +26,7 @@ class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
   Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures,
-           ObjectTools& objects, PictureTools& picture, UiLog* log)
+           ObjectTools& objects, PictureTools& picture, VariationStrip& strip, Timeline& timeline, UiLog* log)
       : session_(session),
         platform_(platform),
         panels_(panels),
@@ -32,6 +34,8 @@ class Commands {
         gestures_(gestures),
         objects_(objects),
         picture_(picture),
+        strip_(strip),
+        timeline_(timeline),
         closing_(session),
         log_(log) {}
 
@@ -66,6 +70,8 @@ class Commands {
   void act_on_rendering(const Request& request);
   void act_on_document(const Request& request);
   void select_view(int index);
+  void play();
+  void key_cameras();
   void reset_camera();
   void frame_selection();
   void open_palette();
@@ -88,6 +94,8 @@ class Commands {
   Gestures& gestures_;
   ObjectTools& objects_;
   PictureTools& picture_;
+  VariationStrip& strip_;
+  Timeline& timeline_;
   Dialog dialog_;
   Palette palette_;
   Closing closing_;

@@ -1,6 +1,8 @@
 #include "app/window/main_window.h"
 
 #include "app/window/accuracy/views.h"
+#include "core/scene/place.h"
+#include "core/scene/pointer_values.h"
 
 #include <algorithm>
 #include <cassert>
@@ -40,7 +42,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
       appearance_(platform_, session_, ui_),
       objects_(session_, panels_, tools_.gestures, pacing_),
       picture_tools_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, log_.get()) {
+      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, strip_, timeline_,
+                log_.get()) {
   ui_.log = log_.get();
   panels_.model.scenes = built_in_scenes();
   panels_.model.accuracy = &session_.accuracy();
@@ -166,8 +169,11 @@ void MainWindow::draw(double now) {
 /// Where things are for a picture of that shape.
 Layout MainWindow::layout_for(const WindowSize& size, int image_width, int image_height) const {
   const float column = commands_.shows_panels() ? static_cast<float>(panels_.look.column) : 0;
-  return make_layout(static_cast<float>(size.width), static_cast<float>(size.height), image_width, image_height,
-                     ui_.scale, column);
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+  const float shown = std::min(std::round(column * ui_.scale), std::floor(width / 2));
+  return make_layout(width, height, image_width, image_height, ui_.scale, column,
+                     strip_.height(width - shown, image_width, image_height, ui_.scale) +
+                         Timeline::height(session_.editor().scene(), ui_.scale));
 }
 
 /// Renders as many pixels as the window shows of the picture, where the user wants that.
@@ -222,10 +228,74 @@ void MainWindow::draw_interface(const Layout& layout) {
           {session_.wanted().paused, accuracy.is_true(), session_.split(), session_.editor().edited(),
            &accuracy.curves(Half::current, Kind::clean).current(), session_.arrived(), !session_.shows_picture()}));
   draw_message(ui_, layout.area, session_.messages().current());
+  const float film = Timeline::height(session_.editor().scene(), ui_.scale);
+  draw_timeline({layout.strip.x0, layout.strip.y0, layout.strip.x1, layout.strip.y0 + film}, clock_seconds());
+  draw_strip({layout.strip.x0, layout.strip.y0 + film, layout.strip.x1, layout.strip.y1});
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;
   ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
   ui_.log->end_of_widgets();
+}
+
+/// The bar of the film, and the frame that it goes to: the scene then has that frame's values.
+void MainWindow::draw_timeline(const Rect& rect, double now) {
+  const Editor& editor = session_.editor();
+  const bool held = read_mouse().any_down();
+  const TimelineWish wish = timeline_.draw(ui_, rect, editor.scene(), now);
+  if (!wish.frame && !wish.remove) {
+    if (!held && !timeline_.plays()) film_gesture_ = 0;
+    return;
+  }
+  try {
+    if (film_gesture_ == 0 || wish.remove) film_gesture_ = tools_.gestures.begin();
+    Scene scene = wish.frame ? at_frame_with_keys(editor.scene(), *wish.frame) : editor.scene();
+    if (wish.remove) remove_keys(scene, timeline_.frame());
+    session_.editor().edit(std::move(scene), film_gesture_);
+  } catch (const ParseError& error) {
+    timeline_.stop();
+    session_.messages().say(error.where + ": found " + error.found + ", expected " + error.expected, true);
+  }
+  panels_.scene = session_.editor().scene();
+  ui_.changed = false;
+}
+
+/// The strip, and what is taken over from it.
+void MainWindow::draw_strip(const Rect& rect) {
+  if (!strip_.is_open()) return;
+  const WindowSize size = platform_.size();
+  const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
+  const Editor& editor = session_.editor();
+  const double again = strip_.update({editor.scene(), editor.changes(), !read_mouse().any_down() && !timeline_.plays(),
+                                      session_.clean(), session_.wanted().threads, dots, clock_seconds()},
+                                     rect, ui_.scale);
+  ui_.wake_in = std::min(ui_.wake_in, again);
+  auto taken = strip_.draw(ui_, rect, editor.scene());
+  if (!taken) return;
+  move_linked_objects(editor.scene(), editor.scene(), *taken);
+  if (strip_gesture_ == 0) strip_gesture_ = tools_.gestures.begin();
+  session_.editor().edit(std::move(*taken), strip_gesture_);
+  panels_.scene = session_.editor().scene();
+  ui_.changed = false;
+}
+
+/// What was chosen in the menu of a row: the row's other value shows which value of the scene it is.
+void MainWindow::take_wish() {
+  RowWish wish = std::exchange(ui_.wish, {});
+  if (wish.kind == RowWish::Kind::none) return;
+  const auto pointer = pointer_of_change(session_.editor().scene(), panels_.scene);
+  panels_.scene = session_.editor().scene();
+  panels_changes_ = session_.editor().changes();
+  ui_.changed = false;
+  if (!pointer) return session_.messages().say(wish.row.label + " stands for several values of the scene");
+  if (wish.kind == RowWish::Kind::key) {
+    Scene scene = session_.editor().scene();
+    if (add_key(scene, *pointer, timeline_.frame()))
+      session_.messages().say("key of " + wish.row.label + " at frame " + std::to_string(timeline_.frame()));
+    return session_.editor().edit(std::move(scene), tools_.gestures.begin());
+  }
+  if (!strip_.is_open()) strip_gesture_ = 0;
+  strip_.vary({*pointer, wish.row}, wish.present);
+  pacing_.on_event();
 }
 
 void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
@@ -256,6 +326,7 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
 
 void MainWindow::apply_panels(double now) {
   assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
+  take_wish();
   if (ui_.changed) {
     if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
       const Display display = panels_.scene.display;

@@ -4,8 +4,10 @@
 #include "app/window/edit/linked_objects.h"
 #include "app/window/rendering/picture_view.h"
 #include "app/window/system/end_signals.h"
+#include "app/window/timeline/timeline.h"
 #include "app/window/tools/camera_control.h"
 #include "app/window/tools/pointer.h"
+#include "app/window/variations/strip.h"
 
 #include <atomic>
 #include <memory>
@@ -51,6 +53,9 @@ class MainWindow {
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
   void apply_panels(double now);
+  void take_wish();
+  void draw_strip(const Rect& rect);
+  void draw_timeline(const Rect& rect, double now);
   bool send(double now, bool scene_too = true);
   bool awaits_picture(double now) const;
   void keep_message(double now);
@@ -67,6 +72,10 @@ class MainWindow {
   Session session_;
   std::optional<EndSignals> signals_;  ///< none where signals are left to the program that the window belongs to
   PictureView picture_;
+  VariationStrip strip_{[] { Platform::wake(); }};
+  Timeline timeline_;
+  std::uint64_t film_gesture_ = 0;   ///< going through frames is one step to undo
+  std::uint64_t strip_gesture_ = 0;  ///< what is taken over from the strip is one step to undo
   Gallery gallery_{[] { Platform::wake(); }};
   Ui ui_;
   PanelState panels_;

@@ -78,12 +78,12 @@ std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& sel
 }
 
 bool requires_scene(const Request& request) {
-  constexpr Action of_scenes[] = {Action::frame,        Action::reset_camera, Action::save,
-                                  Action::save_as,      Action::clean,        Action::clean_beside_raw,
-                                  Action::split,        Action::grab,         Action::add,
-                                  Action::duplicate,    Action::remove,       Action::rename,
-                                  Action::own_material, Action::replay,       Action::refine_first,
-                                  Action::store_camera, Action::next_camera,  Action::render_reference};
+  constexpr Action of_scenes[] = {
+      Action::frame,        Action::reset_camera,     Action::save,         Action::save_as,
+      Action::clean,        Action::clean_beside_raw, Action::split,        Action::grab,
+      Action::add,          Action::duplicate,        Action::remove,       Action::rename,
+      Action::own_material, Action::replay,           Action::refine_first, Action::store_camera,
+      Action::next_camera,  Action::render_reference, Action::play,         Action::key_cameras};
   if (request.action == Action::view) return is_view_of_scene(request.number);
   if (request.action == Action::section)
     return is_part_of_scene(column_tabs()[static_cast<std::size_t>(request.number)].name);

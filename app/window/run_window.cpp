@@ -41,7 +41,7 @@ void give_freed_memory_back() {
 int MainWindow::run() {
   while (!commands_.closed() && (!signals_ || signals_->received() == 0)) {
     // Asked first: a picture that comes later is not missed.
-    const bool at_rest = log_ && session_.at_rest() && picture_tools_.at_rest() && gallery_.idle();
+    const bool at_rest = log_ && session_.at_rest() && picture_tools_.at_rest() && gallery_.idle() && strip_.at_rest();
     const double wait = waiting_time(clock_seconds());
     if (at_rest && wait >= 1) log_->rest();
     platform_.wait(wait);
@@ -49,8 +49,8 @@ int MainWindow::run() {
     if (platform_.take_close_wish()) commands_.ask_to_close();
     const InputEvents events = platform_.take_events();
     if (input_since_ <= 0) input_since_ = events.first;
-    const bool looked = picture_tools_.collect(), came = gallery_.collect();
-    if (events.any || session_.collect() || looked || came) pacing_.on_event();
+    const bool looked = picture_tools_.collect(), came = gallery_.collect(), varied = strip_.collect();
+    if (events.any || session_.collect() || looked || came || varied) pacing_.on_event();
     for (const KeyPress& press : events.keys)
       if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
     commands_.take(events);

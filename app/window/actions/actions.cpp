@@ -53,7 +53,10 @@ constexpr ActionEntry entries[] = {
      "then drag; again: the whole picture"},
     {Action::store_camera, "store the camera", "bookmark, camera bookmark, save camera", no_key},
     {Action::next_camera, "next stored camera", "switch camera, cycle cameras", no_key},
-    {Action::pause, "pause or go on", "stop, resume, continue, play", plain(key_space)},
+    {Action::play, "play or stop the film", "play, animate, animation, film", plain('P'), no_key,
+     "of values with keys: right click on a row"},
+    {Action::key_cameras, "film through the stored cameras", "animate the cameras, camera path, fly through", no_key},
+    {Action::pause, "pause or go on", "stop, resume, continue", plain(key_space)},
     {Action::restart, "start over", "restart, render again, clear", plain('R'), no_key, "", true},
     {Action::undo, "undo", "back, revert", ctrl('Z')},
     {Action::redo, "redo", "repeat", ctrl_shift('Z'), ctrl('Y'), "", true},
@@ -95,6 +98,7 @@ const HelpLine mouse_lines[] = {{"Left drag", "orbit; on a handle of the selecti
                                 {"Ctrl + Shift + click", "focus there, but keep the far blur as it is"},
                                 {"Drop a file", "open a scene or snapshot; other images become the reference"},
                                 {"Numbers, sliders", "drag, or click and type (1/4); Shift: finer, Ctrl: round"},
+                                {"Right click on them", "vary: small pictures of all its values; key of a film"},
                                 {"Double click on them", "back to what the scene's file has"}};
 
 bool is_pressed(const Key& key, int code, Modifiers modifiers) {

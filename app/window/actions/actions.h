@@ -49,6 +49,8 @@ enum class Action {
   refine_first,
   store_camera,
   next_camera,
+  play,
+  key_cameras,
   add_sphere,  // these in the order of Addition
   add_hollow_sphere,
   add_box,

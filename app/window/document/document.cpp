@@ -1,5 +1,9 @@
 #include "app/window/document/document.h"
 
+#include "core/scene/frames.h"
+#include "core/scene/json_tree.h"
+#include "core/scene/place.h"
+
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -79,6 +83,46 @@ ObjectPaths paths_after(const Scene& before, const Scene& after, const ObjectPat
     if (!now.empty()) found.push_back(std::move(now));
   }
   return found;
+}
+
+namespace {
+
+/// Whether some value that has keys could have moved or gone: objects or kinds of materials are others.
+bool has_other_things(const Scene& before, const Scene& after) {
+  const auto kinds_of = [](const Scene& scene) {
+    std::vector<std::size_t> kinds;
+    for (const Material& material : scene.materials) kinds.push_back(material.kind.index());
+    return kinds;
+  };
+  return !(before.objects == after.objects) || kinds_of(before) != kinds_of(after) ||
+         before.background.index() != after.background.index();
+}
+
+/// The steps of a pointer that lead to an object, as its path: those of "/objects/3/objects/0/radius" are {3, 0}.
+ObjectPath object_of(const std::vector<std::string>& steps) {
+  ObjectPath path;
+  for (std::size_t k = 0; k + 1 < steps.size() && steps[k] == "objects"; k += 2)
+    path.push_back(std::atoi(steps[k + 1].c_str()));
+  return path;
+}
+
+}  // namespace
+
+void move_keys(const Scene& before, Scene& after) {
+  if (!after.animation || !before.animation || !has_other_things(before, after)) return;
+  std::erase_if(after.animation->keyed, [&](KeyedValue& keyed) {
+    auto steps = pointer_steps(keyed.pointer).value_or(std::vector<std::string>{});
+    const ObjectPath path = object_of(steps);
+    if (path.empty()) return false;
+    const ObjectPaths now = paths_after(before, after, {path});
+    if (now.empty() || now[0].size() != path.size()) return true;
+    for (std::size_t k = 0; k < path.size(); ++k) steps[2 * k + 1] = std::to_string(now[0][k]);
+    keyed.pointer.clear();
+    for (const std::string& step : steps) keyed.pointer += "/" + pointer_step(step);
+    return false;
+  });
+  drop_lost_keys(after);
+  if (after.animation->keyed.empty()) after.animation.reset();
 }
 
 }  // namespace tyndall

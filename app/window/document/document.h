@@ -45,4 +45,8 @@ Object* find_object(Scene& scene, const ObjectPath& path);
 /// that stand at the same place. Objects that are gone are left out.
 ObjectPaths paths_after(const Scene& before, const Scene& after, const ObjectPaths& paths);
 
+/// Lets the keys of objects follow them where an edit has moved them in their lists; what has no place any more loses
+/// its keys.
+void move_keys(const Scene& before, Scene& after);
+
 }  // namespace tyndall

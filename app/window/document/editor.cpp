@@ -29,6 +29,7 @@ Editor::Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, Ed
 
 void Editor::edit(Scene next, std::uint64_t gesture) {
   if (next == scene()) return;
+  move_keys(scene(), next);
   if (const auto error = check(next)) {
     messages_.say(error->where + ": found " + error->found + ", expected " + error->expected, true);
     return;

@@ -8,8 +8,6 @@
 
 #include <fmt/core.h>
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -28,14 +26,6 @@ constexpr int thumbnail_width = 128, thumbnail_height = 80;
 
 constexpr std::uint32_t samples = 64;
 constexpr double longest = 2;  // seconds
-
-/// From now on the calling thread, and those that it starts, give way to all others. (On Linux a priority belongs to
-/// one thread; elsewhere this changes nothing.)
-void yield() {
-#ifdef __linux__
-  setpriority(PRIO_PROCESS, 0, 15);
-#endif
-}
 
 /// The width and height of a scene's thumbnail: its image's proportions, within the greatest size.
 std::pair<int, int> thumbnail_size(const Scene& scene) {
@@ -126,7 +116,7 @@ void Thumbnails::begin_next() {
   for (const std::string& scene : wanted_) {
     if (!known_.insert(scene).second) continue;
     return jobs_.run([this, scene]() -> JobQueue::Result {
-      yield();
+      give_way(15);
       auto picture = make(scene, folder_, [this] { return !closing_; });
       if (!picture) return {};
       return [this, scene, made = std::move(*picture)] { came_[scene] = made; };

@@ -156,11 +156,8 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (other) state.tabs.jump = 0;  // selected in the picture: its values are shown
   begin_jump(ui, state);
   const auto draw_body = [&] {
-    std::vector<Part> parts{{"Object", object_panel},
-                            {"Camera", camera_panel},
-                            {"Image", image_panel},
-                            {"Histogram", histogram_part},
-                            {"Render", render_panel}};
+    std::vector<Part> parts{{"Object", object_panel},      {"Camera", camera_panel}, {"Image", image_panel},
+                            {"Histogram", histogram_part}, {"Film", film_panel},     {"Render", render_panel}};
     if (!fixed_chart)
       parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, chart_height * u.scale); }});
     for (const Part& part : {Part{"Background", background_panel}, Part{"Objects", objects_panel},
@@ -181,13 +178,14 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
 }  // namespace
 
 bool is_part_of_scene(std::string_view part) {
-  return part == "Object" || part == "Camera" || part == "Render" || part == "Background" || part == "Objects";
+  return part == "Object" || part == "Camera" || part == "Film" || part == "Render" || part == "Background" ||
+         part == "Objects";
 }
 
 std::span<const Tab> column_tabs() { return tabs; }
 
 std::span<const char* const> lasting_sections() {
-  static constexpr const char* sections[] = {"Camera",     "Image",   "Render", "Speed and accuracy",
+  static constexpr const char* sections[] = {"Camera",     "Image",   "Film",   "Render", "Speed and accuracy",
                                              "Background", "Objects", "Scenes", "Window"};
   return sections;
 }

@@ -110,6 +110,7 @@ void field_rows(Ui& ui, Owner& owner, const Owner* saved, const Wanted& wanted, 
     if (!wanted(value, std::string_view(field.name))) return;
     Row row = row_of(field, said(field.name));
     row.original = original_of(original.*(field.value));
+    row.of_scene = true;
     value_row(ui, row, value);
   });
 }

@@ -107,6 +107,8 @@ void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
+/// Only of a scene with an animation.
+void film_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);

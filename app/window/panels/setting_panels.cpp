@@ -220,6 +220,14 @@ void image_panel(Ui& ui, PanelState& state) {
   request_row(ui, state, row, choices, state.model.view, Action::view, 3);
 }
 
+void film_panel(Ui& ui, PanelState& state) {
+  std::optional<Animation>& animation = state.scene.animation;
+  if (!animation || !section(ui, "Film", std::to_string(animation->keyed.size()) + " values have keys")) return;
+  const Scope scope(ui, "film");
+  const std::optional<Animation>& saved = state.model.saved->animation;
+  field_rows(ui, *animation, saved ? &*saved : nullptr);
+}
+
 void render_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Render", kernel_note(state.model.frame.get()))) return;
   const Scope scope(ui, "render");

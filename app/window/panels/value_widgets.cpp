@@ -156,6 +156,7 @@ bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* 
     if (row.original)
       part.original = Vec3d{k == 0 ? row.original->x : k == 1 ? row.original->y : row.original->z, 0, 0};
     changed = value_box(ui, names[k], part, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
+    changed = row_menu(ui, row, false, value.x) || changed;
   }
   return changed;
 }

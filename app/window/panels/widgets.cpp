@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tyndall {
@@ -187,9 +188,35 @@ void end_row(Ui& ui, const Row& row) {
   if (std::exchange(ui.sought.here, false) && ui.sought.has_keys) draw_keyboard_frame(ui);
 }
 
+/// Another valid value.
+double other_value(const Row& row, double value) {
+  const Slider range = widened(row.slider, row.valid, value);
+  for (const double other : {range.low, range.high, (range.low + range.high) / 2, value + 1, value - 1})
+    if (const double v = row.whole ? std::round(other) : other; v != value && row.valid.contains(v)) return v;
+  return value;
+}
+
+bool row_menu(Ui& ui, const Row& row, bool can_vary, double& value) {
+  if (!row.of_scene) return false;
+  if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(1)) ImGui::OpenPopup("row");
+  if (!ImGui::BeginPopup("row")) return false;
+  const auto item = [&](const char* name, const char* label, RowWish::Kind kind) {
+    if (ImGui::MenuItem(label)) ui.wish = {kind, row, value};
+    log_item(ui, row.name + "." + name, "menu");
+  };
+  if (can_vary) item("vary", "Vary …", RowWish::Kind::vary);
+  item("key", "Key", RowWish::Kind::key);
+  if (ui.close_popup) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  if (ui.wish.kind == RowWish::Kind::none) return false;
+  value = other_value(row, value);
+  return changed_if(ui, true);
+}
+
 bool slider_row(Ui& ui, const Row& row, double& value) {
   begin_row(ui, row);
   bool changed = slider(ui, row, value, value_width(ui) - (box_width + gap) * ui.scale);
+  changed = row_menu(ui, row, true, value) || changed;
   log_item(ui, row.name, format_short(value));
   tooltip(ui, row.help);
   ImGui::SameLine(0, gap * ui.scale);

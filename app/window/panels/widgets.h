@@ -68,6 +68,30 @@ struct WheelOwner {
   bool used = false;  ///< in this drawing, by a list
 };
 
+/// What a row of a number shows.
+struct Row {
+  std::string name;  ///< in the log and in messages: "fuzz"
+  std::string label;
+  Valid valid;
+  Slider slider;
+  const char* unit = "";
+  std::string help;      ///< tooltip
+  std::string meaning;   ///< grey line beneath; "": none
+  bool whole = false;    ///< whole numbers only
+  bool warning = false;  ///< the line beneath is one
+  std::optional<Vec3d> original =
+      std::nullopt;       ///< what a double click sets: what the scene's file has; of single numbers x
+  bool of_scene = false;  ///< a value of the scene itself: its menu has Vary and Key
+};
+
+/// What was chosen in the menu of a row. In that drawing the row has changed its value to another valid one, for no
+/// reason but to show which value of the scene it is: whoever looks at the wish takes that back.
+struct RowWish {
+  enum class Kind { none, vary, key } kind = Kind::none;
+  Row row;
+  double present = 0;  ///< the value before; of a vector x
+};
+
 /// What all controls share. One per window; lives as long as it.
 struct Ui {
   Fonts fonts;
@@ -86,6 +110,7 @@ struct Ui {
   bool has_question = false;     ///< a dialog waits for an answer: the column takes no input
   bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
   bool changed = false;          ///< a control has changed its value in this drawing: the scene may be another one
+  RowWish wish;                  ///< chosen in this drawing
   std::string problem;           ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;  ///< sections that are closed
 };
@@ -107,21 +132,6 @@ class Scope {
  private:
   Ui& ui_;
   std::string before_;
-};
-
-/// What a row of a number shows.
-struct Row {
-  std::string name;  ///< in the log and in messages: "fuzz"
-  std::string label;
-  Valid valid;
-  Slider slider;
-  const char* unit = "";
-  std::string help;      ///< tooltip
-  std::string meaning;   ///< grey line beneath; "": none
-  bool whole = false;    ///< whole numbers only
-  bool warning = false;  ///< the line beneath is one
-  std::optional<Vec3d> original =
-      std::nullopt;  ///< what a double click sets: what the scene's file has; of single numbers x
 };
 
 /// Sends the column to a row, in this drawing and the next two.
@@ -178,6 +188,9 @@ bool changed_if(Ui& ui, bool changed);
 bool slider(Ui& ui, const Row& row, double& value, float width);
 bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits);
 void begin_row(Ui& ui, const Row& row);
+/// Opens the menu of a row by a right click on the last item, and draws it. can_vary: it has Vary, too. value: see
+/// RowWish. Returns whether the value was changed.
+bool row_menu(Ui& ui, const Row& row, bool can_vary, double& value);
 void end_row(Ui& ui, const Row& row);
 /// Shows a tooltip over the last item after a moment.
 void tooltip(Ui& ui, const std::string& text);

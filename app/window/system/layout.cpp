@@ -5,13 +5,16 @@
 
 namespace tyndall {
 
-Layout make_layout(float width, float height, int image_width, int image_height, float scale, float column_units) {
+Layout make_layout(float width, float height, int image_width, int image_height, float scale, float column_units,
+                   float strip) {
   const float bar = std::min(std::round(status_height * scale), height);
   const float column = std::min(std::round(column_units * scale), std::floor(width / 2));
   Layout layout;
   layout.status = {0, height - bar, width, height};
   layout.column = {width - column, 0, width, height - bar};
-  layout.area = {0, 0, width - column, height - bar};
+  const float strip_top = height - bar - std::round(std::min(strip, (height - bar) / 2));
+  layout.area = {0, 0, width - column, strip_top};
+  layout.strip = {0, strip_top, width - column, height - bar};
   const float w = layout.area.width(), h = layout.area.height();
   if (w <= 0 || h <= 0 || image_width <= 0 || image_height <= 0) return layout;
   const float fit = std::min(w / static_cast<float>(image_width), h / static_cast<float>(image_height));

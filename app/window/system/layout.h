@@ -15,6 +15,7 @@ struct Rect {
 /// Where things are. Empty rectangles (no width or height) are not drawn.
 struct Layout {
   Rect area;    ///< left: where the image may be
+  Rect strip;   ///< beneath it: small pictures, and the film's bar
   Rect image;   ///< the image itself, its aspect kept, in the middle of the area
   Rect column;  ///< right: the panels
   Rect status;  ///< bottom line
@@ -24,6 +25,8 @@ struct Layout {
 inline constexpr float column_width = 372, narrowest_column = 300, widest_column = 640, status_height = 30;
 
 /// column: its width in units of the design; 0: it is hidden. A window narrower than twice the column gives it half.
-Layout make_layout(float width, float height, int image_width, int image_height, float scale, float column);
+/// strip: height of the strip, in window units; it gets at most half of what the image would have.
+Layout make_layout(float width, float height, int image_width, int image_height, float scale, float column,
+                   float strip = 0);
 
 }  // namespace tyndall

@@ -1,0 +1,269 @@
+#include "app/window/variations/strip.h"
+
+#include "app/window/document/editor.h"
+#include "app/window/system/imgui_compat.h"
+#include "core/image/tonemap.h"
+#include "core/scene/place.h"
+#include "core/scene/pointer_values.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr float gap = 6, head = 22, label_height = 18;                        // units of the design
+constexpr int key_right = 262, key_left = 263, key_down = 264, key_up = 265;  // GLFW's numbers
+
+/// The number of a value of the scene; nothing: it has no such number.
+std::optional<double> number_at(const Scene& scene, const std::string& pointer) {
+  const auto value = value_at_pointer(scene, pointer);
+  const auto* number = value ? std::get_if<double>(&value->value) : nullptr;
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+std::string value_text(const Row& row, double value) {
+  const bool spelled = std::isalpha(static_cast<unsigned char>(*row.unit)) != 0;
+  return (row.whole ? std::to_string(std::llround(value)) : format_short(value)) + (spelled ? " " : "") + row.unit;
+}
+
+/// The step that the value is; -1: it is none of them.
+int step_of(const VariedValue& axis, double value) {
+  const auto found = std::find(axis.values.begin(), axis.values.end(), value);
+  return found == axis.values.end() ? -1 : static_cast<int>(found - axis.values.begin());
+}
+
+/// The scene with the values of a step; nothing: it cannot have them, or there is no such step.
+std::optional<Scene> varied_scene(const Scene& scene, const std::vector<VariedValue>& axes, std::size_t index) {
+  const std::size_t steps[] = {index % strip_columns, index / strip_columns};
+  try {
+    Scene made = scene;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      if (steps[k] >= axes[k].values.size()) return {};
+      made = with_value(made, axes[k].pointer, {axes[k].values[steps[k]]});
+    }
+    return made;
+  } catch (const ParseError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+std::vector<double> varied_values(const Row& row, double present, int steps) {
+  const Slider range = widened(row.slider, row.valid, present);
+  std::vector<double> values;
+  for (int k = 0; k < steps; ++k) {
+    double value = slider_value(range, static_cast<double>(k) / (steps - 1), present);
+    if (row.whole) value = std::round(value);
+    const bool known = std::find(values.begin(), values.end(), value) != values.end();
+    if (row.valid.contains(value) && !known) values.push_back(value);
+  }
+  const auto distance = [&](double value) {
+    return std::abs(slider_position(range, value) - slider_position(range, present));
+  };
+  const auto nearest =
+      std::min_element(values.begin(), values.end(), [&](double a, double b) { return distance(a) < distance(b); });
+  if (nearest != values.end()) *nearest = present;
+  return values;
+}
+
+void VariationStrip::vary(const VariedValue& value, double present) {
+  const auto is_it = [&](const VariedValue& axis) { return axis.pointer == value.pointer; };
+  const auto shown = std::find_if(axes_.begin(), axes_.end(), is_it);
+  if (shown == axes_.end()) {
+    axes_.resize(std::min<std::size_t>(axes_.size(), 1));
+    axes_.push_back(value);
+    axes_.back().values = varied_values(value.row, present, axes_.size() == 1 ? strip_columns : strip_rows);
+  } else {
+    const bool first = shown == axes_.begin();
+    axes_.erase(shown);
+    if (axes_.empty()) return close();
+    VariedValue& left = axes_[0];
+    const int marked = first && marked_.size() > 1 ? marked_[1] : -1;
+    if (first)
+      left.values = varied_values(left.row, left.values[static_cast<std::size_t>(std::max(marked, 0))], strip_columns);
+  }
+  base_.reset();
+  stale_ = true;
+}
+
+void VariationStrip::close() {
+  axes_.clear();
+  cells_.clear();
+  base_.reset();
+  renders_.stop();
+}
+
+float VariationStrip::height(float width, int image_width, int image_height, float scale) const {
+  if (!is_open() || image_width <= 0) return 0;
+  const float cell = (width - (strip_columns + 1) * gap * scale) / strip_columns;
+  const float picture = std::round(cell * static_cast<float>(image_height) / static_cast<float>(image_width));
+  return (head + gap) * scale + static_cast<float>(rows()) * (picture + label_height * scale);
+}
+
+Rect VariationStrip::cell_at(const Rect& rect, std::size_t index, float scale) const {
+  const auto column = static_cast<float>(index % strip_columns), row = static_cast<float>(index / strip_columns);
+  const float space = gap * scale, width = (rect.width() - (strip_columns + 1) * space) / strip_columns;
+  const float height = (rect.height() - (head + gap) * scale) / static_cast<float>(rows());
+  const float x = rect.x0 + space + column * (width + space), y = rect.y0 + head * scale + row * height;
+  return {std::round(x), std::round(y), std::round(x + width), std::round(y + height - label_height * scale)};
+}
+
+/// Which of the pictures shows the scene as it is.
+void VariationStrip::look_at(const Scene& scene) {
+  marked_.assign(axes_.size(), -1);
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const auto value = number_at(scene, axes_[k].pointer);
+    if (!value) return close();  // what it belongs to is gone
+    marked_[k] = step_of(axes_[k], *value);
+  }
+}
+
+void VariationStrip::ask(const Now& now, const Rect& rect, float scale) {
+  const Rect cell = cell_at(rect, 0, scale);
+  width_ = std::max(8, static_cast<int>(std::lround(cell.width() * now.dots)));
+  height_ = std::max(8, static_cast<int>(std::lround(cell.height() * now.dots)));
+  clean_ = now.clean;
+  stale_ = false;
+  cells_.clear();
+  cells_.resize(count());
+  SmallRequest request{count(), {}, now.clean, now.threads};
+  request.scene = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
+    std::optional<Scene> scene = varied_scene(base, axes, index);
+    if (scene) scene->width = width, scene->height = height;
+    return scene;
+  };
+  renders_.request(std::move(request));
+}
+
+double VariationStrip::update(const Now& now, const Rect& rect, float scale) {
+  constexpr double never = 1e300, patience = 0.25;  // seconds after an edit; another one may follow
+  if (!is_open()) return never;
+  const bool begins = !base_;
+  if (seen_changes_ != now.changes || begins) {
+    seen_changes_ = now.changes;
+    look_at(now.scene);
+    if (!is_open()) return never;
+    // Which step the scene has now makes no difference to the pictures.
+    std::optional<Scene> base = varied_scene(now.scene, axes_, 0);
+    if (!base) return close(), never;
+    base->render.spp.reset();
+    if (begins || !same_picture(*base, *base_)) stale_ = true, changed_at_ = begins ? 0 : now.seconds;
+    base_ = std::move(base);
+  }
+  const Rect cell = cell_at(rect, 0, scale);
+  const bool resized = std::abs(cell.width() * now.dots - static_cast<float>(width_)) > 1;
+  const bool wanted = (stale_ || resized || clean_ != now.clean) && rect.width() > 0;
+  const double wait = changed_at_ + patience - now.seconds;
+  if (wanted && now.calm && wait <= 0) ask(now, rect, scale);
+  show_pictures(now.scene.display);
+  return wanted && now.calm && wait > 0 ? wait : never;
+}
+
+void VariationStrip::show_pictures(const Display& display) {
+  const auto pictures = renders_.pictures();
+  const bool other = !(display == display_);
+  display_ = display;
+  for (std::size_t k = 0; k < std::min(pictures.size(), cells_.size()); ++k) {
+    if (!pictures[k] || (pictures[k] == cells_[k].shown && !other)) continue;
+    const SmallPicture& picture = *pictures[k];
+    cells_[k].shown = pictures[k];
+    cells_[k].texture = std::make_unique<PictureTexture>(picture.width, picture.height,
+                                                         tone_map(picture.rgb, display.exposure, display.tone_map));
+  }
+}
+
+std::string VariationStrip::label_of_cell(std::size_t index) const {
+  std::string text;
+  const std::size_t steps[] = {index % strip_columns, index / strip_columns};
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    if (steps[k] < axes_[k].values.size())
+      text += (text.empty() ? "" : ", ") + value_text(axes_[k].row, axes_[k].values[steps[k]]);
+  return text;
+}
+
+void VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) const {
+  const float s = ui.scale;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 low{cell.x0, cell.y0}, high{cell.x1, cell.y1};
+  draw->AddRectFilled(low, high, shade(palette::field));
+  if (index < cells_.size() && cells_[index].texture)
+    draw->AddImage((ImTextureID) static_cast<std::intptr_t>(cells_[index].texture->number()), low,  // NOLINT: a pointer
+                   high);
+  const int steps[] = {static_cast<int>(index) % strip_columns, static_cast<int>(index) / strip_columns};
+  bool marked = true;
+  for (std::size_t k = 0; k < axes_.size(); ++k) marked = marked && marked_[k] == steps[k];
+  if (marked)
+    draw->AddRect({low.x - s, low.y - s}, {high.x + s, high.y + s}, shade(palette::amber), 2 * s, 0, 2 * s);
+  else if (ImGui::IsItemHovered())
+    draw->AddRect(low, high, shade(palette::blue), 2 * s, 0, 1.5f * s);
+  compat::push_font(ui.fonts.small);
+  clipped_text_at(label_of_cell(index), {cell.x0 + 2 * s, cell.y1 + 2 * s}, cell.width(),
+                  marked ? Tone(palette::amber) : Tone(palette::text));
+  ImGui::PopFont();
+}
+
+std::optional<Scene> VariationStrip::draw(Ui& ui, const Rect& rect, const Scene& scene) {
+  std::optional<Scene> taken;
+  if (!is_open() || rect.height() <= 0) return taken;
+  const float s = ui.scale;
+  std::size_t wanted = count();
+  ImGui::SetNextWindowPos({rect.x0, rect.y0});
+  ImGui::SetNextWindowSize({rect.width(), rect.height()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap * s, 3 * s});
+  const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                 ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                 ImGuiWindowFlags_NoNav | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0);
+  bool open = true;
+  if (ImGui::Begin("##strip", nullptr, flags)) {
+    std::string title;
+    for (const VariedValue& axis : axes_) title += (title.empty() ? "" : " and ") + axis.row.label;
+    compat::push_font(ui.fonts.small);
+    ImGui::TextColored(
+        palette::dim, "%s%s", title.c_str(),
+        clean_ ? ": click or arrow keys take one over; filtered" : ": click or arrow keys take one over");
+    ImGui::SameLine(std::max(1.0f, rect.width() - 60 * s));
+    if (ImGui::SmallButton("close")) open = false;
+    log_item(ui, "strip.close", "button");
+    ImGui::PopFont();
+    for (std::size_t k = 0; k < count(); ++k) {
+      const Rect cell = cell_at(rect, k, s);
+      if (label_of_cell(k).empty() || cell.width() < 1 || cell.height() < 1) continue;
+      ImGui::PushID(static_cast<int>(k));
+      ImGui::SetCursorScreenPos({cell.x0, cell.y0});
+      if (ImGui::InvisibleButton("cell", {cell.width(), cell.height() + label_height * s})) wanted = k;
+      const auto* shown = k < cells_.size() ? cells_[k].shown.get() : nullptr;
+      log_item(ui, fmt::format("strip.{}", k), fmt::format("{} spp {}", label_of_cell(k), shown ? shown->spp : 0));
+      draw_cell(ui, cell, k);
+      ImGui::PopID();
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+  if (ui.log) ui.log->changed("strip", fmt::format("{:.3f}", renders_.seconds_to_stand()));
+  const int dx = std::exchange(move_x_, 0), dy = std::exchange(move_y_, 0);
+  if (wanted == count() && (dx != 0 || dy != 0)) {
+    const int columns = static_cast<int>(axes_[0].values.size());
+    const int lines = axes_.size() > 1 ? static_cast<int>(axes_[1].values.size()) : 1;
+    const int column = std::clamp(std::max(marked_[0], 0) + dx, 0, columns - 1);
+    const int line = std::clamp((axes_.size() > 1 ? std::max(marked_[1], 0) : 0) + dy, 0, lines - 1);
+    wanted = static_cast<std::size_t>(line * strip_columns + column);
+  }
+  if (wanted < count()) taken = varied_scene(scene, axes_, wanted);
+  if (!open) close();
+  return taken;
+}
+
+bool VariationStrip::take_key(int key) {
+  if (!is_open()) return false;
+  move_x_ += key == key_right ? 1 : key == key_left ? -1 : 0;
+  move_y_ += key == key_down ? 1 : key == key_up ? -1 : 0;
+  return key == key_right || key == key_left || key == key_down || key == key_up;
+}
+
+}  // namespace tyndall
