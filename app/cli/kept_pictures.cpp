@@ -15,7 +15,7 @@
 namespace tyndall {
 namespace {
 
-constexpr const char* way_out = "; --fresh replaces it";
+constexpr const char* remedy = "; --fresh replaces it";
 
 int whole_number(const JsonValue* value) {
   const auto* number = value ? std::get_if<double>(&value->value) : nullptr;
@@ -76,9 +76,9 @@ PictureState look_at_picture(const std::filesystem::path& file, const RenderJob&
     throw;
   } catch (const ParseError&) {
     throw UsageError(file.string() + ": found a picture whose figures cannot be read, expected one of this command" +
-                     way_out);
+                     remedy);
   } catch (const std::exception& problem) {
-    throw UsageError(problem.what() + std::string(way_out));
+    throw UsageError(problem.what() + std::string(remedy));
   }
 }
 
@@ -89,10 +89,10 @@ PictureState look_at_list(const std::filesystem::path& file, const FrameList& li
   const FrameList::Entry* entry = list.find(frame);
   if (!entry)
     throw UsageError(file.string() + ": found a file of which " + list.file().string() +
-                     " does not say what it is, expected none or a frame of this command" + way_out);
+                     " does not say what it is, expected none or a frame of this command" + remedy);
   if (entry->mark != mark)
     throw UsageError(file.string() + ": found a frame of another scene, other settings or another version (" +
-                     list.file().string() + "), expected one of this command" + way_out);
+                     list.file().string() + "), expected one of this command" + remedy);
   return entry->whole ? PictureState::whole : PictureState::nothing;
 }
 

@@ -62,12 +62,12 @@ struct SheetLayout {
 }  // namespace
 
 SheetCell sheet_cell(int width, int height, int columns) {
-  const int most = std::max(1, max_sheet_width / columns);
-  if (width >= min_cell_width || most < 2 * width) {
-    const int cell = std::min(width, most);
+  const int max_width = std::max(1, max_sheet_width / columns);
+  if (width >= min_cell_width || max_width < 2 * width) {
+    const int cell = std::min(width, max_width);
     return {cell, std::max(1, static_cast<int>(std::lround(static_cast<double>(height) * cell / width)))};
   }
-  const int factor = std::min((min_cell_width + width - 1) / width, most / width);
+  const int factor = std::min((min_cell_width + width - 1) / width, max_width / width);
   return {width * factor, height * factor};
 }
 
