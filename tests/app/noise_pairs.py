@@ -74,7 +74,8 @@ def brighter(scene):
 
 
 def wider(scene):
-    scene["camera"]["vfov"] = 1.01 * scene["camera"].get("vfov", 90)
+    camera = scene.setdefault("camera", {})
+    camera["vfov"] = 1.01 * camera.get("vfov", 90)
     return True
 
 
