@@ -10,8 +10,10 @@
 namespace tyndall {
 namespace {
 
-constexpr double shortest_interval = 0.25;        // seconds
-constexpr double interval_over_cost = 200;        // of frames, and of clean views: together 1 %
+constexpr double shortest_interval = 0.25;  // seconds
+constexpr double interval_over_cost = 200;  // of frames, and of clean views: together 1 %
+constexpr double first_over_cost = 100;  // the first frame comes earlier: of a viewer that does not read it is the last
+constexpr double seconds_per_pixel = 5e-8;        // of a frame, before the first one is measured
 constexpr double clean_seconds_per_pixel = 2e-6;  // of one thread, before the first one is measured
 constexpr double patience_over_elapsed = 0.005, shortest_patience = 0.02;
 
@@ -36,6 +38,8 @@ LiveView::LiveView(const ViewerAddress& address, const std::string& name, const 
       isa_(std::move(isa)),
       threads_(threads),
       stream_(address, name, prepared.columns().width, prepared.columns().height),
+      cost_(seconds_per_pixel * first_over_cost / interval_over_cost * prepared.columns().width *
+            prepared.columns().height),
       clean_cost_(clean_seconds_per_pixel * prepared.columns().width * prepared.columns().height / threads) {}
 
 bool LiveView::due() const {

@@ -36,8 +36,8 @@ class LiveView {
   ViewerStream stream_;
   std::vector<float> clean_;  ///< the newest; empty: none yet
   Clock::time_point start_ = Clock::now(), last_ = start_, last_clean_ = start_;
-  double cost_ = 0;        ///< seconds that the last frame took
-  double clean_cost_ = 0;  ///< likewise the clean view, or an estimate
+  double cost_;        ///< seconds that the last frame took, or an estimate
+  double clean_cost_;  ///< likewise the clean view
 };
 
 }  // namespace tyndall

@@ -29,6 +29,7 @@ constexpr auto look_interval = 50ms;          // how often a waiting thread look
 constexpr auto connect_time = 10s;            // for each address of the host
 constexpr auto silence = 10s;                 // after which a viewer that takes nothing is given up
 constexpr auto longest_finish = 5s;           // for a viewer that goes on taking
+constexpr int send_buffer = 1 << 18;          // small, so that it shows soon that a viewer does not read
 constexpr std::size_t band_bytes = 1u << 20;  // of a packet, about
 
 enum class PacketType : char { create_image = 4, update_image_v3 = 6 };
@@ -155,7 +156,8 @@ struct ViewerStream::Shared {
 
 std::optional<Socket> ViewerStream::Shared::connect_to(const addrinfo& to, std::string& why) {
   Socket made(socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol));
-  int error = 0;
+  int error = 0, buffer = send_buffer;
+  setsockopt(made.number(), SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
   if (made.number() < 0 || (::connect(made.number(), to.ai_addr, to.ai_addrlen) != 0 && errno != EINPROGRESS)) {
     why = std::strerror(errno);
     return {};
