@@ -163,7 +163,9 @@ h2 em { font-size: 80%; font-style: normal; color: var(--quiet) }
 a { color: inherit }
 table { border-collapse: collapse; margin: 1rem 0 }
 th, td { text-align: right; padding: .2rem 1rem .2rem 0; font-variant-numeric: tabular-nums }
-tr th:first-child, td.why { text-align: left; overflow-wrap: anywhere }
+tr th:first-child, td.why { text-align: left; overflow-wrap: break-word }
+tr th:first-child { min-width: 7rem; max-width: 24rem }
+@media (max-width: 50rem) { td.why { display: none } }
 .summary { width: 100% }
 .summary tr { border-bottom: 1px solid var(--line) }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1.25rem }
