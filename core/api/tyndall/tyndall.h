@@ -227,7 +227,7 @@ TYNDALL_API Comparison compare(const Picture& image, const Picture& reference);
 TYNDALL_API Comparison compare(const std::vector<float>& image, const std::vector<float>& reference, int width,
                                int height);
 
-/// The library's version, as "tyndall version" says it: "0.1.0".
+/// The library's version, as "tyndall version" says it: "0.2.0".
 TYNDALL_API std::string version();
 
 }  // namespace v0
