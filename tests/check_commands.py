@@ -37,7 +37,8 @@ PLACEHOLDERS = {
     "MAIN.cc": "main.cc", "COMMAND": "render", "NAME": "plate/reflected-n1.5-0deg", "POINTER=VALUE": "/camera/vfov=30", "X,Y,SAMPLE": "1,1,0",
     "fog-ball/": "fog-ball/depth1-albedo0.5-b0",
 }
-OTHER_OPTIONS = {"--all", "--nightly", "--preset", "--build", "--target", "--cflags", "--libs"}  # of ./test, CMake, pkg-config
+OTHER_OPTIONS = {"--all", "--nightly", "--preset", "--build", "--target", "--cflags", "--libs",  # of ./test, CMake, pkg-config
+                 "--factory-startup", "--agree", "--longest"}  # of Blender, tests/peers
 
 
 def commands_of(text):

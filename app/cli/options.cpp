@@ -111,17 +111,17 @@ Command read_book(Arguments arguments) {
 Command read_convert(Arguments arguments) {
   ConvertCommand command;
   command.scene.what.clear();
-  const auto app = new_command(
-      "convert SCENE -o FILE [options]",
-      "Writes a scene in normal form (.json): every value that is not its default, keys in the format's\n"
-      "order, without comments. Also gets the scene out of an image that Tyndall made.\n\n"
-      "For checking elsewhere it writes the scene for pbrt-v4 (.pbrt), Mitsuba 3 (.xml) and Blender's\n"
-      "Cycles (.py, a script that builds it). What such a renderer has no equal of (fuzz, noise) is named\n"
-      "and ends the command; nothing is approximated.",
-      "Examples:\n"
-      "  tyndall convert snapshot.png -o snapshot.json\n"
-      "  tyndall convert cornell-box -o box.xml\n"
-      "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr");
+  const auto app =
+      new_command("convert SCENE -o FILE [options]",
+                  "Writes a scene in normal form (.json): every value that is not its default, keys in the format's\n"
+                  "order, without comments. Also gets the scene out of an image that Tyndall made.\n\n"
+                  "For checking elsewhere it writes the scene for pbrt-v4 (.pbrt), Mitsuba 3 (.xml) and Blender's\n"
+                  "Cycles (.py, a script that builds it). What such a renderer has no equal of (fuzz, noise) is named\n"
+                  "and ends the command; nothing is approximated.",
+                  "Examples:\n"
+                  "  tyndall convert snapshot.png -o snapshot.json\n"
+                  "  tyndall convert cornell-box -o box.xml\n"
+                  "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr");
   add_scene(*app, command.scene);
   add_value(*app, "-o,--output", "FILE", ".json, .pbrt, .xml or .py, or - for JSON on standard output; required",
             [&](Text t) {

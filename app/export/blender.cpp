@@ -100,7 +100,7 @@ ForeignFile blender_file(const Scene& scene, const std::string& name) {
   for (const Texture& t : scene.textures) json["textures"].push_back(texture(t));
   for (const Material& m : scene.materials) json["materials"].push_back(material(m));
   for (const ForeignMedium& m : foreign.media)
-    json["media"].push_back({{"density", m.density}, {"g", m.g}, {"albedo", json_of(m.albedo)}});
+    json["media"].push_back({{"sigma_t", m.sigma_t}, {"g", m.g}, {"albedo", json_of(m.albedo)}});
   for (const ForeignShape& s : foreign.shapes) json["shapes"].push_back(shape(s));
   // The scene is one string of ASCII in the script, and JSON in that: nothing in it can become a statement.
   const std::string data = Json(json.dump(-1, ' ', true)).dump(-1, ' ', true);

@@ -102,7 +102,7 @@ def surface(tree, material, round_shape):
 
 
 def volume(tree, medium):
-    values = [("Color", rgba(medium["albedo"])), ("Density", medium["density"])]
+    values = [("Color", rgba(medium["albedo"])), ("Density", medium["sigma_t"])]
     scattering = node(tree, "ShaderNodeVolumeScatter", [*values, ("Anisotropy", medium["g"])])
     absorption = node(tree, "ShaderNodeVolumeAbsorption", values)
     return node(tree, "ShaderNodeAddShader", [(0, scattering.outputs[0]), (1, absorption.outputs[0])])

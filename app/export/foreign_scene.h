@@ -30,7 +30,8 @@ struct ForeignShape {
 };
 
 struct ForeignMedium {
-  double density = 1, g = 0;
+  double sigma_t = 1;  ///< mean number of events per unit length
+  double g = 0;        ///< mean cosine of the scattering angle
   Vec3d albedo;
 };
 

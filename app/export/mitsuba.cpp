@@ -61,7 +61,7 @@ std::string background(const Scene& scene, const std::string& file, ForeignFile&
 std::string medium(const ForeignScene& foreign, int index, const char* name) {
   const ForeignMedium& m = foreign.media[static_cast<std::size_t>(index)];
   return fmt::format("<medium name=\"{}\" type=\"homogeneous\">{}{}<phase type=\"hg\">{}</phase></medium>", name,
-                     rgb("albedo", m.albedo), number("sigma_t", m.density), number("g", m.g));
+                     rgb("albedo", m.albedo), number("sigma_t", m.sigma_t), number("g", m.g));
 }
 
 std::string camera(const Scene& scene, const ForeignScene& foreign) {

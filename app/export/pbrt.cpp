@@ -159,7 +159,7 @@ std::string shape(const std::vector<ForeignFlat>& flats) {
 }
 
 std::string medium(const ForeignMedium& m, std::size_t index) {
-  const Vec3d scattering = m.density * m.albedo, absorption = Vec3d{m.density, m.density, m.density} - scattering;
+  const Vec3d scattering = m.sigma_t * m.albedo, absorption = Vec3d{m.sigma_t, m.sigma_t, m.sigma_t} - scattering;
   return fmt::format("MakeNamedMedium \"medium {}\" \"string type\" \"homogeneous\" {} {} {}\n", index,
                      rgb("sigma_a", absorption), rgb("sigma_s", scattering), number("g", m.g));
 }

@@ -118,9 +118,10 @@ Score score_of(GroupSums sums, const Counts& counts) {
   const double meetings = (sums.largest[0] + sums.largest[1] + sums.largest[2]) / 3;
   const double t = std::abs(sums.difference) / std::sqrt(sums.variance() + meetings);
   // F. E. Satterthwaite, Biometrics Bulletin 2, 1946, with the fourth moments that single numbers have.
-  const double most = 2 * sums.groups;
-  const double freedom = sums.fourths > 0 ? 3 * squared(sums.variance_a + sums.variance_b) / sums.fourths - 2 : most;
-  return {log_probability(normal_score(t, std::clamp(freedom, 1.0, most)))};
+  const double max_freedom = 2 * sums.groups;
+  const double freedom =
+      sums.fourths > 0 ? 3 * squared(sums.variance_a + sums.variance_b) / sums.fourths - 2 : max_freedom;
+  return {log_probability(normal_score(t, std::clamp(freedom, 1.0, max_freedom)))};
 }
 
 /// The groups of a block: spacing² in each half of 8 rows.
