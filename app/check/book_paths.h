@@ -24,9 +24,9 @@ enum class TimeRule { kept, lost_by_matt, lost };
 struct BookRules {
   DiffuseRule diffuse = DiffuseRule::cosine;  ///< filled_sphere: as edition 1; hemisphere: uniform, with weight 1
   FuzzRule fuzz = FuzzRule::filled_sphere;    ///< sphere: as edition 4
-  GlassRule glass = GlassRule::right;         ///< enters_only: the index is used as if every ray came from outside
-  TimeRule time = TimeRule::kept;             ///< lost: scattered rays are at time 0
-  bool schlick = false;                       ///< instead of Fresnel's equations
+  GlassRule glass = GlassRule::right;  ///< enters_only: the refractive index is used as if every ray came from outside
+  TimeRule time = TimeRule::kept;      ///< lost: scattered rays are at time 0
+  bool schlick = false;                ///< instead of Fresnel's equations
   bool long_mirror = false;   ///< fuzz is added to a mirror direction that is as long as the ray's direction was
   bool short_frame = false;   ///< pixels are divided by width - 1 and height - 1, as in editions 2 and 3
   bool meets_itself = false;  ///< half of the rays that leave a surface meet it at once (no lower bound for t)

@@ -4,6 +4,7 @@
 #include "app/check/arrangement.h"
 #include "app/comparison/pair.h"
 #include "app/files/open_scene.h"
+#include "core/base/error.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
@@ -61,6 +62,16 @@ bool names_scene(const std::string& name) {
   return image_kind(read_bytes(file, kind_size)) == ImageKind::unknown;
 }
 
+void check_names_picture(const std::string& name) {
+  const fs::path file = picture_name(name).file;
+  std::error_code error;
+  const bool folder = fs::is_directory(file, error);
+  if (!folder && (fs::exists(file, error) || is_picture_name(file))) return;
+  throw UsageError((name.empty() ? "REFERENCE" : printable(name)) + ": found " +
+                   (folder ? "a folder" : "no such file") +
+                   ", expected a picture, or a scene: its file, its name (\"tyndall scenes\" lists them) or a MAIN.cc");
+}
+
 Check check_picture(const CheckRequest& request) {
   auto begin = std::chrono::steady_clock::now();
   const double limit = request.options.seconds;
@@ -77,7 +88,7 @@ Check check_picture(const CheckRequest& request) {
   Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
   Scene& scene = arrangement.loaded.scene;
   scene.width = picture.image.width, scene.height = picture.image.height;
-  Reference reference = render_reference(scene, picture.image, part_for_reference * limit, go_on);
+  Reference reference = render_reference(scene, picture.image, {part_for_reference * limit}, go_on);
   stage = "looking for what explains the difference";
   Check check;
   check.verdict = explain(numbers, scene, reference, request.options, go_on);

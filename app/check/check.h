@@ -13,6 +13,10 @@ namespace tyndall {
 /// file that is no picture. PNG and EXR are pictures, also those that carry a scene.
 bool names_scene(const std::string& name);
 
+/// Throws UsageError for a name that is not a scene's and cannot be a picture's: of nothing, or of a folder. A file
+/// that is called like a picture and is not there is left to those who read it.
+void check_names_picture(const std::string& name);
+
 struct CheckRequest {
   std::filesystem::path image;
   PpmCurve ppm = PpmCurve::srgb;  ///< how the numbers of a PPM are read for `comparison`

@@ -66,7 +66,9 @@ class Search {
  public:
   Search(const PictureNumbers& picture, const Scene& scene, const Reference& reference, const CheckOptions& options,
          const std::function<bool()>& go_on)
-      : picture_(picture), expectation_(picture, scene, reference, options, go_on) {}
+      : picture_(picture), expectation_(picture, scene, reference, options, go_on) {
+    findings_.seconds = options.seconds;
+  }
 
   Findings run() {
     expectation_.find_samples(best_reading(expectation_.start_model(), false));
@@ -232,23 +234,31 @@ class Search {
     BookModel model = expectation_.start_model(depth);
     for (std::size_t at = 0; at < model.mean.size(); ++at)  // added to what the program's choices change
       model.mean[at] += right.model.mean[at] - start.mean[at];
-    judge(right, model, "depth-" + std::to_string(depth),
-          "paths end too early, after " + std::to_string(depth) + (depth == 1 ? " scattering" : " scatterings"));
+    if (depth == 0)
+      judge(right, model, "attenuation-lost",
+            "what is hit sends on no light: attenuation is passed by value, or paths end at the first hit");
+    else
+      judge(right, model, "depth-" + std::to_string(depth),
+            "paths end too early, after " + std::to_string(depth) + (depth == 1 ? " scattering" : " scatterings"));
   }
 
   void try_mistake(const Fit& right, const Difference& mistake) {
     BookProgram program = right.program;
     if (!mistake.apply(program)) return;
     const BookModel* model = expectation_.model_of(program, true);
-    findings_.out_of_time = findings_.out_of_time || !model;
-    if (model) judge(right, *model, mistake.name, mistake.words);
+    if (model)
+      judge(right, *model, mistake.name, mistake.words);
+    else
+      ++findings_.untried;
   }
 
+  /// Names the best of all, never the best of those for which there was time.
   void name_mistake() {
     auto& tried = findings_.tried;
     std::stable_sort(tried.begin(), tried.end(),
                      [](const Explanation& a, const Explanation& b) { return a.explained > b.explained; });
-    if (!tried.empty() && tried.front().explained >= min_explained) findings_.mistake = tried.front();
+    if (findings_.untried == 0 && !tried.empty() && tried.front().explained >= min_explained)
+      findings_.mistake = tried.front();
   }
 
   const PictureNumbers& picture_;

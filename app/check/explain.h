@@ -20,15 +20,16 @@ struct Findings {
   /// It cannot be told whether they agree: programs of the books find the scene's light too seldom.
   bool unknown = false;
   std::vector<Explanation> choices;  ///< by which the program does things otherwise, none of which is a mistake
-  /// The mistake that explains the difference; nothing: none does, or the picture agrees.
+  /// The mistake that explains the difference; nothing: none does, not all were tried, or the picture agrees.
   std::optional<Explanation> mistake;
   std::vector<Explanation> tried;  ///< all mistakes that were tried, the best first
+  int untried = 0;                 ///< mistakes for which there was no time
+  double seconds = 0;              ///< that there were: CheckOptions::seconds
   TransferCurve curve = TransferCurve::light;
   double samples = 0;  ///< a pixel, as the noise tells; 0: it does not tell
   int blocks = 0, different = 0, block_edge = 0;
   SeenObjects seen;
   std::vector<ObjectDifference> objects;  ///< those that differ, before the mistake is taken into account
-  bool out_of_time = false;               ///< something was not tried
 };
 
 /// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; go_on: asked now and then;

@@ -10,12 +10,12 @@
 namespace tyndall {
 namespace {
 
-constexpr std::uint32_t first_spp = 16, max_spp = 8192;
+constexpr std::uint32_t first_spp = 16;
 constexpr double part_of_difference = 0.05, min_error = 0.002;
 
 }  // namespace
 
-Reference render_reference(Scene scene, const LinearImage& picture, double seconds,
+Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
                            const std::function<bool()>& go_on) {
   scene.render.sharing = false, scene.render.adaptive = false, scene.render.sampler = SamplerKind::sobol;
   scene.render.integrator = Integrator::mis;
@@ -26,8 +26,8 @@ Reference render_reference(Scene scene, const LinearImage& picture, double secon
   options.spp = first_spp;
   RenderResult rendered = render(*prepared, options);
   const double difference = std::sqrt(relative_mse(picture.rgb, resolve(rendered.film)));
-  options.spp = max_spp;
-  options.time_limit = std::max(0.0, seconds - rendered.seconds);
+  options.spp = limits.spp;
+  options.time_limit = std::max(0.0, limits.seconds - rendered.seconds);
   options.target_error = std::isfinite(difference) ? std::max(min_error, part_of_difference * difference) : min_error;
   if (!rendered.interrupted) rendered = render(*prepared, options, progress, std::move(rendered.film));
   const Film& film = rendered.film;

@@ -15,9 +15,16 @@ struct Reference {
   std::uint32_t spp = 0;
 };
 
+/// What is spent on a reference at most, but for its first samples.
+struct ReferenceLimits {
+  double seconds = 0;
+  std::uint32_t spp = 8192;
+};
+
 /// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
-/// the time is up. seconds: to spend at most, but for the first samples; go_on: asked now and then; false ends it.
-/// Pixels share no paths, so that their errors are independent.
-Reference render_reference(Scene scene, const LinearImage& picture, double seconds, const std::function<bool()>& go_on);
+/// a limit is reached. go_on: asked now and then; false ends it. Pixels share no paths, so that their errors are
+/// independent.
+Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
+                           const std::function<bool()>& go_on);
 
 }  // namespace tyndall

@@ -59,9 +59,13 @@ std::string mistake_text(const Findings& v) {
   if (v.mistake)
     return fmt::format("mistake  likely: {} (that explains {} % of the difference)\n", v.mistake->words,
                        percent(v.mistake->explained));
-  std::string text = fmt::format("mistake  none of the usual ones explains it; {} were tried", v.tried.size());
+  std::string text =
+      v.untried > 0 ? "mistake  none is named, as the time was up" : "mistake  none of the usual ones explains it";
+  text += fmt::format("; {} were tried", v.tried.size());
   if (!v.tried.empty() && v.tried.front().explained > 0.3)
     text += fmt::format(", the closest explains {} %: {}", percent(v.tried.front().explained), v.tried.front().words);
+  if (v.untried > 0)
+    text += fmt::format("\nmistake  {} more are tried with more time: --time {:g}", v.untried, 2 * v.seconds);
   return text + "\n";
 }
 
@@ -89,7 +93,6 @@ std::string verdict_text(const Findings& v) {
   const std::string kind = common_kind(v);
   if (!kind.empty()) text += fmt::format("object   only {} differ{}\n", kind, kind.back() == 's' ? "" : "s");
   text += mistake_text(v);
-  if (v.out_of_time) text += "mistake  not all were tried before the time was up (--time)\n";
   return text;
 }
 
@@ -113,7 +116,7 @@ nlohmann::ordered_json verdict_json(const Findings& v) {
                                {"mean_image", channels(d.image)},
                                {"mean_reference", channels(d.expected)}});
   json["tried"] = json_of(v.tried);
-  json["out_of_time"] = v.out_of_time;
+  json["out_of_time"] = v.untried > 0;
   return json;
 }
 

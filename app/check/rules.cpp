@@ -94,7 +94,7 @@ bool flip_radii(BookProgram& program) {
   return flipped;
 }
 
-bool invert_indices(BookProgram& program) {
+bool invert_refractive_indices(BookProgram& program) {
   return change_materials<Dielectric<>>(program.scene, [](Dielectric<>& glass, Material&) {
     glass.refractive_index = 1 / glass.refractive_index;
     return glass.refractive_index != 1;
@@ -198,11 +198,11 @@ std::vector<Difference> usual_mistakes() {
        rule(&BookRules::glass, GlassRule::reflects_all, has_material<Dielectric<>>)},
       {"no-schlick", "glass reflects nothing that it can refract: there is no Schlick term",
        rule(&BookRules::glass, GlassRule::reflects_none, has_material<Dielectric<>>)},
-      {"inverted-index", "the ratio of the indices of refraction is upside down", invert_indices},
+      {"inverted-index", "the ratio of the refractive indices is upside down", invert_refractive_indices},
       {"one-sided-index", "rays that leave glass are refracted by the ratio of those that enter it",
        rule(&BookRules::glass, GlassRule::enters_only, has_material<Dielectric<>>)},
       {"positive-radius", "the inner ball of hollow glass has lost the minus of its radius", flip_radii},
-      {"bubble-index", "the air in hollow glass has the index of glass", invert_bubbles},
+      {"bubble-index", "the air in hollow glass has the refractive index of glass", invert_bubbles},
       {"long-mirror", "the mirror direction is not made a unit vector before fuzz is added",
        rule(&BookRules::long_mirror, true, has_fuzz)},
       {"no-fuzz", "metal has no fuzz", remove_fuzz},
@@ -218,9 +218,10 @@ std::vector<Difference> usual_mistakes() {
       {"wide-lens", "the lens is twice as wide: its diameter is taken for the radius", widen_lens},
       {"shadow-acne", "rays meet the surface that they leave: t has no lower bound such as 0.001",
        rule(&BookRules::meets_itself, true, always)},
-      {"matt-black", "the colour of matt surfaces is lost: they are black", blacken<Lambertian<>>},
-      {"metal-black", "the colour of metal is lost: it is black", blacken<Metal<>>},
-      {"glass-black", "glass sends on nothing: it is black",
+      {"matt-black", "matt surfaces are black: their attenuation is lost, as where it is passed by value",
+       blacken<Lambertian<>>},
+      {"metal-black", "metal is black: its attenuation is lost, as where it is passed by value", blacken<Metal<>>},
+      {"glass-black", "glass is black: its attenuation is lost, as where it is passed by value",
        rule(&BookRules::glass, GlassRule::black, has_material<Dielectric<>>)},
       {"checker-scale", "checkers are as large as their inverse scale", invert_checkers},
       {"cross-x", "the first component of cross() has a wrong sign", mistyped_camera(0)},

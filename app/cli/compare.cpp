@@ -30,6 +30,7 @@ std::optional<Check> check_against_scene(const CompareCommand& command) {
   if (!names_scene(command.reference.string())) {
     const bool of_scene = command.seconds || !command.scene.overrides.empty() ||
                           !command.scene.program.include_folders.empty() || !command.scene.program.more_files.empty();
+    check_names_picture(command.reference.string());
     if (of_scene) throw UsageError("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};
   }

@@ -46,6 +46,13 @@ expect 2 "$tyndall" compare right.ppm metal-spheres other.ppm
 complains 'unexpected argument' 'other.ppm'
 expect 2 "$tyndall" compare right.ppm missing.json
 complains 'missing.json'
+# A name of neither a picture nor a scene.
+mkdir folder
+for name in metal-sphere notes.txt folder ''; do
+  expect 2 "$tyndall" compare right.ppm "$name"
+  complains "${name:-REFERENCE}: found" 'expected a picture, or a scene'
+done
+expect 3 "$tyndall" compare right.ppm missing.png
 # What P3 says outside of its range is told.
 { printf 'P3\n64 36\n255\n'; for _ in $(seq 2303); do printf '128 160 255 '; done; printf '%s\n' '-2147483648 0 300'; } >range.ppm
 expect 0 "$tyndall" compare range.ppm metal-spheres --time 1

@@ -8,7 +8,7 @@ namespace tyndall::test::explain_slow_test {
 
 namespace {
 
-constexpr double seconds = 3;
+constexpr std::uint32_t spp = 512;  // of references
 
 Scene scene_of(const std::string& name) {
   const Scene scene = load_scene(name).scene;
@@ -59,7 +59,7 @@ TEST_CASE("check: thirty right pictures are not accused") {
   int count = 0;
   for (const Row& row : rows) {
     const BookProgramPlan plan{row.spp, row.edition, row.srgb, Plant::none, static_cast<std::uint64_t>(++count)};
-    const Findings verdict = verdict_of(scene_of(row.scene), plan, seconds);
+    const Findings verdict = verdict_of(scene_of(row.scene), plan, spp);
     CAPTURE(row.scene);
     CAPTURE(row.spp);
     CAPTURE(row.edition);
@@ -99,7 +99,7 @@ TEST_CASE("check: of the planted mistakes all but two at most are named, and non
   int named = 0, count = 0;
   for (const Row& row : rows) {
     const BookProgramPlan plan{60, 4, false, row.plant, static_cast<std::uint64_t>(++count)};
-    const Findings verdict = verdict_of(scene_of(row.scene), plan, seconds);
+    const Findings verdict = verdict_of(scene_of(row.scene), plan, spp);
     const std::string name = name_of(verdict);
     MESSAGE(row.name << " in " << row.scene << ": " << name << "\n" << verdict_text(verdict));
     const bool right = name.starts_with(row.name);  // "time-lost" may be found as "time-lost-matt"

@@ -9,11 +9,11 @@ namespace tyndall::test::explain_test {
 
 namespace {
 
-constexpr double seconds = 0.5;
+constexpr std::uint32_t spp = 512;  // of references
 
-BookProgramPlan planted(Plant plant, int spp = 40) {
+BookProgramPlan planted(Plant plant, int samples = 40) {
   BookProgramPlan plan;
-  plan.plant = plant, plan.spp = spp;
+  plan.plant = plant, plan.spp = samples;
   return plan;
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("check: right pictures of programs of all editions are never accused")
     BookProgramPlan plan;
     plan.edition = edition, plan.spp = edition == 3 ? 100 : 20, plan.srgb = edition == 3;
     CAPTURE(edition);
-    const Findings of_box = verdict_of(box, plan, seconds), of_balls = verdict_of(balls, plan, seconds);
+    const Findings of_box = verdict_of(box, plan, spp), of_balls = verdict_of(balls, plan, spp);
     CHECK(name_of(of_box) == "agrees");
     CHECK(name_of(of_balls) == "agrees");
     CHECK(of_box.samples > 0.6 * plan.spp);
@@ -41,7 +41,7 @@ TEST_CASE("check: right pictures of programs of all editions are never accused")
 
 TEST_CASE("check: what editions do otherwise is said, and is no mistake") {
   const Scene glass = scene_for_book("glass-spheres", 128, 72);
-  const Findings verdict = verdict_of(glass, planted(Plant::none, 100), seconds);
+  const Findings verdict = verdict_of(glass, planted(Plant::none, 100), spp);
   CHECK(name_of(verdict) == "agrees");
   CHECK(has_choice(verdict, "schlick"));
   CHECK(verdict.curve == TransferCurve::gamma2);
@@ -52,16 +52,41 @@ TEST_CASE("check: what editions do otherwise is said, and is no mistake") {
 
 TEST_CASE("check: planted mistakes are named") {
   const Scene glass = scene_for_book("glass-spheres", 96, 54), metal = scene_for_book("metal-spheres", 96, 54);
-  CHECK(name_of(verdict_of(metal, planted(Plant::no_gamma), seconds)) == "no-gamma");
-  CHECK(name_of(verdict_of(metal, planted(Plant::upside_down), seconds)) == "upside-down");
-  CHECK(name_of(verdict_of(metal, planted(Plant::hemisphere), seconds)) == "hemisphere");
-  CHECK(name_of(verdict_of(glass, planted(Plant::schlick_is_one), seconds)) == "schlick-always-1");
-  CHECK(name_of(verdict_of(glass, planted(Plant::sky_brackets), seconds)) == "sky-brackets");
+  CHECK(name_of(verdict_of(metal, planted(Plant::no_gamma), spp)) == "no-gamma");
+  CHECK(name_of(verdict_of(metal, planted(Plant::upside_down), spp)) == "upside-down");
+  CHECK(name_of(verdict_of(metal, planted(Plant::hemisphere), spp)) == "hemisphere");
+  CHECK(name_of(verdict_of(glass, planted(Plant::schlick_is_one), spp)) == "schlick-always-1");
+  CHECK(name_of(verdict_of(glass, planted(Plant::sky_brackets), spp)) == "sky-brackets");
+}
+
+TEST_CASE("check: attenuation passed by value is not taken for paths that are too short") {
+  const Scene box = scene_for_book("cornell-box", 64, 64);
+  const Findings verdict = verdict_of(box, planted(Plant::by_value), spp);
+  CHECK(name_of(verdict) == "attenuation-lost");
+  CHECK(verdict_text(verdict).find("attenuation is passed by value") != std::string::npos);
+}
+
+TEST_CASE("check: no mistake is named where there was no time to try them all, and what helps is told") {
+  const Scene scene = scene_for_book("metal-spheres", 96, 54);
+  const BookProgramPlan plan = planted(Plant::short_paths);
+  const PictureNumbers picture = numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan));
+  LinearImage light{picture.width, picture.height, picture.numbers};
+  for (float& value : light.rgb) value *= value;
+  const Reference reference = render_reference(scene, light, {0, 64}, [] { return true; });
+  const Findings verdict = explain(picture, scene, reference, {5, 0, 8}, [] { return false; });
+  CHECK_FALSE(verdict.agrees);
+  CHECK_FALSE(verdict.mistake);
+  CHECK(verdict.untried > 5);
+  CHECK_FALSE(verdict.tried.empty());  // depths need no time
+  CHECK(verdict_text(verdict).find("none is named, as the time was up") != std::string::npos);
+  CHECK(verdict_text(verdict).find("--time 10\n") != std::string::npos);
+  CHECK(verdict_json(verdict)["out_of_time"] == true);
+  CHECK(verdict_json(verdict)["explanation"].is_null());
 }
 
 TEST_CASE("check: a mistake that nobody knows is not given another's name, and the object is told") {
   const Scene scene = scene_for_book("metal-spheres", 96, 54);
-  const Findings verdict = verdict_of(scene, planted(Plant::own_sky), seconds);
+  const Findings verdict = verdict_of(scene, planted(Plant::own_sky), spp);
   CHECK(name_of(verdict) == "unexplained");
   bool sky = false;
   for (const ObjectDifference& d : verdict.objects)

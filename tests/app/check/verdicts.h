@@ -4,6 +4,7 @@
 #include "core/scene/load.h"
 #include "tests/support/book_tracer.h"
 
+#include <limits>
 #include <string>
 
 /// What the check says of pictures of a program that shares nothing with it.
@@ -22,17 +23,17 @@ inline Scene scene_for_book(const std::string& name, int width, int height) {
   return scene;
 }
 
-/// By a fixed number of samples, so that the answer does not depend on the speed of the machine. seconds: of the
-/// reference.
-inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, double seconds) {
+/// By a fixed number of samples, so that the answer does not depend on the speed of the machine. spp: of the reference.
+inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, std::uint32_t spp) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
   const auto always = [] { return true; };
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
-  const Reference reference = render_reference(scene, light, seconds, always);
-  return explain(picture, scene, reference, {seconds, 0, 24}, always);
+  const Reference reference = render_reference(scene, light, {endless, spp}, always);
+  return explain(picture, scene, reference, {endless, 0, 24}, always);
 }
-inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, double seconds) {
-  return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), seconds);
+inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, std::uint32_t spp) {
+  return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), spp);
 }
 
 /// "agrees", "unknown", "schlick-always-1", or "unexplained".
