@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 namespace tyndall {
@@ -49,7 +50,7 @@ std::string reader_place(const std::string& line, const ProgramLayout& layout) {
 std::string no_such_class(const std::string& name, const ProgramLayout& layout) {
   const auto own = layout.own_classes.find(name);
   if (own == layout.own_classes.end()) return "";
-  const char* ours = kind_of_base(own->second.base);
+  const char* ours = kind_of_book_class(own->second.base);
   if (!ours) return "";
   const std::string kind = std::string(ours) == "hittable" ? "shape" : ours;
   return name + ": Tyndall has no such " + kind + " (a class of your own in " + own->second.file + ")";
@@ -155,6 +156,19 @@ const char* kind_of_base(const std::string& base) {
   return key == "material" ? "material" : key == "texture" ? "texture" : nullptr;
 }
 
+const char* kind_of_book_class(const std::string& base) {
+  const auto is_one_of = [name = book_class(base)](std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (is_one_of({"sphere", "moving_sphere", "quad", "box", "xy_rect", "xz_rect", "yz_rect", "bvh_node", "translate",
+                 "rotate_y", "flip_face", "flip_normals", "constant_medium"}))
+    return "hittable";
+  if (is_one_of({"lambertian", "metal", "dielectric", "diffuse_light", "isotropic"})) return "material";
+  if (is_one_of({"solid_color", "constant_texture", "checker_texture", "image_texture", "noise_texture"}))
+    return "texture";
+  return kind_of_base(base);
+}
+
 std::string quoted_name(const std::string& message) {
   const std::size_t begin = message.find('\'');
   const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
@@ -192,10 +206,11 @@ namespace {
 /// Compiles, and again with what is missing of the reader's own, until nothing of that is. Returns the error that
 /// remains, or "".
 std::string compile_with_own_names(const ProgramTask& task, const ProgramLayout& layout,
-                                   const std::vector<std::string>& arguments) {
+                                   std::vector<std::string> arguments) {
   constexpr int max_rounds = 8;
   OwnNames own(layout);
   std::string remaining;
+  bool has_further = false;
   for (int round = 0; round < max_rounds; ++round) {
     for (const auto& [name, text] : layout.texts) write_text(task.folder / "code" / name, text);
     for (const auto& [name, text] : own.texts()) write_text(task.folder / "code" / name, text);
@@ -203,7 +218,13 @@ std::string compile_with_own_names(const ProgramTask& task, const ProgramLayout&
     if (end.succeeded()) return "";
     const std::string error = first_error(end.errors, layout);
     const bool is_missing_file = remaining.ends_with("No such file or directory");
-    if (round == 0 || (!is_missing_file && has_reader_place(end.errors, layout))) remaining = error;
+    const bool is_unlinked = !has_further && end.errors.find("undefined reference") != std::string::npos;
+    if (is_unlinked && !layout.further_files.empty()) {
+      arguments.insert(arguments.end(), layout.further_files.begin(), layout.further_files.end());
+      has_further = true;
+      continue;
+    }
+    if (remaining.empty() || (!is_missing_file && has_reader_place(end.errors, layout))) remaining = error;
     if (!own.mend(end.errors)) break;
   }
   return remaining;

@@ -33,6 +33,8 @@ std::string quoted_name(const std::string& message);
 
 /// The class of ours that a class derived from `base` is a kind of: hittable, material, texture; null: none.
 const char* kind_of_base(const std::string& base);
+/// Likewise, where `base` may also be one of the books' shapes, materials or textures.
+const char* kind_of_book_class(const std::string& base);
 
 /// The first error that the compiler tells of, in one line: "main.cc:3:7: ...", at the place in the reader's own files.
 /// A class of the reader's that ours have no place for is named instead.

@@ -94,6 +94,10 @@ class Scanner {
 
   std::vector<Definition> scan() {
     for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
+      if (text_[at_] == '{') {  // the body of a constructor that initialises by braces
+        skip_item();
+        continue;
+      }
       Definition item;
       item.line = line_;
       const std::size_t begin = at_;
@@ -134,7 +138,7 @@ class Scanner {
         skip_string();
         continue;
       }
-      if (c == '{' && depth == 0) ends_at_brace = begins_body(text_.substr(begin, at_ - begin));
+      if (c == '{' && depth == 0) ends_at_brace = at_ == begin || begins_body(text_.substr(begin, at_ - begin));
       if (c == '{' || c == '(') ++depth;
       if (c == '}' || c == ')') --depth;
       step();
@@ -165,5 +169,17 @@ class Scanner {
 }  // namespace
 
 std::vector<Definition> definitions_of(std::string_view text) { return Scanner(text).scan(); }
+
+std::vector<Definition> members_of(std::string_view text) {
+  const std::size_t begin = text.find('{'), end = text.rfind('}');
+  if (begin >= end || end == std::string_view::npos) return {};
+  std::string body(text.substr(begin + 1, end - begin - 1));
+  for (const std::string_view label : {"public", "private", "protected"})
+    for (std::size_t at = body.find(label); at != std::string::npos; at = body.find(label, at + 1)) {
+      const std::size_t colon = body.find_first_not_of(" \t", at + label.size());
+      if (colon != std::string::npos && body[colon] == ':') body.replace(at, colon + 1 - at, colon + 1 - at, ' ');
+    }
+  return definitions_of(body);
+}
 
 }  // namespace tyndall

@@ -21,4 +21,7 @@ constexpr const char* using_namespace = "using namespace";
 /// variables, macros, namespaces, names that `using` brings. Left out: operators, members defined outside of classes.
 std::vector<Definition> definitions_of(std::string_view text);
 
+/// The same of the members of a class, whose text begins with "class" or "struct".
+std::vector<Definition> members_of(std::string_view text);
+
 }  // namespace tyndall

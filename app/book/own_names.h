@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace tyndall {
 
@@ -21,13 +22,22 @@ class OwnNames {
 
  private:
   bool add(const std::string& name);
-  bool drop(const std::string& place);
+  bool add_member(const std::string& error);
+  bool add_text(const char* macro, const std::string& text);
+  bool is_pointer_to_material(const std::string& name) const;
+  std::string alias_of_camera(const std::string& name) const;
+  std::string function_of(const std::string& ours, const std::string& name) const;
+  bool drop(const std::string& error);
+  bool drop_body(const std::string& error);
   std::string header() const;
 
   const ProgramLayout& layout_;
   std::set<std::string> names_;
   std::map<std::string, std::string> aliases_;  ///< the reader's name for a class of the books
   std::set<std::string> dropped_;               ///< own headers of shapes and the like that ours cannot be mixed with
+  std::set<std::string> empty_classes_;         ///< own classes that are there by name alone, as their text is wrong
+  std::vector<std::string> notes_;              ///< that the program tells
+  std::map<std::string, std::string> members_;  ///< of our classes, by macro: see tyndall/book/parts/random.h
 };
 
 }  // namespace tyndall

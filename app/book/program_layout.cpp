@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -96,6 +97,19 @@ bool replaces_ours(const std::string& code) {
   return endless || degrees || code.find("double random_double") != std::string::npos;
 }
 
+/// Takes away `class Ray;`, where that is another name of ours, which such a line cannot announce.
+void blank_out_announced_classes(std::string& text) {
+  static const std::regex announced(R"(\b(?:class|struct)\s+(\w+)\s*;)");
+  std::string out = text;
+  for (std::sregex_iterator at(text.begin(), text.end(), announced), end; at != end; ++at)
+    if (const std::string name = (*at)[1]; is_book_class(name) && book_class(name) != name)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(at->length()); ++k) {
+        char& sign = out[static_cast<std::size_t>(at->position()) + k];
+        if (sign != '\n') sign = ' ';
+      }
+  text = std::move(out);
+}
+
 class Layouter {
  public:
   Layouter(const ProgramSources& sources, const fs::path& headers)
@@ -103,6 +117,10 @@ class Layouter {
 
   ProgramLayout lay_out() {
     for (const fs::path& file : sources_.files) layout_.compiled_files.push_back(add(file, file.string(), ".cpp"));
+    std::erase_if(layout_.further_files, [&](const std::string& file) {
+      return std::find(layout_.compiled_files.begin(), layout_.compiled_files.end(), file) !=
+             layout_.compiled_files.end();
+    });
     if (!uses_books_)
       throw UsageError(printable(sources_.files.front().string()) +
                        ": includes none of the books' headers (vec3.h, hittable.h, camera.h ...), so there is no scene "
@@ -112,8 +130,8 @@ class Layouter {
       if (name == "pi") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_PI");
       if (name == "infinity") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_INFINITY");
     }
-    layout_.texts[our_headers] = "#pragma once\n" + camera_constructor_ + "#include <rtweekend.h>\n#include \"" +
-                                 std::string(own_names) + "\"\n";
+    layout_.texts[our_headers] = "#pragma once\n" + camera_constructor_ + camera_defaults_ +
+                                 "#include <rtweekend.h>\n#include \"" + std::string(own_names) + "\"\n";
     layout_.texts[own_names] = "";
     return std::move(layout_);
   }
@@ -144,6 +162,7 @@ class Layouter {
     if (ending == std::string(".h")) layout_.own_headers[name] = {shown, definitions_of(code)};
     for (const auto& [own, base] : classes_of(code))
       if (!base.empty()) layout_.own_classes[own] = {base, shown};
+    blank_out_announced_classes(text);
     std::string out = "#line 1 \"" + escaped(shown) + "\"\n";
     std::size_t done = 0;
     for (const Include& include : includes_of(text)) {
@@ -165,10 +184,20 @@ class Layouter {
     const fs::path found = find(include, from, shown, found_as);
     const std::string key = key_of(include.name);
     if (is_ours(key) && (include.quoted || !found.empty())) return ours(found, found_as);
-    if (found.empty() || !include.quoted) return "";
+    if (found.empty() || (!include.quoted && is_in_given_folder(include.name))) return "";
     std::string text = without_comments(read_text(found));
     if (replaces_ours(text)) return ours(found, found_as);
-    return "\"" + add(found, found_as, ".h") + "\"";
+    const std::string name = add(found, found_as, ".h");
+    const fs::path source = source_of(found);
+    if (!source.empty() && copies_[identity(source)].empty())
+      layout_.further_files.push_back(add(source, beside(found_as, source), ".cpp"));
+    return "\"" + name + "\"";
+  }
+
+  bool is_in_given_folder(const std::string& name) const {
+    std::error_code error;
+    return std::any_of(sources_.include_folders.begin(), sources_.include_folders.end(),
+                       [&](const fs::path& folder) { return fs::is_regular_file(folder / name, error); });
   }
 
   std::string ours(const fs::path& replaced, const std::string& shown) {
@@ -188,6 +217,7 @@ class Layouter {
     for (const auto& [name, base] : classes)
       if (!is_book_class(name)) layout_.own_classes[name] = {base, shown};
     if (camera_constructor_.empty()) camera_constructor_ = camera_constructor(code);
+    if (camera_defaults_.empty()) camera_defaults_ = camera_defaults(code);
     if (has_name(code, "ray_color") && (classes.contains("camera") || classes.contains("Camera"))) {
       const auto sky = sky_of(code);
       layout_.sky = sky.value_or("");
@@ -196,24 +226,33 @@ class Layouter {
     for (const Include& include : includes_of(text)) {
       std::string found_as;
       const fs::path found = find(include, file, shown, found_as);
-      if (!found.empty() && include.quoted) see(found, found_as);
+      if (!found.empty()) see(found, found_as);
     }
     std::vector<Definition> definitions = definitions_of(code);
+    std::vector<Definition> of_books;
+    for (const Definition& one : definitions)
+      if (is_of_the_books(one)) of_books.push_back(one);
     std::erase_if(definitions, [](const Definition& one) { return is_of_the_books(one); });
-    layout_.replaced.push_back({shown, std::move(definitions)});
-    see_source_of(file, shown);
+    layout_.replaced.push_back({shown, std::move(definitions), std::move(of_books)});
+    const fs::path source = source_of(file);
+    if (!source.empty()) see(source, beside(shown, source));
   }
 
-  /// The source file that belongs to a header: where that has prototypes, it has the functions.
-  void see_source_of(const fs::path& header, const std::string& shown) {
-    if (header.extension() == ".cc" || header.extension() == ".cpp" || header.extension() == ".cxx") return;
+  /// The source file that belongs to a header: where that has prototypes, it has the functions. Empty: there is none.
+  fs::path source_of(const fs::path& header) const {
+    if (header.extension() == ".cc" || header.extension() == ".cpp" || header.extension() == ".cxx") return {};
     std::error_code error;
     const fs::path own = header.parent_path(), main = sources_.files.front().parent_path();
     for (const fs::path& folder : {own, own / ".." / "src", main})
       for (const char* ending : {".cc", ".cpp", ".cxx"}) {
         const fs::path file = (folder / header.stem()).replace_extension(ending).lexically_normal();
-        if (fs::is_regular_file(file, error)) return see(file, fs::path(shown).replace_extension(ending).string());
+        if (fs::is_regular_file(file, error)) return file;
       }
+    return {};
+  }
+  /// What messages call a source file that belongs to a header.
+  static std::string beside(const std::string& shown, const fs::path& source) {
+    return fs::path(shown).replace_extension(source.extension()).string();
   }
 
   bool is_ours(const std::string& key) const {
@@ -230,13 +269,15 @@ class Layouter {
     const fs::path own = from.parent_path();
     if (include.quoted) folders.push_back(own);
     folders.insert(folders.end(), sources_.include_folders.begin(), sources_.include_folders.end());
-    if (include.quoted) folders.insert(folders.end(), {own / "include", own / ".." / "include", own / ".."});
+    const bool may_be_own = include.quoted || fs::path(include.name).has_extension();
+    if (may_be_own) folders.insert(folders.end(), {own / "include", own / ".." / "include"});
+    if (include.quoted) folders.push_back(own / "..");
     std::error_code error;
     for (const fs::path& folder : folders) {
       fs::path file = (folder / include.name).lexically_normal();
       if (!fs::is_regular_file(file, error)) continue;
-      const fs::path beside = (fs::path(shown).parent_path() / file.lexically_relative(own)).lexically_normal();
-      found_as = (folder == own ? beside : file).string();
+      const fs::path relative = (fs::path(shown).parent_path() / file.lexically_relative(own)).lexically_normal();
+      found_as = (folder == own ? relative : file).string();
       return file;
     }
     // Not for the books' headers: one that lies elsewhere may be another program's, and would tell of another sky.
@@ -276,7 +317,7 @@ class Layouter {
   std::map<fs::path, std::string> copies_;
   std::set<fs::path> seen_;
   std::set<std::string> constants_;
-  std::string camera_constructor_;
+  std::string camera_constructor_, camera_defaults_;
   std::string all_text_, random_text_;  ///< of all files, and of replaced headers that draw random numbers
 };
 
@@ -292,6 +333,10 @@ std::string book_class(const std::string& name) {
   const std::string key = key_of(name);
   for (const std::string_view one : book_classes)
     if (key_of(one) == key) return std::string(one);
+  for (const std::string_view other : {"vector3", "vec3d", "vec3f", "vector3d", "vector3f"})
+    if (key == other) return "vec3";
+  if (key == "point") return "point3";
+  if (key == "colour" || key == "rgb") return "color";
   return "";
 }
 

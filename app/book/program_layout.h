@@ -31,6 +31,7 @@ struct OwnClass {
 struct OwnHeader {
   std::string shown;  ///< what messages call it
   std::vector<Definition> definitions;
+  std::vector<Definition> book_classes{};  ///< in whose place ours stand
 };
 
 /// A program as it is compiled: its files with other includes. Those of the books' headers lead to ours, those of the
@@ -39,6 +40,7 @@ struct OwnHeader {
 struct ProgramLayout {
   std::map<std::string, std::string> texts;      ///< by the file's name in the folder where it is compiled
   std::vector<std::string> compiled_files;       ///< those of the texts that are compiled
+  std::vector<std::string> further_files;        ///< source files beside own headers, if something is missing
   std::vector<std::string> shown_names;          ///< what messages call the files
   std::vector<std::filesystem::path> files;      ///< all of the reader's that were read
   std::map<std::string, OwnClass> own_classes;   ///< by name

@@ -23,6 +23,7 @@ std::optional<std::string> colour_json(const std::string& list) {
   for (std::size_t at = 0; at <= list.size(); ++count) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     std::string name = list.substr(at, end - at);
+    std::erase_if(name, [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
     if (!name.empty() && name.back() == 'f') name.pop_back();
     double value = 0;
     if (!number_from_text(name, value) || !(value >= 0)) return {};
@@ -30,6 +31,45 @@ std::optional<std::string> colour_json(const std::string& list) {
     at = end + 1;
   }
   return count == 3 ? std::optional("[" + json + "]") : std::nullopt;
+}
+
+/// The text with its constants `color white = color(1, 1, 1);` written out where they are used.
+std::string with_colours_written_out(std::string text) {
+  static const std::regex constant(
+      R"((?:color|vec3|Color|Vec3|auto)\s+(\w+)\s*(?:=\s*(?:color|vec3|Color|Vec3)\s*)?[({]([^(){}]*)[)}]\s*;)");
+  std::map<std::string, std::string> values;
+  for (std::sregex_iterator at(text.begin(), text.end(), constant), end; at != end; ++at)
+    if (colour_json((*at)[2].str())) values[(*at)[1].str()] = "color(" + (*at)[2].str() + ")";
+  for (const auto& [name, value] : values) text = std::regex_replace(text, std::regex("\\b" + name + "\\b"), value);
+  return text;
+}
+
+/// Whether the text computes the weight as the books do, 0.5 * (y + 1), if it does so under that name.
+bool is_usual_weight(const std::string& dense, const std::string& name) {
+  if (!std::regex_search(dense, std::regex("(?:double|auto|float|const)" + name + "="))) return true;
+  static const std::string sum = R"(\((?:\w|\(|\)|\.|->|::)*(?:y\(\)|y|\[1\])\+1(?:\.0*)?f?\))";
+  const std::regex usual("(?:double|auto|float|const)" + name + "=(?:0?\\.50?f?\\*" + sum + "|" + sum +
+                         "(?:\\*0?\\.50?f?|/2(?:\\.0*)?f?));");
+  return std::regex_search(dense, usual);
+}
+
+/// The gradient that the text blends from bottom to top, as JSON; nothing: it does not, or in another way.
+std::optional<std::string> gradient_of(const std::string& text) {
+  std::string dense;
+  for (const char c : with_colours_written_out(text))
+    if (std::isspace(static_cast<unsigned char>(c)) == 0) dense += c;
+  static const std::string colour = R"((?:color|vec3|Color|Vec3)\(([^()]*)\))";
+  static const std::regex sum(R"(\(1(?:\.0*)?f?-(\w+)\)\*)" + colour + R"(\+\1\*)" + colour);
+  static const std::regex call(R"((?:lerp|mix)\()" + colour + "," + colour + R"(,(\w+)\))");
+  std::smatch found;
+  std::string weight, at_bottom, at_top;
+  if (std::regex_search(dense, found, sum))
+    weight = found[1], at_bottom = found[2], at_top = found[3];
+  else if (std::regex_search(dense, found, call))
+    weight = found[3], at_bottom = found[1], at_top = found[2];
+  const auto bottom = colour_json(at_bottom), top = colour_json(at_top);
+  if (!bottom || !top || !is_usual_weight(dense, weight)) return {};
+  return R"({"type":"gradient","bottom":)" + *bottom + R"(,"top":)" + *top + "}";
 }
 
 }  // namespace
@@ -178,17 +218,11 @@ std::vector<std::string> random_options(const std::string& text) {
 }
 
 std::optional<std::string> sky_of(const std::string& text) {
-  if (has_name(text, "background")) return "[0,0,0]";  // a member, which is black until main() sets it
-  std::string dense;
-  for (const char c : text)
-    if (std::isspace(static_cast<unsigned char>(c)) == 0) dense += c;
-  static const std::regex blend(
-      R"(\(1(?:\.0*)?f?-(\w+)\)\*(?:color|vec3|Color|Vec3)\(([^()]*)\)\+\1\*(?:color|vec3|Color|Vec3)\(([^()]*)\))");
-  std::smatch found;
-  if (!std::regex_search(dense, found, blend)) return {};
-  const auto bottom = colour_json(found[2].str()), top = colour_json(found[3].str());
-  if (!bottom || !top) return {};
-  return R"({"type":"gradient","bottom":)" + *bottom + R"(,"top":)" + *top + "}";
+  static const std::regex member(R"((?:color|vec3|Color|Vec3|colour)\s+background(?:_color|Color)?\s*[;={])");
+  const bool is_member = std::regex_search(text, member);
+  const auto gradient = gradient_of(text);
+  if (is_member && gradient) return {};     // either may be what rays see
+  return is_member ? "[0,0,0]" : gradient;  // a member is black until main() sets it
 }
 
 }  // namespace tyndall

@@ -42,6 +42,46 @@ int main() { hittable_list w; w.add(make_shared<sphere>(vec3(0, 0, -1), radius_o
 expect 0 "$tyndall" convert own/src/far.cc -o far.json
 grep -qF '"radius": 0.75' far.json || fail "$(cat far.json)"
 
+# Functions of vectors and lists, a shape derived from one of the books' that ours cannot be mixed with, announced
+# classes, the source file beside a header, headers in angles.
+mkdir -p mine/src mine/include
+cat >mine/include/vec3.h <<'END'
+class vec3 { public: vec3() : e{0, 0, 0} {} vec3(double all);
+  double norm1() const { return fabs(e[0]) + fabs(e[1]) + fabs(e[2]); } double e[3]; };
+END
+echo 'class hittable_list { public: int count() const { return (int)objects.size(); } std::vector<shared_ptr<hittable>> objects; };' >mine/include/hittable_list.h
+echo 'class tile : public quad { public: tile(double a) : quad(a, a, a, nullptr) { missing(); } };' >mine/include/quad.h
+echo '#include "vec3.h"
+class Ray; double third(); double third_of(const vec3& v);' >mine/include/thirds.h
+echo '#include "thirds.h"
+#include "vec3.h"
+double third_of(const vec3& v) { return v.norm1() / 3; }' >mine/src/thirds.cc
+program mine/src/main <<'END'
+#include "thirds.h"
+#include <vec3.h>
+#include <hittable_list.h>
+#include <quad.h>
+void tiles() { hittable_list w; w.add(make_shared<tile>(1)); }
+int main() { hittable_list w; w.add(make_shared<sphere>(vec3(0, 0, -1), third_of(vec3(1, -2, 3)), make_shared<metal>(color(.25), 0)));
+  camera c; c.image_width = 7 + w.count(); c.render(w); }
+END
+expect 0 "$tyndall" convert mine/src/main.cc -o mine.json
+same 'width, radius, colour' "$(json mine.json image) $(grep -c '"radius": 2' mine.json) $(grep -c '0.25, 0.25, 0.25' mine.json)" '{"width": 8, "height": 8} 1 1'
+sed 's/int main() {/& tiles();/; s/void tiles() { hittable_list w;/hittable_list w; void tiles() {/; s/c.render(w)/c.render(::w)/' mine/src/main.cc >mine/src/tiled.cc
+expect 2 "$tyndall" convert mine/src/tiled.cc -o tiled.json
+complains 'mine/src/tiled.cc: tile: Tyndall has no such shape'
+
+# A camera's own values, names and members without effect.
+mkdir camera
+cat >camera/camera.h <<'END'
+class camera { public: double aspect_ratio = 2.0; int image_width = 30; int sample_per_pix = 4; double vfov{40}; bool use_threads = true; int zoom; };
+END
+program camera/main <<<"$ball int main() { camera c; c.sample_per_pix = 9; c.use_threads = false; c.render(ball()); }"
+expect 0 "$tyndall" convert camera/main.cc -o camera.json
+same 'size and angle' "$(json camera.json image) $(json camera.json camera)" '{"width": 30, "height": 15} {"vfov": 40, "focus_distance": 10, "shutter": [0, 1]}'
+complains "the camera's sample_per_pix is taken for samples_per_pixel"
+refused camera/zoomed "has no member named 'zoom'" <<<"$ball int main() { camera c; c.zoom = 2; c.render(ball()); }"
+
 # A camera whose constructor takes what the fourth edition's members hold.
 mkdir made
 cat >made/camera.h <<'END'

@@ -39,6 +39,15 @@ TEST_CASE("definitions: operators and members of classes have no name of their o
   CHECK(names_in("") == "");
 }
 
+TEST_CASE("members: those of a class, by their names") {
+  const auto found = members_of(
+      "class vec3 { public: vec3() : e{0, 0} {} double norm() const { return 0; }\n private :\n double e[3]; };");
+  std::string names;
+  for (const Definition& one : found) names += one.name + " ";
+  CHECK(names.find("norm e ") != std::string::npos);
+  CHECK(members_of("class vec3;").empty());
+}
+
 TEST_CASE("definitions: text, line and base") {
   const auto found = definitions_of("\n\ndouble f() { return '}'; }\nclass cube : public hittable_list { int a; };\n");
   REQUIRE(found.size() == 2);

@@ -11,6 +11,7 @@ ProgramLayout layout() {
   of.shown_names = {"src/main.cc", "src/triangle.h"};
   of.own_classes["frosted"] = {"material", "src/material.h"};
   of.own_classes["triangle"] = {"hittable", "src/triangle.h"};
+  of.own_classes["tile"] = {"quad", "src/quad.h"};
   of.own_classes["helper"] = {"", "src/material.h"};
   return of;
 }
@@ -41,6 +42,8 @@ TEST_CASE("an error inside of a template is told at the reader's line that neede
 TEST_CASE("classes of the reader's own are named, those that are none of the scene's are not") {
   CHECK(first_error("src/main.cc:4:9: error: 'frosted' was not declared in this scope\n", layout()) ==
         "src/main.cc:4:9: frosted: Tyndall has no such material (a class of your own in src/material.h)");
+  CHECK(first_error("src/main.cc:4:9: error: 'tile' was not declared in this scope\n", layout()) ==
+        "src/main.cc:4:9: tile: Tyndall has no such shape (a class of your own in src/quad.h)");
   CHECK(first_error("src/main.cc:4:9: error: unknown type name 'helper'\n", layout()) ==
         "src/main.cc:4:9: unknown type name 'helper'");
   CHECK(first_error("src/triangle.h:8:9: error: 'edge' was not declared in this scope\n", layout()) ==

@@ -76,6 +76,18 @@ TEST_CASE("sky: the blend of two colours, black where the camera has a backgroun
   CHECK_FALSE(sky_of("(1.0 - t) * color(a, b, c) + t * color(1, 1, 1)"));
   CHECK_FALSE(sky_of("(1.0 - t) * color(1, 1, 1) + u * color(1, 1, 1)"));
   CHECK_FALSE(sky_of(""));
+  const std::string books = R"({"type":"gradient","bottom":[1,1,1],"top":[0.5,0.7,1]})",
+                    weight = "auto a = 0.5 * (d.y() + 1.0); ";
+  CHECK(sky_of("color white = color(1, 1, 1); const vec3 blue(0.5, 0.7, 1.0);" + weight +
+               "(1 - a) * white + a * blue") == books);
+  CHECK(sky_of(weight + "return lerp(color(1, 1, 1), color(0.5, 0.7, 1), a);") == books);
+}
+
+TEST_CASE("sky: what may be one or the other is unknown") {
+  const std::string blend = "(1 - a) * color(1, 1, 1) + a * color(0, 0, 1)";
+  CHECK_FALSE(sky_of("double a = 0.5 * d.y() + 1.0; return " + blend));
+  CHECK_FALSE(sky_of("color background; return lit ? background : " + blend));
+  CHECK_FALSE(sky_of("color background(const ray& r);"));
 }
 
 TEST_CASE("strings of one line") { CHECK(strings_of("f(\"a.png\"); \"open\n \"b\"") == Words{"a.png", "b"}); }

@@ -15,6 +15,16 @@ struct given_color : color {
   }
 };
 
+/// A member that may be set, and called, to no effect.
+struct ignored {
+  template <class T>
+  ignored& operator=(const T&) {
+    return *this;
+  }
+  template <class... T>
+  void operator()(const T&...) const {}
+};
+
 /// What cameras are copied by. Angles in degrees, lengths in scene units.
 struct camera_values {
   double aspect_ratio = 1;
@@ -74,13 +84,14 @@ struct camera : tyndall_book::camera_values {
   vec3 &vUp = vup, &view_up = vup, &viewUp = vup;
   tyndall_book::given_color &backgroundColor = background, &background_color = background;
 
-  camera() = default;
-  camera(const camera& other) : camera_values(other) {}
+  TYNDALL_BOOK_CAMERA_MEMBERS
+
+  camera(){TYNDALL_BOOK_CAMERA_DEFAULTS} camera(const camera& other) : camera_values(other) {}
   camera& operator=(const camera& other) {
     camera_values::operator=(other);
     return *this;
   }
-  explicit camera(const std::string&) {}  // a reader's, with the name of the picture's file
+  explicit camera(const std::string&) : camera() {}  // a reader's, with the name of the picture's file
 
 #ifdef TYNDALL_BOOK_CAMERA_PARAMETERS  // a constructor of the reader's own: `tyndall main.cc` looks it up
   camera(TYNDALL_BOOK_CAMERA_PARAMETERS) { TYNDALL_BOOK_CAMERA_BODY }

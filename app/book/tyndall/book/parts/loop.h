@@ -105,6 +105,7 @@ struct probe_material : material {
     return scatters;
   }
   double scattering_pdf(const ray&, const hit_record&, const ray&) const override { return 1; }
+  color emitted() const override { return grey(LoopProbe::get().emission(false)); }
   color emitted(double, double, const point3&) const override { return grey(LoopProbe::get().emission(false)); }
   color emitted(const ray&, const hit_record&, double, double, const point3&) const override {
     return grey(LoopProbe::get().emission(true));
@@ -119,7 +120,7 @@ struct probe_material : material {
 };
 
 inline bool LoopProbe::take_hit(const hittable& world, hit_record& record) {
-  constexpr long limit = 100000;
+  constexpr long limit = 5000;  // of calls within each other: the stack has room for as many
   check_progress();
   if (!world_) world_ = &world;
   if (world_ != &world) refuse("ray_color() in main() asks several objects for hits: Tyndall takes over one world");
@@ -132,6 +133,7 @@ inline bool LoopProbe::take_hit(const hittable& world, hit_record& record) {
   record.t = 1;
   record.mat = record.mat_ptr = record.matPtr = record.mat_pointer = &seen;
   record.material = record.material_ptr = record.materialPtr = &seen;
+  TYNDALL_BOOK_HIT_MATERIALS
   return true;
 }
 

@@ -28,6 +28,7 @@ using hitable_pdf = hittable_pdf;
 
 struct material {
   virtual ~material() = default;
+  virtual color emitted() const { return color(); }
   virtual color emitted(double, double, const point3&) const { return color(); }
   virtual color emitted(const ray&, const hit_record&, double, double, const point3&) const { return color(); }
   virtual bool scatter(const ray&, const hit_record&, color&, ray&) const { return false; }
@@ -119,6 +120,7 @@ struct hit_record {
   point3 p, point, position;  // and other names of readers' for the same
   vec3 normal;
   tyndall_book::ref<::material> mat, mat_ptr, matPtr, mat_pointer, material, material_ptr, materialPtr;
+  TYNDALL_BOOK_HIT_MEMBERS
   double t = 0, u = 0, v = 0;
   bool front_face = true;
 

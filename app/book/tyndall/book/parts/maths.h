@@ -42,6 +42,8 @@ struct vec3 {
 
   vec3() = default;
   vec3(double on_x, double on_y, double on_z) : e{on_x, on_y, on_z} {}
+  explicit vec3(double all) : vec3(all, all, all) {}
+  TYNDALL_BOOK_VEC3_MEMBERS
 
   double operator[](int axis) const { return e[axis]; }
   double& operator[](int axis) { return e[axis]; }
@@ -69,6 +71,8 @@ struct vec3 {
   double lengthSquared() const { return length_squared(); }
   double length() const { return std::sqrt(length_squared()); }
   double magnitude() const { return length(); }
+  double mag() const { return length(); }
+  double mag_squared() const { return length_squared(); }
   void make_unit_vector() { *this /= length(); }
   bool near_zero() const { return std::fabs(e[0]) < 1e-8 && std::fabs(e[1]) < 1e-8 && std::fabs(e[2]) < 1e-8; }
   void write_color(std::ostream& out, int samples) const;

@@ -15,6 +15,26 @@
   template <class = void>   \
   inline
 
+/// Member functions that the reader's own classes have and ours have not: `tyndall main.cc` takes them over by name.
+#ifndef TYNDALL_BOOK_VEC3_MEMBERS
+#define TYNDALL_BOOK_VEC3_MEMBERS
+#endif
+#ifndef TYNDALL_BOOK_HIT_MEMBERS  // further pointers to materials, and statements that set them to `&seen`
+#define TYNDALL_BOOK_HIT_MEMBERS
+#define TYNDALL_BOOK_HIT_MATERIALS
+#endif
+#ifndef TYNDALL_BOOK_HITTABLE_LIST_MEMBERS
+#define TYNDALL_BOOK_HITTABLE_LIST_MEMBERS
+#endif
+/// Values that the reader's own camera gives its members: `vfov = 20;`.
+#ifndef TYNDALL_BOOK_CAMERA_DEFAULTS
+#define TYNDALL_BOOK_CAMERA_DEFAULTS
+#endif
+/// Members of the reader's own camera that decide how its picture is computed or written, and nothing of what it shows.
+#ifndef TYNDALL_BOOK_CAMERA_MEMBERS
+#define TYNDALL_BOOK_CAMERA_MEMBERS
+#endif
+
 #ifndef TYNDALL_BOOK_NO_INFINITY
 const double infinity = std::numeric_limits<double>::infinity();
 #endif

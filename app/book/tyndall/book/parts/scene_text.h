@@ -22,6 +22,7 @@ struct ref : shared_ptr<T> {
   ref(U* raw) : shared_ptr<T>(raw, [](T*) {}) {}
   template <class U, class = std::enable_if_t<std::is_convertible<const U&, shared_ptr<T>>::value>, class = void>
   ref(const U& other) : shared_ptr<T>(other) {}
+  operator T*() const { return this->get(); }
 };
 
 /// A JSON string.

@@ -56,6 +56,7 @@ struct hittable_list : hittable {
     for (int k = 0; k < count; ++k) add(list[k]);
   }
   void clear() { objects.clear(); }
+  TYNDALL_BOOK_HITTABLE_LIST_MEMBERS
   void add(tyndall_book::ref<hittable> object) { objects.push_back(object); }
   void tyndall_write(tyndall_book::scene_text& out, const tyndall_book::placing& at) const override {
     tyndall_only<hittable_list>();
