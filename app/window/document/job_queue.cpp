@@ -6,7 +6,7 @@
 
 namespace tyndall {
 
-void give_way([[maybe_unused]] int niceness) {
+void lower_priority([[maybe_unused]] int niceness) {
 #ifdef __linux__
   setpriority(PRIO_PROCESS, 0, niceness);
 #endif

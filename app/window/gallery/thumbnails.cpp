@@ -116,7 +116,7 @@ void Thumbnails::begin_next() {
   for (const std::string& scene : wanted_) {
     if (!known_.insert(scene).second) continue;
     return jobs_.run([this, scene]() -> JobQueue::Result {
-      give_way(15);
+      lower_priority(15);
       auto picture = make(scene, folder_, [this] { return !closing_; });
       if (!picture) return {};
       return [this, scene, made = std::move(*picture)] { came_[scene] = made; };

@@ -74,7 +74,7 @@ void SmallRenders::manage(const StopToken& stop) {
     render_first(work);
     // A thread cannot take its old priority back, so another one sharpens the pictures.
     const StoppableThread refiner([&](const StopToken&) {
-      give_way(19);
+      lower_priority(19);
       refine(work);
     });
     std::unique_lock lock(mutex_);
