@@ -1,6 +1,5 @@
 #include "app/book/camera_constructor.h"
 
-#include "app/book/program_layout.h"
 #include "app/book/source_text.h"
 
 #include <algorithm>

@@ -25,54 +25,6 @@ constexpr std::string_view other_headers[] = {"bvhnode",      "checkertexture", 
                                               "lambertian",   "metal",          "noisetexture", "rect",
                                               "rotatey",      "solidcolor",     "translate",    "xyrect"};
 
-/// The books' classes. A header that defines one takes the place of ours.
-constexpr std::string_view book_classes[] = {"aabb",
-                                             "box",
-                                             "bvh_node",
-                                             "camera",
-                                             "checker_texture",
-                                             "color",
-                                             "constant_medium",
-                                             "constant_texture",
-                                             "cosine_pdf",
-                                             "dielectric",
-                                             "diffuse_light",
-                                             "flip_face",
-                                             "flip_normals",
-                                             "hitable",
-                                             "hitable_list",
-                                             "hit_record",
-                                             "hittable",
-                                             "hittable_list",
-                                             "hittable_pdf",
-                                             "image_texture",
-                                             "interval",
-                                             "isotropic",
-                                             "lambertian",
-                                             "material",
-                                             "metal",
-                                             "mixture_pdf",
-                                             "moving_sphere",
-                                             "noise_texture",
-                                             "onb",
-                                             "pdf",
-                                             "perlin",
-                                             "point3",
-                                             "quad",
-                                             "ray",
-                                             "rotate_y",
-                                             "rtw_image",
-                                             "scatter_record",
-                                             "solid_color",
-                                             "sphere",
-                                             "sphere_pdf",
-                                             "texture",
-                                             "translate",
-                                             "vec3",
-                                             "xy_rect",
-                                             "xz_rect",
-                                             "yz_rect"};
-
 template <std::size_t count>
 bool contains(const std::string_view (&list)[count], const std::string& name) {
   return std::find(std::begin(list), std::end(list), name) != std::end(list);
@@ -327,17 +279,6 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   return out;
-}
-
-std::string book_class(const std::string& name) {
-  const std::string key = key_of(name);
-  for (const std::string_view one : book_classes)
-    if (key_of(one) == key) return std::string(one);
-  for (const std::string_view other : {"vector3", "vec3d", "vec3f", "vector3d", "vector3f"})
-    if (key == other) return "vec3";
-  if (key == "point") return "point3";
-  if (key == "colour" || key == "rgb") return "color";
-  return "";
 }
 
 ProgramLayout lay_out(const ProgramSources& sources, const fs::path& headers) {

@@ -52,10 +52,6 @@ struct ProgramLayout {
   bool unknown_sky = false;                      ///< the reader's camera.h has another one, which cannot be told
 };
 
-/// The name that the books give a class, by a reader's name in another style (XZRect: xz_rect); "": it is none of
-/// theirs.
-std::string book_class(const std::string& name);
-
 /// Texts of a layout: what includes of the books' headers lead to, and what OwnNames fills.
 constexpr const char *our_headers = "our_headers.h", *own_names = "own_names.h";
 

@@ -72,6 +72,54 @@ std::optional<std::string> gradient_of(const std::string& text) {
   return R"({"type":"gradient","bottom":)" + *bottom + R"(,"top":)" + *top + "}";
 }
 
+/// The books' classes. A header that defines one takes the place of ours.
+constexpr std::string_view book_classes[] = {"aabb",
+                                             "box",
+                                             "bvh_node",
+                                             "camera",
+                                             "checker_texture",
+                                             "color",
+                                             "constant_medium",
+                                             "constant_texture",
+                                             "cosine_pdf",
+                                             "dielectric",
+                                             "diffuse_light",
+                                             "flip_face",
+                                             "flip_normals",
+                                             "hitable",
+                                             "hitable_list",
+                                             "hit_record",
+                                             "hittable",
+                                             "hittable_list",
+                                             "hittable_pdf",
+                                             "image_texture",
+                                             "interval",
+                                             "isotropic",
+                                             "lambertian",
+                                             "material",
+                                             "metal",
+                                             "mixture_pdf",
+                                             "moving_sphere",
+                                             "noise_texture",
+                                             "onb",
+                                             "pdf",
+                                             "perlin",
+                                             "point3",
+                                             "quad",
+                                             "ray",
+                                             "rotate_y",
+                                             "rtw_image",
+                                             "scatter_record",
+                                             "solid_color",
+                                             "sphere",
+                                             "sphere_pdf",
+                                             "texture",
+                                             "translate",
+                                             "vec3",
+                                             "xy_rect",
+                                             "xz_rect",
+                                             "yz_rect"};
+
 }  // namespace
 
 std::vector<Include> includes_of(std::string_view text) {
@@ -223,6 +271,17 @@ std::optional<std::string> sky_of(const std::string& text) {
   const auto gradient = gradient_of(text);
   if (is_member && gradient) return {};     // either may be what rays see
   return is_member ? "[0,0,0]" : gradient;  // a member is black until main() sets it
+}
+
+std::string book_class(const std::string& name) {
+  const std::string key = key_of(name);
+  for (const std::string_view one : book_classes)
+    if (key_of(one) == key) return std::string(one);
+  for (const std::string_view other : {"vector3", "vec3d", "vec3f", "vector3d", "vector3f"})
+    if (key == other) return "vec3";
+  if (key == "point") return "point3";
+  if (key == "colour" || key == "rgb") return "color";
+  return "";
 }
 
 }  // namespace tyndall

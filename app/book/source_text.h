@@ -25,6 +25,10 @@ std::vector<std::string> tokens_of(std::string_view text);
 /// What both "Hittable_List.hpp" and "../src/hittable-list.h" are called: "hittablelist".
 std::string key_of(std::string_view name);
 
+/// The name that the books give a class, by a reader's name in another style (XZRect: xz_rect); "": it is none of
+/// theirs.
+std::string book_class(const std::string& name);
+
 /// Classes that the text defines, and the first class that each is derived from ("": none).
 std::map<std::string, std::string> classes_of(std::string_view text);
 /// Names that are defined as numbers outside of any braces: "pi" of `const double pi = 3.14;`.
