@@ -234,7 +234,9 @@ BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_
   const std::vector<double> ratios = excess_ratios(samples, count_, samples_of_picture_, large_);
   for (std::size_t at = 0; at < model.mean.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
-    if (region >= 0) model.excess[at] *= static_cast<float>(ratios[3 * static_cast<std::size_t>(region) + at % 3]);
+    if (region < 0) continue;
+    const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
+    model.excess[at] = std::max(model.excess[at] * ratio, model.mean[at] - 1);  // no pixel is brighter than white
   }
   return model;
 }

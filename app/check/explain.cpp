@@ -132,7 +132,8 @@ class Search {
     for (const Reading& reading : tried) {
       std::vector<Explanation> choices;
       Fit found = choose(fit(expectation_.start(), reading, start), choices);
-      if (best && found.regions.amount() >= best->regions.amount()) continue;
+      const auto rank = [](const Fit& fit) { return std::pair(!agrees(fit.regions), fit.regions.amount()); };
+      if (best && rank(found) >= rank(*best)) continue;
       best = std::move(found), findings_.choices = std::move(choices);
     }
     const Reading reading = is_right(best->reading) ? best->reading : best_reading(best->model, true);
