@@ -189,11 +189,15 @@ std::string csv_text(const Sweeping& sweep) {
   std::string text = sweep.command.axes.size() > 1 ? "value,value_2" : "value";
   text += ",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n";
   const double mean = sweep.figures[sweep.middle].mean.mean;
+  // Of a black picture in the middle there is no part: the fields are empty.
+  const auto part = [mean](double value, int digits) {
+    return mean == 0 ? std::string() : fmt::format("{:.{}g}", value / mean, digits);
+  };
   for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
     const SweepFigures& f = sweep.figures[k];
     for (const std::string& value : sweep.steps[k].values) text += quoted(value) + ",";
-    text += fmt::format("{:.8g},{:.4g},{:.4g},{:.8g},{:.4g},{:.8g},{:.4g},{},{:.4g},{}\n", f.mean.mean, f.mean.error,
-                        f.relative_error, f.difference.mean / mean, f.difference.mean_error / std::abs(mean),
+    text += fmt::format("{:.8g},{:.4g},{:.4g},{},{},{:.8g},{:.4g},{},{:.4g},{}\n", f.mean.mean, f.mean.error,
+                        f.relative_error, part(f.difference.mean, 8), part(f.difference.mean_error, 4),
                         f.difference.rms, f.difference.rms_error, f.spp, f.seconds, hash_text(f.hash));
   }
   return text;

@@ -134,10 +134,10 @@ SEGMENTS, RINGS = 256, 128
 
 def sphere_mesh(radius, inward):
     """A sphere of radius 1 whose pole is z. Of a large one only the part around the pole is near: rings crowd there."""
-    crowding = max(0.0, math.log(radius / 5))
-    if (crowding, inward) in SPHERES:
-        return SPHERES[crowding, inward]
-    angles = [math.pi * k / RINGS * math.exp(crowding * (k / RINGS - 1)) for k in range(RINGS + 1)]
+    grading = max(0.0, math.log(radius / 5))
+    if (grading, inward) in SPHERES:
+        return SPHERES[grading, inward]
+    angles = [math.pi * k / RINGS * math.exp(grading * (k / RINGS - 1)) for k in range(RINGS + 1)]
     points, faces, uvs = [], [], []
     for angle in angles:
         for s in range(SEGMENTS):
@@ -162,7 +162,7 @@ def sphere_mesh(radius, inward):
         data.uv = uv
     mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
     mesh.materials.append(None)
-    SPHERES[crowding, inward] = mesh
+    SPHERES[grading, inward] = mesh
     return mesh
 
 

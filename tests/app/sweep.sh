@@ -31,6 +31,10 @@ same 'rows of two axes' "$(cut -d, -f1,2 out | tr '\n' ' ')" \
 expect 0 "$tyndall" sweep showroom --vary /render/seed=1,2 "${small[@]}" --each '%v.ppm' --gamma2
 [ -s 1.ppm ] && [ -s 2.ppm ] || fail 'names of values'
 
+# Of a black picture nothing is a part.
+expect 0 "$tyndall" sweep stress-caustic-mirror --set /materials/lamp/radiance=[0,0,0] --vary /camera/vfov=30:40:2 "${small[@]}" --csv -
+same 'a change of black' "$(tail -n +2 out | cut -d, -f5,6 | tr '\n' ' ')" ', , '
+
 # The total time is shared.
 expect 0 "$tyndall" sweep showroom --vary /camera/vfov=30:40:4 --size 64x36 --total-time 0.4 -q --csv t.csv
 python3 -c '

@@ -8,17 +8,6 @@ namespace tyndall::test::measure_test {
 
 namespace {
 
-/// A media sphere before a white room, seen whole: its pixels show different things.
-Scene medium_sphere() {
-  Scene scene = white_room();
-  scene.width = scene.height = 16;
-  scene.camera.look_from = {0, 0, 5};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 30;
-  add_medium(scene, sphere({0, 0, 0}, 1), {2, 0.3}, 0.7);
-  return scene;
-}
-
 Measured measure(const Scene& scene, double error) { return measure_mean(scene, {1, "", error}); }
 
 }  // namespace

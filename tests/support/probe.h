@@ -102,4 +102,15 @@ inline double common_value(const Scene& scene, const std::string& isa = "") {
   return static_cast<double>(first.x);
 }
 
+/// A sphere of a medium in a white room, seen whole: its pixels show different things.
+inline Scene medium_sphere() {
+  Scene scene = white_room();
+  scene.width = scene.height = 16;
+  scene.camera.look_from = {0, 0, 5};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vfov = 30;
+  add_medium(scene, sphere({0, 0, 0}, 1), {2, 0.3}, 0.7);
+  return scene;
+}
+
 }  // namespace tyndall::test
