@@ -26,11 +26,11 @@ struct Report {
   KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
-  MethodGain specular_gain, reuse_gain;
+  MethodGain specular_gain, splitting_gain, reuse_gain;
 };
 
 Report examine(const InspectCommand& command) {
-  Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}, {}};
+  Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}, {}, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
   report.prepared = prepare(scene);
@@ -39,6 +39,7 @@ Report examine(const InspectCommand& command) {
   if (command.measure) {
     report.gain = measure_kernel_gain(*report.prepared, kernels);
     report.specular_gain = measure_specular_gain(scene, kernels.isa);
+    report.splitting_gain = measure_splitting_gain(scene, kernels.isa);
     report.reuse_gain = measure_reuse_gain(scene, kernels.isa);
   }
   report.film_bytes = bytes_per_pixel(needs_trait<&BsdfTraits::emits>(report.prepared->columns().features)) *
@@ -71,6 +72,9 @@ std::string json_text(const Report& report) {
   json["chains"] = report.prepared->columns().specular.sphere.size();
   if (report.specular_gain.measured)
     json["chain_gain"] = {{"time", report.specular_gain.time}, {"squared_error", report.specular_gain.error}};
+  json["splitting"] = report.prepared->columns().splits_paths;
+  if (report.splitting_gain.measured)
+    json["splitting_gain"] = {{"time", report.splitting_gain.time}, {"squared_error", report.splitting_gain.error}};
   if (report.reuse_gain.measured)
     json["sharing_gain"] = {{"time", report.reuse_gain.time}, {"squared_error", report.reuse_gain.error}};
   json["background"] = c.background;
@@ -109,13 +113,18 @@ std::string named(const Report& report, const std::vector<std::int32_t>& element
   return text + (elements.size() > maximum ? ", ..." : "");
 }
 
+/// Why a scene has neither chains nor splitting; null: its settings allow both.
+const char* no_caustics_text(const RenderSettings& render) {
+  if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
+  if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
+  return render.fresnel == FresnelKind::exact ? nullptr : "none: they need exact Fresnel";
+}
+
 /// What exact chains are looked for.
 std::string specular_paths_text(const Report& report) {
   const SpecularPairs& specular = report.prepared->columns().specular;
   const RenderSettings& render = report.loaded.scene.render;
-  if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
-  if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
-  if (render.fresnel != FresnelKind::exact) return "none: they need exact Fresnel";
+  if (const char* off = no_caustics_text(render)) return off;
   if (specular.sphere.empty()) return "none: no lamp that is small as seen from a ball of glass, a mirror or a pane";
   const int flat = specular.first_slab - specular.first_mirror;
   const int slabs = static_cast<int>(specular.index.size()) - specular.first_slab;
@@ -135,7 +144,19 @@ std::string specular_paths_text(const Report& report) {
   const std::string count = counted(static_cast<int>(lights.size()), "lamp");
   for (std::int32_t& light : lights) light = report.prepared->columns().lights.element[static_cast<std::size_t>(light)];
   return text + " (" + named(report, specular.outer) + "), each alone, to " + count + " (" + named(report, lights) +
-         ")" + "; by chance: ways over two of them, quads of glass, other boxes of glass, and fuzzy metal";
+         ")" +
+         "; by chance: ways over two of them, quads of glass, other "
+         "boxes of glass, and fuzzy metal";
+}
+
+/// Where paths follow both ways.
+std::string splitting_text(const Report& report) {
+  if (const char* off = no_caustics_text(report.loaded.scene.render)) return off;
+  if (!report.prepared->columns().splits_paths) return "none: no glass";
+  return fmt::format(
+      "on: the first {} events at glass that the camera sees, directly or by glass and mirrors, follow reflection and "
+      "transmission both; other events at glass one of them at random",
+      max_splits);
 }
 
 /// Whether second vertices are shared between pixels.
@@ -190,6 +211,8 @@ std::string table(const Report& report) {
   row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
   row("chains", specular_paths_text(report));
   if (report.specular_gain.measured) row("", gain_text(report.specular_gain));
+  row("splitting", splitting_text(report));
+  if (report.splitting_gain.measured) row("", gain_text(report.splitting_gain));
   row("sharing", sharing_text(report));
   if (report.reuse_gain.measured) row("", gain_text(report.reuse_gain));
   row("background", c.background);

@@ -17,12 +17,12 @@ double squared(double x) { return x * x; }
 /// A picture that is rendered further and further, each time from where it was left.
 class GrowingPicture {
  public:
-  GrowingPicture(const Scene& scene, const std::string& isa, bool clean, const ChartRun& run)
-      : scene_(prepare(scene)), run_(run) {
+  GrowingPicture(std::shared_ptr<const PreparedScene> scene, const std::string& isa, bool clean, const ChartRun& run)
+      : scene_(std::move(scene)), run_(run) {
     options_.isa = isa;
     options_.clean = clean;
     options_.threads = run.threads;
-    options_.adaptive = scene.render.adaptive;
+    options_.adaptive = scene_->scene().render.adaptive;
   }
   /// Renders on until each pixel has `spp` samples; false if it was stopped on the way.
   bool grow(std::uint32_t spp) {
@@ -64,7 +64,7 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
   scene.render.fresnel = FresnelKind::exact;
   scene.render.adaptive = false;
   scene.render.seed += 0x5eed;
-  GrowingPicture picture(scene, "", false, run);
+  GrowingPicture picture(prepare(scene), "", false, run);
   std::uint32_t spp = 2;
   while (picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds() < seconds * 1.4) spp *= 2;
   FinishedPicture reference = picture.finished();
@@ -77,7 +77,8 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
 ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
                          const ChartRun& run) {
   scene.render = method.settings;
-  GrowingPicture picture(scene, method.isa, method.clean, run);
+  GrowingPicture picture(method.splits ? prepare(scene) : prepare_without_splitting(scene), method.isa, method.clean,
+                         run);
   ErrorCurve curve{method.name, {}};
   for (std::uint32_t spp = 1; spp < (1u << 22) && picture.grow(spp); spp *= 2) {
     const auto point = picture.point(spp, reference);
@@ -107,9 +108,10 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.sharing = false;
   settings.fresnel = has_material<Dielectric<>>(features) ? FresnelKind::schlick : FresnelKind::exact;
   methods.push_back({"the books' method", settings, "scalar"});
+  bool splits = false;
   const auto switch_on = [&](const char* name, auto change) {
     change(settings);
-    methods.push_back({name, settings, "scalar"});
+    methods.push_back({name, settings, "scalar", false, splits});
   };
   if (has_material<Dielectric<>>(features))
     switch_on("+ exact Fresnel", [](RenderSettings& s) { s.fresnel = FresnelKind::exact; });
@@ -120,6 +122,9 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
   if (!prepared->columns().specular.sphere.empty())
     switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
+  splits = true;
+  if (prepared->columns().splits_paths)
+    switch_on("+ splitting", [](RenderSettings& s) { s.caustics = Caustics::chains; });
   if (prepared->reuses_paths()) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")

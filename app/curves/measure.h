@@ -16,6 +16,7 @@ struct ChartMethod {
   RenderSettings settings;
   std::string isa;     ///< "": the best
   bool clean = false;  ///< the filtered picture; its time includes the filter
+  bool splits = true;  ///< both ways at glass may be followed (core/transport/splitting.h)
 };
 
 /// The methods that `chart` compares by default: first that of the books, then each improvement switched on in addition

@@ -85,6 +85,13 @@ MethodGain measure_specular_gain(Scene scene, const std::string& isa) {
   return measure(*with, *prepare(scene), isa);
 }
 
+MethodGain measure_splitting_gain(Scene scene, const std::string& isa) {
+  make_small(scene);
+  const auto with = prepare(scene);
+  if (!with->columns().splits_paths) return {};
+  return measure(*with, *prepare_without_splitting(scene), isa);
+}
+
 MethodGain measure_reuse_gain(Scene scene, const std::string& isa) {
   make_small(scene);
   const auto with = prepare(scene);

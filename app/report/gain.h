@@ -34,6 +34,9 @@ struct MethodGain {
 /// estimated too small, and the true gain is larger.
 MethodGain measure_specular_gain(Scene scene, const std::string& isa);
 
+/// Both ways at smooth glass that the camera sees (core/transport/splitting.h), likewise.
+MethodGain measure_splitting_gain(Scene scene, const std::string& isa);
+
 /// Sharing of second vertices between pixels, likewise.
 MethodGain measure_reuse_gain(Scene scene, const std::string& isa);
 

@@ -91,6 +91,9 @@ std::string vertex_text(const Scene& scene, const RenderScene& compiled, const P
   return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
 }
 
+/// "branch from 2: " where a branch begins, which leaves glass where vertex 2 is; else nothing.
+std::string branch_text(const PathVertex& v) { return v.branch ? fmt::format("branch from {}: ", v.before + 1) : ""; }
+
 }  // namespace
 
 std::vector<std::vector<int>> media_of(const Scene& scene) {
@@ -114,7 +117,7 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
   row("point       ", exact(path.origin) + compiled.origin);
   int number = 0;
   for (const PathVertex& v : path.vertices) {
-    text += std::to_string(++number) + " " + heading(scene, compiled, v) + "\n";
+    text += std::to_string(++number) + " " + branch_text(v) + heading(scene, compiled, v) + "\n";
     if (v.met != Met::nothing) row("point       ", exact(v.point) + compiled.origin);
     row("came by     ", exact(v.direction));
     row("throughput  ", exact(v.throughput));
@@ -153,16 +156,17 @@ NoisyPath find_noisy_path(const SceneView& scene, int x, int y, std::uint32_t sa
 
 std::vector<PathStop> stops_of(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
   std::vector<PathStop> stops;
-  Vec3f before{};
   for (const PathVertex& v : path.vertices) {
     PathStop stop;
+    stop.before = v.before;
     stop.away = v.met == Met::nothing;
     const Vec3f at = stop.away ? v.direction : v.point;
     stop.point = Vec3d{at.x, at.y, at.z} + (stop.away ? Vec3d{} : compiled.origin);
-    const Vec3f gained = v.radiance - before;
-    before = v.radiance;
+    const bool continues = v.before >= 0 && !v.branch;
+    const Vec3f gained =
+        v.radiance - (continues ? path.vertices[static_cast<std::size_t>(v.before)].radiance : Vec3f{});
     stop.light = luminance(gained) > 0;
-    stop.text = vertex_text(scene, compiled, v);
+    stop.text = branch_text(v) + vertex_text(scene, compiled, v);
     if (stop.light)
       stop.text += fmt::format(", light {:.3g} {:.3g} {:.3g}", static_cast<double>(gained.x),
                                static_cast<double>(gained.y), static_cast<double>(gained.z));

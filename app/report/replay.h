@@ -42,6 +42,7 @@ NoisyPath find_noisy_path(const SceneView& scene, int x, int y, std::uint32_t sa
 /// A place on a path, to be drawn and told in a line.
 struct PathStop {
   Vec3d point;         ///< where; the scene's own coordinates
+  int before = -1;     ///< index of the stop from which the path, or a branch of it, came; -1: the camera
   bool away = false;   ///< the path meets nothing any more: `point` is a unit direction
   std::string text;    ///< "ball (gold): goes on, x 0.9 0.6 0.3"
   bool light = false;  ///< light was gathered here

@@ -216,8 +216,10 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.integrator = scene.render.integrator;
   out.light_sampling = samples_lights(out.integrator) && out.lights.count() > 0;
   if (out.integrator == Integrator::mis) out.near = find_near_lights(out);
-  if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains)
+  if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains) {
     out.specular = find_specular_pairs(flat, scene, out);
+    out.splits_paths = needs_trait<&BsdfTraits::smooth_boundary>(out.features);
+  }
   out.objects = std::move(flat.objects);
   out.kernel = min_kernel(out);
   out.may_reuse_paths = scene.render.sharing && can_reuse_paths(out);

@@ -38,9 +38,11 @@ bool says(const std::string& text, const char* setting) {
   return find(find(&json.root, "render"), setting) != nullptr;
 }
 
-bool could_have_specular_paths(Scene scene) {
+/// Whether there is light that RenderSettings::caustics says how to find.
+bool caustics_matter(Scene scene) {
   scene.render.caustics = Caustics::chains;
-  return !compile(scene).specular.sphere.empty();
+  const RenderScene compiled = compile(scene);
+  return !compiled.specular.sphere.empty() || compiled.splits_paths;
 }
 
 bool could_reuse_paths(Scene scene) {
@@ -112,7 +114,7 @@ bool same_samples(Scene a, Scene b) {
   const bool other_sharing = a.render.sharing != b.render.sharing;
   b.render.caustics = a.render.caustics, b.render.sharing = a.render.sharing;
   if (!(a == b)) return false;
-  return !(other_caustics && could_have_specular_paths(a)) && !(other_sharing && could_reuse_paths(a));
+  return !(other_caustics && caustics_matter(a)) && !(other_sharing && could_reuse_paths(a));
 }
 
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,

@@ -194,6 +194,7 @@ void Pass::add_tile(const Region& where, int step, bool replace, Film& film) {
 void Pass::add_counts(const TileCounts& counts) {
   rays_.fetch_add(counts.rays, std::memory_order_relaxed);
   shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);
+  splits_.fetch_add(counts.splits, std::memory_order_relaxed);
   cut_high_.fetch_add(counts.cut_throughput.high, std::memory_order_relaxed);
   cut_low_.fetch_add(counts.cut_throughput.low, std::memory_order_relaxed);
 }

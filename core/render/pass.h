@@ -60,6 +60,7 @@ class Pass {
 
   std::uint64_t rays() const { return rays_; }
   std::uint64_t shadow_rays() const { return shadow_rays_; }
+  std::uint64_t splits() const { return splits_; }
   /// Paths of the tile jobs done so far.
   std::uint64_t paths() const { return paths_; }
   std::uint64_t rejected() const { return rejected_; }
@@ -82,7 +83,7 @@ class Pass {
   int left_, top_;  ///< of the first tile: at most those of the region
   int columns_, rows_;
   std::vector<std::uint8_t> done_;  ///< for each tile; written only by the thread that runs it
-  std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
+  std::atomic<std::uint64_t> rays_ = 0, shadow_rays_ = 0, splits_ = 0, paths_ = 0, rejected_ = 0, truncated_ = 0;
   std::atomic<std::int64_t> cut_high_ = 0, cut_low_ = 0;  ///< not yet added to film.cut_throughput
 };
 

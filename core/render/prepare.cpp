@@ -185,4 +185,10 @@ std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {
   return prepare(std::make_shared<const Scene>(scene));
 }
 
+std::shared_ptr<const PreparedScene> prepare_without_splitting(const Scene& scene) {
+  RenderScene columns = compile(scene);
+  columns.splits_paths = false;
+  return std::make_shared<const PreparedScene>(std::make_shared<const Scene>(scene), std::move(columns));
+}
+
 }  // namespace tyndall

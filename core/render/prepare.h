@@ -69,5 +69,7 @@ class PreparedScene {
 std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before = nullptr);
 /// The same for a scene that is copied.
 std::shared_ptr<const PreparedScene> prepare(const Scene& scene);
+/// The same without splitting (transport/splitting.h), to measure what it gains.
+std::shared_ptr<const PreparedScene> prepare_without_splitting(const Scene& scene);
 
 }  // namespace tyndall

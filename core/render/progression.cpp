@@ -213,7 +213,7 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
 
 void Progression::finish_pass() {
   const Pass& pass = *schedule_.pass();
-  tally_.rays += pass.rays(), tally_.shadow_rays += pass.shadow_rays();
+  tally_.rays += pass.rays(), tally_.shadow_rays += pass.shadow_rays(), tally_.splits += pass.splits();
   if (schedule_.replaces()) tally_.samples = tally_.rejected = tally_.truncated = 0;
   tally_.samples += pass.paths(), tally_.rejected += pass.rejected(), tally_.truncated += pass.truncated();
   tally_.last_mrays_per_s = static_cast<double>(pass.rays()) / pass_seconds_ * 1e-6;
@@ -231,7 +231,8 @@ bool Progression::estimate_is_due(const Limits& limits) const {
 
 PassTally Progression::tally() const {
   PassTally all = tally_;
-  if (const Pass* pass = schedule_.pass()) all.rays += pass->rays(), all.shadow_rays += pass->shadow_rays();
+  if (const Pass* pass = schedule_.pass())
+    all.rays += pass->rays(), all.shadow_rays += pass->shadow_rays(), all.splits += pass->splits();
   if (running_from_) all.seconds += seconds_between(*running_from_, Clock::now());
   return all;
 }

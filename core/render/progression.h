@@ -109,7 +109,7 @@ class PassSchedule {
 
 /// Counts and times since the start.
 struct PassTally {
-  std::uint64_t rays = 0, shadow_rays = 0;                 ///< up to now
+  std::uint64_t rays = 0, shadow_rays = 0, splits = 0;     ///< up to now
   std::uint64_t samples = 0, rejected = 0, truncated = 0;  ///< of whole passes, and of the continued film
   double seconds = 0;  ///< up to the last film write, or up to now while a pass runs
   double last_mrays_per_s = 0, last_paths_per_second = 0;  ///< of the last whole pass; 0: there was none

@@ -144,7 +144,7 @@ class Rendering {
   RenderResult result() {
     RenderResult result;
     const PassTally tally = picture_.tally();
-    result.rays = tally.rays, result.shadow_rays = tally.shadow_rays;
+    result.rays = tally.rays, result.shadow_rays = tally.shadow_rays, result.split_events = tally.splits;
     result.seconds = tally.seconds;
     result.threads = thread_pool_->size();
     result.kernels = kernels_;

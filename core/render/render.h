@@ -59,7 +59,8 @@ struct RenderResult {
   Film film;
   std::vector<RejectedSample> first_rejected;  ///< a few, if there are any
   std::uint64_t rays = 0, shadow_rays = 0;
-  double seconds = 0;  ///< from the first sample started to the last film write, thread start included
+  std::uint64_t split_events = 0;  ///< events at glass after which both ways were followed: transport/splitting.h
+  double seconds = 0;              ///< from the first sample started to the last film write, thread start included
   int threads = 0;
   Kernels kernels{};         ///< that made the film
   bool interrupted = false;  ///< the callback stopped the render

@@ -73,6 +73,7 @@ double fraction_of_seconds(SceneView s, ReusedPaths& paths, TraceGroups trace) {
 ReuseGain probe_reuse(const SceneView& scene, TraceGroups trace) {
   SceneView s = scene;
   s.reuses_paths = true;
+  s.splits_paths = false;  // branches have no second vertices
   s.seed = 0;
   const auto paths = std::make_unique<ReusedPaths>();
   if (fraction_of_seconds(s, *paths, trace) < fewest_seconds) return {};

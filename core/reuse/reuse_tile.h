@@ -158,11 +158,15 @@ class GroupSamples {
       const bool left_second = p.second >> lane & 1u;
       auto& to = left_second ? shared_.leaving : shared_.own;
       const float scale = left_second ? over_carried(shared_, slot) : 1;
-      to[0][slot] = scale * r[lane], to[1][slot] = scale * g[lane], to[2][slot] = scale * b[lane];
+      const bool branch = p.branch >> lane & 1u;
+      if (branch)
+        add(slot, {r[lane], g[lane], b[lane]});
+      else
+        to[0][slot] = scale * r[lane], to[1][slot] = scale * g[lane], to[2][slot] = scale * b[lane];
       if (pixel < 0) continue;
       if (film_.emission && (p.straight >> lane & 1u))
         add_emission(film_.emission[pixel], half_of(slot), {r[lane], g[lane], b[lane]}, film_.per_quantum);
-      ++film_.pixels[pixel].taken;
+      if (!branch) ++film_.pixels[pixel].taken;
       if (!(cut >> lane & 1u)) continue;
       ++film_.pixels[pixel].truncated;
       film_.counts.cut_throughput.add(static_cast<double>(carried[lane]));

@@ -32,6 +32,9 @@ void PathRecorder::on_event(const SceneView& s, const Paths<float>& p, const Hit
   if (path_.vertices.empty())
     path_.origin = p.ray.origin, path_.time = p.ray.time, path_.weight = s.has_specular_paths() ? p.weight : 1;
   PathVertex v{};
+  const bool follows = path_.vertices.empty() || path_.vertices.back().fate == Fate::goes_on;
+  v.before = static_cast<std::int32_t>(path_.vertices.size()) - 1;
+  if (!follows && !branches_.empty()) v.before = branches_.back(), v.branch = true, branches_.pop_back();
   v.direction = p.ray.direction, v.point = p.ray.origin;
   v.first_dimension = dimension::camera_count + static_cast<std::uint32_t>(p.depth) * dimension::per_event;
   if (s.has_media()) v.kept = transmitted_by_absorbers(s, p.ray, p.sampler, hit.t, true);
@@ -66,7 +69,8 @@ void PathRecorder::on_end(const Paths<float>& p, bool on, StepResult<float> end)
                                    : Fate::absorbed;
   v.inside = v.met == Met::surface && end.survivors && p.ray.from >= 0 &&
              (p.ray.from & 3) != static_cast<std::int32_t>(Side::outward);
-  path_.radiance = v.radiance;
+  path_.radiance = ended_ + v.radiance;
+  if (v.fate != Fate::goes_on) ended_ = path_.radiance;
   path_.reused = p.first != 0;
 }
 

@@ -16,6 +16,10 @@ class PathRecorder {
   void on_event(const SceneView& s, const Paths<float>& p, const Hit<float>& hit, const MediumEvent<float>& found,
                 const Event<float>& e);
   void on_specular_path_light(Vec3f light);
+  /// A branch leaves the path where it is. Branches are followed after the path, the last one first.
+  void on_branch() {
+    if (wanted_) branches_.push_back(static_cast<std::int32_t>(path_.vertices.size()) - 1);
+  }
   void on_end(const Paths<float>& p, bool on, StepResult<float> end);
   const PathReplay& path() const { return path_; }
 
@@ -25,6 +29,8 @@ class PathRecorder {
   PathReplay path_;
   float weight_ = 1;  ///< against specular paths, of the light that this step has hit
   bool wanted_ = false, at_light_ = false;
+  Vec3f ended_{};                       ///< gathered by the path, and by branches, that have ended
+  std::vector<std::int32_t> branches_;  ///< that are still to be followed: the vertices at which they leave
 };
 
 /// The recorder of the scalar kernel, which mostly records nothing. It passes copies: a kernel keeps in memory what is
@@ -41,6 +47,9 @@ struct MaybeRecorder {
   }
   TYNDALL_INLINE void on_specular_path_light(Vec3f light) {
     if (to) to->on_specular_path_light(light);
+  }
+  TYNDALL_INLINE void on_branches(bool some) {
+    if (to && some) to->on_branch();
   }
   TYNDALL_INLINE void on_end(Paths<float> p, bool on, StepResult<float> end) {
     if (to) to->on_end(p, on, end);

@@ -10,8 +10,10 @@ namespace tyndall {
 enum class Met { nothing, surface, medium };
 enum class Fate { goes_on, ends_at_light, escapes, absorbed, roulette, cut, lost };  ///< lost: a value is not finite
 
-/// One point that a path reached, and what the path had gathered when it left.
+/// One point that a path or a branch of it reached, and what that had gathered when it left.
 struct PathVertex {
+  std::int32_t before = -1;  ///< index of the vertex from which the path came here; -1: the camera
+  bool branch = false;       ///< a branch comes here from `before`, and has gathered nothing yet (splitting.h)
   Met met = Met::nothing;
   Fate fate = Fate::goes_on;
   std::int32_t element = -1;  ///< of the surface, or the first one of the medium's boundary
@@ -31,8 +33,10 @@ struct PathVertex {
 struct PathReplay {
   Vec3f origin;  ///< where the camera ray starts
   float time = 0;
-  std::vector<PathVertex> vertices;
-  Vec3f radiance;    ///< the sample, bit for bit what the scalar kernel adds to the film
+  std::vector<PathVertex> vertices;  ///< of the path, then of its branches, each up to its end
+  /// The sample. Of a path without branches it is, bit for bit, what the scalar kernel adds to the film; else the
+  /// kernel adds what the path and each of its branches have gathered at their ends.
+  Vec3f radiance;
   float weight = 1;  ///< of the sample, see subpixel_lights.h; the radiances of all vertices include it
   /// The first vertex shares second vertices with seven other pixels (reuse.h): instead of the radiance that leaves its
   /// own second vertex, the sample holds a weighted mean over all eight.

@@ -119,6 +119,7 @@ SceneView view_of(const RenderScene& s, const std::vector<TextureView>& textures
   v.light_sampling = s.light_sampling, v.integrator = s.integrator;
   v.features = s.features;
   v.kernel = s.kernel;
+  v.splits_paths = s.splits_paths;
   return v;
 }
 

@@ -54,6 +54,9 @@ struct SpecularView {
   TYNDALL_INLINE bool has_slabs() const { return first_slab < spheres; }
 };
 
+/// A path can split at so many of its first events: see SceneView::splits_paths.
+inline constexpr int max_splits = 4;
+
 struct SceneView {
   /// The materials that kernels know. `kind` holds indices into this list.
   template <class F>
@@ -93,6 +96,7 @@ struct SceneView {
   Integrator integrator;
   SceneFeatures features;
   KernelSet kernel;
+  bool splits_paths;  ///< at smooth glass that the camera sees, see core/transport/splitting.h
   bool reuses_paths;  ///< second vertices are reused between pixels, see reuse.h
 
   // Kernels test these before they run the code of a model.

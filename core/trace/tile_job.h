@@ -21,6 +21,7 @@ struct TileCounts {
   std::uint64_t rays = 0;         ///< all rays that were traced
   std::uint64_t shadow_rays = 0;  ///< of these, shadow rays, which only test for occlusion
   std::uint64_t steps = 0;        ///< steps that all lanes took together
+  std::uint64_t splits = 0;       ///< branches of paths: see core/transport/splitting.h
   ExactSum cut_throughput;  ///< sum, over paths cut off by max_depth, of the brightest channel of their throughput
 };
 

@@ -62,7 +62,7 @@ struct AloneSamples {
       FilmPixel& pixel = film.pixels[slot[lane] >> 1];
       const std::uint32_t half = static_cast<std::uint32_t>(slot[lane]) & 1u;
       const Vec3f radiance{r[lane], g[lane], b[lane]};
-      ++pixel.taken;
+      pixel.taken += ~p.branch >> lane & 1u;
       if (!(unusual >> lane & 1u)) {
         const ScaledSample add = scaled(radiance, film.per_quantum);
         add_each(pixel.sum[half], add.x, add.y, add.z);

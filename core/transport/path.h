@@ -4,6 +4,7 @@
 #include "core/transport/path_pool.h"
 #include "core/transport/scatter.h"
 #include "core/transport/specular_queue.h"
+#include "core/transport/splitting.h"
 
 /// The path tracer. A sample estimates the light that reaches a point of the film,
 ///
@@ -22,6 +23,7 @@ struct NoRecorder {
   TYNDALL_INLINE void on_event(const auto&...) {}
   TYNDALL_INLINE void on_weight_against_specular_paths(const auto&) {}
   TYNDALL_INLINE void on_specular_path_light(const auto&) {}
+  TYNDALL_INLINE void on_branches(const auto&) {}
   TYNDALL_INLINE void on_end(const auto&...) {}
 };
 
@@ -38,10 +40,12 @@ struct StepResult {
 /// s:        a SceneView, reduced to the models that this kernel has
 /// samples:  source of the samples and receiver of their light, see AloneSamples
 /// waiting:  requests for the light of specular paths
+/// pool:     receives the branches of paths that split
 /// recorder: see NoRecorder
 template <class F>
 TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, auto& samples,
-                                  SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
+                                  SpecularQueue<F>& waiting, PathPool<F>& pool, auto& recorder,
+                                  std::uint32_t& shadow_rays) {
   // ---- intersect: a surface, or before it an event in a medium
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found = no_event<F>();
@@ -95,6 +99,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
     const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow_lobe(p.pdf));
     p.straight &= ~bits(mask_and_not(scattering, mirrored));
   }
+  const Branches<F> branches = split_at_glass(s, p, e, on, carried);
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
@@ -103,6 +108,8 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   if (s.has_specular_paths()) exempt = mask_or(exempt, seeks_subpixel_light(p));
   const auto survivors = s.has_reuse() || s.has_specular_paths() ? roulette_but(p, lanes, exempt) : roulette(p, lanes);
   p.sampler.next_event();
+  add_branches(s, p, branches, pool);
+  recorder.on_branches(branches.lanes);
   recorder.on_end(p, on, StepResult<F>{survivors, cut});
   return {survivors, cut};
 }
@@ -110,7 +117,8 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
 /// Follows paths until all samples are done and all requests for the light of specular paths are answered.
 template <class F>
 TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& counts, auto& recorder) {
-  PathPool<F> pool{};
+  PathPool<F> pool;
+  clear<F>(pool);
   SpecularQueue<F> waiting{};
   Paths<F> p{};
   p.sampler.kind = s.sampler;
@@ -121,7 +129,9 @@ TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& count
     if (sampling) {
       counts.rays += static_cast<std::uint64_t>(__builtin_popcount(p.alive)), ++counts.steps;
       std::uint32_t shadow_rays = 0;
-      const StepResult<F> end = step(s, p, mask_from_bits<F>(p.alive), samples, waiting, recorder, shadow_rays);
+      const int before = pool.count;
+      const StepResult<F> end = step(s, p, mask_from_bits<F>(p.alive), samples, waiting, pool, recorder, shadow_rays);
+      counts.splits += static_cast<std::uint64_t>(pool.count - before);
       const std::uint32_t survivors = bits(end.survivors) & p.alive;
       counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
       samples.on_end(s, p, p.alive & ~survivors, bits(end.cut));

@@ -8,16 +8,39 @@
 /// one worth while, they wait here until there are enough to fill all lanes.
 namespace tyndall {
 
+/// With one lane only branches wait; the last one is followed first, so that at most max_splits of them wait.
 template <class F>
-using PathPool = LanePool<F, 29, 9>;
+struct WaitingBranches {
+  static constexpr bool waits = false;
+  Paths<F> path[max_splits];
+  int count = 0;
+};
 
-/// The bit masks of Paths (straight, first, second) as one integer in each lane, whose bits 0, 1 and 2 are the marks.
+/// New samples start only when fewer paths wait than there are lanes. So at most 2 lanes_of<F> samples are in work, and
+/// each has at most 2^max_splits branches; append_lanes() writes up to one group of lanes behind the last of them.
+template <class F>
+using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 29, 9, (2 << max_splits) + 1>>;
+
+/// Empties a pool, and clears the columns in which load_lanes() may read behind the last path.
+template <class F>
+TYNDALL_INLINE void clear(PathPool<F>& pool) {
+  pool.count = 0;
+  if constexpr (PathPool<F>::waits) {
+    for (auto& column : pool.number)
+      for (int i = 0; i < 2 * lanes_of<F>; ++i) column[i] = 0;
+    for (auto& column : pool.integer)
+      for (int i = 0; i < 2 * lanes_of<F>; ++i) column[i] = 0;
+  }
+}
+
+/// The bit masks of Paths (straight, first, second, branch) as one integer in each lane, whose bits 0 to 3 they are.
 template <class F>
 TYNDALL_INLINE IntOf<F> marks_of(const auto& s, const Paths<F>& p) {
   const auto mark = [](std::uint32_t lanes, std::int32_t value) __attribute__((always_inline)) {
     return select(mask_from_bits<F>(lanes), IntOf<F>(value), IntOf<F>(0));
   };
-  const IntOf<F> straight = mark(p.straight, 1);
+  IntOf<F> straight = mark(p.straight, 1);
+  if (s.splits_paths) straight = straight + mark(p.branch, 8);
   return s.has_reuse() ? straight + mark(p.first, 2) + mark(p.second, 4) : straight;
 }
 template <class F>
@@ -26,6 +49,7 @@ TYNDALL_INLINE void set_marks(const auto& s, IntOf<F> marks, Paths<F>& p) {
     return bits(equal(marks & IntOf<F>(value), IntOf<F>(value)));
   };
   p.straight = marked(1);
+  if (s.splits_paths) p.branch = marked(8);
   if (s.has_reuse()) p.first = marked(2), p.second = marked(4);
 }
 
@@ -53,17 +77,26 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
     number(25, f.begin), number(26, f.end), number(27, f.distance), number(28, f.pdf);
     integer(7, f.medium);
   }
-  if (s.has_reuse() || s.has_lights()) {
+  if (s.has_reuse() || s.has_lights() || s.splits_paths) {
     IntOf<F> marks = marks_of(s, p);
     integer(8, marks);
     set_marks(s, marks, p);
   }
 }
 
+/// Adds the paths in `lanes` to the pool.
+template <class F>
+TYNDALL_INLINE void put_to_wait(const auto& s, Paths<F>& p, MaskOf<F> lanes, PathPool<F>& pool) {
+  if constexpr (PathPool<F>::waits)
+    append_lanes<F>(s, p, lanes, pool);
+  else if (lanes)
+    pool.path[pool.count++] = p;
+}
+
 /// Moves the paths that are alive to the pool.
 template <class F>
 TYNDALL_INLINE void let_wait(const auto& s, Paths<F>& p, PathPool<F>& pool) {
-  append_lanes<F>(s, p, mask_from_bits<F>(p.alive), pool);
+  put_to_wait(s, p, mask_from_bits<F>(p.alive), pool);
   p.alive = 0;
 }
 
@@ -90,7 +123,7 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   p.depth = IntOf<F>(0), p.pdf = F(one_direction);
   if (s.has_specular_paths())
     p.weight = fresh.subpixel_lights.weight, p.route = fresh.subpixel_lights.route, p.trail.met.packed = IntOf<F>(-1);
-  p.straight = s.has_lights() ? ~0u : 0u, p.first = p.second = 0;
+  p.straight = s.has_lights() || s.splits_paths ? ~0u : 0u, p.branch = p.first = p.second = 0;
   p.alive = first_lanes(fresh.count);
 }
 
@@ -104,7 +137,11 @@ inline constexpr int enough_lanes = lanes_of<F> - lanes_of<F> / 8;
 template <class F>
 TYNDALL_INLINE void take_paths(const auto& s, Paths<F>& p, PathPool<F>& pool, auto& samples) {
   if constexpr (!PathPool<F>::waits) {
-    if (!p.alive && !samples.empty()) begin_samples(s, p, samples);
+    if (p.alive) return;
+    if (pool.count > 0)
+      p = pool.path[--pool.count], p.alive = 1;
+    else if (!samples.empty())
+      begin_samples(s, p, samples);
   } else if (__builtin_popcount(p.alive) < enough_lanes<F>) {
     let_wait(s, p, pool);
     if (pool.count < lanes_of<F> && !samples.empty())

@@ -20,7 +20,9 @@ struct Paths {
   F weight;                 ///< of the sample, see subpixel_lights.h; only in scenes with specular paths
   GlassRoute<F> route;      ///< remaining events to a subpixel light; only in scenes with specular paths
   std::uint32_t alive = 0;  ///< bit i: lane i follows a path
-  std::uint32_t straight = 0;  ///< bit i: the path has met only smooth glass and mirrors so far; 0 without lights
+  /// Bit i: the path has met only smooth glass and mirrors so far; 0 without lights and without splitting.
+  std::uint32_t straight = 0;
+  std::uint32_t branch = 0;  ///< bit i: the path is a branch (splitting.h); its sample is counted by another path
   /// Bit i: the path's first, or second, vertex takes part in reuse (reuse.h). 0 in kernels without reuse.
   std::uint32_t first = 0, second = 0;
 };

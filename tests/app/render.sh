@@ -31,9 +31,10 @@ stats = json.load(open(sys.argv[1]))
 assert list(stats) == """scene width height spp samples rays shadow_rays seconds_render seconds_total seconds_build
 mrays_per_s msamples_per_s threads isa lanes kernel_features integrator sampler fresnel relative_error_estimate
 rejected_samples truncated_paths peak_memory_bytes image_hash version
-truncated_throughput first_rejected adaptive least_spp most_spp rare_bright_paths caustics denoised denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from""".split(), list(stats)
+truncated_throughput first_rejected adaptive least_spp most_spp rare_bright_paths caustics denoised denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from split_events""".split(), list(stats)
 assert (stats["scene"], stats["width"], stats["height"]) == ("cornell-box", 40, 30)
 assert stats["spp"] == 4 and stats["samples"] == 4 * 40 * 30
+assert stats["split_events"] == 0  # no glass
 assert stats["rays"] >= stats["samples"] and 0 < stats["shadow_rays"] < stats["rays"]
 assert 0 < stats["seconds_render"] <= stats["seconds_total"] and 0 <= stats["seconds_build"] <= stats["seconds_total"]
 assert abs(stats["mrays_per_s"] * stats["seconds_render"] * 1e6 / stats["rays"] - 1) < 1e-6

@@ -20,6 +20,7 @@ same 'media' "$(json showroom.json media)" 1
 same 'lights' "$(json showroom.json lights)" 1
 same 'background' "$(json showroom.json background)" '"gradient"'
 same 'motion' "$(json showroom.json motion)" false
+same 'splitting' "$(json showroom.json splitting)" true
 expect 0 "$tyndall" inspect bouncing-spheres --json
 cp out bouncing.json
 same 'motion' "$(json bouncing.json motion)" true
@@ -28,6 +29,7 @@ same 'defocus' "$(json bouncing.json defocus)" true
 expect 0 "$tyndall" inspect cornell-box --json --set /camera/defocus_angle=1
 cp out box.json
 same '--set' "$(json box.json defocus)" true
+same 'splitting' "$(json box.json splitting)" false
 same 'film' "$(json box.json film_bytes)" $(((112 + 48) * 600 * 600)) # 48: emission, for the clean view
 
 # Each scene in which methods fail says what fails there, how, and what is right.

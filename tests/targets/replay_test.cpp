@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -23,12 +24,20 @@ FilmPixel film_pixel(const RenderScene& scene, const SceneView& view, int x, int
   return pixel;
 }
 
+std::ptrdiff_t branches_of(const PathReplay& path) {
+  return std::count_if(path.vertices.begin(), path.vertices.end(), [](const PathVertex& v) { return v.branch; });
+}
+
 /// What a replayed sample would put there.
 FilmPixel replayed_pixel(const RenderScene& scene, const PathReplay& path, std::uint32_t sample) {
   FilmPixel pixel{};
-  add_sample(pixel, sample & 1u, path.radiance, 1 / scene.film_quantum);
+  const bool branches = branches_of(path) > 0;
+  if (!branches) add_sample(pixel, sample & 1u, path.radiance, 1 / scene.film_quantum);
+  for (const PathVertex& v : path.vertices) {
+    if (branches && v.fate != Fate::goes_on) add_sample(pixel, sample & 1u, v.radiance, 1 / scene.film_quantum);
+    pixel.truncated += v.fate == Fate::cut ? 1 : 0;
+  }
   pixel.taken = 1;
-  pixel.truncated = path.vertices.back().fate == Fate::cut ? 1 : 0;
   return pixel;
 }
 
@@ -37,6 +46,7 @@ FilmPixel replayed_pixel(const RenderScene& scene, const PathReplay& path, std::
 TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
   std::map<Fate, int> fates;
   std::map<Met, int> met;
+  int branches = 0;
   for (const char* name :
        {"showroom", "next-week", "close up", "caustic close up", "cornell-smoke", "bouncing-spheres", "hollow-glass",
         "earth", "stress-caustic-mirror", "stress-light-in-fog", "stress-medium-in-glass", "stress-light-and-fuzz"}) {
@@ -56,10 +66,13 @@ TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
           const PathReplay path = replay(view.view(), x, y, sample);
           wrong += replayed_pixel(scene, path, sample) == film_pixel(scene, view.view(), x, y, sample) ? 0 : 1;
           for (const PathVertex& v : path.vertices) ++fates[v.fate], ++met[v.met];
-          const auto events = static_cast<std::uint32_t>(path.vertices.size()) - 1;
-          wrong += path.vertices.back().first_dimension == 8 + 16 * events ? 0 : 1;
-          for (std::size_t k = 1; k < path.vertices.size(); ++k)
-            wrong += path.vertices[k - 1].fate == Fate::goes_on ? 0 : 1;
+          branches += static_cast<int>(branches_of(path));
+          for (std::size_t k = 0; k < path.vertices.size(); ++k) {
+            const PathVertex& v = path.vertices[k];
+            const PathVertex* before = v.before < 0 ? nullptr : &path.vertices[static_cast<std::size_t>(v.before)];
+            wrong += v.first_dimension == (before ? before->first_dimension + 16 : 8) ? 0 : 1;
+            if (before && !v.branch) wrong += before + 1 == &v && before->fate == Fate::goes_on ? 0 : 1;
+          }
         }
     CAPTURE(name);
     CHECK(wrong == 0);
@@ -67,6 +80,7 @@ TEST_CASE("replay: every sample is, bit for bit, the scalar kernel's") {
   for (const Fate fate : {Fate::goes_on, Fate::ends_at_light, Fate::escapes, Fate::absorbed, Fate::roulette, Fate::cut})
     CHECK(fates[fate] > 10);
   CHECK(met[Met::medium] > 100);
+  CHECK(branches > 100);
 }
 
 TEST_CASE("replay: names the surfaces in order, with the way between them and what is carried") {
@@ -95,6 +109,27 @@ TEST_CASE("replay: names the surfaces in order, with the way between them and wh
     const double z[] = {1, -1, -3};
     CHECK(static_cast<double>(path.vertices[k].point.z) + compiled.origin.z == doctest::Approx(z[k]));
   }
+}
+
+TEST_CASE("replay: shows the other way at glass as a branch, with its part of the light") {
+  Scene scene = white_room();
+  scene.render.integrator = Integrator::mis;
+  add(scene, sphere({0, 0, 0}, 1), glass(5));
+  aim(scene, {0, 0, 5}, {0, 0, 0});
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  const PathReplay path = replay(view.view(), 3, 4, 5);
+  const double reflected = 4.0 / 9, passed = 1 - reflected;  // at each surface: ((5 - 1) / (5 + 1))^2
+  REQUIRE(path.vertices.size() > 3);
+  CHECK(path.vertices[2].met == Met::nothing);
+  CHECK(static_cast<double>(path.vertices[2].throughput.x) == doctest::Approx(passed * passed));
+  const auto front = std::find_if(path.vertices.begin(), path.vertices.end(),
+                                  [](const PathVertex& v) { return v.branch && v.before == 0; });
+  REQUIRE(front != path.vertices.end());
+  CHECK(front->met == Met::nothing);
+  CHECK(static_cast<double>(front->throughput.x) == doctest::Approx(reflected));
+  CHECK(static_cast<double>(front->radiance.x) == doctest::Approx(reflected));
+  CHECK(static_cast<double>(path.radiance.x) > passed * passed + reflected - 1e-6);
 }
 
 TEST_CASE("replay: says what smoke has left of a path's light") {

@@ -82,7 +82,7 @@ void draw_path(Ui& ui, const Scene& scene, const Rect& image, const Rect& visibl
   compat::push_font(ui.fonts.small);
   std::vector<Vec3d> points;
   for (const PathStop& stop : stops) {
-    const Vec3d from = points.empty() ? eye : points.back();
+    const Vec3d from = stop.before < 0 ? eye : points[static_cast<std::size_t>(stop.before)];
     const Vec3d to = stop.away ? from + 2 * target_distance(scene.camera) * stop.point : stop.point;
     points.push_back(to);
     const auto line = projection.line(from, to);

@@ -14,6 +14,9 @@ TEST_CASE("chart: the books' method first, each improvement in turn, what a scen
   CHECK(names("cornell-smoke").find("the books' method; + light sampling; + MIS; + Sobol'; ") == 0);
   CHECK(names("cover").find("the books' method; + exact Fresnel; + Sobol'; ") == 0);
   CHECK(names("cover").find("light sampling") == std::string::npos);
+  CHECK(names("cover").find("+ Sobol'; + splitting; ") != std::string::npos);
+  CHECK(names("showroom").find("+ chains; + splitting; ") != std::string::npos);
+  CHECK(names("cornell-box").find("splitting") == std::string::npos);
   CHECK(names("cover").find("+ clean (filtered); + adaptive; Schlick; ") != std::string::npos);
   for (const ChartMethod& m : default_methods(load_scene("cover").scene))
     CHECK((m.settings.adaptive == (m.name == "+ adaptive") && m.clean == (m.name == "+ clean (filtered)")));

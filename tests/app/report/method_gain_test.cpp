@@ -15,6 +15,14 @@ TEST_CASE("method gain: chains take longer and leave far less error; without the
   CHECK_FALSE(measure_specular_gain(small_scene("cornell-box", 48, 36, 1), "").measured);
 }
 
+TEST_CASE("method gain: both ways at glass leave less error; without glass nothing is measured") {
+  const MethodGain spheres = measure_splitting_gain(small_scene("glass-spheres", 48, 36, 1), "");
+  CHECK(spheres.measured);
+  CHECK(spheres.time < 3);
+  CHECK(spheres.error < 1);
+  CHECK_FALSE(measure_splitting_gain(small_scene("cornell-box", 48, 36, 1), "").measured);
+}
+
 TEST_CASE(
     "method gain: sharing takes longer and leaves less error; where the sky lights the scene, nothing is measured") {
   const MethodGain box = measure_reuse_gain(close_up("cornell-box", 64, 64), "");
