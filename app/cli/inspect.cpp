@@ -145,7 +145,7 @@ std::string specular_paths_text(const Report& report) {
   for (std::int32_t& light : lights) light = report.prepared->columns().lights.element[static_cast<std::size_t>(light)];
   return text + " (" + named(report, specular.outer) + "), each alone, to " + count + " (" + named(report, lights) +
          ")" +
-         "; by chance: ways over two of them, quads of glass, other "
+         "; with both ends within one ball or shell, too; by chance: ways over two of them, quads of glass, other "
          "boxes of glass, and fuzzy metal";
 }
 

@@ -43,40 +43,54 @@ struct EventSequence {
   F outer;            ///< events at the outer sphere
   F inner;            ///< events at the inner sphere
   F inner_reflected;  ///< reflections among the events at the inner sphere
+  /// Only of a near end in a shell's glass: 1 if the path first goes inward, to the inner sphere; -1 if outward.
+  F near_sign = F(1.0f);
 };
 
-/// Where the two ends of a specular path lie relative to the sphere. At least one end must be outside.
+/// Where the two ends of a specular path lie relative to the sphere.
 template <class F>
 struct PathEnds {
   F near, far;              ///< distance of each end from the centre
   F near_reach, far_reach;  ///< each distance times the refractive index at that end
   F far_index;              ///< refractive index at the far end
+  F outside;                ///< number of ends outside of the sphere: 0, 1 or 2
   MaskOf<F> both_out;       ///< both ends are outside of the sphere
-  MaskOf<F> deep;           ///< one end is inside the inner sphere
-  MaskOf<F> valid;          ///< one end is outside; the other is outside, in solid glass or in a shell's hollow
+  MaskOf<F> both_in;        ///< both ends are inside
+  MaskOf<F> near_in_glass;  ///< the near end is in the glass of a shell
+  MaskOf<F> deep;           ///< an end is inside the inner sphere; where both are inside, the far one is
+  /// Each end is outside, in solid glass or in a shell's hollow. The near one may be in a shell's glass if the far one
+  /// is in the hollow.
+  MaskOf<F> valid;
 };
 
 template <class F>
 TYNDALL_INLINE PathEnds<F> ends_of(const SpecularSphere<F>& b, F near, F far) {
-  const F skin = F(1.0f + 1e-6f) * b.radius, core = F(1.0f - 1e-6f) * b.inner_radius;
-  const F shell = select(b.hollow, core, b.radius * F(1.0f - 1e-6f));
+  const F above = F(1.0f + 1e-6f), below = F(1.0f - 1e-6f);
+  const F skin = above * b.radius, core = below * b.inner_radius;
+  const F shell = select(b.hollow, core, b.radius * below);
   const auto near_out = less(skin, near), far_out = less(skin, far);
   const auto near_in = less(near, shell), far_in = less(far, shell);
   const F within = select(b.hollow, b.inner_index, b.index);
   PathEnds<F> e;
   e.near = near, e.far = far;
-  e.near_reach = select(near_in, near * within, near);
+  const auto in_layer = mask_and(less(above * b.inner_radius, near), less(near, b.radius * below));
+  e.near_in_glass = mask_and(mask_and(in_layer, far_in), b.hollow);
+  e.near_reach = near * select(near_in, within, select(e.near_in_glass, b.index, F(1.0f)));
   e.far_index = select(far_in, within, F(1.0f));
   e.far_reach = far * e.far_index;
   e.both_out = mask_and(near_out, far_out);
+  e.both_in = mask_or(mask_and(near_in, far_in), e.near_in_glass);
   const auto one_in = mask_or(mask_and(near_in, far_out), mask_and(far_in, near_out));
-  e.deep = mask_and(one_in, b.hollow);
-  e.valid = mask_or(e.both_out, mask_and_not(one_in, b.mirror));
+  e.outside = select(e.both_out, F(2.0f), select(e.both_in, F(0.0f), F(1.0f)));
+  const auto some_in = mask_or(one_in, e.both_in);
+  e.deep = mask_and(some_in, b.hollow);
+  e.valid = mask_or(e.both_out, mask_and_not(some_in, b.mirror));
   return e;
 }
 
 /// Signs of the two ends' terms in the deflection. An end outside of the sphere always has 1. An end inside has 1 if
-/// the path from it to the sphere's surface first approaches the centre, and -1 if the path moves outward at once.
+/// the path from it to the sphere's surface first approaches the centre, and -1 if the path moves outward at once. In a
+/// shell's glass, the sign tells which sphere the path meets first: 1 the inner one, -1 the outer one.
 template <class F>
 struct EndSigns {
   F near, far;
@@ -91,15 +105,18 @@ struct SpecularDeflection {
 
 /// The deflection of a specular path, in radians, is the sum of acos(p/a) - acos(p/R) for each end outside, at distance
 /// a from the centre; acos(p/(nR)) - acos(p/(n Ri)) for each crossing of a shell's glass; 2 acos(p/(m Ri)) for each
-/// chord of its inner sphere; and 2 acos(p/(nR)) for each chord of solid glass. R, Ri: outer and inner radius; n, m:
-/// index inside each.
+/// chord of its inner sphere; and 2 acos(p/(nR)) for each chord of solid glass. An end inside adds its sign times
+/// acos(p/r), r: its reach. So each event at a sphere of reach r adds acos(p/r) for each side from which or to which
+/// the path goes there inside of that sphere, and takes it away for each side outside of it. R, Ri: outer and inner
+/// radius; n, m: index inside each.
 template <class F>
 TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularView& c, const SpecularSphere<F>& b,
                                                    const PathEnds<F>& e, const EventSequence<F>& w,
                                                    const EndSigns<F>& sign) {
-  const F outside = select(e.both_out, F(2.0f), F(1.0f)), glass = F(2.0f) * w.outer - outside;
+  const F outside = e.outside, glass = F(2.0f) * w.outer - outside;
   const auto visits = less(F(0.0f), w.inner);
-  const F chords = F(2.0f) * (w.inner - w.outer) + select(e.both_out, F(2.0f), F(1.0f));
+  const F from_glass = select(e.near_in_glass, sign.near, F(0.0f)), to_inner = glass + from_glass;
+  const F chords = F(2.0f) * (w.inner - w.outer) + outside - from_glass;
   const F reach[] = {e.near_reach,
                      e.far_reach,
                      b.radius,
@@ -107,12 +124,12 @@ TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularView& c, const 
                      b.index * b.inner_radius,
                      b.inner_index * b.inner_radius};
   const F times[] = {
-      sign.near, sign.far, -outside, glass, select(visits, -glass, F(0.0f)), select(visits, chords, F(0.0f))};
+      sign.near, sign.far, -outside, glass, select(visits, -to_inner, F(0.0f)), select(visits, chords, F(0.0f))};
   SpecularDeflection<F> out;
   Deflection<F>& deflection = out.deflection;
   deflection.terms = c.shells ? 6 : 4;
-  deflection.maximum = min(reach[0], min(reach[1], reach[2]));
-  for (int i = 3; i < deflection.terms; ++i)
+  deflection.maximum = min(reach[0], reach[1]);
+  for (int i = 2; i < deflection.terms; ++i)
     deflection.maximum = select(equal(times[i], F(0.0f)), deflection.maximum, min(deflection.maximum, reach[i]));
   for (int i = 0; i < deflection.terms; ++i) {
     const F safe = select(equal(times[i], F(0.0f)), deflection.maximum + deflection.maximum, reach[i]);
@@ -143,10 +160,10 @@ TYNDALL_INLINE F throughput_of(const SpecularSphere<F>& b, const PathEnds<F>& e,
     const F sine = p / max(reach, F(1e-30f));
     return sqrt(max((F(1.0f) - sine) * (F(1.0f) + sine), F(0.0f)));
   };
-  const F outside = select(e.both_out, F(2.0f), F(1.0f));
-  const F reflected = fresnel(cosine(b.radius), b.index);
-  const auto off = less(w.outer, outside);  // reflected at the outside
-  F throughput = (F(1.0f) - reflected) * select(e.both_out, F(1.0f) - reflected, F(1.0f)) *
+  const F outside = e.outside;
+  const F reflected = fresnel(cosine(b.radius), b.index);  // 1 beyond the critical angle: p > R
+  const auto off = less(w.outer, outside);                 // reflected at the outside
+  F throughput = select(e.both_in, F(1.0f), F(1.0f) - reflected) * select(e.both_out, F(1.0f) - reflected, F(1.0f)) *
                  whole_power(reflected, w.outer - outside);
   throughput = select(off, select(b.mirror, F(1.0f), reflected), throughput);
   const auto visits = less(F(0.0f), w.inner);
@@ -157,18 +174,24 @@ TYNDALL_INLINE F throughput_of(const SpecularSphere<F>& b, const PathEnds<F>& e,
 }
 
 /// The event sequence of the path that carries most light: through the sphere by the fewest events, or off a mirror.
+/// With both ends inside, by one event: a reflection, or a crossing if one of them is in a shell's glass.
 template <class F>
 TYNDALL_INLINE EventSequence<F> main_sequence(const SpecularSphere<F>& b, const PathEnds<F>& e) {
   const F one = F(1.0f), two = F(2.0f), none = F(0.0f);
-  return {select(mask_and_not(e.both_out, b.mirror), two, one),
-          select(b.hollow, select(e.both_out, two, select(e.deep, one, none)), none), none};
+  const auto in_hollow = mask_and(e.both_in, b.hollow);
+  return {select(in_hollow, none, select(mask_and_not(e.both_out, b.mirror), two, one)),
+          select(b.hollow, select(e.both_out, two, select(e.deep, one, none)), none),
+          select(mask_and_not(in_hollow, e.near_in_glass), one, none)};
 }
 
 // Each query tries the main event sequence and another one, which is drawn by decisions. Each decision takes one octal
 // digit of 64 random bits. The first decisions: is the path reflected off the outside of the glass? Does it bypass the
 // inner sphere of a thick shell? After these, one at each event: is it reflected? At its first event inside solid glass
-// a drawn path is always reflected, because otherwise it would repeat the main event sequence.
+// a drawn path is always reflected, because otherwise it would repeat the main event sequence. A path with both ends
+// inside is always reflected at the outer sphere; after each event from which it goes on where its near end lies, a
+// second decision tells whether it ends there, with probability 1/2.
 inline constexpr int max_decisions = 16;          ///< longer event sequences are left to BSDF sampling
+inline constexpr int max_inside_events = 8;       ///< the same with both ends inside, for two decisions at each event
 inline constexpr float take_octal = 3.0f / 8.0f;  ///< probability of "yes"
 
 /// Whether a path can cross a shell's glass without meeting the inner sphere.
@@ -200,15 +223,24 @@ struct Decisions {
     low = shift_left<3>(low);
     return yes;
   }
+  /// The same in the lanes `here` only; false in others, whose digits stay.
+  TYNDALL_INLINE MaskOf<F> below(std::int32_t limit, MaskOf<F> here) {
+    const Decisions before = *this;
+    const auto yes = mask_and(here, below(limit));
+    high = select(here, high, before.high), low = select(here, low, before.low);
+    return yes;
+  }
 };
 
 /// The state of an event sequence while it is drawn event by event.
 template <class F>
 struct SequenceWalk {
   Decisions<F> decide;
-  MaskOf<F> layered;  ///< the path meets the inner sphere
-  MaskOf<F> open;     ///< more events follow; never for a path that only reflects off the outside or off a mirror
-  IntOf<F> next;      ///< 0: at the outer sphere; 1: at the inner one, from the glass; 2: at the inner one, from inside
+  MaskOf<F> layered;   ///< the path meets the inner sphere
+  MaskOf<F> open;      ///< more events follow; never for a path that only reflects off the outside or off a mirror
+  MaskOf<F> inside;    ///< both ends are inside
+  MaskOf<F> to_glass;  ///< of these, those whose near end is in glass; of the others it is in the hollow
+  IntOf<F> next;  ///< 0: at the outer sphere; 1: at the inner one, from the glass; 2: at the inner one, from inside
 };
 
 /// Starts the walk along an event sequence. main: lanes of the main event sequence, which takes no decisions.
@@ -223,9 +255,13 @@ TYNDALL_INLINE SequenceWalk<F> start_walk(const SpecularSphere<F>& b, const Path
   const auto off = mask_and(drawn_out, walk.decide.below(3));
   const auto past = mask_and(mask_and(drawn_out, is_thick(b)), walk.decide.below(3));
   const U yes_first = walk.decide.high & U(0x1fffffffu);
-  walk.decide.high = select(main, U(0xffffffffu), select(b.hollow, walk.decide.high, yes_first));
+  // The main event sequence crosses each surface. With both ends inside it crosses into glass or is reflected, and
+  // ends.
+  const U main_high = select(e.both_in, select(e.near_in_glass, U(0xe0000000u), U(0u)), U(0xffffffffu));
+  walk.decide.high = select(main, main_high, select(b.hollow, walk.decide.high, yes_first));
   walk.layered = mask_and_not(b.hollow, past);
   walk.open = mask_and_not(e.valid, mask_or(off, b.mirror));
+  walk.inside = e.both_in, walk.to_glass = mask_or(e.near_in_glass, mask_and_not(e.both_in, b.hollow));
   walk.next = select(walk.layered, select(e.deep, I(2), I(1)), I(0));
   return walk;
 }
@@ -240,12 +276,17 @@ struct SequenceEvent {
 template <class F>
 TYNDALL_INLINE SequenceEvent<F> step_walk(SequenceWalk<F>& walk) {
   using I = IntOf<F>;
-  const auto reflects = walk.decide.below(3), at_outer = mask_and(walk.open, equal(walk.next, I(0)));
+  const auto at_outer = mask_and(walk.open, equal(walk.next, I(0)));
+  const auto reflects = mask_or(walk.decide.below(3), mask_and(at_outer, walk.inside));
   const SequenceEvent<F> event{at_outer, mask_and_not(walk.open, at_outer), reflects};
   const auto from_glass = equal(walk.next, I(1));
   const I after_inner = select(reflects, select(from_glass, I(0), I(2)), select(from_glass, I(2), I(0)));
   walk.next = select(at_outer, select(walk.layered, I(1), I(0)), select(event.at_inner, after_inner, walk.next));
   walk.open = mask_and_not(walk.open, mask_and_not(at_outer, reflects));
+  if (!any(walk.inside)) return event;
+  const auto in_hollow = equal(walk.next, I(2));
+  const auto there = mask_or(mask_and_not(walk.to_glass, in_hollow), mask_and_not(in_hollow, walk.to_glass));
+  walk.open = mask_and_not(walk.open, walk.decide.below(4, mask_and(mask_and(walk.inside, walk.open), there)));
   return event;
 }
 
@@ -262,7 +303,11 @@ TYNDALL_INLINE DrawnSequence<F> draw_sequence(const SpecularSphere<F>& b, const 
     w.inner = select(event.at_inner, w.inner + one, w.inner);
     const auto inner_reflected = mask_and(event.at_inner, event.reflects);
     w.inner_reflected = select(inner_reflected, w.inner_reflected + one, w.inner_reflected);
+    // The walk starts at the far end: what it meets last, the path meets first.
+    w.near_sign = select(event.at_inner, one, select(event.at_outer, -one, w.near_sign));
   }
+  const auto too_long = mask_and(e.both_in, less(F(max_inside_events + 0.5f), w.outer + w.inner));
+  walk.open = mask_or(walk.open, too_long);
   return {w, mask_and_not(mask_and_not(e.valid, b.mirror), walk.open)};
 }
 
@@ -273,12 +318,24 @@ TYNDALL_INLINE F main_queries(const SpecularSphere<F>& b) {
   return select(mask_or(b.mirror, b.hollow), F(1.0f), F(2.0f));
 }
 
+/// Probability that draw_sequence() draws these events in one given order, for paths with both ends inside.
+template <class F>
+TYNDALL_INLINE F inside_walks(const SpecularSphere<F>& b, const PathEnds<F>& e, const EventSequence<F>& w) {
+  const F yes = F(take_octal), no = F(1.0f) - yes;
+  const F in_glass = F(2.0f) * w.outer + select(less(F(0.0f), w.near_sign), F(1.0f), F(0.0f));
+  // The number of events from which the path goes on where its near end lies.
+  const F there = select(e.near_in_glass, in_glass, select(b.hollow, w.inner - w.outer, w.outer));
+  const F walk = whole_power(yes, w.inner_reflected) * whole_power(no, w.inner - w.inner_reflected);
+  const auto fits = less(w.outer + w.inner, F(max_inside_events + 0.5f));
+  return select(fits, walk * whole_power(F(0.5f), there), F(0.0f));
+}
+
 /// Expected number of times that a query tries these events in one given order: the probability that draw_sequence()
 /// draws them, plus main_queries() if they are the main event sequence.
 template <class F>
 TYNDALL_INLINE F expected_queries(const SpecularSphere<F>& b, const PathEnds<F>& e, const EventSequence<F>& w) {
   const F yes = F(take_octal), no = F(1.0f) - yes;
-  const F outside = select(e.both_out, F(2.0f), F(1.0f));
+  const F outside = e.outside;
   const F reflections = (w.outer - outside) + w.inner_reflected, crossings = (w.inner - w.inner_reflected) + F(1.0f);
   const auto short_enough = less(reflections + crossings, F(max_decisions + 0.5f));
   const F chosen = reflections - select(b.hollow, F(0.0f), F(1.0f));  // the first one in solid glass is not drawn
@@ -289,7 +346,8 @@ TYNDALL_INLINE F expected_queries(const SpecularSphere<F>& b, const PathEnds<F>&
   const auto off = mask_and(e.both_out, equal(w.outer, F(1.0f)));
   const auto walks = mask_and(short_enough, less(F(-0.5f), chosen));
   const F walked = select(walks, walk * select(e.both_out, start, F(1.0f)), F(0.0f));
-  const F other = select(b.mirror, F(0.0f), select(off, yes, walked));
+  F other = select(b.mirror, F(0.0f), select(off, yes, walked));
+  if (any(e.both_in)) other = select(e.both_in, inside_walks(b, e, w), other);
   return select(e.valid, other + select(same_sequence(w, main_sequence(b, e)), main_queries(b), F(0.0f)), F(0.0f));
 }
 

@@ -189,7 +189,7 @@ class Finder {
     query_.at.point = point;
     query_.plane = plane_of(query_.sphere, s_.camera.center, point);
     query_.ends = ends_of(query_.sphere, query_.plane.near, query_.plane.far);
-    return query_.ends.valid && query_.plane.sine > 1e-7f;
+    return query_.ends.valid && !query_.ends.both_in && query_.plane.sine > 1e-7f;
   }
 
   /// Tries both signs of an end inside the sphere: see EndSigns.

@@ -94,11 +94,14 @@ TYNDALL_INLINE SpecularRays<F> rays_of(const SpecularQuery<F>& a, const EventSeq
   r.found = c.root.found, r.count = F(1.0f), r.optical_depth = F(0.0f);
   r.direction = ray(a.ends.near_reach, -c.sign.near, a.plane.near_out, a.plane.near_side);
   r.arrive = ray(a.ends.far_reach, c.sign.far, a.plane.far_out, a.plane.far_side);
-  r.near_distance = distance_to_sphere(a.sphere, deflection, a.ends.near, a.ends.near_reach, c.sign.near, at);
-  r.far_distance = distance_to_sphere(a.sphere, deflection, a.ends.far, a.ends.far_reach, c.sign.far, at);
+  r.near_distance =
+      distance_to_sphere(a.sphere, deflection, a.ends.near, a.ends.near_reach, c.sign.near, at, a.ends.near_in_glass);
+  r.far_distance =
+      distance_to_sphere(a.sphere, deflection, a.ends.far, a.ends.far_reach, c.sign.far, at, less(F(1.0f), F(0.0f)));
   const IntOf<F> wall = select(a.ends.deep, a.sphere.inner, a.sphere.outer);
   const auto near_in = less(a.plane.near, a.sphere.radius), far_in = less(a.plane.far, a.sphere.radius);
-  r.wall = select(near_in, wall, a.sphere.outer);
+  r.wall =
+      select(mask_and_not(near_in, mask_and(a.ends.near_in_glass, less(c.sign.near, F(0.0f)))), wall, a.sphere.outer);
   r.from = select(far_in, wall, a.sphere.outer) * IntOf<F>(4) + select(far_in, IntOf<F>(1), IntOf<F>(0));
   r.throughput = throughput_of(a.sphere, a.ends, sequence, p);
   const F cosine = light_cosine(a.light_columns, a.at.normal, r.arrive);
@@ -187,20 +190,24 @@ TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& 
   };
   PathEnds<F>& ends = taken.ends;
   copy(a.ends.both_out, ends.both_out), copy(a.ends.deep, ends.deep), copy(a.ends.valid, ends.valid);
+  copy(a.ends.both_in, ends.both_in), copy(a.ends.near_in_glass, ends.near_in_glass);
 }
 
-/// Offers all specular paths of an event sequence at a sphere. Both signs are tried for an end inside it (see
-/// EndSigns).
+/// Offers all specular paths of an event sequence at a sphere. Both signs are tried for each end inside it (see
+/// EndSigns), but for a near end in the glass of a shell, whose sign is the event sequence's.
 template <class F>
 TYNDALL_INLINE void offer_sequence(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
                                    const EventSequence<F>& sequence, MaskOf<F> lanes, SampledPath<F>& taken) {
-  const auto near_in = less(a.plane.near, a.sphere.radius);
-  const EndSigns<F> signs[2] = {{F(1.0f), F(1.0f)},
-                                {select(near_in, F(-1.0f), F(1.0f)), select(near_in, F(1.0f), F(-1.0f))}};
-  for (int i = 0; i < 2; ++i) {
-    const auto here = i == 0 ? lanes : mask_and_not(lanes, a.ends.both_out);
+  const auto near_two = mask_and_not(less(a.plane.near, a.sphere.radius), a.ends.near_in_glass);
+  const auto far_two = less(a.plane.far, a.sphere.radius);
+  for (int i = 0; i < 4; ++i) {  // bit 0 of i: the near end's second sign; bit 1: the far end's
+    auto here = lanes;
+    if (i & 1) here = mask_and(here, near_two);
+    if (i & 2) here = mask_and(here, far_two);
     if (!any(here)) continue;
-    SolvedPath<F> c{deflection_of(s.specular, a.sphere, a.ends, sequence, signs[i]), signs[i], {}};
+    const F near_sign = select(a.ends.near_in_glass, sequence.near_sign, F(i & 1 ? -1.0f : 1.0f));
+    const EndSigns<F> sign{near_sign, F(i & 2 ? -1.0f : 1.0f)};
+    SolvedPath<F> c{deflection_of(s.specular, a.sphere, a.ends, sequence, sign), sign, {}};
     const DeflectionRoots<F> roots = list_roots(c.path.deflection, a.plane.angle, mask_and(here, c.path.possible));
     for (F index = F(0.0f); any(less(index, roots.count)); index = index + F(1.0f)) {
       c.root = take_root(c.path.deflection, roots, a.plane.angle, index);

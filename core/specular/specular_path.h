@@ -153,15 +153,18 @@ TYNDALL_INLINE F spread_of(const SpecularDeflection<F>& path, const PathEnds<F>&
 }
 
 /// Length of the path from an end to the sphere surface that it meets first: from outside to the outer sphere, from
-/// inside to the wall of the glass or of the hollow in which the end lies.
+/// inside to the wall of the glass or of the hollow in which the end lies. in_glass: lanes in which the end is in the
+/// glass of a shell, which has two walls.
 template <class F>
 TYNDALL_INLINE F distance_to_sphere(const SpecularSphere<F>& b, const Deflection<F>& deflection, F end, F reach, F sign,
-                                    F s) {
-  const auto out = less(b.radius, end);
-  const F index = select(out, F(1.0f), select(b.hollow, b.inner_index, b.index));
-  const F wall = index * select(out, b.radius, select(b.hollow, b.inner_radius, b.radius));
+                                    F s, MaskOf<F> in_glass) {
+  const auto out = less(b.radius, end), inward = mask_and(in_glass, less(F(0.0f), sign));
+  const auto in_hollow = mask_and_not(b.hollow, in_glass);
+  const F index = select(out, F(1.0f), select(in_hollow, b.inner_index, b.index));
+  const auto to_inner = mask_and_not(mask_or(in_hollow, inward), out);
+  const F wall = index * select(to_inner, b.inner_radius, b.radius);
   const F from_end = depth_of(deflection, reach, s), to_wall = depth_of(deflection, wall, s);
-  return max(select(out, from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
+  return max(select(mask_or(out, inward), from_end - to_wall, mul_add(sign, from_end, to_wall)) / index, F(0.0f));
 }
 
 /// One of the specular paths between two points with one event sequence.
@@ -215,7 +218,8 @@ TYNDALL_INLINE F deflection_above(F p, F reach) {
   return acos(sine);
 }
 
-/// The path through the sphere, measured from the end inside the sphere, or from the near end if both are outside.
+/// The path through the sphere, measured from the end inside the sphere, from the far end if both are, or from the near
+/// end if both are outside.
 /// near_sign, far_sign: see EndSigns. sense: see DeflectionRoot.
 template <class F>
 TYNDALL_INLINE InsidePath<F> inside_path(const SpecularSphere<F>& b, const PathPlane<F>& plane, const PathEnds<F>& e,

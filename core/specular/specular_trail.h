@@ -91,8 +91,9 @@ TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_sphere(const SpecularView& c, const Sp
   const LightPoint<F> at = light_point_at(light, b, trail.start, ray.time, point);
   const PathPlane<F> plane = plane_of(b, trail.start, point);
   const PathEnds<F> ends = ends_of(b, plane.near, plane.far);
-  const EventSequence<F> sequence = sequence_of<F>(trail.met);
+  EventSequence<F> sequence = sequence_of<F>(trail.met);
   const auto away = trail.met.began_away();
+  sequence.near_sign = select(away, F(-1.0f), F(1.0f));
   const EndSigns<F> sign{select(mask_and_not(away, less(b.radius, plane.near)), F(-1.0f), F(1.0f)),
                          select(less(dot(ray.direction, plane.far_out), F(0.0f)), F(-1.0f), F(1.0f))};
   const SpecularDeflection<F> path = deflection_of(c, b, ends, sequence, sign);

@@ -1,0 +1,209 @@
+#include "core/specular/specular_path.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+
+/// Specular paths with both ends inside a sphere: all of them are found, traced as rays they arrive, and each event
+/// sequence is tried as often as the weights say.
+namespace tyndall::test::inside_paths_test {
+
+namespace {
+
+template <class F>
+SpecularSphere<F> sphere_of(double index, double inner_radius) {
+  SpecularSphere<F> b{};
+  b.radius = F(1), b.index = F(index), b.inner_radius = F(inner_radius), b.inner_index = F(1);
+  b.mirror = false, b.hollow = inner_radius > 0, b.overlapped = false;
+  return b;
+}
+
+template <class F>
+SpecularDeflection<F> deflection_between(const SpecularSphere<F>& b, const EventSequence<F>& sequence, F near, F far,
+                                         EndSigns<F> sign) {
+  SpecularView view{};
+  view.shells = b.hollow;
+  return deflection_of(view, b, ends_of(b, near, far), sequence, sign);
+}
+
+/// The number of paths, found by counting how often the deflection passes `angle` or its negative, plus any number of
+/// revolutions.
+int roots_by_search(const Deflection<double>& deflection, double angle) {
+  const auto there = [&](double s) {
+    double sum = 0;
+    for (int i = 0; i < deflection.terms; ++i)
+      sum += deflection.times[i] * std::acos(std::min(1.0, deflection.maximum * (1 - s * s) * deflection.inverse[i]));
+    return sum;
+  };
+  constexpr int places = 5000;
+  const double first = static_cast<double>(min_parameter);
+  int count = 0;
+  for (const double sign : {1.0, -1.0}) {
+    double last = 0;
+    for (int i = 0; i <= places; ++i) {
+      const double whole = std::floor((there(first + (1 - first) * i / places) - sign * angle) / (2 * pi));
+      if (i > 0) count += static_cast<int>(std::abs(whole - last));
+      last = whole;
+    }
+  }
+  return count;
+}
+
+/// Events in order, from the near end: i or o, inner or outer sphere, and R or T, reflected or transmitted.
+struct Word {
+  double index, inner_radius;
+  bool in_glass;  ///< the near end is in a shell's glass
+  std::string events;
+
+  EventSequence<double> sequence() const {
+    EventSequence<double> w{0, 0, 0, events[0] == 'i' ? 1.0 : -1.0};
+    for (std::size_t k = 0; k < events.size(); k += 2) {
+      const bool inner = events[k] == 'i';
+      w.outer += inner ? 0 : 1, w.inner += inner ? 1 : 0;
+      w.inner_reflected += inner && events[k + 1] == 'R' ? 1 : 0;
+    }
+    return w;
+  }
+};
+const Word words[] = {{1.5, 0.85, false, "iR"},
+                      {1.5, 0.85, false, "iRiR"},
+                      {1.5, 0.85, false, "iRiRiRiR"},
+                      {1.5, 0.85, false, "iToRiT"},
+                      {1.5, 0.85, false, "iToRiRoRiT"},
+                      {1.5, 0.4, false, "iToRiTiR"},
+                      {1.5, 0.85, true, "iT"},
+                      {1.5, 0.85, true, "iTiR"},
+                      {1.5, 0.6, true, "oRiT"},
+                      {1.5, 0.6, true, "iRoRiT"},
+                      {1.5, 0, false, "oR"},
+                      {1.5, 0, false, "oRoRoR"},
+                      {0.7, 0, false, "oR"},
+                      {1.2, 0.95, true, "iTiToRiT"}};
+
+struct Point2 {
+  double x, y;
+};
+double dot2(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
+
+/// Where a ray in the plane of the path is at distance `far` from the centre after the word's events. inward: before it
+/// has come closest to the centre. Nothing if a surface is missed.
+std::optional<Point2> trace(const Word& word, Point2 at, Point2 d, double far, bool inward) {
+  double n = word.in_glass || word.inner_radius == 0 ? word.index : 1;
+  const auto advance = [&](double radius, bool first) {
+    const double b = dot2(at, d), root = b * b - dot2(at, at) + radius * radius;
+    if (root < 0) return false;
+    const double near = -b - std::sqrt(root), t = first && near > 1e-9 ? near : -b + std::sqrt(root);
+    at = {at.x + t * d.x, at.y + t * d.y};
+    return t > 0;
+  };
+  for (std::size_t k = 0; k < word.events.size(); k += 2) {
+    const double radius = word.events[k] == 'i' ? word.inner_radius : 1;
+    if (!advance(radius, true)) return {};
+    const Point2 normal{at.x / radius, at.y / radius};
+    const double along = dot2(d, normal);
+    if (word.events[k + 1] == 'R') {
+      d = {d.x - 2 * along * normal.x, d.y - 2 * along * normal.y};
+      continue;
+    }
+    const double to = n == 1 ? word.index : 1, eta = n / to, cosine = std::abs(along), side = along > 0 ? -1 : 1;
+    const double root = 1 - eta * eta * (1 - cosine * cosine);
+    if (root < 0) return {};
+    const double k2 = side * (eta * cosine - std::sqrt(root));
+    d = {eta * d.x + k2 * normal.x, eta * d.y + k2 * normal.y}, n = to;
+  }
+  if (!advance(far, inward)) return {};
+  return at;
+}
+
+}  // namespace
+
+TEST_CASE("specular paths with both ends inside: all are found, and traced as rays they arrive") {
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (const Word& word : words) {
+    CAPTURE(word.events);
+    CAPTURE(word.inner_radius);
+    const SpecularSphere<double> b = sphere_of<double>(word.index, word.inner_radius);
+    const double wall = word.inner_radius > 0 ? word.inner_radius : 1;
+    const EventSequence<double> sequence = word.sequence();
+    int count = 0, differ = 0, lost = 0;
+    for (int i = 0; i < 60; ++i) {
+      const double near =
+          word.in_glass ? wall + (1 - wall) * (0.01 + 0.98 * u(engine)) : wall * (0.02 + 0.97 * u(engine));
+      const double far = wall * (0.02 + 0.97 * u(engine)), angle = 0.05 + (pi - 0.1) * u(engine);
+      for (int signs = 0; signs < 4; ++signs) {
+        const EndSigns<double> sign{signs & 1 ? -1.0 : 1.0, signs & 2 ? -1.0 : 1.0};
+        if (word.in_glass && sign.near != sequence.near_sign) continue;
+        const PathEnds<double> ends = ends_of(b, near, far);
+        const SpecularDeflection<double> path = deflection_between(b, sequence, near, far, sign);
+        REQUIRE(path.possible);
+        const DeflectionRoots<double> roots = list_roots(path.deflection, angle, true);
+        differ += static_cast<int>(roots.count) != roots_by_search(path.deflection, angle);
+        for (int k = 0; k < static_cast<int>(roots.count); ++k, ++count) {
+          const DeflectionRoot<double> root = take_root(path.deflection, roots, angle, static_cast<double>(k));
+          const double sine = path.deflection.maximum * (1 - root.s * root.s) / ends.near_reach;
+          const Point2 d{-sign.near * std::sqrt(1 - sine * sine), root.sense * sine};
+          const auto end = trace(word, {near, 0}, d, far, sign.far < 0);
+          if (!end || std::hypot(end->x - far * std::cos(angle), end->y - far * std::sin(angle)) > 1e-6) ++lost;
+        }
+      }
+    }
+    CHECK(differ <= 1);
+    CHECK(lost == 0);
+    CHECK(count > 30);
+  }
+}
+
+TEST_CASE("specular paths with both ends inside: each event sequence is tried as often as expected_queries() says") {
+  std::mt19937_64 engine(12);
+  struct Place {
+    double inner_radius;
+    float near, far;
+  };
+  for (const Place& place : {Place{0.0, 0.5f, 0.4f}, Place{0.85, 0.5f, 0.4f}, Place{0.6, 0.8f, 0.4f}}) {
+    CAPTURE(place.inner_radius);
+    CAPTURE(place.near);
+    const SpecularSphere<float> b = sphere_of<float>(1.5, place.inner_radius);
+    const PathEnds<float> ends = ends_of(b, place.near, place.far);
+    REQUIRE(ends.valid);
+    REQUIRE(ends.both_in);
+    constexpr int draws = 400000;
+    std::map<std::array<int, 4>, int> drawn;  // events outer, inner, reflections there, and the near end's sign
+    for (int i = 0; i < draws; ++i) {
+      const std::uint64_t bits = engine();
+      const DrawnSequence<float> d =
+          draw_sequence(b, ends, {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32u)});
+      if (!d.drawn) continue;
+      const EventSequence<float>& w = d.sequence;
+      ++drawn[{static_cast<int>(w.outer), static_cast<int>(w.inner), static_cast<int>(w.inner_reflected),
+               ends.near_in_glass ? static_cast<int>(w.near_sign) : 1}];
+    }
+    CHECK(drawn.size() > 4);
+    int checked = 0;
+    for (const auto& [events, times] : drawn) {
+      const auto [outer, inner, inner_reflected, near_sign] = events;
+      const EventSequence<float> sequence{static_cast<float>(outer), static_cast<float>(inner),
+                                          static_cast<float>(inner_reflected), static_cast<float>(near_sign)};
+      // Of one order only: either all events inside the hollow or solid glass, or one visit to the glass.
+      const bool one_order = inner == 0 || (outer == 0 && inner == inner_reflected) || outer + inner <= 2 ||
+                             (outer == 1 && inner == 2 && inner_reflected == 0);
+      if (!one_order) continue;
+      ++checked;
+      const double by_plan = same_sequence(sequence, main_sequence(b, ends)) ? static_cast<double>(main_queries(b)) : 0;
+      const double expected = (static_cast<double>(expected_queries(b, ends, sequence)) - by_plan) * draws;
+      CAPTURE(outer);
+      CAPTURE(inner);
+      CAPTURE(near_sign);
+      CHECK(expected > 0);
+      CHECK(std::abs(times - expected) < 6 * std::sqrt(expected) + 1);
+    }
+    CHECK(checked >= 3);
+  }
+}
+
+}  // namespace tyndall::test::inside_paths_test
