@@ -20,7 +20,7 @@ LEVELS = [
     ["core/scene"],
     ["core/compile"],
     ["core/trace"],
-    ["core/specular"],
+    ["core/guide", "core/specular"],
     ["core/transport"],
     ["core/reuse"],
     ["core/targets"],

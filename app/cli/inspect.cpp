@@ -70,6 +70,8 @@ std::string json_text(const Report& report) {
   json["phase_functions"] = c.phase_functions;
   json["lights"] = c.lights;
   json["chains"] = report.prepared->columns().specular.sphere.size();
+  json["guide_lobes"] = report.prepared->guide().lobes();
+  json["guide_ms"] = report.prepared->guide().milliseconds;
   if (report.specular_gain.measured)
     json["chain_gain"] = {{"time", report.specular_gain.time}, {"squared_error", report.specular_gain.error}};
   json["splitting"] = report.prepared->columns().splits_paths;
@@ -159,12 +161,29 @@ std::string splitting_text(const Report& report) {
       max_splits);
 }
 
+/// Whether light is guided over several near-specular surfaces.
+std::string guide_text(const Report& report) {
+  const Guide& guide = report.prepared->guide();
+  const RenderSettings& render = report.loaded.scene.render;
+  if (render.caustics == Caustics::scatter || render.integrator != Integrator::mis ||
+      render.fresnel != FresnelKind::exact)
+    return "none: a part of chains, which are off";
+  if (guide.light_paths == 0) return "none: no lamp, or nothing that is almost a mirror or glass beside something matt";
+  const std::string variance = fmt::format(
+      "by {} light paths, the light that chance alone would have to find has a "
+      "variance of {:.2g} a sample",
+      guide.light_paths, guide.expected_variance);
+  if (guide.lobes() == 0) return "none: " + variance + fmt::format("; it pays from {} on", worthwhile_variance);
+  return fmt::format("{} lobes, made in {:.0f} ms; ", guide.lobes(), guide.milliseconds) + variance;
+}
+
 /// Whether second vertices are shared between pixels.
 std::string sharing_text(const Report& report) {
   const RenderScene& compiled = report.prepared->columns();
   if (!report.loaded.scene.render.sharing) return "off";
   if (compiled.integrator != Integrator::mis) return "none: it is a part of integrator mis";
   if (compiled.features.moving_spheres) return "none: spheres move";
+  if (report.prepared->guide().lobes() > 0) return "none: light is guided";
   const ReuseGain& gain = report.prepared->reuse_gain();
   if (!gain.probed) return "none: too few paths scatter evenly at their first two vertices";
   const std::string probe = fmt::format("a probe finds {:.2g} times the variance of a sample in {:.2g} times the time",
@@ -211,6 +230,7 @@ std::string table(const Report& report) {
   row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
   row("chains", specular_paths_text(report));
   if (report.specular_gain.measured) row("", gain_text(report.specular_gain));
+  row("guide", guide_text(report));
   row("splitting", splitting_text(report));
   if (report.splitting_gain.measured) row("", gain_text(report.splitting_gain));
   row("sharing", sharing_text(report));

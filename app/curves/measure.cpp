@@ -120,8 +120,12 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
     switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
   }
   switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
-  if (!prepared->columns().specular.sphere.empty())
-    switch_on("+ chains", [](RenderSettings& s) { s.caustics = Caustics::chains; });
+  const bool specular_paths = !prepared->columns().specular.sphere.empty(), guided = prepared->guide().lobes() > 0;
+  if (specular_paths || guided)
+    switch_on(!guided          ? "+ chains"
+              : specular_paths ? "+ chains, guided light"
+                               : "+ guided light",
+              [](RenderSettings& s) { s.caustics = Caustics::chains; });
   splits = true;
   if (prepared->columns().splits_paths)
     switch_on("+ splitting", [](RenderSettings& s) { s.caustics = Caustics::chains; });

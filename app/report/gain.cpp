@@ -80,7 +80,7 @@ KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernel
 MethodGain measure_specular_gain(Scene scene, const std::string& isa) {
   make_small(scene);
   const auto with = prepare(scene);
-  if (with->columns().specular.sphere.empty()) return {};
+  if (with->columns().specular.sphere.empty() && with->guide().lobes() == 0) return {};
   scene.render.caustics = Caustics::scatter;
   return measure(*with, *prepare(scene), isa);
 }

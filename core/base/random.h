@@ -34,6 +34,11 @@ inline constexpr std::uint32_t specular_root = 0x40000001u;
 inline constexpr std::uint32_t specular_connect = 0x40000002u;
 inline constexpr std::uint32_t specular_pair = 0x40000003u;
 inline constexpr std::uint32_t event_sequence_tail = 0x40000004u;
+inline constexpr std::uint32_t guided_query = 0x40000005u;
+inline constexpr std::uint32_t guided_events = 0x40000006u;
+inline constexpr std::uint32_t guided_strategy = 0x40000007u;
+inline constexpr std::uint32_t guided_direction = 0x40000008u;  // and the next one
+inline constexpr std::uint32_t guided_path = 0x50000000u;       // the first of the events of a guided path
 }  // namespace dimension
 
 inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions

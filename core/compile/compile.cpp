@@ -218,6 +218,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   if (out.integrator == Integrator::mis) out.near = find_near_lights(out);
   if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains) {
     out.specular = find_specular_pairs(flat, scene, out);
+    out.may_guide_paths = out.light_sampling;
     out.splits_paths = needs_trait<&BsdfTraits::smooth_boundary>(out.features);
   }
   out.objects = std::move(flat.objects);

@@ -275,7 +275,8 @@ struct RenderScene {
   double film_quantum = 1;
   SceneFeatures features;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs
-  bool splits_paths = false;  ///< follow both ways at smooth glass that the camera sees: transport/splitting.h
+  bool splits_paths = false;     ///< follow both ways at smooth glass that the camera sees: transport/splitting.h
+  bool may_guide_paths = false;  ///< light may be guided over near-specular surfaces; whether that pays: core/guide
   bool may_reuse_paths =
       false;  ///< second vertices may be shared between pixels; whether that pays: trace/scene_view.h
   int primitives() const;

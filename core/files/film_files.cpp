@@ -41,8 +41,9 @@ bool says(const std::string& text, const char* setting) {
 /// Whether there is light that RenderSettings::caustics says how to find.
 bool caustics_matter(Scene scene) {
   scene.render.caustics = Caustics::chains;
-  const RenderScene compiled = compile(scene);
-  return !compiled.specular.sphere.empty() || compiled.splits_paths;
+  const auto prepared = prepare(scene);
+  const RenderScene& columns = prepared->columns();
+  return !columns.specular.sphere.empty() || columns.splits_paths || prepared->guide().lobes() > 0;
 }
 
 bool could_reuse_paths(Scene scene) {

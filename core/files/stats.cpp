@@ -114,6 +114,8 @@ std::string stats_text(const RunFigures& run) {
   put(json, "sharing", run.prepared.reuses_paths());  // whether it was done, not only allowed
   put(json, "threads_from", all_printable(run.threads_from));
   add_choices(json, run.prepared.scene().render);
+  put(json, "guide_ms", run.prepared.guide().milliseconds);
+  put(json, "guide_lobes", run.prepared.guide().lobes());
   put(json, "split_events", run.result.split_events);
   return print_members(json);
 }

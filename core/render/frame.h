@@ -96,6 +96,8 @@ struct Frame {
   std::uint32_t max_spp = 0;  ///< samples of the part that was refined first; `spp` where there is none
   double white = 1;  ///< the value shown as white: relative error in the noise view, samples in that of samples, scene
                      ///< units in depth, rays a path in cost
+  int guide_lobes = 0;        ///< of the scene's guide; 0: it has none
+  double guide_ms = 0;        ///< that making the guide took, or finding out that none pays
   bool reuses_paths = false;  ///< groups of pixels reuse second vertices: see SceneView
   std::size_t film_bytes = 0;
   std::string isa;

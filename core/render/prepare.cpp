@@ -2,6 +2,7 @@
 
 #include "core/compile/compile.h"
 #include "core/compile/flatten.h"
+#include "core/guide/find_guide.h"
 #include "core/specular/find_subpixel_lights.h"
 #include "core/targets/scalar.h"
 
@@ -139,14 +140,17 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   return minimum;
 }
 
-double chance_of_caustics(const Scene& scene, const RenderScene& compiled) {
+double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const Guide* guide) {
   const SpecularPairs& specular = compiled.specular;
-  if (specular.sphere.empty()) return chance_of_caustics(scene);
+  const bool guided = guide && guide->lobes() > 0;
+  if (specular.sphere.empty() && !guided) return chance_of_caustics(scene);
   std::vector<std::size_t> elements{0};  // the first of each shape, and one behind the last
   for (const PlacedShape& shape : flatten(scene).shapes)
     elements.push_back(elements.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
   const std::size_t lights = compiled.lights.kind.size();
   const auto is_pair = [&](std::size_t light, std::size_t thing) {
+    if (guided && guide->thing_of[thing] >= 0) return true;
+    if (specular.sphere.empty()) return false;
     const std::int32_t light_index = compiled.elements.light[light], sphere = specular.sphere_of[thing];
     if (light_index < 0 || sphere < 0) return false;
     return specular.pair_of[static_cast<std::size_t>(sphere / 2) * lights + static_cast<std::size_t>(light_index)] >= 0;
@@ -159,26 +163,50 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled) {
   });
 }
 
-PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns)
+namespace {
+
+/// The guide of `before` if its scene differs in nothing but its picture; else null.
+std::shared_ptr<const Guide> kept_guide(const Scene& scene, const PreparedScene* before) {
+  if (!before || before->guide().light_paths == 0) return nullptr;
+  Scene old = before->scene();
+  if (old.camera.shutter_open != scene.camera.shutter_open || old.camera.shutter_close != scene.camera.shutter_close)
+    return nullptr;
+  old.width = scene.width, old.height = scene.height, old.camera = scene.camera, old.display = scene.display;
+  old.render.seed = scene.render.seed, old.render.spp = scene.render.spp, old.render.sampler = scene.render.sampler;
+  return old == scene ? before->shared_guide() : nullptr;
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns,
+                             std::shared_ptr<const Guide> guide)
     : scene_(std::move(scene)),
       columns_(std::move(columns)),
       textures_(texture_views(columns_)),
       view_(view_of(columns_, textures_)) {
+  if (!guide) guide = std::make_shared<const Guide>(columns_.may_guide_paths ? find_guide(view_) : Guide{});
+  guide_ = std::move(guide);
+  view_.guide = guide_->view();
+  if (guide_->lobes() > 0) columns_.kernel = view_.kernel = KernelSet::everything;  // the only one that has guides
   subpixel_lights_ = find_subpixel_lights(view_);
   view_.subpixel_light_count = static_cast<int>(subpixel_lights_.size());
   view_.subpixel_lights = subpixel_lights_.data();
-  if (columns_.may_reuse_paths) reuse_gain_ = probe_reuse(view_, trace_groups);
-  view_.reuses_paths = columns_.may_reuse_paths && is_worthwhile(reuse_gain_);
+  // Guided light is not shared: its sums would depend on the order in which waiting requests are answered.
+  const bool may_reuse_paths = columns_.may_reuse_paths && guide_->lobes() == 0;
+  if (may_reuse_paths) reuse_gain_ = probe_reuse(view_, trace_groups);
+  view_.reuses_paths = may_reuse_paths && is_worthwhile(reuse_gain_);
 }
 
 double PreparedScene::caustic_chance() const {
-  std::call_once(caustic_chance_found_, [this] { caustic_chance_ = chance_of_caustics(*scene_, columns_); });
+  std::call_once(caustic_chance_found_,
+                 [this] { caustic_chance_ = chance_of_caustics(*scene_, columns_, guide_.get()); });
   return caustic_chance_;
 }
 
 std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before) {
   RenderScene columns = compile(*scene, before ? &before->columns() : nullptr);
-  return std::make_shared<const PreparedScene>(std::move(scene), std::move(columns));
+  std::shared_ptr<const Guide> guide = kept_guide(*scene, before);
+  return std::make_shared<const PreparedScene>(std::move(scene), std::move(columns), std::move(guide));
 }
 
 std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/render_scene.h"
+#include "core/guide/guide.h"
 #include "core/reuse/probe.h"
 #include "core/scene/scene.h"
 #include "core/trace/scene_view.h"
@@ -31,16 +32,18 @@ using IsFound = std::function<bool(std::size_t light, std::size_t shape)>;
 /// is_found: pairs to leave out; empty: none.
 double chance_of_caustics(const Scene& scene, const IsFound& is_found = {});
 
-/// The same without pairs whose light specular paths compute. compiled: made from this scene.
-double chance_of_caustics(const Scene& scene, const RenderScene& compiled);
+/// The same without pairs whose light specular paths compute, or whose shape the scene's guide knows. compiled: made
+/// from this scene. guide: null: none.
+double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const Guide* guide = nullptr);
 
 /// All that is known about a scene before its first sample: its compiled columns, the subpixel lights that the camera
 /// sees, whether second vertices are reused between pixels, and how likely paths are to meet caustics. It never
 /// changes, and any number of threads can use it at once.
 class PreparedScene {
  public:
-  /// columns: compiled from `scene`. Except to measure changed columns, call prepare() instead.
-  PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns);
+  /// columns: compiled from `scene`. guide: of the scene; null: it is made here. Except to measure changed columns,
+  /// call prepare() instead.
+  PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns, std::shared_ptr<const Guide> guide = nullptr);
 
   const Scene& scene() const { return *scene_; }
   const RenderScene& columns() const { return columns_; }
@@ -50,6 +53,9 @@ class PreparedScene {
   bool reuses_paths() const { return view_.reuses_paths; }
   /// What reuse would gain; not probed where it is not allowed or not possible.
   const ReuseGain& reuse_gain() const { return reuse_gain_; }
+  /// Directions from which light comes by way of several near-specular surfaces or off metal of little fuzz.
+  const Guide& guide() const { return *guide_; }
+  const std::shared_ptr<const Guide>& shared_guide() const { return guide_; }
   /// See chance_of_caustics(). Computed at the first call, as only pictures of many samples need it.
   double caustic_chance() const;
 
@@ -57,6 +63,7 @@ class PreparedScene {
   std::shared_ptr<const Scene> scene_;
   RenderScene columns_;
   std::vector<TextureView> textures_;
+  std::shared_ptr<const Guide> guide_;
   std::vector<SubpixelLight> subpixel_lights_;
   ReuseGain reuse_gain_;
   SceneView view_;

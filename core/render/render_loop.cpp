@@ -239,6 +239,8 @@ void RenderLoop::publish() {
   frame->first_picture_ms = *first_picture_ms_;
   frame->samples = tally.samples, frame->rejected = tally.rejected, frame->truncated = tally.truncated;
   frame->reuses_paths = shown_.prepared->reuses_paths();
+  frame->guide_lobes = shown_.prepared->guide().lobes();
+  frame->guide_ms = shown_.prepared->guide().milliseconds;
   frame->cut_throughput = picture_.cut_throughput();
   frame->film_bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
   frame->isa = kernels_.isa;

@@ -51,7 +51,9 @@ void PathRecorder::on_event(const SceneView& s, const Paths<float>& p, const Hit
 }
 
 void PathRecorder::on_specular_path_light(Vec3f light) {
-  if (wanted_) path_.vertices.back().by_specular_paths = path_.weight * light;
+  if (!wanted_) return;
+  Vec3f& sum = path_.vertices.back().by_specular_paths;
+  sum = sum + path_.weight * light;
 }
 
 void PathRecorder::on_end(const Paths<float>& p, bool on, StepResult<float> end) {

@@ -12,7 +12,7 @@ class PathRecorder {
   /// The group to which the path belongs if the scene reuses second vertices; else null.
   const ReusedPaths* reused = nullptr;
 
-  void on_weight_against_specular_paths(float weight) { weight_ = weight; }
+  void on_weight_against_specular_paths(float weight) { weight_ *= weight; }
   void on_event(const SceneView& s, const Paths<float>& p, const Hit<float>& hit, const MediumEvent<float>& found,
                 const Event<float>& e);
   void on_specular_path_light(Vec3f light);
@@ -27,7 +27,7 @@ class PathRecorder {
   bool is_wanted(const Paths<float>& p) const { return !reused || reused->pixel[p.slot] >= 0; }
 
   PathReplay path_;
-  float weight_ = 1;  ///< against specular paths, of the light that this step has hit
+  float weight_ = 1;  ///< against specular and guided paths, of the light that this step has hit
   bool wanted_ = false, at_light_ = false;
   Vec3f ended_{};                       ///< gathered by the path, and by branches, that have ended
   std::vector<std::int32_t> branches_;  ///< that are still to be followed: the vertices at which they leave

@@ -25,8 +25,9 @@ struct PathVertex {
   Vec3f throughput;           ///< on arrival; 1 at the camera
   float kept = 1;             ///< transmittance, since the previous vertex, of media that only absorb: flight.h
   Vec3f radiance;             ///< gathered so far, this vertex included
-  Vec3f by_specular_paths;    ///< part of the radiance that specular paths from here have added
-  float chance = 1;  ///< weight of a light hit here, in [0, 1]; specular paths, which find it too, have the rest
+  Vec3f by_specular_paths;    ///< part of the radiance that specular and guided paths from here have added
+  float chance =
+      1;  ///< weight of a light hit here, in [0, 1]; specular and guided paths, which find it too, have the rest
   std::uint32_t first_dimension;  ///< first random dimension of the event
 };
 

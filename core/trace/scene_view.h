@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/render_scene.h"
+#include "core/trace/guide_view.h"
 #include "core/trace/subpixel_lights.h"
 
 /// A RenderScene as plain pointers: all that kernels read. They must not call a container's member functions: the
@@ -86,6 +87,7 @@ struct SceneView {
   const std::int32_t *near_medium, *near_light;
   const float* near_probability;  ///< of the pair, at index medium · number of lights + light
   SpecularView specular;
+  GuideView guide;
   int subpixel_light_count;
   const SubpixelLight* subpixel_lights;
   const float* gradients;
@@ -105,6 +107,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_image_textures() const { return features.image_textures; }
   TYNDALL_INLINE bool has_lights_in_media() const { return near_count > 0; }
   TYNDALL_INLINE bool has_specular_paths() const { return specular.pairs > 0; }
+  TYNDALL_INLINE bool has_guide() const { return guide.lobes > 0; }
   TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
 };
@@ -121,6 +124,7 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE bool has_image_textures() const { return media_and_textures && features.image_textures; }
   TYNDALL_INLINE bool has_lights_in_media() const { return media_and_textures && near_count > 0; }
   TYNDALL_INLINE bool has_specular_paths() const { return solves_specular_paths && specular.pairs > 0; }
+  TYNDALL_INLINE bool has_guide() const { return set == KernelSet::everything && !reuse && guide.lobes > 0; }
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
 };
 

@@ -26,6 +26,11 @@ TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, 
       recorder.on_weight_against_specular_paths(by_chance);
       weight = weight * by_chance;
     }
+    if (s.has_guide()) {
+      const F beside_guide = mis_weight_beside_guide(s, p.guide, p.guide.events, lit);
+      recorder.on_weight_against_specular_paths(beside_guide);
+      weight = weight * beside_guide;
+    }
     p.radiance = select(lit, p.radiance + weight * (p.throughput * e.colour), p.radiance);
   }
   e.surface = mask_and_not(e.surface, lit);

@@ -14,8 +14,8 @@
 /// Rendering, 4th edition, section 13.2). Each step makes the paths in all lanes one vertex longer; no lane waits for
 /// the others (path_pool.h). Light that several strategies can find is weighted by the power heuristic (E. Veach,
 /// Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2): sampling the BSDF or the phase
-/// function, sampling lights, and in scenes that have them, specular paths (core/specular) and flights that end next to
-/// small lights in media (near_lights.h).
+/// function, sampling lights, and in scenes that have them, specular paths (core/specular), guided paths (core/guide)
+/// and flights that end next to small lights in media (near_lights.h).
 namespace tyndall {
 
 /// A recorder that records nothing. Others (core/targets) get these calls, in this order, in each step of a path.
@@ -39,12 +39,12 @@ struct StepResult {
 ///
 /// s:        a SceneView, reduced to the models that this kernel has
 /// samples:  source of the samples and receiver of their light, see AloneSamples
-/// waiting:  requests for the light of specular paths
+/// waiting:  requests for the light of specular and guided paths
 /// pool:     receives the branches of paths that split
 /// recorder: see NoRecorder
 template <class F>
 TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, auto& samples,
-                                  SpecularQueue<F>& waiting, PathPool<F>& pool, auto& recorder,
+                                  WaitingRequests<F>& waiting, PathPool<F>& pool, auto& recorder,
                                   std::uint32_t& shadow_rays) {
   // ---- intersect: a surface, or before it an event in a medium
   Hit<F> hit = closest(s, p.ray, active);
@@ -86,10 +86,12 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   if (s.light_sampling && any(scattering)) {
     const LightQuery<F> query{choose_light(s.lights, e.point, p.sampler.next_1d(dimension::light_choice)),
                               p.sampler.next_2d(dimension::light_point), p.flight, false};
-    p.radiance = p.radiance + direct_light(s, p, e, scattering, query, shadow_rays);
+    const Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
+    p.radiance = p.radiance + (s.has_guide() ? weigh_beside_guide(s, p, e, light) : light);
   }
   if (s.has_specular_paths())
-    request_specular_paths(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
+    request_specular_paths(s, p, e, scattering, samples.slot_of(p), waiting.specular, recorder, shadow_rays);
+  if (s.has_guide()) request_guided_light(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
 
   // ---- sample the BSDF or the phase function
   F weight;
@@ -119,11 +121,11 @@ template <class F>
 TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& counts, auto& recorder) {
   PathPool<F> pool;
   clear<F>(pool);
-  SpecularQueue<F> waiting{};
+  WaitingRequests<F> waiting{};
   Paths<F> p{};
   p.sampler.kind = s.sampler;
   // One loop for paths and for the last requests: a second loop would put the code of requests into each kernel twice.
-  for (bool sampling = true; sampling || waiting.count > 0;) {
+  for (bool sampling = true; sampling || !waiting.empty();) {
     take_paths(s, p, pool, samples);
     sampling = p.alive != 0;
     if (sampling) {
@@ -133,14 +135,13 @@ TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& count
       const StepResult<F> end = step(s, p, mask_from_bits<F>(p.alive), samples, waiting, pool, recorder, shadow_rays);
       counts.splits += static_cast<std::uint64_t>(pool.count - before);
       const std::uint32_t survivors = bits(end.survivors) & p.alive;
-      counts.rays += shadow_rays, counts.shadow_rays += shadow_rays;
+      counts.rays += shadow_rays + waiting.guided_rays, counts.shadow_rays += shadow_rays, waiting.guided_rays = 0;
       samples.on_end(s, p, p.alive & ~survivors, bits(end.cut));
       p.alive = survivors;
     }
     if constexpr (SpecularQueue<F>::waits) {
-      const bool full = waiting.count >= lanes_of<F>, rest = !sampling && waiting.count > 0;
       const auto add = [&](std::int32_t slot, Vec3f light) { samples.add(slot, light); };
-      if (s.has_specular_paths() && (full || rest)) answer_requests(s, waiting, counts, add);
+      answer_full_queues(s, waiting, !sampling, counts, add);
     }
   }
 }

@@ -19,7 +19,7 @@ struct WaitingBranches {
 /// New samples start only when fewer paths wait than there are lanes. So at most 2 lanes_of<F> samples are in work, and
 /// each has at most 2^max_splits branches; append_lanes() writes up to one group of lanes behind the last of them.
 template <class F>
-using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 29, 9, (2 << max_splits) + 1>>;
+using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 36, 11, (2 << max_splits) + 1>>;
 
 /// Empties a pool, and clears the columns in which load_lanes() may read behind the last path.
 template <class F>
@@ -77,6 +77,12 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
     number(25, f.begin), number(26, f.end), number(27, f.distance), number(28, f.pdf);
     integer(7, f.medium);
   }
+  if (s.has_guide()) {
+    GuideTrail<F>& g = p.guide;
+    number(29, g.start.x), number(30, g.start.y), number(31, g.start.z);
+    number(32, g.direction.x), number(33, g.direction.y), number(34, g.direction.z), number(35, g.pdf);
+    integer(9, g.events.low), integer(10, g.events.high);
+  }
   if (s.has_reuse() || s.has_lights() || s.splits_paths) {
     IntOf<F> marks = marks_of(s, p);
     integer(8, marks);
@@ -123,6 +129,7 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   p.depth = IntOf<F>(0), p.pdf = F(one_direction);
   if (s.has_specular_paths())
     p.weight = fresh.subpixel_lights.weight, p.route = fresh.subpixel_lights.route, p.trail.met.packed = IntOf<F>(-1);
+  if (s.has_guide()) p.guide.events = OrderedEvents<F>::unknown();
   p.straight = s.has_lights() || s.splits_paths ? ~0u : 0u, p.branch = p.first = p.second = 0;
   p.alive = first_lanes(fresh.count);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/guide/guide_trail.h"
 #include "core/specular/specular_trail.h"
 #include "core/trace/flight.h"
 #include "core/trace/subpixel_lights.h"
@@ -16,6 +17,7 @@ struct Paths {
   F pdf;  ///< of the ray's direction, per steradian; one_direction: light sampling cannot choose this direction
   MediumFlight<F> flight;   ///< the flight to the ray's origin; only in scenes with lights in media
   SpecularTrail<F> trail;   ///< events since it last scattered; only in scenes with specular paths
+  GuideTrail<F> guide;      ///< likewise; only in scenes with a guide
   IntOf<F> slot;            ///< 2 · pixel within the tile + half; in kernels that reuse paths an index of ReusedPaths
   F weight;                 ///< of the sample, see subpixel_lights.h; only in scenes with specular paths
   GlassRoute<F> route;      ///< remaining events to a subpixel light; only in scenes with specular paths

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/transport/event.h"
+#include "core/transport/guided_light.h"
 
 /// How paths continue from an event: by the BSDF or the phase function, and by Russian roulette.
 namespace tyndall {
@@ -75,6 +75,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
     extend_trail(s, p.trail, came, mask_and_not(e.surface, spreads), e.at.element, mask_not(transmitted));
     restart_trail(p.trail, spreads, e.point, p.pdf, e.connect_probability);
   }
+  if (s.has_guide()) extend_guide_trail(s, p, e, transmitted);
   return goes_on;
 }
 

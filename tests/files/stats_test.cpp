@@ -43,7 +43,8 @@ TEST_CASE("figures: the names and the order that scripts rely on") {
         "msamples_per_s threads isa lanes kernel_features integrator sampler fresnel relative_error_estimate "
         "rejected_samples truncated_paths peak_memory_bytes image_hash version truncated_throughput "
         "first_rejected adaptive least_spp most_spp rare_bright_paths caustics denoised "
-        "denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from split_events ");
+        "denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from guide_ms "
+        "guide_lobes split_events ");
 }
 
 TEST_CASE("figures of a region: its size, its samples, rates of this run alone, and null for what is not known") {

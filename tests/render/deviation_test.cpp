@@ -31,20 +31,22 @@ struct Course {
 /// listed.
 template <class F>
 Course follow(const Scene& scene, double impact, std::initializer_list<int> reflections) {
-  const RenderScene compiled = compile(scene);
+  RenderScene compiled = compile(scene);
+  compiled.splits_paths = false;
   const SceneViewOf view(compiled);
   const Sampler<F> refract = choosing<F>(false), reflect = choosing<F>(true);
   Paths<F> p{};
   p.ray = {{F(0), static_cast<F>(impact), F(5)}, {F(0), F(0), F(-1)}, F(0), from_nowhere};
   p.throughput = {F(1), F(1), F(1)};
-  SpecularQueue<F> specular_queue{};
+  WaitingRequests<F> requests{};
+  PathPool<F> pool{};
   TileCounts counts;
   AloneSamples samples(view.view(), TileJob{{0, 0, 1, 1}}, {1, nullptr, nullptr, counts});
   NoRecorder recorder;
   std::uint32_t shadows = 0;
   for (int event = 0; event < 20; ++event) {
     p.sampler = std::find(reflections.begin(), reflections.end(), event) != reflections.end() ? reflect : refract;
-    if (!step(view.view(), p, true, samples, specular_queue, recorder, shadows).survivors)
+    if (!step(view.view(), p, true, samples, requests, pool, recorder, shadows).survivors)
       return {{static_cast<double>(p.ray.direction.x), static_cast<double>(p.ray.direction.y),
                static_cast<double>(p.ray.direction.z)},
               event};

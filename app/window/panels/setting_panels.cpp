@@ -62,10 +62,18 @@ std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
   return frame && frame->reuses_paths ? "pays here: groups of eight pixels share" : "does not pay in this scene";
 }
 
+std::string caustics_meaning(const RenderSettings& render, const Frame* frame) {
+  if (render.integrator != Integrator::mis) return "a part of integrator mis";
+  if (render.caustics == Caustics::scatter) return label(render.caustics).help;
+  if (!frame || frame->guide_lobes == 0) return "a guide does not pay in this scene";
+  return fmt::format("a guide pays here: {} lobes, made in {:.0f} ms", frame->guide_lobes, frame->guide_ms);
+}
+
 /// The grey line beneath a setting's row.
 std::string setting_meaning(const PanelState& state, std::string_view name) {
   const RenderSettings& render = state.scene.render;
   if (name == "integrator") return label(render.integrator).help;
+  if (name == "caustics") return caustics_meaning(render, state.model.frame.get());
   if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
   if (name == "adaptive")
     return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";

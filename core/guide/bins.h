@@ -1,0 +1,53 @@
+#pragma once
+#include "core/guide/light_paths.h"
+#include "core/trace/guide_view.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// Sorts the landings of light paths by cells.
+namespace tyndall {
+
+inline Vec3f to_float3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+/// A cell's coordinates, sorted by their key.
+struct Coordinates {
+  std::int32_t x = 0, y = 0, z = 0;
+  std::uint64_t key() const {
+    const auto part = [](std::int32_t v) {
+      return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v) & 0x1fffffu);
+    };
+    return part(x) << 42 | part(y) << 21 | part(z);
+  }
+  Coordinates stepped(const std::int32_t (&step)[3]) const { return {x + step[0], y + step[1], z + step[2]}; }
+};
+
+/// Coordinates of the cell in which a point is; only the guide's sizes are used.
+Coordinates coordinates_of(const GuideView& g, Vec3d point, int level);
+
+/// The landings of each cell of one level.
+class Bins {
+ public:
+  struct Bin {
+    std::uint64_t key;
+    Coordinates at;
+    std::size_t begin, end;  ///< in `order`
+  };
+  void fill(const GuideView& g, const std::vector<Landing>& landings, int level);
+  const Bin* find(const Coordinates& c) const;  ///< null: nothing has landed there
+
+  std::vector<Bin> bins;
+  std::vector<std::size_t> order;
+};
+
+/// Sets GuideView::inverse_size, or that of a Guide.
+void set_sizes(double middle_size, float (&inverse_size)[guide_levels]);
+
+/// The size of middle cells: such that landings fill about a third as many cells as there are landings.
+double middle_size(const std::vector<Landing>& landings);
+
+/// Irradiance at a point, roughly, from all lights as if nothing were in the way. size: the least distance that counts.
+double direct_light_at(const SceneView& s, Vec3d point, double size);
+
+}  // namespace tyndall

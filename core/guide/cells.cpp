@@ -1,0 +1,275 @@
+#include "core/guide/cells.h"
+
+#include "core/guide/bins.h"
+#include "core/guide/lobes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr int min_in_fine_cell = 4;  // landings in a cell finer than the middle level
+constexpr std::size_t max_sequences_in_cell = 6;
+constexpr std::size_t max_looked_at = 64;  // landings of a cell that a cell nearby looks at
+constexpr double coarse_factor = 0.05;     // on the power of sequences that a cell has from the next coarser level
+constexpr double neighbour_factor = 0.1;   // on the power of landings in neighbouring cells
+constexpr double min_weight = 0.02;        // of a sequence, as a fraction of its cell's power
+constexpr double lonely_error = 0.01;      // variance of a lobe that has too few others beside it
+constexpr double eagerness = 0.7;          // queries over the fraction of light that guided light brings
+constexpr double min_query_probability = 0.05;
+constexpr double near_offset = 0.05;  // squared distance, in cells, at which errors are about those of the lobe itself
+
+constexpr std::int32_t steps[7][3] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+/// The landings around a cell after the same events.
+struct Sequence {
+  const Landing* first = nullptr;
+  double power = 0, inverse_size2 = 0;
+  std::vector<std::size_t> own, others, extra;  ///< in the cell; in its neighbours; in coarser cells
+
+  void restart(const Landing& landing, double size) {
+    first = &landing, power = 0, inverse_size2 = 1 / (size * size);
+    own.clear(), others.clear(), extra.clear();
+  }
+};
+
+double squared_distance(Vec3d a, Vec3d b) { return dot(a - b, a - b); }
+
+/// The light's direction of flight at a point, by a landing's wave front. Returns false at a focus.
+bool predict(const Landing& l, Vec3d point, Vec3d& flight) {
+  const Vec3d offset = point - l.point, other = cross(l.flight, l.axis);
+  const double along = dot(offset, l.flight), p = dot(offset, l.axis), q = dot(offset, other);
+  const Symmetric& b = l.curvature;
+  const double spread = b.xx * b.yy - b.xy * b.xy;
+  const double determinant = (1 + along * b.xx) * (1 + along * b.yy) - along * along * b.xy * b.xy;
+  if (std::abs(determinant) < 1e-3) return false;
+  const double xx = (b.xx + along * spread) / determinant, xy = b.xy / determinant,
+               yy = (b.yy + along * spread) / determinant;
+  const Vec3d v = l.flight + (xx * p + xy * q) * l.axis + (xy * p + yy * q) * other;
+  flight = (1 / std::sqrt(dot(v, v))) * v;
+  return true;
+}
+
+/// Turns the landing's frame to the axes of its variance.
+Landing along_axes(Landing l) {
+  const double mean = 0.5 * (l.variance.xx + l.variance.yy), half = 0.5 * (l.variance.xx - l.variance.yy);
+  const double radius = std::sqrt(half * half + l.variance.xy * l.variance.xy);
+  double c = 1, s = 0;
+  if (radius > 1e-12 * mean) {
+    const double cosine = half / radius;  // of twice the angle
+    c = std::sqrt(std::max(0.5 * (1 + cosine), 0.0)), s = std::sqrt(std::max(0.5 * (1 - cosine), 0.0));
+    if (l.variance.xy < 0) s = -s;
+  }
+  const Vec3d other = cross(l.flight, l.axis);
+  const Symmetric b = l.curvature;
+  l.axis = c * l.axis + s * other;
+  l.variance = {mean + radius, 0, std::max(mean - radius, 0.0)};
+  l.curvature = {c * c * b.xx + 2 * c * s * b.xy + s * s * b.yy, c * s * (b.yy - b.xx) + (c * c - s * s) * b.xy,
+                 s * s * b.xx - 2 * c * s * b.xy + c * c * b.yy};
+  return l;
+}
+
+class CellMaker {
+ public:
+  CellMaker(const SceneView& scene, const LightPaths& paths, Guide& guide)
+      : scene_(scene), paths_(paths), landings_(paths.landings()), guide_(guide) {
+    set_sizes(middle_size(landings_), guide_.inverse_size);
+    sizes_ = guide_.view();
+    for (int level = 0; level < guide_levels; ++level) bins_[level].fill(sizes_, landings_, level);
+  }
+
+  void make() {
+    for (int level = 0; level < guide_levels; ++level) make_level(level);
+    mark_refined();
+    fill_table();
+  }
+
+ private:
+  struct Cell {
+    std::uint64_t key;
+    Coordinates at;
+    std::int32_t first = 0, end = 0, refined = 0;
+    double query_probability = 0;
+  };
+
+  double size(int level) const { return 1 / static_cast<double>(sizes_.inverse_size[level]); }
+  bool has_cells(int level, const Bins::Bin& bin) const {
+    return level >= guide_middle_level || bin.end - bin.begin >= min_in_fine_cell;
+  }
+
+  /// Cells with landings and their neighbours.
+  void make_level(int level) {
+    std::vector<Cell>& cells = cells_[level];
+    for (const Bins::Bin& bin : bins_[level].bins)
+      if (has_cells(level, bin))
+        for (const auto& step : steps) cells.push_back({bin.at.stepped(step).key(), bin.at.stepped(step)});
+    std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key < b.key; });
+    cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key == b.key; }),
+                cells.end());
+    for (Cell& cell : cells) make_cell(level, cell);
+  }
+
+  Vec3d middle_of(int level, const Coordinates& at) const {
+    const auto middle = [&](std::int32_t v) { return (static_cast<double>(v) + 0.5 - 0.37) * size(level); };
+    return {middle(at.x), middle(at.y), middle(at.z)};
+  }
+
+  /// Lists the sequences of landings around a cell. Those that it lacks come from coarser levels.
+  void list_sequences(int level, Vec3d middle) {
+    count_ = 0;
+    double factor = 1;
+    for (int coarser = level; coarser < guide_levels; ++coarser, factor *= coarse_factor) {
+      const std::size_t known = count_;
+      const Coordinates home = coordinates_of(sizes_, middle, coarser);
+      for (const auto& step : steps)
+        if (const Bins::Bin* bin = bins_[coarser].find(home.stepped(step)))
+          add_landings(coarser, *bin, &step == &steps[0], known, factor);
+    }
+  }
+
+  void add_landings(int level, const Bins::Bin& bin, bool home, std::size_t known, double factor) {
+    const std::vector<std::size_t>& order = bins_[level].order;
+    const std::size_t step = std::max<std::size_t>(1, (bin.end - bin.begin) / max_looked_at);
+    for (std::size_t j = bin.begin; j < bin.end; j += step) {
+      const Landing& l = landings_[order[j]];
+      std::size_t q = 0;
+      while (q < count_ && !same_events(sequences_[q].first->events, l.events)) ++q;
+      if (q < known) {
+        Sequence& old = sequences_[q];
+        if (old.own.size() + old.others.size() < 4 && old.extra.size() < 12) old.extra.push_back(order[j]);
+        continue;
+      }
+      if (q == sequences_.size()) sequences_.emplace_back();
+      if (q == count_) sequences_[count_++].restart(l, size(level));
+      Sequence& s = sequences_[q];
+      s.power += l.weight * static_cast<double>(step) * factor * (home ? 1 : neighbour_factor);
+      (home ? s.own : s.others).push_back(order[j]);
+    }
+  }
+
+  void make_cell(int level, Cell& cell) {
+    const Vec3d middle = middle_of(level, cell.at);
+    list_sequences(level, middle);
+    const auto end = sequences_.begin() + static_cast<std::ptrdiff_t>(count_);
+    std::stable_sort(sequences_.begin(), end, [](const Sequence& a, const Sequence& b) { return a.power > b.power; });
+    double total = 0, sum = 0;
+    for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power;
+    const std::size_t used = std::min(count_, max_sequences_in_cell);
+    for (std::size_t q = 0; q < used; ++q) sum += std::max(sequences_[q].power, min_weight * total);
+    cell.first = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
+    for (std::size_t q = 0; q < used; ++q)
+      add_sequence(sequences_[q], middle, std::max(sequences_[q].power, min_weight * total) / sum);
+    cell.end = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
+    const double h = size(level), brought = total / paths_.paths_of_pair() / (h * h);
+    cell.query_probability =
+        std::clamp(eagerness * brought / direct_light_at(scene_, middle, h), min_query_probability, 1.0);
+  }
+
+  void add_sequence(const Sequence& s, Vec3d middle, double weight) {
+    add_lobe(s, nearest_landing(s.own.empty() ? s.others : s.own, middle));
+    const Landing& l = *s.first;
+    for (const std::int32_t v : {l.events.low, l.events.high, l.next.low, l.next.high, l.count, 0, 0, 0})
+      guide_.events.push_back(v);
+    const std::int32_t code = (l.next.low & 63) >> 1;
+    const Thing& thing = paths_.things()[static_cast<std::size_t>(code - 1)];
+    const Vec3f center = thing.is_sphere ? to_float3(thing.center + 0.5 * thing.motion) : Vec3f{};
+    const float radius = thing.is_sphere ? static_cast<float>(thing.radius) : 0;
+    for (const float v : {static_cast<float>(weight), center.x, center.y, center.z, radius, 0.0f, 0.0f, 0.0f})
+      guide_.weights.push_back(v);
+  }
+
+  std::size_t nearest_landing(const std::vector<std::size_t>& from, Vec3d point) const {
+    return *std::min_element(from.begin(), from.end(), [&](std::size_t a, std::size_t b) {
+      return squared_distance(landings_[a].point, point) < squared_distance(landings_[b].point, point);
+    });
+  }
+
+  /// How well a lobe tells the directions of other landings: half of their mean squared difference, see LobeNumber.
+  double error_of(const Sequence& s, std::size_t own) const {
+    double sum = 0, weights = 0;
+    int count = 0;
+    const std::vector<std::size_t>* const lists[] = {&s.own, &s.others, &s.extra};
+    for (int part = 0; part < 3; ++part) {
+      if (part == 2 && count >= 2) break;
+      const std::vector<std::size_t>& list = *lists[part];
+      const std::size_t step = std::max<std::size_t>(1, list.size() / 12);
+      for (std::size_t j = 0; j < list.size(); j += step) {
+        const Landing& l = landings_[list[j]];
+        Vec3d flight;
+        if (list[j] == own || !predict(landings_[own], l.point, flight)) continue;
+        const double far = squared_distance(l.point, landings_[own].point) * s.inverse_size2;
+        if (far > 9 && part < 2) continue;
+        const double weight = 1 / (near_offset + far);
+        sum += weight * weight * squared_distance(flight, l.flight), weights += weight, ++count;
+      }
+    }
+    return count >= 2 ? 0.5 * sum / weights : lonely_error;
+  }
+
+  void add_lobe(const Sequence& s, std::size_t index) {
+    const Landing l = along_axes(landings_[index]);
+    const double numbers[numbers_of_lobe] = {l.point.x,     l.point.y,      l.point.z,          l.flight.x,
+                                             l.flight.y,    l.flight.z,     l.axis.x,           l.axis.y,
+                                             l.axis.z,      l.curvature.xx, l.curvature.xy,     l.curvature.yy,
+                                             l.variance.xx, l.variance.yy,  error_of(s, index), s.inverse_size2};
+    for (const double v : numbers) guide_.lobe.push_back(static_cast<float>(v));
+  }
+
+  /// Marks the cells that hold finer ones.
+  void mark_refined() {
+    for (int level = 0; level < guide_middle_level; ++level)
+      for (const Cell& fine : cells_[level])
+        for (int coarser = level + 1; coarser <= guide_middle_level; ++coarser) {
+          const std::uint64_t key = coordinates_of(sizes_, middle_of(level, fine.at), coarser).key();
+          std::vector<Cell>& cells = cells_[coarser];
+          const auto at = std::lower_bound(cells.begin(), cells.end(), key,
+                                           [](const Cell& c, std::uint64_t k) { return c.key < k; });
+          if (at != cells.end() && at->key == key) at->refined = 1;
+        }
+  }
+
+  void fill_table() {
+    std::size_t count = 8, slots = 1;
+    for (const std::vector<Cell>& cells : cells_) count += cells.size();
+    while (slots < 2 * count) slots *= 2;
+    guide_.slot_mask = static_cast<std::int32_t>(slots - 1);
+    guide_.cells.assign(slots * numbers_of_cell, 0);
+    guide_.query_probability.assign(slots, 0);
+    for (int level = 0; level < guide_levels; ++level)
+      for (const Cell& cell : cells_[level]) insert(tag_of<float>({cell.at.x, cell.at.y, cell.at.z}, level), cell);
+  }
+
+  /// A cell whose tag is taken shares the other one's slot.
+  void insert(std::uint32_t tag, const Cell& cell) {
+    auto slot = static_cast<std::size_t>(tag >> 1) & static_cast<std::size_t>(guide_.slot_mask);
+    const auto column = [&](int k) -> std::int32_t& {
+      return guide_.cells[slot * numbers_of_cell + static_cast<std::size_t>(k)];
+    };
+    while (column(cell_tag) != 0 && column(cell_tag) != static_cast<std::int32_t>(tag))
+      slot = (slot + 1) & static_cast<std::size_t>(guide_.slot_mask);
+    if (column(cell_tag) != 0) return;
+    column(cell_tag) = static_cast<std::int32_t>(tag), column(cell_first) = cell.first, column(cell_end) = cell.end;
+    column(cell_is_refined) = cell.refined;
+    guide_.query_probability[slot] = static_cast<float>(cell.query_probability);
+  }
+
+  const SceneView& scene_;
+  const LightPaths& paths_;
+  const std::vector<Landing>& landings_;
+  Guide& guide_;
+  GuideView sizes_;
+  Bins bins_[guide_levels];
+  std::vector<Cell> cells_[guide_levels];
+  std::vector<Sequence> sequences_;  ///< of the present cell: the first count_ ones
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+void make_cells(const SceneView& scene, const LightPaths& paths, Guide& guide) {
+  CellMaker(scene, paths, guide).make();
+}
+
+}  // namespace tyndall

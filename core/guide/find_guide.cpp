@@ -1,0 +1,38 @@
+#include "core/guide/find_guide.h"
+
+#include "core/base/seconds.h"
+#include "core/guide/cells.h"
+
+#include <chrono>
+
+namespace tyndall {
+namespace {
+
+constexpr int paths_to_decide = 1000, paths_in_all = 4000;
+
+void fill(const SceneView& scene, Guide& guide) {
+  std::vector<Thing> things = list_things(scene);
+  if (things.empty()) return;
+  LightPaths paths(scene, std::move(things));
+  paths.trace_evenly(paths_to_decide);
+  guide.expected_variance = expected_variance(scene, paths);
+  guide.light_paths = paths.traced();
+  if (!(guide.expected_variance >= worthwhile_variance)) return;
+  paths.trace_evenly(paths_in_all / 2 - paths_to_decide);
+  paths.trace_copies(paths_in_all / 2);
+  guide.light_paths = paths.traced();
+  guide.thing_of = paths.thing_of();
+  make_cells(scene, paths, guide);
+}
+
+}  // namespace
+
+Guide find_guide(const SceneView& scene) {
+  const auto start = std::chrono::steady_clock::now();
+  Guide guide;
+  fill(scene, guide);
+  guide.milliseconds = 1e3 * seconds_since(start);
+  return guide;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,357 @@
+#include "core/guide/light_paths.h"
+
+#include "core/trace/flight.h"
+#include "core/trace/intersect.h"
+#include "core/trace/lights.h"
+#include "core/trace/shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+constexpr double min_reflected = 0.15;  // probability with which a light path is reflected, or refracted, at least
+constexpr double nearby = 1e-5;         // how far nearby rays are turned or moved
+constexpr double turned_apart = 2;      // copies are turned by up to this times the distance between light paths
+
+double at(const float* column, int i) { return static_cast<double>(column[i]); }
+
+/// Cosine and sine of a random angle: by the kernels' polynomials, not by the C library.
+SinCos<double> random_angle(double u) {
+  const SinCos<float> a = sin_cos_2pi(static_cast<float>(u));
+  return {static_cast<double>(a.sin), static_cast<double>(a.cos)};
+}
+
+double squared_length(Vec3d v) { return dot(v, v); }
+Vec3d unit_vector(Vec3d v) { return (1 / std::sqrt(squared_length(v))) * v; }
+
+/// A ray that meets a surface, as its neighbours do.
+struct MetSurface {
+  bool is_sphere, inverted, far;  ///< far: the path met the sphere from within
+  Vec3d center, point, normal;    ///< point, normal: of the path itself
+  double radius, index;           ///< index: of refraction, inside over outside; 0: a mirror
+  bool reflects;
+};
+
+/// Takes a ray near a light path to the same surface and on. False: it does not follow.
+bool follow(const MetSurface& m, Vec3d& origin, Vec3d& direction) {
+  Vec3d normal = m.normal;
+  double t;
+  if (m.is_sphere) {
+    const Vec3d to_center = m.center - origin;
+    const double middle = dot(to_center, direction);
+    const Vec3d across = to_center - middle * direction;
+    const double discriminant = m.radius * m.radius - dot(across, across);
+    if (!(discriminant > 0)) return false;
+    t = m.far ? middle + std::sqrt(discriminant) : middle - std::sqrt(discriminant);
+    origin = origin + t * direction;
+    normal = unit_vector(origin - m.center);
+    if (m.inverted) normal = -normal;
+  } else {
+    t = dot(m.point - origin, normal) / dot(direction, normal);
+    origin = origin + t * direction;
+  }
+  if (m.reflects) {
+    direction = direction - (2 * dot(direction, normal)) * normal;
+    return true;
+  }
+  const bool exiting = dot(direction, normal) > 0;
+  const Vec3d facing = exiting ? -normal : normal;
+  const double eta = exiting ? 1 / m.index : m.index, cosine = -dot(direction, facing);
+  const double squared = eta * eta - 1 + cosine * cosine;
+  if (!(squared > 0)) return false;
+  direction = unit_vector(direction + (cosine - std::sqrt(squared)) * facing);
+  return true;
+}
+
+/// A 2x2 matrix.
+struct Matrix {
+  double a, b, c, d;
+};
+Matrix operator*(Matrix p, Matrix q) {
+  return {p.a * q.a + p.b * q.c, p.a * q.b + p.b * q.d, p.c * q.a + p.d * q.c, p.c * q.b + p.d * q.d};
+}
+Matrix operator-(Matrix p, Matrix q) { return {p.a - q.a, p.b - q.b, p.c - q.c, p.d - q.d}; }
+double determinant(Matrix m) { return m.a * m.d - m.b * m.c; }
+Matrix inverse(Matrix m) {
+  const double k = 1 / determinant(m);
+  return {k * m.d, -k * m.b, -k * m.c, k * m.a};
+}
+void add_square(Matrix m, double scale, Symmetric& to) {
+  to.xx += scale * (m.a * m.a + m.b * m.b), to.xy += scale * (m.a * m.c + m.b * m.d);
+  to.yy += scale * (m.c * m.c + m.d * m.d);
+}
+
+/// Transmittance of the media along a ray, by the kernels' polynomials.
+double transmitted(const SceneView& s, const Ray<double>& ray, double distance) {
+  const auto narrow = [](Vec3d v) {
+    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
+  const Ray<float> same{narrow(ray.origin), narrow(ray.direction), static_cast<float>(ray.time), ray.from};
+  return static_cast<double>(pass_media<float>(s, same, static_cast<float>(distance), true));
+}
+
+struct ChangedPair {
+  Matrix place, turn;
+};
+
+/// The changes of place and direction, in the plane across a flight at `point`, of two rays near it, as columns. They
+/// are those of rays turned or moved by `nearby`, divided by that.
+ChangedPair changes_of(const Vec3d (&origin)[2], const Vec3d (&direction)[2], Vec3d point, Vec3d d) {
+  const Basis<double> b = basis_around(d);
+  double change[2][4];
+  for (int i = 0; i < 2; ++i) {
+    const double slope = 1 / dot(direction[i], d);
+    const Vec3d turned = slope * direction[i], off = origin[i] + dot(point - origin[i], d) * turned - point;
+    const double values[4] = {dot(off, b.s), dot(off, b.t), dot(turned, b.s), dot(turned, b.t)};
+    for (int c = 0; c < 4; ++c) change[i][c] = values[c] / nearby;
+  }
+  return {{change[0][0], change[1][0], change[0][1], change[1][1]},
+          {change[0][2], change[1][2], change[0][3], change[1][3]}};
+}
+
+}  // namespace
+
+LightPaths::LightPaths(const SceneView& scene, std::vector<Thing> things)
+    : scene_(scene), things_(std::move(things)), thing_of_(static_cast<std::size_t>(scene.element_count), -1) {
+  for (std::size_t i = 0; i < things_.size(); ++i)
+    thing_of_[static_cast<std::size_t>(things_[i].element)] = static_cast<std::int32_t>(i);
+}
+
+std::vector<std::int32_t> LightPaths::thing_of() const { return thing_of_; }
+
+/// S. Vigna's splitmix64.
+double LightPaths::next() {
+  std::uint64_t z = random_ += 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull, z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+Vec3d LightPaths::direction_in_cone(Vec3d axis, double one_minus_cos) {
+  const double z = 1 - next() * one_minus_cos, r = std::sqrt(std::max(1 - z * z, 0.0));
+  const SinCos<double> a = random_angle(next());
+  const Basis<double> b = basis_around(axis);
+  return unit_vector(z * axis + (r * a.cos) * b.s + (r * a.sin) * b.t);
+}
+
+Vec3d LightPaths::middle_of(int light, double time) const {
+  const LightView& l = scene_.lights;
+  if (l.kind[light] == Lights::sphere) return sphere_light_center(load_light<double>(l, light), time);
+  return {at(l.center[0], light), at(l.center[1], light), at(l.center[2], light)};
+}
+
+/// Draws a path from a light's middle towards a thing. Returns false if it leads along the light.
+bool LightPaths::aim(int light, int index, Start& start) {
+  const LightView& l = scene_.lights;
+  const Thing& thing = things_[static_cast<std::size_t>(index)];
+  start.light = light, start.thing = index;
+  start.time =
+      static_cast<double>(scene_.camera.shutter_open) + next() * static_cast<double>(scene_.camera.shutter_length);
+  const LightColumns<double> columns = load_light<double>(l, light);
+  const bool round = l.kind[light] == Lights::sphere;
+  const Vec3d middle = middle_of(light, start.time);
+  if (thing.is_sphere) {
+    const Vec3d to_center = thing.center + start.time * thing.motion - middle;
+    const double squared = dot(to_center, to_center), sine2 = thing.radius * thing.radius / squared;
+    const double one_minus_cos = sine2 < 1 ? sine2 / (1 + std::sqrt(1 - sine2)) : 2;
+    start.direction = direction_in_cone(squared > 0 ? unit_vector(to_center) : Vec3d{0, 0, 1}, one_minus_cos);
+    start.solid_angle = 2 * pi * one_minus_cos;
+  } else {
+    const double a = next(), b = next();
+    const Vec3d way = thing.corner + a * thing.u + b * thing.v - middle;
+    const double squared = dot(way, way);
+    if (!(squared > 0)) return false;
+    start.direction = unit_vector(way);
+    start.solid_angle = std::min(std::abs(dot(start.direction, cross(thing.u, thing.v))) / squared, 4 * pi);
+  }
+  const double intensity = at(l.power, light);  // radiance times area
+  start.power = start.solid_angle * intensity * (round ? 0.25 : std::abs(dot(start.direction, columns.normal)));
+  return start.power > 0;
+}
+
+void LightPaths::begin(const Start& start) {
+  const LightView& l = scene_.lights;
+  const LightColumns<double> columns = load_light<double>(l, start.light);
+  const bool round = l.kind[start.light] == Lights::sphere;
+  const Vec3d d = start.direction;
+  const double skip = round ? columns.length_u : 0;  // paths start on the light's surface
+  const Vec3d middle = middle_of(start.light, start.time);
+  Flight& f = flight_;
+  f.start = start, f.fuzz.clear(), f.met.clear(), f.rays.clear();
+  f.weight = start.power, f.chance = 1;
+  const double longest = std::max(columns.length_u, columns.length_v);
+  f.light_radius = round ? columns.length_u : longest * std::sqrt(1 / 3.0);  // of a disc as wide, roughly
+  const bool behind = !round && dot(d, columns.normal) < 0;
+  f.from = 4 * l.element[start.light] + static_cast<std::int32_t>(behind ? Side::inward : Side::outward);
+  const Basis<double> b = basis_around(d);
+  const Vec3d directions[] = {d, unit_vector(d + nearby * b.s), unit_vector(d + nearby * b.t)};
+  for (const Vec3d& direction : directions) f.rays.push_back({middle + skip * direction, direction});
+  for (const Vec3d& moved : {b.s, b.t}) f.rays.push_back({middle + nearby * moved + skip * d, d});
+}
+
+void LightPaths::trace(const Start& start, const OrderedEvents<double>* wanted) {
+  ++traced_;
+  begin(start);
+  Flight& f = flight_;
+  for (int depth = 0; depth <= max_guided_events; ++depth) {
+    const Ray<double> ray{f.rays[0].origin, f.rays[0].direction, start.time, f.from};
+    const Hit<double> hit = closest<double>(scene_, ray, true);
+    if (hit.element < 0) return;
+    const std::int32_t aimed = things_[static_cast<std::size_t>(start.thing)].element;
+    if (depth == 0 && hit.element != aimed) return;
+    if (scene_.has_media()) f.weight *= transmitted(scene_, ray, hit.t);
+    const std::int32_t kind = scene_.kind[scene_.material[hit.element]];
+    if (has_trait<&BsdfTraits::diffuse>(scene_, kind)) return land(ray.origin + hit.t * ray.direction, wanted);
+    if (thing_of_[static_cast<std::size_t>(hit.element)] < 0 || !meet(hit.element, hit.t, wanted)) return;
+  }
+}
+
+/// Decides whether glass reflects the flight, and weighs it. Returns false if no light goes that way.
+bool LightPaths::choose_side(double reflected, std::int32_t thing, const OrderedEvents<double>* wanted,
+                             bool& reflects) {
+  double probability = reflected;
+  if (reflected > 0 && reflected < 1) probability = std::clamp(reflected, min_reflected, 1 - min_reflected);
+  if (wanted) {  // the sum of the copies' weights is known, so that a factor of all does not matter
+    const auto depth = static_cast<int>(flight_.met.size());
+    const std::int32_t code = (depth < 5 ? wanted->low >> 6 * depth : wanted->high >> 6 * (depth - 5)) & 63;
+    if (code >> 1 != thing + 1) return false;
+    reflects = (code & 1) != 0;
+    probability = 0.5;
+  } else {
+    reflects = next() < probability;
+  }
+  const double fraction = reflects ? reflected : 1 - reflected;
+  flight_.chance *= fraction, flight_.weight *= fraction / (reflects ? probability : 1 - probability);
+  return fraction > 0;
+}
+
+/// Sends the flight on from a thing. Returns false if it ends there.
+bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double>* wanted) {
+  Flight& f = flight_;
+  if (f.met.size() == max_guided_events) return false;
+  const std::int32_t index = thing_of_[static_cast<std::size_t>(element)];
+  const Thing& thing = things_[static_cast<std::size_t>(index)];
+  const Ray<double> ray{f.rays[0].origin, f.rays[0].direction, f.start.time, f.from};
+  const SurfacePoint<double> p = surface_at<double>(scene_, ray, t, element);
+  const bool exiting = dot(ray.direction, p.normal) > 0, inside = exiting != p.inverted;
+  MetSurface m{
+      thing.is_sphere, p.inverted, inside, thing.center + f.start.time * thing.motion, p.point, p.normal, 0, 0, true};
+  m.radius = std::sqrt(squared_length(p.point - m.center));
+  if (has_trait<&BsdfTraits::glossy>(scene_, scene_.kind[p.material])) {
+    f.weight *= std::max({at(scene_.red, p.material), at(scene_.green, p.material), at(scene_.blue, p.material)});
+  } else {
+    Incident<double> in{};
+    in.direction = ray.direction, in.normal = p.normal, in.facing = exiting ? -p.normal : p.normal;
+    in.cosine = std::min(std::abs(dot(ray.direction, p.normal)), 1.0), in.exiting = exiting;
+    const Boundary<double> boundary = boundary_any(scene_, p.material, in);
+    m.index = exiting ? 1 / boundary.eta : boundary.eta;
+    if (!choose_side(boundary.reflected, index, wanted, m.reflects)) return false;
+  }
+  for (NearbyRay& near : f.rays) near.lost = near.lost || !follow(m, near.origin, near.direction);
+  if (f.rays[0].lost) return false;
+  if (thing.fuzz > 0) {
+    const NearbyRay own = f.rays[0];
+    const Basis<double> b = basis_around(own.direction);
+    for (const Vec3d& turned : {b.s, b.t}) f.rays.push_back({own.origin, unit_vector(own.direction + nearby * turned)});
+    f.fuzz.push_back(thing.fuzz);
+  }
+  f.from = 4 * element + (inside == m.reflects ? 1 : 0);
+  f.met.push_back(2 * index + (m.reflects ? 1 : 0));
+  return true;
+}
+
+/// Names the events of the flight. Returns false if exact paths cover them, or if they are not the wanted ones.
+bool LightPaths::name_events(const OrderedEvents<double>* wanted, Landing& l) const {
+  const std::vector<std::int32_t>& met = flight_.met;
+  l.events = l.next = OrderedEvents<double>::none();
+  l.count = static_cast<int>(met.size());
+  bool one_object = true;
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    const std::int32_t first = met[i], last = met[met.size() - 1 - i];
+    l.next = append_event(l.next, first >> 1, (first & 1) != 0);
+    l.events = append_event(l.events, last >> 1, (last & 1) != 0);
+    const auto object = [&](std::int32_t event) { return things_[static_cast<std::size_t>(event >> 1)].object; };
+    one_object = one_object && object(first) >= 0 && object(first) == object(met[0]);
+  }
+  return !one_object && !(wanted && !same_events(*wanted, l.events));
+}
+
+/// Turns the flight into a landing, from how its nearby rays cross the plane across the flight there.
+void LightPaths::land(Vec3d point, const OrderedEvents<double>* wanted) {
+  const Flight& f = flight_;
+  if (f.met.empty() || std::any_of(f.rays.begin(), f.rays.end(), [](const NearbyRay& r) { return r.lost; })) return;
+  Landing l;
+  if (!name_events(wanted, l)) return;
+  const Vec3d d = f.rays[0].direction;
+  const auto pair = [&](std::size_t k) {
+    return changes_of({f.rays[k].origin, f.rays[k + 1].origin}, {f.rays[k].direction, f.rays[k + 1].direction}, point,
+                      d);
+  };
+  const ChangedPair turned = pair(1), moved = pair(3);
+  if (std::abs(determinant(turned.place)) < 1e-9) return;  // a focus
+  const Matrix front = turned.turn * inverse(turned.place);
+  add_square(moved.turn - front * moved.place, f.light_radius * f.light_radius / 4, l.variance);
+  for (std::size_t k = 0; k < f.fuzz.size(); ++k) {
+    const ChangedPair blurred = pair(5 + 2 * k);
+    add_square(blurred.turn - front * blurred.place, f.fuzz[k] * f.fuzz[k] / 5, l.variance);
+  }
+  l.point = point, l.flight = d, l.axis = basis_around(d).s;
+  l.curvature = {front.a, 0.5 * (front.b + front.c), front.d};
+  l.weight = f.weight, l.chance = f.chance;
+  if (!std::isfinite(l.variance.xx + l.variance.yy + front.a + front.b + front.c + front.d)) return;
+  landings_.push_back(l), starts_.push_back(f.start);
+}
+
+void LightPaths::trace_evenly(int count) {
+  const int lights = std::min(scene_.lights.count, max_guide_lights), things = static_cast<int>(things_.size());
+  const int each = std::max(count / std::max(lights * things, 1), 1);
+  paths_of_pair_ += each;
+  for (int light = 0; light < lights; ++light)
+    for (int thing = 0; thing < things; ++thing)
+      for (int i = 0; i < each; ++i) {
+        Start start{};
+        if (aim(light, thing, start)) trace(start, nullptr);
+      }
+}
+
+/// Traces copies of paths that landed after the same events, and shares the sum of their weights with them.
+void LightPaths::copy(const std::vector<std::size_t>& landed, int count) {
+  const OrderedEvents<double> events = landings_[landed[0]].events;
+  const std::size_t before = landings_.size();
+  for (int i = 0; i < count; ++i) {
+    Start start = starts_[landed[static_cast<std::size_t>(next() * static_cast<double>(landed.size()))]];
+    const double apart = std::sqrt(start.solid_angle / pi / std::max(paths_of_pair_, 1.0));
+    const double r = turned_apart * apart * std::sqrt(next());
+    const SinCos<double> a = random_angle(next());
+    const Basis<double> b = basis_around(start.direction);
+    start.direction = unit_vector(start.direction + (r * a.cos) * b.s + (r * a.sin) * b.t);
+    trace(start, &events);
+  }
+  double old_sum = 0, new_sum = 0;
+  for (const std::size_t i : landed) old_sum += landings_[i].weight;
+  for (std::size_t i = before; i < landings_.size(); ++i) new_sum += landings_[i].weight;
+  if (!(new_sum > 0)) return;
+  const auto had = static_cast<double>(landed.size());
+  const double kept = had / (had + static_cast<double>(landings_.size() - before));
+  for (const std::size_t i : landed) landings_[i].weight *= kept;
+  for (std::size_t i = before; i < landings_.size(); ++i) landings_[i].weight *= (1 - kept) * old_sum / new_sum;
+}
+
+void LightPaths::trace_copies(int count) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> sequences;
+  for (std::size_t i = 0; i < landings_.size(); ++i)
+    sequences[{landings_[i].events.high, landings_[i].events.low}].push_back(i);
+  const auto root_of = [&](const std::vector<std::size_t>& landed) {
+    double sum = 0;
+    for (const std::size_t i : landed) sum += landings_[i].weight;
+    return std::sqrt(sum);
+  };
+  double total = 0;
+  for (const auto& [events, landed] : sequences) total += root_of(landed);
+  for (const auto& [events, landed] : sequences) copy(landed, static_cast<int>(count * root_of(landed) / total));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,173 @@
+#include "core/guide/find_guide.h"
+#include "core/guide/lobes.h"
+#include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+/// The guide: where it is made, that its pdf is that of the directions it draws, and that it is a function of the
+/// scene.
+namespace tyndall::test::guide_test {
+
+namespace {
+
+struct Guided {
+  std::shared_ptr<const PreparedScene> prepared;
+  const GuideView& view() const { return prepared->view().guide; }
+  explicit Guided(const char* name) : prepared(prepare(small_scene(name, 64, 48, 1))) {
+    REQUIRE(prepared->guide().lobes() > 0);
+  }
+};
+
+/// A point of the floor, by its place in the scene's own coordinates.
+Vec3f on_floor(const Guided& g, double x, double z) {
+  const Vec3d p = Vec3d{x, 0, z} - g.prepared->columns().origin;
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+/// All sequences of the cell of a point.
+std::vector<GuidedSequence<float>> sequences_at(const GuideView& g, Vec3f point) {
+  std::vector<GuidedSequence<float>> list;
+  const std::int32_t cell = find_cell<float>(g, point, true);
+  if (cell < 0) return list;
+  for (std::int32_t i = g.cells[cell * numbers_of_cell + cell_first]; i < g.cells[cell * numbers_of_cell + cell_end];
+       ++i)
+    list.push_back({i, g.query_probability[cell] * g.weights[i * numbers_of_weights + weight_of_events]});
+  return list;
+}
+
+struct Draws {
+  std::mt19937 engine{7};
+  float next() { return static_cast<float>(engine() >> 8) * 0x1p-24f; }
+};
+
+}  // namespace
+
+TEST_CASE("guide: the pdf of a sequence of events integrates to the probability of the sequence") {
+  for (const char* name : {"stress-small-fuzz", "stress-two-balls"}) {
+    CAPTURE(name);
+    const Guided g(name);
+    int tested = 0;
+    for (const double x : {-2.0, 0.5, 1.5})
+      for (const GuidedSequence<float>& sequence : sequences_at(g.view(), on_floor(g, x, 1))) {
+        const Vec3f point = on_floor(g, x, 1);
+        const GuidedDirections<float> directions = guided_directions(g.view(), sequence, point);
+        const SeenLobe<float>& seen = directions.lobe;
+        if (!seen.exists) continue;
+        const Basis<float> b = basis_around(seen.center);
+        // Angles from the first lobe's centre in equal ratios: 2e-6 to pi.
+        constexpr int rings = 1600, spokes = 512;
+        const double ratio = std::exp(std::log(pi / 2e-6) / rings);
+        double sum = 0;
+        for (int i = 0; i < rings; ++i) {
+          const double inner = 2e-6 * std::pow(ratio, i), angle = inner * std::sqrt(ratio);
+          const double width = inner * (ratio - 1) * std::sin(angle) * 2 * pi / spokes;
+          for (int k = 0; k < spokes; ++k) {
+            const double phi = 2 * pi * (k + 0.5) / spokes;
+            const auto s = static_cast<float>(std::sin(angle) * std::cos(phi)),
+                       t = static_cast<float>(std::sin(angle) * std::sin(phi));
+            const Vec3f direction = static_cast<float>(std::cos(angle)) * seen.center + s * b.s + t * b.t;
+            sum += width * static_cast<double>(guided_pdf(directions, direction));
+          }
+        }
+        CHECK(sum == doctest::Approx(sequence.probability).epsilon(0.03));
+        ++tested;
+      }
+    CHECK(tested > 3);
+  }
+}
+
+TEST_CASE("guide: directions are drawn with the pdf that is stated") {
+  for (const char* name : {"stress-small-fuzz", "stress-two-balls"}) {
+    CAPTURE(name);
+    const Guided g(name);
+    Draws draws;
+    int tested = 0;
+    for (const double x : {-2.0, 0.5, 1.5}) {
+      const Vec3f point = on_floor(g, x, 1.5);
+      for (const GuidedSequence<float>& sequence : sequences_at(g.view(), point)) {
+        const GuidedDirections<float> directions = guided_directions(g.view(), sequence, point);
+        const SeenLobe<float>& seen = directions.lobe;
+        if (!seen.exists) continue;
+        // The mean of 1 / pdf over the directions drawn within a cone is the cone's solid angle.
+        for (const double factor : {0.5, 3.0, 20.0}) {
+          const double angle = std::min(factor * static_cast<double>(seen.length_u), 1.0);
+          const double solid_angle = 2 * pi * (1 - std::cos(angle));
+          constexpr int count = 200000;
+          double sum = 0, squares = 0;
+          for (int i = 0; i < count; ++i) {
+            bool exists = true;
+            const float strategy = draws.next(), u = draws.next();
+            const Vec3f direction = draw_guided_direction(directions, strategy, {u, draws.next()}, exists);
+            const Vec3f across = cross(direction, seen.center);
+            const bool inside =
+                exists && dot(direction, seen.center) > 0 && static_cast<double>(length(across)) < std::sin(angle);
+            if (!inside) continue;
+            const double value = static_cast<double>(sequence.probability / guided_pdf(directions, direction));
+            sum += value, squares += value * value;
+          }
+          const double mean = sum / count, error = std::sqrt((squares / count - mean * mean) / count);
+          CAPTURE(angle);
+          CHECK(std::abs(mean - solid_angle) < 5 * error + 0.004 * solid_angle);
+          ++tested;
+        }
+      }
+    }
+    CHECK(tested > 10);
+  }
+}
+
+TEST_CASE("guide: the same bits whatever was edited before") {
+  const auto scene = std::make_shared<const Scene>(small_scene("stress-small-fuzz", 64, 48, 1));
+  const auto fresh = prepare(scene);
+  const auto same = [&](const PreparedScene& other) {
+    const Guide &a = fresh->guide(), &b = other.guide();
+    return a.cells == b.cells && a.events == b.events && a.thing_of == b.thing_of && a.lobe == b.lobe &&
+           a.query_probability == b.query_probability && a.weights == b.weights && a.slot_mask == b.slot_mask;
+  };
+  Scene moved = *scene, brighter = *scene;
+  moved.camera.look_from.x += 1;
+  moved.render.seed = 5;
+  brighter.materials[0].colour = Vec3d{0.2, 0.2, 0.2};
+  for (const Scene& before :
+       {moved, brighter, small_scene("stress-two-balls", 32, 24, 1), small_scene("cornell-box", 8, 8, 1)})
+    CHECK(same(*prepare(scene, prepare(before).get())));
+  CHECK(&prepare(std::make_shared<const Scene>(moved), fresh.get())->guide() == &fresh->guide());  // not made twice
+}
+
+TEST_CASE("guide: none without small lights, or without something near-specular, or where it is switched off") {
+  for (const char* name : {"cornell-box", "quads", "cover", "showroom", "next-week", "stress-caustic-glass",
+                           "stress-caustic-mirror", "stress-mirror-wall", "stress-pane", "stress-bulb"})
+    CHECK_MESSAGE(prepare(small_scene(name, 8, 8, 1))->guide().lobes() == 0, name);
+  CHECK(prepare(small_scene("quads", 8, 8, 1))->guide().light_paths == 0);
+  const auto lobes = [](auto change) {
+    Scene scene = small_scene("stress-small-fuzz", 8, 8, 1);
+    change(scene.render);
+    return prepare(scene)->guide().lobes();
+  };
+  CHECK(lobes([](RenderSettings&) {}) > 0);
+  CHECK(lobes([](RenderSettings& s) { s.caustics = Caustics::scatter; }) == 0);
+  CHECK(lobes([](RenderSettings& s) { s.integrator = Integrator::nee; }) == 0);
+  CHECK(lobes([](RenderSettings& s) { s.integrator = Integrator::path; }) == 0);
+  CHECK(lobes([](RenderSettings& s) { s.fresnel = FresnelKind::schlick; }) == 0);
+}
+
+TEST_CASE("guide: sequences of events are told apart by surface, kind and order, up to ten of them") {
+  using Events = OrderedEvents<float>;
+  const Events a = append_event(append_event(Events::none(), 3, true), 7, false);
+  const Events b = append_event(append_event(Events::none(), 7, false), 3, true);
+  CHECK_FALSE(same_events(a, b));
+  CHECK_FALSE(same_events(a, append_event(append_event(Events::none(), 3, true), 7, true)));
+  CHECK_FALSE(append_event(a, -1, true).is_known());
+  Events all = Events::none();
+  for (int i = 0; i < max_guided_events; ++i) {
+    all = append_event(all, max_guided_things - 1, true);
+    CHECK(all.is_known());
+  }
+  CHECK_FALSE(append_event(all, 0, false).is_known());
+}
+
+}  // namespace tyndall::test::guide_test
