@@ -59,26 +59,31 @@ struct Result {
   TileCounts counts;
 };
 
-Result run(const Kernels& kernels, const RenderScene& scene, const TileJob& job) {
+Result run(const Kernels& kernels, const SceneViewOf& view, double film_quantum, const TileJob& job) {
   const auto size = static_cast<std::size_t>(job.tile.width()) * static_cast<std::size_t>(job.tile.height());
   Result result;
   result.pixels.resize(size + 64);  // room to see writes beyond the tile
-  const SceneViewOf view(scene);
-  kernels.render_tile(view.view(), job, scene.film_quantum, result.pixels.data(), result.counts);
+  kernels.render_tile(view.view(), job, film_quantum, result.pixels.data(), result.counts);
   for (std::size_t i = size; i < result.pixels.size(); ++i) CHECK(result.pixels[i] == FilmPixel{});
   result.pixels.resize(size);
   return result;
+}
+
+Result run(const Kernels& kernels, const RenderScene& scene, const TileJob& job) {
+  return run(kernels, SceneViewOf(scene), scene.film_quantum, job);
 }
 
 /// A whole image from units of the given edge and number of samples.
 std::vector<FilmPixel> image(const Kernels& kernels, const RenderScene& scene, int tile, std::uint32_t samples,
                              std::uint32_t at_once) {
   std::vector<FilmPixel> all(static_cast<std::size_t>(scene.width * scene.height));
+  const SceneViewOf view(scene);  // prepared once
   for (std::uint32_t first = 0; first < samples; first += at_once)
     for (int y = 0; y < scene.height; y += tile)
       for (int x = 0; x < scene.width; x += tile) {
         const Region where{x, y, std::min(x + tile, scene.width), std::min(y + tile, scene.height)};
-        const Result part = run(kernels, scene, {where, 1, 0, first, std::min(first + at_once, samples)});
+        const TileJob job{where, 1, 0, first, std::min(first + at_once, samples)};
+        const Result part = run(kernels, view, scene.film_quantum, job);
         for (int row = where.y0; row < where.y1; ++row)
           for (int column = where.x0; column < where.x1; ++column)
             add_pixel(all[static_cast<std::size_t>(row * scene.width + column)],
