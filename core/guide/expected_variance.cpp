@@ -38,6 +38,12 @@ double brightest_light(const SceneView& s) {
   return radiance;
 }
 
+/// Irradiance from the background, roughly.
+double background_light(const BackgroundColumns& b) {
+  const double first = static_cast<double>(max_component(b.a)), second = static_cast<double>(max_component(b.b));
+  return pi * (b.kind == BackgroundKind::constant ? first : 0.5 * (first + second));
+}
+
 }  // namespace
 
 double expected_variance(const SceneView& scene, const LightPaths& paths) {
@@ -47,12 +53,13 @@ double expected_variance(const SceneView& scene, const LightPaths& paths) {
   set_sizes(middle_size(landings), sizes.inverse_size);
   const int level = guide_middle_level + 1;  // cells of the middle level hold too few landings for a square
   const double h = 1 / static_cast<double>(sizes.inverse_size[level]), radiance = brightest_light(scene);
+  const double background = background_light(scene.background);
   Bins bins;
   bins.fill(sizes, landings, level);
   std::vector<double> variances;
   for (const Bins::Bin& bin : bins.bins) {
     const std::vector<Found> list = list_found(bins, bin, landings, 1 / (paths.paths_of_pair() * h * h));
-    double all = direct_light_at(scene, landings[bins.order[bin.begin]].point, h);
+    double all = background + direct_light_at(scene, landings[bins.order[bin.begin]].point, h);
     for (const Found& f : list) all += f.irradiance;
     double sum = 0;
     for (const Found& f : list) {
