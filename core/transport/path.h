@@ -101,7 +101,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
     const auto mirrored = mask_and(mask_and(on, e.surface), is_narrow_lobe(p.pdf));
     p.straight &= ~bits(mask_and_not(scattering, mirrored));
   }
-  const Branches<F> branches = split_at_glass(s, p, e, on, carried);
+  const auto branches = split_at_glass(s, p, e, on, carried, pool);
   const auto lanes = mask_and_not(on, lose(p, on, p.ray.direction));
   p.throughput = select(mask_or(lanes, cut), carried, p.throughput);
   p.depth = p.depth + IntOf<F>(1);
@@ -110,8 +110,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   if (s.has_specular_paths()) exempt = mask_or(exempt, seeks_subpixel_light(p));
   const auto survivors = s.has_reuse() || s.has_specular_paths() ? roulette_but(p, lanes, exempt) : roulette(p, lanes);
   p.sampler.next_event();
-  add_branches(s, p, branches, pool);
-  recorder.on_branches(branches.lanes);
+  recorder.on_branches(branches);
   recorder.on_end(p, on, StepResult<F>{survivors, cut});
   return {survivors, cut};
 }
